@@ -1,0 +1,93 @@
+# partc: `make` alone lists what can be asked for.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory
+
+# Part programs speak Russian as well as English; a bare machine speaks neither.
+export LC_ALL := C.UTF-8
+
+PREFIX ?= /usr/local
+STACK ?= stack
+# Arguments for the test runner: make test TEST='--match Geometry'
+TEST ?=
+
+# Builds that differ in flags keep apart, so that none undoes another's work.
+CHECK := $(STACK) --work-dir .stack-work-check
+BENCH := $(STACK) --work-dir .stack-work-bench
+
+DEMO := flange
+MACHINE := lkp-01f
+
+# Ormolu 0.3 has to be told of this one; package.yaml turns it on for the compiler.
+ORMOLU := ormolu -o -XImportQualifiedPost
+
+HS_FILES = $(shell find src app test bench -name '*.hs' 2>/dev/null | sort)
+PARTC = $$($(STACK) path --local-install-root 2>/dev/null)/bin/partc
+
+banner = @printf '== %s\n' '$(1)'
+quietly = @bash scripts/quietly.sh
+
+.PHONY: help setup build test check format format-check lint bench demo install clean
+
+help: ## this list
+	@printf 'make demo|test|...\n\n'
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
+
+setup: ## install the Debian packages that are missing
+	@bash scripts/setup.sh
+
+build: setup ## build the library and the program
+	$(call banner,build)
+	$(quietly) $(STACK) build
+
+test: setup ## build and run all tests; TEST='--match WORD' runs some
+	$(call banner,build with tests)
+	$(quietly) $(STACK) build --test --no-run-tests
+	$(call banner,test)
+	@$(STACK) --verbosity warn test --test-arguments "$(TEST)"
+
+check: setup format-check lint ## everything a change must pass: format, lint, warnings, tests
+	$(call banner,build with warnings as errors)
+	$(quietly) $(CHECK) build --flag partc:werror --test --no-run-tests
+	$(call banner,test)
+	@$(CHECK) --verbosity warn test --flag partc:werror
+
+format: setup ## lay out every Haskell file with ormolu
+	$(call banner,format)
+	@$(ORMOLU) --mode inplace $(HS_FILES)
+
+format-check: setup ## fail when ormolu would change a file
+	$(call banner,format check)
+	@$(ORMOLU) --mode check $(HS_FILES)
+
+lint: setup ## run hlint over every Haskell file
+	$(call banner,lint)
+	@hlint --no-summary $(HS_FILES)
+
+bench: setup ## time every stage
+	$(call banner,build with benchmark)
+	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
+	$(call banner,bench)
+	@$(BENCH) --verbosity warn bench --flag partc:bench
+
+demo: build ## compile, prove, report and draw an example part
+	@mkdir -p build
+	$(call banner,compile examples/$(DEMO).part for $(MACHINE))
+	@$(PARTC) compile examples/$(DEMO).part -t $(MACHINE) -o build/
+	$(call banner,verify)
+	@$(PARTC) verify examples/$(DEMO).part -t $(MACHINE) build/$(DEMO).$(MACHINE).tape
+	$(call banner,report)
+	@$(PARTC) report examples/$(DEMO).part -t $(MACHINE)
+	$(call banner,plot)
+	@$(PARTC) plot examples/$(DEMO).part -o build/$(DEMO).svg
+	@printf 'tape:    build/%s\npicture: build/%s\n' '$(DEMO).$(MACHINE).tape' '$(DEMO).svg'
+
+install: build ## copy partc to $(PREFIX)/bin
+	$(call banner,install)
+	@install -D -m 755 "$(PARTC)" "$(DESTDIR)$(PREFIX)/bin/partc"
+	@printf 'installed %s\n' '$(DESTDIR)$(PREFIX)/bin/partc'
+
+clean: ## remove everything that was built
+	@rm -rf .stack-work .stack-work-check .stack-work-bench build partc.cabal

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Installs the Debian packages of scripts/packages.txt that are missing.
+# Says nothing and touches nothing when all are there.
+#
+# PARTC_NO_SETUP=1 skips it, for a system where the tools come from elsewhere.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+list=$here/packages.txt
+
+fail() {
+  printf 'setup: %s\n' "$@" >&2
+  exit 1
+}
+
+if [[ ${PARTC_NO_SETUP:-} == 1 ]]; then
+  exit 0
+fi
+
+wanted=()
+while read -r name _; do
+  [[ -z $name || $name == '#'* ]] || wanted+=("$name")
+done <"$list"
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  fail "this system does not install packages with apt-get." \
+    "partc is built with the compiler and libraries of Debian 12; their names are in scripts/packages.txt." \
+    "Install their counterparts (GHC 9.0.2) and run make again with PARTC_NO_SETUP=1."
+fi
+
+# dpkg-query fails when it does not know a name; such a name is simply missing.
+declare -A have=()
+while read -r name status; do
+  if [[ $status == installed ]]; then have[$name]=1; fi
+done < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null || true)
+
+missing=()
+for name in "${wanted[@]}"; do
+  [[ -n ${have[$name]:-} ]] || missing+=("$name")
+done
+
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    fail "these packages are missing, and installing them needs root or sudo:" \
+      "  ${missing[*]}" \
+      "As root: apt-get install ${missing[*]}"
+  elif [[ -t 0 ]]; then
+    as_root=(sudo)
+  else
+    as_root=(sudo -n)
+  fi
+fi
+
+printf 'setup: installing %s\n' "${missing[*]}"
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -q -y -o DPkg::Lock::Timeout=300 "$@" </dev/null >>"$log" 2>&1
+}
+
+# A failed update need not matter: the packages may be known or cached already.
+apt update || true
+if ! apt install --no-install-recommends "${missing[@]}"; then
+  cat "$log" >&2
+  fail "apt-get could not install: ${missing[*]}" \
+    "The list is that of Debian 12 (bookworm); the lines above say what went wrong."
+fi

@@ -1,0 +1,37 @@
+-- | Names that a program gives to things.
+module Base.Name
+  ( Name (..),
+    nearest,
+  )
+where
+
+import Data.List (sortOn)
+import Data.String (IsString)
+import Data.Text (Text)
+import Data.Text qualified as Text
+
+-- | An identifier of the part language, Cyrillic or Latin.
+newtype Name = Name {text :: Text}
+  deriving newtype (Eq, Ord, IsString)
+  deriving stock (Show)
+
+-- | The candidates near enough to a misspelt name to be worth suggesting, the nearest first:
+-- at most one edit for short names, a third of the length for long ones.
+nearest :: Text -> [Text] -> [Text]
+nearest wanted candidates =
+  map fst (sortOn snd [(c, d) | c <- candidates, let d = distance wanted c, d <= allowed])
+  where
+    allowed = max 1 (Text.length wanted `div` 3)
+
+-- | The edit distance of Levenshtein, letter case ignored.
+distance :: Text -> Text -> Int
+distance a b = case foldl step [0 .. Text.length b] (Text.unpack (Text.toLower a)) of
+  [] -> 0
+  row -> last row
+  where
+    other = Text.unpack (Text.toLower b)
+    step row c = case row of
+      [] -> []
+      first : rest -> scanl (cell c) (first + 1) (zip3 other row rest)
+    cell c left (d, diagonal, above) =
+      minimum [left + 1, above + 1, if c == d then diagonal else diagonal + 1]

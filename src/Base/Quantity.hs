@@ -1,0 +1,81 @@
+{-# LANGUAGE FlexibleContexts #-}
+
+-- | Quantities. Millimetres, radians, feeds, times and pulses are different types.
+--
+-- Sums stay inside one type; a product of two lengths is no length, so there is no
+-- 'Num' for them. Formulas take the numbers out, compute, and put the result back.
+module Base.Quantity
+  ( Mm (..),
+    Rad (..),
+    Feed (..),
+    Seconds (..),
+    Pulses (..),
+    plus,
+    minus,
+    times,
+    over,
+    total,
+    radians,
+    degrees,
+    travelTime,
+  )
+where
+
+import Data.Coerce (Coercible, coerce)
+
+-- | A length in millimetres.
+newtype Mm = Mm Double
+  deriving newtype (Eq, Ord)
+  deriving stock (Show)
+
+-- | An angle in radians, counter-clockwise positive.
+newtype Rad = Rad Double
+  deriving newtype (Eq, Ord)
+  deriving stock (Show)
+
+-- | A feed in millimetres a minute.
+newtype Feed = Feed Double
+  deriving newtype (Eq, Ord)
+  deriving stock (Show)
+
+-- | A time in seconds.
+newtype Seconds = Seconds Double
+  deriving newtype (Eq, Ord)
+  deriving stock (Show)
+
+-- | A whole number of pulses: what a controller counts.
+newtype Pulses = Pulses Int
+  deriving newtype (Eq, Ord, Num, Enum, Real, Integral)
+  deriving stock (Show)
+
+-- | The sum of two quantities of one kind.
+plus :: Coercible q Double => q -> q -> q
+plus a b = coerce (coerce a + coerce b :: Double)
+
+-- | The difference of two quantities of one kind.
+minus :: Coercible q Double => q -> q -> q
+minus a b = coerce (coerce a - coerce b :: Double)
+
+-- | A multiple of a quantity.
+times :: Coercible q Double => Double -> q -> q
+times k a = coerce (k * coerce a :: Double)
+
+-- | The ratio of two quantities of one kind.
+over :: Coercible q Double => q -> q -> Double
+over a b = coerce a / coerce b
+
+-- | The sum of many.
+total :: Coercible q Double => [q] -> q
+total = foldl plus (coerce (0 :: Double))
+
+-- | An angle given in degrees.
+radians :: Double -> Rad
+radians deg = Rad (deg * pi / 180)
+
+-- | An angle in degrees.
+degrees :: Rad -> Double
+degrees (Rad r) = r * 180 / pi
+
+-- | The time a section takes: @t = 60·l/s@ seconds, l in mm, s in mm/min (Ural paper, section 0–1).
+travelTime :: Mm -> Feed -> Seconds
+travelTime (Mm l) (Feed s) = Seconds (60 * l / s)

@@ -1,0 +1,171 @@
+-- | What can be wrong with names, types and the set of statements.
+module Checked.Error
+  ( Error (..),
+    Setting (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Name qualified as Name
+import Base.Region (Region)
+import Checked.Type (Type)
+import Checked.Type qualified as Type
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), report)
+
+-- | A fact, and where it shows.
+data Error
+  = -- | a name that nothing has; the names that there are
+    UndefinedName Region Name [Text]
+  | -- | a name that is defined further down
+    UsedBeforeDefinition Region Name Region
+  | DefinedTwice Region Name Region
+  | -- | a name of the language itself
+    NameTaken Region Name
+  | -- | what was expected, what is there, and where it was used as that before
+    Mismatch Region Type Type (Maybe Region)
+  | -- | the two operands of a sum
+    Disagree Region (Region, Type) (Region, Type)
+  | -- | an operation on things that have none: the operation in words, the operands
+    NoOperation Region Text [(Region, Type)]
+  | -- | function, its parameters, how many arguments
+    ArgumentCount Region Name [Text] Int
+  | NotAFunction Region Name (Maybe Region)
+  | FunctionAsValue Region Name [Text]
+  | -- | a circle that is walked without a sense
+    SenseMissing Region
+  | -- | a sense for something that has one already
+    SenseUnneeded Region Type
+  | -- | something that can not be walked
+    NotWalkable Region Type
+  | NoPart Region
+  | SettingTwice Region Setting Region
+  | -- | the statement that needs a setting
+    SettingMissing Region Setting
+  | -- | a function that uses itself
+    Recursive Region Name
+  deriving stock (Eq, Show)
+
+-- | The statements that a program needs once.
+data Setting = PartSetting | MachineSetting | ToolSetting | FeedSetting | ToleranceSetting | FromSetting
+  deriving stock (Eq, Ord, Show)
+
+-- | The words for it.
+toReport :: Error -> Report
+toReport err = case err of
+  UndefinedName region (Name name) known ->
+    (at region "E0201" ("nothing is named " <> quote name))
+      { hints = case Name.nearest name known of
+          [] -> []
+          near -> ["Did you mean " <> Text.intercalate " or " (map quote (take 2 near)) <> "?"]
+      }
+  UsedBeforeDefinition region (Name name) defined ->
+    (at region "E0202" (quote name <> " is used before it is defined"))
+      { others = [Label defined "it is defined here"],
+        hints = ["Move the definition above its first use."]
+      }
+  DefinedTwice region (Name name) before ->
+    (at region "E0203" (quote name <> " is defined twice"))
+      { label = "defined again here",
+        others = [Label before "first defined here"],
+        hints = ["Give one of them another name."]
+      }
+  NameTaken region (Name name) ->
+    (at region "E0204" (quote name <> " already means something in the language"))
+      { hints = ["Choose another name, for example " <> name <> "1."]
+      }
+  Mismatch region expected found before ->
+    (at region "E0205" ("this is " <> Type.describe found <> ", but " <> Type.describe expected <> " is needed here"))
+      { label = Type.describe found,
+        others = [Label r ("it is used as " <> Type.describe found <> " here") | Just r <- [before]],
+        hints = mismatchHint expected found
+      }
+  Disagree region (leftRegion, left) (rightRegion, right) ->
+    (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be added, subtracted or compared"))
+      { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)]
+      }
+  NoOperation region what operands ->
+    (at region "E0207" (what <> " is not defined for " <> Text.intercalate " and " (map (Type.describe . snd) operands)))
+      { others = [Label r (Type.describe t) | (r, t) <- operands]
+      }
+  ArgumentCount region (Name name) wanted given ->
+    (at region "E0208" (quote name <> " takes " <> arguments (length wanted) <> ", but " <> Decimal.whole given <> (if given == 1 then " is" else " are") <> " given"))
+      { hints = ["Write " <> name <> "(" <> Text.intercalate ", " wanted <> ")."]
+      }
+  NotAFunction region (Name name) defined ->
+    (at region "E0209" (quote name <> " is a value, not a function"))
+      { others = [Label r "defined here" | Just r <- [defined]]
+      }
+  FunctionAsValue region (Name name) parameters ->
+    (at region "E0210" (quote name <> " is a function and needs its arguments"))
+      { hints = ["Write " <> name <> "(" <> Text.intercalate ", " parameters <> ")."]
+      }
+  SenseMissing region ->
+    (at region "E0211" "a circle in a contour needs a sense")
+      { hints = ["Write cw or ccw before it: clockwise or counter-clockwise."]
+      }
+  SenseUnneeded region t ->
+    (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
+      { hints = ["A line is walked from its first point to its second; leave the word out."]
+      }
+  NotWalkable region t ->
+    (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
+      { message = ["A contour walks along lines, along circles, and through points."]
+      }
+  NoPart region ->
+    (at region "E0215" "the program does not begin with ‘part’")
+      { hints = ["Begin with the name of the part, for example: part flange \"Flange, drawing 2\""]
+      }
+  SettingTwice region setting before ->
+    (at region "E0216" (settingWord setting <> " is set twice"))
+      { label = "set again here",
+        others = [Label before "first set here"]
+      }
+  SettingMissing region setting ->
+    (at region "E0217" (needs setting))
+      { label = "needed here",
+        hints = [example setting]
+      }
+  Recursive region (Name name) ->
+    (at region "E0214" (quote name <> " is used in its own definition"))
+      { message = ["Every program must come to an end, so a definition uses only what stands above it."]
+      }
+
+at :: Region -> Code -> Text -> Report
+at region code = report Error code (InSource region)
+
+quote :: Text -> Text
+quote text = "‘" <> text <> "’"
+
+arguments :: Int -> Text
+arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
+
+mismatchHint :: Type -> Type -> [Text]
+mismatchHint expected found
+  | expected == Type.angle && found == Type.number = ["A number of radians becomes an angle when it is multiplied by 1 rad."]
+  | expected == Type.number && found == Type.angle = ["An angle becomes a number of radians when it is divided by 1 rad."]
+  | otherwise = []
+
+settingWord :: Setting -> Text
+settingWord setting = case setting of
+  PartSetting -> "the name of the part"
+  MachineSetting -> "the machine"
+  ToolSetting -> "the tool"
+  FeedSetting -> "the feed"
+  ToleranceSetting -> "the tolerance"
+  FromSetting -> "the starting point"
+
+needs :: Setting -> Text
+needs setting = settingWord setting <> " is not given"
+
+example :: Setting -> Text
+example setting = case setting of
+  PartSetting -> "Begin with: part NAME"
+  MachineSetting -> "Say before it, for example: machine lkp-01f"
+  ToolSetting -> "Say before it, for example: tool mill(diameter 20 mm)"
+  FeedSetting -> "Say before it, for example: feed 60 mm/min"
+  ToleranceSetting -> "Say before it, for example: tolerance 0.02 mm"
+  FromSetting -> "Say before it where the cutter starts, for example: from (0, 0)"

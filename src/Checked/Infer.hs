@@ -1,0 +1,387 @@
+-- | The unknowns of a check and how they are found out: the state of type inference,
+-- and the equations between types.
+module Checked.Infer
+  ( Infer,
+    Entry (..),
+    Scheme (..),
+    Solution,
+    run,
+    -- * Mistakes
+    mistake,
+    taint,
+    separately,
+    -- * Names
+    find,
+    define,
+    withLocals,
+    entries,
+    -- * Unknowns
+    freshType,
+    freshDimension,
+    monomorphic,
+    known,
+    knownDimension,
+    decidedAt,
+    -- * Equations
+    unify,
+    -- * Functions
+    generalising,
+    instantiate,
+    -- * Arithmetic
+    Arithmetic (..),
+    require,
+    settle,
+  )
+where
+
+import Base.Name (Name)
+import Base.Region (Region)
+import Checked.Dimension (Dimension)
+import Checked.Dimension qualified as Dimension
+import Checked.Error (Error (..))
+import Checked.Type (Type (..))
+import Checked.Type qualified as Type
+import Control.Monad (filterM, unless, when)
+import Control.Monad.State.Strict (State, get, gets, modify', put, runState)
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
+import Data.IntSet (IntSet)
+import Data.IntSet qualified as IntSet
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Text (Text)
+import Surface.Syntax (Operator (..))
+
+type Infer = State Memory
+
+-- | What the unknown dimensions turned out to be.
+type Solution = Dimension -> Dimension
+
+data Memory = Memory
+  { next :: Int,
+    dimensions :: IntMap Dimension,
+    types :: IntMap Type,
+    -- | where an unknown was decided
+    decided :: IntMap Region,
+    -- | unknowns below this one belong to definitions outside the function at hand
+    outside :: Int,
+    -- | younger unknowns that must not be generalised
+    shared :: IntSet,
+    pending :: [Arithmetic],
+    found :: [Error],
+    tainted :: Bool,
+    scope :: Map Name Entry
+  }
+
+-- | What a name stands for.
+data Entry
+  = Value Region Type
+  | Function Region [Text] Scheme
+  | -- | a parameter or the variable of a repetition
+    Local Type
+  | -- | a definition that is already reported as wrong
+    Poisoned Region
+
+-- | The type of a function with the unknowns that are fresh at each use.
+data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type}
+
+-- | Run a check from the beginning: the errors in order, the solution, the output.
+run :: Infer a -> ([Error], Solution, a)
+run infer = (reverse (found memory), resolveDimension (dimensions memory), a)
+  where
+    (a, memory) = runState infer start
+    start =
+      Memory
+        { next = 0,
+          dimensions = IntMap.empty,
+          types = IntMap.empty,
+          decided = IntMap.empty,
+          outside = 0,
+          shared = IntSet.empty,
+          pending = [],
+          found = [],
+          tainted = False,
+          scope = Map.empty
+        }
+
+-- Mistakes
+
+-- | Record a mistake; the statement at hand is of no further use.
+mistake :: Error -> Infer ()
+mistake e = modify' (\m -> m {found = e : found m, tainted = True})
+
+-- | The statement at hand depends on something that is wrong already.
+taint :: Infer ()
+taint = modify' (\m -> m {tainted = True})
+
+-- | Check a statement; Nothing when it contains a mistake.
+separately :: Infer a -> Infer (Maybe a)
+separately infer = do
+  modify' (\m -> m {tainted = False})
+  a <- infer
+  settle
+  bad <- gets tainted
+  pure (if bad then Nothing else Just a)
+
+-- Names
+
+find :: Name -> Infer (Maybe Entry)
+find name = gets (Map.lookup name . scope)
+
+entries :: Infer [Name]
+entries = gets (Map.keys . scope)
+
+define :: Name -> Entry -> Infer ()
+define name entry = modify' (\m -> m {scope = Map.insert name entry (scope m)})
+
+-- | With names that are known only here.
+withLocals :: [(Name, Type)] -> Infer a -> Infer a
+withLocals locals infer = do
+  before <- gets scope
+  mapM_ (\(name, t) -> define name (Local t)) locals
+  a <- infer
+  modify' (\m -> m {scope = before})
+  pure a
+
+-- Unknowns
+
+freshNumber :: Infer Int
+freshNumber = do
+  m <- get
+  put m {next = next m + 1}
+  pure (next m)
+
+freshType :: Infer Type
+freshType = Variable <$> freshNumber
+
+freshDimension :: Infer Dimension
+freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
+
+-- | The unknowns of a dimension have one value for all uses of the function at hand.
+monomorphic :: Dimension -> Infer ()
+monomorphic d = modify' (\m -> m {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared m)})
+
+-- | A type as far as it is known.
+known :: Type -> Infer Type
+known t = gets (\m -> resolve m t)
+
+knownDimension :: Dimension -> Infer Dimension
+knownDimension d = gets (\m -> resolveDimension (dimensions m) d)
+
+resolve :: Memory -> Type -> Type
+resolve m t = case t of
+  Quantity d -> Quantity (resolveDimension (dimensions m) d)
+  Spatial d -> Spatial (resolveDimension (dimensions m) d)
+  ListOf inner -> ListOf (resolve m inner)
+  Variable n -> maybe t (resolve m) (IntMap.lookup n (types m))
+  Circle -> t
+  Line -> t
+  Contour -> t
+  Wrong -> t
+
+resolveDimension :: IntMap Dimension -> Dimension -> Dimension
+resolveDimension bound d = case [(n, b) | n <- Dimension.unknowns d, Just b <- [IntMap.lookup n bound]] of
+  [] -> d
+  replaced -> resolveDimension bound (foldl (\d' (n, b) -> Dimension.substitute n b d') d replaced)
+
+-- | Where an unknown of the type, as it is written down, was decided.
+decidedAt :: Type -> Infer (Maybe Region)
+decidedAt t = gets (\m -> listToMaybe (places m t))
+  where
+    places m t' = case t' of
+      Variable n -> mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (places m) (IntMap.lookup n (types m))
+      ListOf inner -> places m inner
+      Quantity d -> ofDimension m d
+      Spatial d -> ofDimension m d
+      Circle -> []
+      Line -> []
+      Contour -> []
+      Wrong -> []
+    ofDimension m d =
+      concat
+        [ mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (ofDimension m) (IntMap.lookup n (dimensions m))
+          | n <- Dimension.unknowns d
+        ]
+
+-- Equations
+
+-- | Make two types equal at a place; False when they can not be.
+unify :: Region -> Type -> Type -> Infer Bool
+unify region a b = do
+  a' <- known a
+  b' <- known b
+  case (a', b') of
+    (Wrong, _) -> pure True
+    (_, Wrong) -> pure True
+    (Variable n, Variable k) | n == k -> pure True
+    (Variable n, _) -> bind n b'
+    (_, Variable k) -> bind k a'
+    (Quantity d, Quantity e) -> unifyDimensions region d e
+    (Spatial d, Spatial e) -> unifyDimensions region d e
+    (ListOf c, ListOf d) -> unify region c d
+    _ -> pure (a' == b')
+  where
+    bind n t
+      | n `elem` Type.variables t = pure False
+      | otherwise = do
+        modify' (\m -> m {types = IntMap.insert n t (types m), decided = IntMap.insert n region (decided m)})
+        share n (Type.variables t <> Type.dimensions t)
+        pure True
+
+unifyDimensions :: Region -> Dimension -> Dimension -> Infer Bool
+unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
+  where
+    go d = do
+      d' <- knownDimension d
+      fresh <- freshNumber
+      case Dimension.solve fresh d' of
+        Dimension.Solved -> pure True
+        Dimension.Impossible -> pure False
+        Dimension.Replace n e -> do
+          modify' (\m -> m {dimensions = IntMap.insert n e (dimensions m), decided = IntMap.insert n region (decided m)})
+          share n (Dimension.unknowns e)
+          go d'
+
+-- | What an unknown from outside a function becomes is not the function's own.
+share :: Int -> [Int] -> Infer ()
+share n others = do
+  m <- get
+  when (n < outside m || IntSet.member n (shared m)) $
+    put m {shared = IntSet.union (IntSet.fromList others) (shared m)}
+
+-- Functions
+
+-- | The scheme of a function whose parameters and result the action finds.
+generalising :: Infer ([Type], Type, a) -> Infer (Scheme, a)
+generalising infer = do
+  before <- gets outside
+  begin <- gets next
+  modify' (\m -> m {outside = begin})
+  (ps, r, a) <- infer
+  settle
+  ps' <- mapM known ps
+  r' <- known r
+  m <- get
+  let mine = IntSet.fromList [n | t <- r' : ps', n <- Type.variables t <> Type.dimensions t, n >= begin]
+      kept = IntSet.fromList (concatMap (sharedNow m) (IntSet.toList (snd (IntSet.split (begin - 1) (shared m)))))
+  put m {outside = before}
+  pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r'}, a)
+  where
+    sharedNow m n =
+      Type.variables (resolve m (Variable n))
+        <> Dimension.unknowns (resolveDimension (dimensions m) (Dimension.atom (Dimension.Unknown n)))
+
+-- | The type of a function at one of its uses.
+instantiate :: Scheme -> Infer ([Type], Type)
+instantiate scheme = do
+  renamed <- traverse (const freshNumber) (IntMap.fromSet id (general scheme))
+  let type' t = case t of
+        Quantity d -> Quantity (dimension d)
+        Spatial d -> Spatial (dimension d)
+        ListOf inner -> ListOf (type' inner)
+        Variable n -> Variable (IntMap.findWithDefault n n renamed)
+        Circle -> t
+        Line -> t
+        Contour -> t
+        Wrong -> t
+      dimension d = foldl (\d' n -> Dimension.substitute n (fresh n) d') d (Dimension.unknowns d)
+      fresh n = Dimension.atom (Dimension.Unknown (IntMap.findWithDefault n n renamed))
+  pure (map type' (parameters scheme), type' (result scheme))
+
+-- Arithmetic
+
+-- | An operation whose operands may not be known yet.
+data Arithmetic = Arithmetic
+  { place :: Region,
+    operator :: Operator,
+    left :: (Region, Type),
+    right :: (Region, Type),
+    outcome :: Type
+  }
+
+-- | An operation has to make sense, now or when its operands are known.
+require :: Arithmetic -> Infer ()
+require a = do
+  done <- attempt a
+  unless done (modify' (\m -> m {pending = a : pending m}))
+
+-- | Decide the operations that are left: what is still unknown is a quantity.
+settle :: Infer ()
+settle = do
+  waiting <- gets pending
+  modify' (\m -> m {pending = []})
+  left' <- filterM (fmap not . attempt) (reverse waiting)
+  case left' of
+    [] -> pure ()
+    first : rest
+      | length left' < length waiting -> again left'
+      | otherwise -> do
+        quantity (left first)
+        quantity (right first)
+        again (first : rest)
+  where
+    again as = modify' (\m -> m {pending = reverse as}) *> settle
+    quantity (region, t) = do
+      t' <- known t
+      case t' of
+        Variable _ -> do
+          d <- freshDimension
+          _ <- unify region t' (Quantity d)
+          pure ()
+        _ -> pure ()
+
+-- | Decide an operation if enough is known; False when it has to wait.
+attempt :: Arithmetic -> Infer Bool
+attempt a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcome') = do
+  l <- known left'
+  r <- known right'
+  case (op, l, r) of
+    (_, Wrong, _) -> result' Wrong
+    (_, _, Wrong) -> result' Wrong
+    (Add, Quantity d, Quantity e) -> sum' d e l r
+    (Subtract, Quantity d, Quantity e) -> sum' d e l r
+    (Add, Spatial d, Spatial e) -> result' (Spatial (Dimension.times d e))
+    (Subtract, Spatial d, Spatial e) -> result' (Spatial (quotient d e))
+    (Add, _, _) | Just again <- alike l r -> again
+    (Subtract, _, _) | Just again <- alike l r -> again
+    (Multiply, Quantity d, Quantity e) -> result' (Quantity (Dimension.times d e))
+    (Multiply, Quantity _, Spatial _) -> scaled leftRegion l rightRegion r
+    (Multiply, Spatial _, Quantity _) -> scaled rightRegion r leftRegion l
+    (Multiply, Variable _, Spatial _) -> scaled leftRegion l rightRegion r
+    (Multiply, Spatial _, Variable _) -> scaled rightRegion r leftRegion l
+    (Divide, Quantity d, Quantity e) -> result' (Quantity (quotient d e))
+    (Divide, Spatial _, Quantity _) -> scaled rightRegion r leftRegion l
+    (Divide, Spatial _, Variable _) -> scaled rightRegion r leftRegion l
+    (_, Variable _, Quantity _) -> pure False
+    (_, Quantity _, Variable _) -> pure False
+    (_, Variable _, Variable _) -> pure False
+    (Add, _, _) -> wrong (Disagree region (leftRegion, l) (rightRegion, r))
+    (Subtract, _, _) -> wrong (Disagree region (leftRegion, l) (rightRegion, r))
+    (Multiply, _, _) -> wrong (NoOperation region "a product" [(leftRegion, l), (rightRegion, r)])
+    (Divide, _, _) -> wrong (NoOperation region "a quotient" [(leftRegion, l), (rightRegion, r)])
+  where
+    quotient d e = Dimension.times d (Dimension.power (-1) e)
+    result' t = True <$ unify region outcome' t
+    wrong e = mistake e *> result' Wrong
+    sum' d e l r = do
+      same <- unifyDimensions region d e
+      if same then result' (Quantity d) else wrong (Disagree region (leftRegion, l) (rightRegion, r))
+    -- In a sum an unknown operand is of the other one's kind.
+    alike l r = case (l, r) of
+      (Variable _, Quantity d) -> Just (unify leftRegion l (Quantity d) *> attempt a)
+      (Quantity d, Variable _) -> Just (unify rightRegion r (Quantity d) *> attempt a)
+      (Variable _, Spatial _) -> Just (pair leftRegion l)
+      (Spatial _, Variable _) -> Just (pair rightRegion r)
+      _ -> Nothing
+    pair at t = do
+      d <- freshDimension
+      _ <- unify at t (Spatial d)
+      attempt a
+    -- A vector is stretched by a plain number.
+    scaled numberRegion factor vectorRegion vector = do
+      plain <- unify numberRegion factor Type.number
+      free <- unify vectorRegion vector Type.aVector
+      if plain && free
+        then result' Type.aVector
+        else wrong (NoOperation region (if op == Divide then "a quotient" else "a product") [(leftRegion, left'), (rightRegion, right')])

@@ -1,0 +1,93 @@
+-- | Contours: chains of segments, open or closed, each ending where the next begins.
+module Geometry.Contour
+  ( Contour (..),
+    Ends (..),
+    length,
+    reverse,
+    joints,
+    signedArea,
+    winding,
+    selfCrossing,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), total)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
+import Geometry.Box qualified as Box
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Prelude hiding (length, reverse)
+
+-- | Whether the last segment ends where the first begins.
+data Ends = Open | Closed
+  deriving stock (Eq, Show)
+
+-- | Segments in the order of the walk.
+data Contour = Contour {ends :: Ends, segments :: NonEmpty Segment}
+  deriving stock (Eq, Show)
+
+length :: Contour -> Mm
+length = total . map Segment.length . NonEmpty.toList . segments
+
+-- | The same contour walked the other way; a closed one begins at the same point.
+reverse :: Contour -> Contour
+reverse (Contour ends ss) = Contour ends (NonEmpty.reverse (fmap Segment.reverse ss))
+
+-- | Neighbouring segments in order, with the number of the first from 0.
+joints :: Contour -> [(Int, Segment, Segment)]
+joints (Contour ends ss) = zip3 [0 ..] list (drop 1 list <> back)
+  where
+    list = NonEmpty.toList ss
+    back = case ends of
+      Open -> []
+      Closed -> [NonEmpty.head ss]
+
+-- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
+signedArea :: Contour -> Double
+signedArea (Contour _ ss@(first :| _)) = sum (fmap part ss)
+  where
+    origin = Segment.start first
+    part segment = triangle segment + sector segment
+    triangle s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2
+    -- The area between an arc and its chord.
+    sector s = case s of
+      Straight _ _ -> 0
+      Arc {start, centre, sweep = Rad a} ->
+        let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2
+
+-- | How often a closed contour runs around a point, counter-clockwise positive. The point is not on it.
+winding :: Contour -> Point -> Int
+winding (Contour _ ss) p = round (sum (fmap swept ss) / (2 * pi))
+  where
+    swept s = let Rad t = chordTurn s in t + extra s
+    chordTurn s = Vec.turn (Vec.to p (Segment.start s)) (Vec.to p (Segment.end s))
+    -- Between an arc and its chord the arc turns once more about the point than the chord.
+    extra s = case s of
+      Straight _ _ -> 0 :: Double
+      Arc {start, end, centre, sweep = Rad a}
+        | Vec.distance p centre < Segment.radius centre start
+            && (start == end || signum a * Vec.cross (Vec.to start end) (Vec.to start p) < 0) ->
+          signum a * 2 * pi
+        | otherwise -> 0
+
+-- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
+selfCrossing :: Contour -> Maybe (Int, Int, Point)
+selfCrossing contour@(Contour ends ss) = listToMaybe (concatMap pairs numbered)
+  where
+    numbered = zip [0 ..] (NonEmpty.toList ss)
+    count = NonEmpty.length ss
+    index = Box.index (Box.ofSegment . snd) numbered
+    joint = [Segment.end s | (_, s, _) <- joints contour]
+    pairs (i, s) =
+      [ (i, j, p)
+        | (j, other) <- Box.within (Box.ofSegment s) index,
+          j > i,
+          p <- Distance.crossings s other,
+          not (joined i j && any (Vec.near p) joint)
+      ]
+    joined i j = j == i + 1 || (ends == Closed && i == 0 && j == count - 1)

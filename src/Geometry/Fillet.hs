@@ -1,0 +1,69 @@
+-- | Fillets: arcs of a given radius and sense that lead from one walked element to another
+-- and touch both in the direction of the walk.
+module Geometry.Fillet
+  ( Fillet (..),
+    between,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, plus)
+import Geometry.Intersect (Meeting (..))
+import Geometry.Intersect qualified as Intersect
+import Geometry.Shape (Circle (..), Line, Turn (..), Walked (..))
+import Geometry.Shape qualified as Shape
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- | An arc by its centre and its ends.
+data Fillet = Fillet {middle :: Point, start :: Point, end :: Point}
+  deriving stock (Eq, Show)
+
+-- | All fillets of a radius and a sense, at most two.
+between :: Mm -> Turn -> Walked -> Walked -> [Fillet]
+between radius turn a b =
+  [ Fillet {middle = c, start, end}
+    | Just la <- [locus radius turn a],
+      Just lb <- [locus radius turn b],
+      c <- common la lb,
+      Just start <- [touch radius turn a c],
+      Just end <- [touch radius turn b c]
+  ]
+
+-- | Where the centre of an arc can lie that touches an element in its direction.
+data Locus = LineLocus Line | CircleLocus Circle
+
+locus :: Mm -> Turn -> Walked -> Maybe Locus
+locus radius@(Mm r) turn walked = case walked of
+  OnLine l -> Just (LineLocus (Shape.parallelAt (Mm (Shape.sense turn * r)) l))
+  OnCircle t (Circle c rc)
+    | t /= turn -> Just (CircleLocus (Circle c (plus rc radius)))
+    | gap <= Tolerance.coincident -> Nothing
+    | otherwise -> Just (CircleLocus (Circle c gap))
+    where
+      gap = max (minus rc radius) (minus radius rc)
+  AtPoint _ -> Nothing
+
+common :: Locus -> Locus -> [Point]
+common a b = case meeting of
+  Apart _ -> []
+  Same -> []
+  Touching p -> [p]
+  CrossingOnce p -> [p]
+  Crossing p q -> [p, q]
+  where
+    meeting = case (a, b) of
+      (LineLocus l, LineLocus m) -> Intersect.lines l m
+      (LineLocus l, CircleLocus c) -> Intersect.lineCircle l c
+      (CircleLocus c, LineLocus l) -> Intersect.lineCircle l c
+      (CircleLocus c, CircleLocus d) -> Intersect.circles c d
+
+-- | Where an arc about a centre touches the element.
+touch :: Mm -> Turn -> Walked -> Point -> Maybe Point
+touch radius turn walked c = case walked of
+  OnLine l -> Just (Shape.foot l c)
+  OnCircle t (Circle o rc@(Mm r)) -> Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
+    where
+      -- The smaller circle lies inside; a fillet around the circle touches it on the far side.
+      side = if t == turn && radius > rc then -1 else 1
+  AtPoint _ -> Nothing

@@ -1,0 +1,71 @@
+-- | Intersections of lines and circles in closed form.
+module Geometry.Intersect
+  ( Meeting (..),
+    lines,
+    lineCircle,
+    circles,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Geometry.Shape (Circle (..), Line (..))
+import Geometry.Shape qualified as Shape
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Prelude hiding (lines)
+
+-- | How two curves lie to one another.
+data Meeting
+  = -- | they miss one another by this much
+    Apart Mm
+  | Touching Point
+  | Crossing Point Point
+  | CrossingOnce Point
+  | -- | they are the same curve
+    Same
+  deriving stock (Eq, Show)
+
+-- | Two lines. Parallel ones are apart by their distance.
+lines :: Line -> Line -> Meeting
+lines a b
+  | abs sine > Tolerance.parallel = CrossingOnce (Vec.shift (Vec.scale t u) (from a))
+  | Mm (abs h) <= Tolerance.coincident = Same
+  | otherwise = Apart (Mm (abs h))
+  where
+    u = Shape.direction a
+    v = Shape.direction b
+    sine = Vec.cross u v
+    t = Vec.cross (Vec.to (from a) (from b)) v / sine
+    Mm h = Shape.signedDistance a (from b)
+
+-- | A line and a circle. The first of two points comes first along the line.
+lineCircle :: Line -> Circle -> Meeting
+lineCircle l (Circle c (Mm r))
+  | abs (abs h - r) <= tolerance = Touching foot
+  | abs h > r = Apart (Mm (abs h - r))
+  | otherwise = Crossing (along (-half)) (along half)
+  where
+    Mm h = Shape.signedDistance l c
+    Mm tolerance = Tolerance.coincident
+    foot = Shape.foot l c
+    half = sqrt ((r - abs h) * (r + abs h))
+    along s = Vec.shift (Vec.scale s (Shape.direction l)) foot
+
+-- | Two circles. The first of two points lies to the left of the way from centre to centre.
+-- Of concentric circles the difference of the radii is the gap.
+circles :: Circle -> Circle -> Meeting
+circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
+  | d <= tolerance && abs (r1 - r2) <= tolerance = Same
+  | d > r1 + r2 + tolerance = Apart (Mm (d - r1 - r2))
+  | d < abs (r1 - r2) - tolerance || d <= tolerance = Apart (Mm (abs (r1 - r2) - d))
+  | abs (d - r1 - r2) <= tolerance || abs (d - abs (r1 - r2)) <= tolerance = Touching (at (signum a * r1) 0)
+  | otherwise = Crossing (at a half) (at a (-half))
+  where
+    Mm tolerance = Tolerance.coincident
+    Mm d = Vec.distance c1 c2
+    e = Vec.unit (Vec.to c1 c2)
+    -- Where the common chord meets the line of centres, from the first centre.
+    a = (d + (r1 - r2) * (r1 + r2) / d) / 2
+    half = sqrt (max 0 ((r1 - a) * (r1 + a)))
+    at s h = Vec.shift (Vec.add (Vec.scale s e) (Vec.scale h (Vec.left e))) c1

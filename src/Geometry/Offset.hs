@@ -1,0 +1,179 @@
+-- | The equidistant (offset) of a contour of lines and arcs: the path of the centre of a cutter
+-- that rolls along one side of it.
+--
+-- Lines move along their normal, arcs change their radius, and about an outer corner the centre
+-- walks on an arc of the cutter's radius (Ural paper: at a change of surface the centre
+-- moves on a circle). Everything stays exact; nothing is trimmed. Where the cutter does not fit
+-- (a concave radius below its own, an inner corner, two parts of the contour too near to
+-- one another) there is no equidistant but an obstacle, with the largest cutter that does fit.
+module Geometry.Offset
+  ( Side (..),
+    Piece (..),
+    Origin (..),
+    Obstacle (..),
+    Cause (..),
+    equidistant,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Data.List (minimumBy)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Geometry.Box qualified as Box
+import Geometry.Contour (Contour (..))
+import Geometry.Contour qualified as Contour
+import Geometry.Distance (Nearest (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- | The side of the walk on which the cutter stands.
+data Side = LeftOf | RightOf
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | A segment of the equidistant, and what it belongs to.
+data Piece = Piece {origin :: Origin, segment :: Segment}
+  deriving stock (Eq, Show)
+
+-- | A segment of the contour by its number from 0, or the corner behind it.
+data Origin = Along Int | Around Int
+  deriving stock (Eq, Show)
+
+-- | Why a cutter does not fit, and the largest radius that does, if any does.
+data Obstacle = Obstacle {cause :: Cause, largest :: Maybe Mm}
+  deriving stock (Eq, Show)
+
+data Cause
+  = -- | a concave arc of this radius
+    Concave Int Mm
+  | -- | a corner towards the cutter, between two segments
+    InnerCorner Int Int Point
+  | -- | on its way along the first segment the cutter would cut the second; where its centre would be
+    Collision Int Int Point
+  deriving stock (Eq, Show)
+
+-- | The equidistant at a radius, in the order of the walk. The radius is not negative.
+equidistant :: Side -> Mm -> Contour -> Either Obstacle (NonEmpty Piece)
+equidistant side radius contour = case attempt side radius contour of
+  Right pieces -> Right pieces
+  Left cause -> Left Obstacle {cause, largest = largestFitting side radius contour}
+
+-- | The equidistant, or the first reason against it.
+attempt :: Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
+attempt side radius contour = do
+  pieces <- raw side radius contour
+  maybe (Right pieces) Left (collision radius contour pieces)
+
+-- | Segments and corners, each for itself.
+raw :: Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
+raw side radius contour = do
+  shifted <- traverse (uncurry (along side radius)) (NonEmpty.zip (0 :| [1 ..]) (segments contour))
+  corners <- traverse (corner side radius (NonEmpty.length shifted)) (Contour.joints contour)
+  let pieces = concat (zipWith (:) (NonEmpty.toList shifted) (corners <> [[]]))
+      real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) pieces
+  -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
+  Right (maybe (NonEmpty.head shifted :| []) chained (NonEmpty.nonEmpty real))
+  where
+    chained ps = case contour of
+      Contour Contour.Open _ -> link ps
+      Contour Contour.Closed _ -> close (link ps)
+
+-- | Let each piece begin exactly where the one before it ends.
+link :: NonEmpty Piece -> NonEmpty Piece
+link (first :| rest) = first :| go first rest
+  where
+    go before ps = case ps of
+      [] -> []
+      p : more -> let p' = p {segment = beginAt (Segment.end (segment before)) (segment p)} in p' : go p' more
+    beginAt at s = s {start = at}
+
+-- | Let the last piece end exactly where the first begins.
+close :: NonEmpty Piece -> NonEmpty Piece
+close ps = case NonEmpty.last ps of
+  final -> case NonEmpty.nonEmpty (NonEmpty.init ps) of
+    Nothing -> final {segment = endAt (segment final)} :| []
+    Just before -> before <> (final {segment = endAt (segment final)} :| [])
+  where
+    endAt s = s {end = Segment.start (segment (NonEmpty.head ps))}
+
+-- | A segment moved to its side.
+along :: Side -> Mm -> Int -> Segment -> Either Cause Piece
+along side radius@(Mm r) number s = case s of
+  Straight a b ->
+    let n = Vec.scale (leftward side * r) (Vec.left (Vec.unit (Vec.to a b)))
+     in Right (Piece (Along number) (Straight (Vec.shift n a) (Vec.shift n b)))
+  Arc {start, end, centre, sweep = sweep@(Rad angle)}
+    | towardsCentre && minus old radius < times (-1) Tolerance.coincident -> Left (Concave number old)
+    | otherwise -> Right (Piece (Along number) Arc {start = moved start, end = moved end, centre, sweep})
+    where
+      old@(Mm before) = Segment.radius centre start
+      towardsCentre = signum angle == leftward side
+      after = if towardsCentre then max 0 (before - r) else before + r
+      moved p = Vec.shift (Vec.scale (after / before) (Vec.to centre p)) centre
+
+-- | +1 when the cutter is on the left.
+leftward :: Side -> Double
+leftward side = case side of
+  LeftOf -> 1
+  RightOf -> -1
+
+-- | The arc about the corner behind a segment, if there is a corner.
+corner :: Side -> Mm -> Int -> (Int, Segment, Segment) -> Either Cause [Piece]
+corner side radius@(Mm r) count (number, before, after)
+  | radius <= Mm 0 || abs turned <= smooth = Right []
+  | turned * leftward side > 0 && pi - abs turned > smooth = Left (InnerCorner number ((number + 1) `mod` count) vertex)
+  | otherwise = Right [Piece (Around number) (Segment.arc sense vertex (from before') (from after'))]
+  where
+    Rad smooth = Tolerance.smoothAngle
+    before' = Segment.endDirection before
+    after' = Segment.startDirection after
+    Rad turned = Vec.turn before' after'
+    vertex = Segment.end before
+    from direction = Vec.shift (Vec.scale (leftward side * r) (Vec.left direction)) vertex
+    sense = case side of
+      LeftOf -> Clockwise
+      RightOf -> CounterClockwise
+
+-- | The worst place at which the cutter, on the equidistant, would cut the contour.
+collision :: Mm -> Contour -> NonEmpty Piece -> Maybe Cause
+collision radius contour pieces
+  | radius <= Mm 0 || null found = Nothing
+  | otherwise = case minimumBy (comparing (\(d, _, _, _) -> d)) found of
+    (_, i, j, p) -> Just (Collision i j p)
+  where
+    index = Box.index (Box.ofSegment . snd) (zip [0 ..] (NonEmpty.toList (segments contour)))
+    found =
+      [ (d, i, j, p)
+        | Piece origin s <- NonEmpty.toList pieces,
+          let i = numberOf origin,
+          (j, other) <- Box.within (Box.inflate radius (Box.ofSegment s)) index,
+          let Nearest d p = Distance.segments s other,
+          plus d Tolerance.clearance < radius
+      ]
+    numberOf origin = case origin of
+      Along i -> i
+      Around i -> i
+
+-- | The largest radius below the one asked that fits everywhere; a smaller cutter than one that fits
+-- fits too, so halving finds it.
+largestFitting :: Side -> Mm -> Contour -> Maybe Mm
+largestFitting side asked contour
+  | fits smallest = Just (search smallest asked)
+  | otherwise = Nothing
+  where
+    smallest = times 10 Tolerance.clearance
+    fits r = case attempt side r contour of
+      Right _ -> True
+      Left _ -> False
+    search low high
+      | minus high low <= Tolerance.resolution = low
+      | fits middle = search middle high
+      | otherwise = search low middle
+      where
+        middle = times 0.5 (plus low high)

@@ -1,0 +1,38 @@
+-- | Every small number that the geometry compares with, by name.
+module Geometry.Tolerance
+  ( coincident,
+    smoothAngle,
+    parallel,
+    clearance,
+    sameLength,
+    resolution,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+
+-- | Points no further apart are one point. A part 20 m long is held in doubles to 4·10⁻¹² mm;
+-- the square roots of the constructions cost half of the digits at worst.
+coincident :: Mm
+coincident = Mm 1e-6
+
+-- | Two elements whose directions differ by no more go over into one another smoothly.
+smoothAngle :: Rad
+smoothAngle = Rad 1e-7
+
+-- | Two lines whose directions have no larger sine between them are parallel.
+parallel :: Double
+parallel = 1e-12
+
+-- | How much nearer than its radius the cutter's centre may come to the part by rounding of doubles.
+-- It is above what 'smoothAngle' opens at the radius of a large cutter (50 mm).
+clearance :: Mm
+clearance = Mm 1e-5
+
+-- | Two contours whose lengths differ by no more are equally long: the choice between them is a tie.
+sameLength :: Mm
+sameLength = Mm 1e-6
+
+-- | How finely a largest cutter or a largest excess is determined.
+resolution :: Mm
+resolution = Mm 1e-6

@@ -1,0 +1,80 @@
+-- | The one type of report. Every stage turns its errors and warnings into it with
+-- its own @toReport@; how a report looks is decided by the renderings beside this module.
+module Report.Report
+  ( Report (..),
+    Severity (..),
+    Code (..),
+    Place (..),
+    Label (..),
+    report,
+    severityWord,
+    isError,
+    sorted,
+  )
+where
+
+import Base.Region (Region)
+import Data.List (nub, sortOn)
+import Data.String (IsString)
+import Data.Text (Text)
+
+-- | Errors stop the tape, warnings do not.
+data Severity = Error | Warning
+  deriving stock (Eq, Ord, Show)
+
+-- | The stable code of a report, a letter and four digits: @E0412@, @W0501@.
+newtype Code = Code Text
+  deriving newtype (Eq, Ord, IsString)
+  deriving stock (Show)
+
+-- | Where a report points.
+data Place
+  = -- | a stretch of the program
+    InSource Region
+  | -- | a row of the tape, from 1
+    InTape Int
+  | -- | the file as a whole
+    InFile
+  deriving stock (Eq, Ord, Show)
+
+-- | A stretch of the program with a few words beside it.
+data Label = Label {region :: Region, words :: Text}
+  deriving stock (Eq, Show)
+
+-- | What is wrong, where, why, and what to do about it.
+data Report = Report
+  { severity :: Severity,
+    code :: Code,
+    -- | one line, lower case, no full stop
+    title :: Text,
+    place :: Place,
+    -- | words beside the place itself; may be empty
+    label :: Text,
+    -- | other places that matter
+    others :: [Label],
+    -- | whole sentences
+    message :: [Text],
+    -- | what to do
+    hints :: [Text]
+  }
+  deriving stock (Eq, Show)
+
+-- | A report with a title and a place and nothing else yet.
+report :: Severity -> Code -> Place -> Text -> Report
+report severity code place title =
+  Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
+
+severityWord :: Severity -> Text
+severityWord severity = case severity of
+  Error -> "error"
+  Warning -> "warning"
+
+-- | Whether the report stops the tape.
+isError :: Report -> Bool
+isError r = case severity r of
+  Error -> True
+  Warning -> False
+
+-- | By place, each once.
+sorted :: [Report] -> [Report]
+sorted = nub . sortOn (\r -> (place r, severity r, code r))

@@ -1,0 +1,74 @@
+-- | The words of a program text.
+module Surface.Token
+  ( Token (..),
+    Token_ (..),
+    Unit (..),
+    unitName,
+    describe,
+  )
+where
+
+import Base.Region (Region)
+import Data.Text (Text)
+import Data.Text qualified as Text
+
+-- | A token, where it stands, and what stands before it.
+data Token = Token
+  { place :: Region,
+    shape :: Token_,
+    -- | it is the first on its line
+    newLine :: Bool,
+    -- | it touches the token before it
+    attached :: Bool
+  }
+  deriving stock (Eq, Ord, Show)
+
+-- | The shapes of tokens.
+data Token_
+  = -- | a name or a keyword; which of them is for the parser to say
+    Word Text
+  | -- | a number as written, and the unit behind it
+    Number Double (Maybe Unit)
+  | Text Text
+  | Symbol Text
+  | -- | a number that is none: @1.2.3@, or one too large to hold
+    BadNumber Text
+  | -- | a text without its closing quotation mark
+    OpenText
+  | -- | a character that begins no token
+    Stray Char
+  deriving stock (Eq, Ord, Show)
+
+-- | The units of a drawing.
+data Unit = Millimetre | Centimetre | Metre | Inch | Degree | Radian | MmPerMin | MPerMin | InPerMin
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+-- | A unit as it is written.
+unitName :: Unit -> Text
+unitName unit = case unit of
+  Millimetre -> "mm"
+  Centimetre -> "cm"
+  Metre -> "m"
+  Inch -> "in"
+  Degree -> "deg"
+  Radian -> "rad"
+  MmPerMin -> "mm/min"
+  MPerMin -> "m/min"
+  InPerMin -> "in/min"
+
+-- | A token in the words of a report.
+describe :: Token_ -> Text
+describe token = case token of
+  Word text -> "‘" <> text <> "’"
+  Number value _ -> "the number " <> plain value
+  Text _ -> "a text"
+  Symbol text -> "‘" <> text <> "’"
+  BadNumber text -> "‘" <> text <> "’"
+  OpenText -> "a text without an end"
+  Stray c -> "the character ‘" <> Text.singleton c <> "’"
+  where
+    plain value
+      | value == fromIntegral whole && abs value < 1e15 = Text.pack (show whole)
+      | otherwise = Text.pack (show value)
+      where
+        whole = truncate value :: Integer
