@@ -5,6 +5,7 @@ module Geometry.Contour
     length,
     reverse,
     joints,
+    chained,
     signedArea,
     winding,
     selfCrossing,
@@ -46,6 +47,22 @@ joints (Contour ends ss) = zip3 [0 ..] list (drop 1 list <> back)
     back = case ends of
       Open -> []
       Closed -> [NonEmpty.head ss]
+
+-- | Let each segment begin exactly where the one before it ends, and a closed contour end where it
+-- begins. The gaps are rounding errors.
+chained :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
+chained get set ends things = case ends of
+  Open -> linked
+  Closed -> case NonEmpty.last linked of
+    final -> foldr NonEmpty.cons (set (get final) {end = Segment.start (get (NonEmpty.head linked))} final :| []) (NonEmpty.init linked)
+  where
+    linked = case things of
+      first :| rest -> first :| follow first rest
+    follow before rest = case rest of
+      [] -> []
+      a : more ->
+        let a' = set (get a) {start = Segment.end (get before)} a
+         in a' : follow a' more
 
 -- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
 signedArea :: Contour -> Double

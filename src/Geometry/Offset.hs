@@ -80,27 +80,7 @@ raw side radius contour = do
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
   Right (maybe (NonEmpty.head shifted :| []) chained (NonEmpty.nonEmpty real))
   where
-    chained ps = case contour of
-      Contour Contour.Open _ -> link ps
-      Contour Contour.Closed _ -> close (link ps)
-
--- | Let each piece begin exactly where the one before it ends.
-link :: NonEmpty Piece -> NonEmpty Piece
-link (first :| rest) = first :| go first rest
-  where
-    go before ps = case ps of
-      [] -> []
-      p : more -> let p' = p {segment = beginAt (Segment.end (segment before)) (segment p)} in p' : go p' more
-    beginAt at s = s {start = at}
-
--- | Let the last piece end exactly where the first begins.
-close :: NonEmpty Piece -> NonEmpty Piece
-close ps = case NonEmpty.last ps of
-  final -> case NonEmpty.nonEmpty (NonEmpty.init ps) of
-    Nothing -> final {segment = endAt (segment final)} :| []
-    Just before -> before <> (final {segment = endAt (segment final)} :| [])
-  where
-    endAt s = s {end = Segment.start (segment (NonEmpty.head ps))}
+    chained = Contour.chained segment (\s p -> p {segment = s}) (Contour.ends contour)
 
 -- | A segment moved to its side.
 along :: Side -> Mm -> Int -> Segment -> Either Cause Piece

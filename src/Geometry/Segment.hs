@@ -7,6 +7,7 @@ module Geometry.Segment
     at,
     startDirection,
     endDirection,
+    directionAt,
     reverse,
     spans,
     fraction,
@@ -76,6 +77,12 @@ endDirection :: Segment -> Vec
 endDirection segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
   Arc {end, centre, sweep} -> forward sweep (Vec.to centre end)
+
+-- | The direction at a fraction of the length, of length 1. The segment has a length.
+directionAt :: Double -> Segment -> Vec
+directionAt t segment = case segment of
+  Straight a b -> Vec.unit (Vec.to a b)
+  Arc {centre, sweep} -> forward sweep (Vec.to centre (at t segment))
 
 forward :: Rad -> Vec -> Vec
 forward (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))

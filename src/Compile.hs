@@ -1,0 +1,75 @@
+-- | The whole pipeline, to be read first.
+--
+-- > text ─▶ Surface ─▶ Checked ─▶ Part ─▶ Path ─▶ Frame ─▶ Tape
+-- >          parse      check     evaluate  lay    quantise  write
+-- >                                  ▲                        │
+-- >                                  └── Verify ◀── Control ◀─┘  read, run, compare
+--
+-- Every stage is a pure function to a 'Result': the warnings, the errors, and the output as far as it is
+-- sound. Stages up to the path go on beside errors, so that one run reports all independent
+-- mistakes; nothing is punched unless there are none.
+module Compile
+  ( Analysis (..),
+    analyse,
+    Punched (..),
+    punch,
+    readTape,
+    prove,
+  )
+where
+
+import Base.Result (Result (..), mapErrors)
+import Base.Result qualified as Result
+import Checked.Error qualified as Checked
+import Checked.FromSurface qualified as Checked
+import Data.Text (Text)
+import Frame.Error qualified as Frame
+import Frame.Frame (Frame, Program)
+import Frame.Frame qualified as Frame
+import Frame.FromPath qualified as Frame
+import Machine.Machine (Machine)
+import Part.Error qualified as Part
+import Part.FromChecked qualified as Part
+import Part.Part (Part)
+import Path.Error qualified as Path
+import Path.FromPart qualified as Path
+import Path.Path (Path)
+import Report.Report (Report)
+import Surface.Error qualified as Surface
+import Surface.Parser qualified as Surface
+import Tape.Punch qualified as Tape
+import Tape.Tape (Tape)
+import Verify.FromTape qualified as Verify
+import Verify.Proof (Proof)
+import Verify.Proof qualified as Verify
+
+-- | What a program says, whatever the machine.
+data Analysis = Analysis {part :: Part, path :: Path}
+
+-- | From the text to the path.
+analyse :: Text -> Result Report Report Analysis
+analyse text = do
+  surface <- mapErrors id Surface.toReport (Surface.parse text)
+  checked <- mapErrors id Checked.toReport (Checked.check surface)
+  part <- mapErrors id Part.toReport (Part.evaluate checked)
+  path <- mapErrors id Path.toReport (Path.lay part)
+  pure Analysis {part, path}
+
+-- | The frames of a path on a machine, and the tape that holds them.
+data Punched = Punched {program :: Program, tape :: Tape}
+
+-- | From the path to the tape.
+punch :: Machine -> Path -> Result Report Report Punched
+punch machine path = do
+  program <- mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
+  pure Punched {program, tape = Tape.write machine (map Frame.frame (Frame.planned program))}
+
+-- | From a tape back to its frames.
+readTape :: Machine -> Tape -> Result Report Report [Frame]
+readTape machine tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine tape))
+
+-- | Compare a tape's frames with the part; errors when it is not proven.
+prove :: Machine -> Path -> Program -> [Frame] -> Result Report Report Proof
+prove machine path program frames = Result.failing (Verify.toReports machine proof) proof
+  where
+    proof = Verify.prove machine path program frames

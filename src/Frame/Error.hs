@@ -1,0 +1,72 @@
+-- | What a machine can not do, or does otherwise than asked.
+module Frame.Error
+  ( Error (..),
+    Warning (..),
+    toReport,
+    warningReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Feed (..), Mm (..))
+import Base.Region (Region)
+import Data.Text (Text)
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
+import Report.Report (Place (..), Report (..), report)
+import Report.Report qualified as Report
+
+data Error
+  = -- | the feed asked, and the lowest and highest that there are
+    FeedMissing Region Feed Feed Feed
+  | -- | a place that no machine reaches
+    OutOfReach Region Point Mm
+  | -- | more frames than a tape may have
+    TooManyFrames Region Int
+  deriving stock (Eq, Show)
+
+data Warning
+  = -- | the feed asked and the feed obtained
+    FeedDiffers Region Feed Feed
+  | -- | where the program starts, and where the machine can stand
+    StartRounded Region Point Point
+  deriving stock (Eq, Show)
+
+-- | The words for an error on a machine.
+toReport :: Machine -> Error -> Report
+toReport machine err = case err of
+  FeedMissing region asked lowest highest ->
+    (report Report.Error "E0501" (InSource region) (machineName machine <> " has no feed of " <> feed asked))
+      { message = ["Its feeds go from " <> feed lowest <> " to " <> feed highest <> "."]
+      }
+  OutOfReach region p limit ->
+    (report Report.Error "E0502" (InSource region) ("the cutter would go to " <> point p <> ", further than any machine reaches"))
+      { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."]
+      }
+  TooManyFrames region limit ->
+    (report Report.Error "E0503" (InSource region) ("the tape would have more than " <> Decimal.whole limit <> " frames"))
+      { hints = ["Allow a larger tolerance."]
+      }
+
+-- | The words for a warning on a machine.
+warningReport :: Machine -> Warning -> Report
+warningReport machine warning = case warning of
+  FeedDiffers region asked given ->
+    (report Report.Warning "W0501" (InSource region) (machineName machine <> " runs this feed at " <> feed given))
+      { message = ["Asked is " <> feed asked <> "; the machine has no feed nearer to it that does not exceed it."]
+      }
+  StartRounded region asked given ->
+    (report Report.Warning "W0502" (InSource region) ("the cutter cannot start at " <> point asked <> ": it is between two pulses"))
+      { message = ["The tape is computed for a start at " <> point given <> " (a pulse is " <> Decimal.mm (Machine.pulse machine) <> ")."]
+      }
+
+machineName :: Machine -> Text
+machineName machine = let MachineName name = Machine.name machine in name
+
+feed :: Feed -> Text
+feed (Feed f) = Decimal.short 2 f <> " mm/min"
+
+point :: Point -> Text
+point p = "(" <> Decimal.short 4 (Vec.x p) <> ", " <> Decimal.short 4 (Vec.y p) <> ")"

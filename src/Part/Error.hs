@@ -1,0 +1,210 @@
+-- | What can be wrong with the values and the geometry of a part.
+module Part.Error
+  ( Error (..),
+    Fact (..),
+    Joined (..),
+    toReport,
+    describe,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..))
+import Base.Region (Region)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Geometry.Shape (Circle (..), Line (..), Walked (..))
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Report.Report (Code, Label (..), Place (..), Report (..), report)
+import Report.Report qualified as Report
+
+-- | A fact, and the calls of functions through which it came about, the innermost first.
+data Error = Error {fact :: Fact, calls :: [Region]}
+  deriving stock (Eq, Show)
+
+-- | Two neighbours in a contour, and the link between them.
+data Joined = Joined {link :: Region, before :: (Region, Walked), after :: (Region, Walked)}
+  deriving stock (Eq, Show)
+
+data Fact
+  = DivisionByZero Region
+  | -- | function, its argument as written to the user, the range it takes
+    OutOfRange Region Text Text Text
+  | -- | a result that no number can hold
+    TooLarge Region
+  | RadiusNotPositive Region Mm
+  | -- | the two points of the line are one
+    ZeroLine Region Point
+  | -- | what has to be positive, and what it is
+    NotPositive Region Text Text
+  | EmptyContour Region Name
+  | -- | a closed contour of one element that is no circle
+    LoneElement Region Walked
+  | -- | an open contour whose first or last element has no end of its own
+    NoEnd Region Walked
+  | LinkAtEnd Region Region
+  | -- | they miss one another by so much
+    NoMeeting Joined Mm
+  | ParallelLines Joined Mm
+  | SameCurve Joined
+  | -- | the points to choose from
+    AmbiguousMeeting Joined [Point]
+  | NotSmooth Joined Mm
+  | -- | they touch, but the walk would have to turn back
+    TurnsBack Joined
+  | -- | a tangent needs circles or points
+    TangentNeedsCircles Joined
+  | -- | the circles are concentric
+    ConcentricTangent Joined
+  | -- | the circles are the same
+    CoincidentTangent Joined
+  | -- | how to walk the circles for there to be one
+    NoTangent Joined [Text]
+  | FilletAtPoint Joined
+  | NoFillet Joined Mm
+  | -- | centres of the arcs that make equally long contours
+    AmbiguousFillet Joined [Point]
+  | -- | an element whose end lies before its beginning, by so much
+    Overrun Region Walked Mm [Region]
+  | CrossesItself Region Region Region Point
+  deriving stock (Eq, Show)
+
+-- | The words for it.
+toReport :: Error -> Report
+toReport (Error fact calls) = addCalls $ case fact of
+  DivisionByZero region -> at region "E0301" "this divides by zero"
+  OutOfRange region function argument range ->
+    (at region "E0302" (function <> " of " <> argument <> " does not exist"))
+      { message = [function <> " takes " <> range <> "."]
+      }
+  TooLarge region -> at region "E0303" "the result is too large for a number"
+  RadiusNotPositive region r ->
+    (at region "E0304" ("a circle needs a positive radius, this one is " <> Decimal.mm r))
+      { label = Decimal.mm r
+      }
+  ZeroLine region p ->
+    (at region "E0305" "this line has no length")
+      { message = ["Both its points are " <> point p <> "; a line needs two different ones."]
+      }
+  NotPositive region what value ->
+    at region "E0306" (what <> " must be more than zero, this one is " <> value)
+  EmptyContour region (Name name) ->
+    at region "E0307" ("the contour " <> quote name <> " has no elements")
+  LoneElement region walked ->
+    (at region "E0308" ("a closed contour cannot consist of " <> describe walked <> " alone"))
+      { hints = ["Only a circle closes by itself; add the other elements, or make the contour open."]
+      }
+  NoEnd region walked ->
+    (at region "E0309" ("an open contour cannot begin or end on " <> describe walked))
+      { message = ["A circle has no ends; the contour does not know where to begin or stop on it."],
+        hints = ["Put a point of the circle before it (or behind it) as an element of its own."]
+      }
+  LinkAtEnd region contour ->
+    (at region "E0310" "nothing follows this link")
+      { others = [Label contour "the contour is open"],
+        hints = ["Leave the link out, or make the contour closed."]
+      }
+  NoMeeting j gap ->
+    (joined "E0311" j (things j <> " do not meet: they miss one another by " <> Decimal.mm gap))
+      { message = [stop "17533"]
+      }
+  ParallelLines j gap ->
+    (joined "E0312" j ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
+      { message = [stop "17533"]
+      }
+  SameCurve j ->
+    (joined "E0313" j "these are the same curve, so they have no one point in common")
+      { hints = ["Leave one of them out, or correct the numbers."]
+      }
+  AmbiguousMeeting j points ->
+    (joined "E0314" j (things j <> " meet in more than one point"))
+      { message = ["They meet at " <> Text.intercalate " and at " (map point points) <> "."],
+        hints = ["Choose with: meet near " <> point p | p <- take 1 points]
+      }
+  NotSmooth j gap ->
+    (joined "E0315" j (things j <> " do not touch: they miss it by " <> Decimal.mm gap))
+      { message = [stop "17533"],
+        hints = ["Correct the numbers, or join them with tangent, fillet or meet."]
+      }
+  TurnsBack j ->
+    (joined "E0316" j "the elements touch here, but the walk would have to turn back")
+      { hints = ["Change the sense (cw, ccw) of a circle or the direction of a line."]
+      }
+  TangentNeedsCircles j ->
+    (joined "E0317" j "a tangent joins circles, not a line that is already there")
+      { hints = ["If the line touches the circle, write smooth; to round the corner, write fillet and a radius."]
+      }
+  ConcentricTangent j ->
+    (joined "E0318" j "concentric circles have no common tangent")
+      { message = [stop "17533"]
+      }
+  CoincidentTangent j ->
+    (joined "E0319" j "these circles are the same, so there is no tangent from one to the other")
+      { hints = ["Leave one of them out, or correct the centre or the radius of one."]
+      }
+  NoTangent j senses ->
+    (joined "E0320" j "no common tangent fits the senses in which these circles are walked")
+      { message = [stop "17533"],
+        hints = case senses of
+          [] -> ["One circle lies inside the other: there is no common tangent at all. Join them with a fillet."]
+          _ -> ["There is one when they are walked " <> Text.intercalate ", or " senses <> "."]
+      }
+  FilletAtPoint j ->
+    (joined "E0321" j "a fillet or chamfer needs a line or a circle on both sides, not a point")
+      { hints = ["Write the edges as lines: line(p, q)."]
+      }
+  NoFillet j r ->
+    (joined "E0322" j ("no arc of radius " <> Decimal.mm r <> " touches both neighbours in the direction of the walk"))
+      { message = [stop "17535"],
+        hints = ["+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses of the neighbours."]
+      }
+  AmbiguousFillet j centres ->
+    (joined "E0323" j "two fillets make contours of the same length")
+      { message = ["Their centres are " <> Text.intercalate " and " (map point centres) <> "."],
+        hints = ["Change the order or the senses of the elements so that one of them is the shorter way."]
+      }
+  Overrun region walked overlap links ->
+    (at region "E0324" ("the links do not fit: " <> describe walked <> " is too short for them by " <> Decimal.mm overlap))
+      { label = "it would have to be walked backwards",
+        others = [Label l "this link takes its share" | l <- links],
+        message = [stop "17535"],
+        hints = ["Make the fillet or chamfer smaller, or check the directions of the neighbours."]
+      }
+  CrossesItself contour first second p ->
+    (at first "E0325" "the contour crosses or touches itself")
+      { label = "this element",
+        others = [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
+        message = ["They meet at " <> point p <> "."]
+      }
+  where
+    addCalls r = r {others = others r <> [Label c "in this call" | c <- take 1 calls]}
+
+at :: Region -> Code -> Text -> Report
+at region code = report Report.Error code (InSource region)
+
+joined :: Code -> Joined -> Text -> Report
+joined code j title =
+  (at (link j) code title)
+    { others = [Label r (describe w) | (r, w) <- [before j, after j], r /= link j]
+    }
+
+things :: Joined -> Text
+things j = describe (snd (before j)) <> " and " <> describe (snd (after j))
+
+-- | An element in words.
+describe :: Walked -> Text
+describe walked = case walked of
+  OnLine (Line p q) -> "the line from " <> point p <> " to " <> point q
+  OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> point c
+  AtPoint p -> "the point " <> point p
+
+point :: Point -> Text
+point p = "(" <> Decimal.short 4 (Vec.x p) <> ", " <> Decimal.short 4 (Vec.y p) <> ")"
+
+quote :: Text -> Text
+quote text = "‘" <> text <> "’"
+
+stop :: Text -> Text
+stop number = "The Minsk-22 system stopped here with " <> number <> "."

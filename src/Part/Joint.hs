@@ -1,0 +1,177 @@
+-- | The places where a link can join two walked elements.
+module Part.Joint
+  ( Link (..),
+    Joint (..),
+    through,
+    candidates,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (sortOn)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.Text (Text)
+
+import Geometry.Fillet qualified as Fillet
+import Geometry.Intersect (Meeting (..))
+import Geometry.Intersect qualified as Intersect
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Circle (Circle), Turn (..), Walked (..))
+import Geometry.Shape qualified as Shape
+import Geometry.Tangent qualified as Tangent
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Error (Fact (..), Joined (..))
+
+-- | A link with its values.
+data Link
+  = Meet (Maybe Point)
+  | Smooth
+  | Tangent
+  | Fillet Turn Mm
+  | Chamfer Mm
+  deriving stock (Eq, Show)
+
+-- | Where the walk leaves one element and enters the next, and what lies between.
+data Joint = Joint {leave :: Point, enter :: Point, inserted :: Maybe Segment}
+  deriving stock (Eq, Show)
+
+-- | A joint at one point.
+through :: Point -> Joint
+through p = Joint p p Nothing
+
+-- | All joints that a link can make of its neighbours.
+candidates :: Joined -> Link -> Either Fact (NonEmpty Joint)
+candidates j link = case link of
+  Meet near -> (:| []) <$> meet j near
+  Smooth -> (:| []) <$> smooth j
+  Tangent -> (:| []) <$> tangent j
+  Fillet turn r -> fillet j turn r
+  Chamfer d -> (:| []) <$> chamfer j d
+
+shapes :: Joined -> (Walked, Walked)
+shapes j = (snd (before j), snd (after j))
+
+-- | The intersection. Of several the one nearest to the point given; without one, the one that is an
+-- end of a line that was given by its ends.
+meet :: Joined -> Maybe Point -> Either Fact Joint
+meet j near = case shapes j of
+  (AtPoint p, AtPoint q)
+    | Vec.near p q -> Left (SameCurve j)
+    | otherwise -> Right (Joint p q (Just (Straight p q)))
+  (AtPoint p, b) -> on p b
+  (a, AtPoint q) -> on q a
+  (OnLine l, OnLine m) -> case Intersect.lines l m of
+    Apart gap -> Left (ParallelLines j gap)
+    Same | Vec.near (Shape.to l) (Shape.from m) -> Right (through (Shape.to l))
+    meeting -> points meeting []
+  (OnLine l, OnCircle _ c) -> points (Intersect.lineCircle l c) [Shape.to l]
+  (OnCircle _ c, OnLine l) -> points (Intersect.lineCircle l c) [Shape.from l]
+  (OnCircle _ c, OnCircle _ d) -> points (Intersect.circles c d) []
+  where
+    on p shape = let gap = distanceTo shape p in if gap <= Tolerance.coincident then Right (through p) else Left (NoMeeting j gap)
+    points meeting preferred = case meeting of
+      Apart gap -> Left (NoMeeting j gap)
+      Same -> Left (SameCurve j)
+      Touching p -> Right (through p)
+      CrossingOnce p -> Right (through p)
+      Crossing p q -> through <$> choose p q preferred
+    choose p q preferred = case near of
+      Just n | abs (distance n p - distance n q) > tolerance -> Right (if distance n p < distance n q then p else q)
+      Nothing | [one] <- [c | c <- [p, q], any (Vec.near c) preferred] -> Right one
+      _ -> Left (AmbiguousMeeting j [p, q])
+    distance a b = let Mm d = Vec.distance a b in d
+    Mm tolerance = Tolerance.coincident
+
+-- | How far a point lies from an element's curve.
+distanceTo :: Walked -> Point -> Mm
+distanceTo shape p = case shape of
+  OnLine l -> let Mm d = Shape.signedDistance l p in Mm (abs d)
+  OnCircle _ (Circle c (Mm r)) -> let Mm d = Vec.distance c p in Mm (abs (d - r))
+  AtPoint q -> Vec.distance p q
+
+-- | The point where neighbours that touch go over into one another.
+smooth :: Joined -> Either Fact Joint
+smooth j = case shapes j of
+  (OnLine l, OnLine m)
+    | Vec.dot (Shape.direction l) (Shape.direction m) > 0 -> case Intersect.lines l m of
+      Same -> Right (through (if Vec.near (Shape.to l) (Shape.from m) then Shape.to l else Shape.from m))
+      Apart gap -> Left (NotSmooth j gap)
+      _ -> meet j Nothing
+    | otherwise -> Left (TurnsBack j)
+  (OnLine l, OnCircle turn c) -> lineCircle l turn c
+  (OnCircle turn c, OnLine l) -> lineCircle l turn c
+  (OnCircle t1 c1, OnCircle t2 c2) -> circles (t1, c1) (t2, c2)
+  (AtPoint _, _) -> meet j Nothing
+  (_, AtPoint _) -> meet j Nothing
+  where
+    Mm tolerance = Tolerance.coincident
+    touching gap p
+      | abs gap <= tolerance = Right (through p)
+      | otherwise = Left (NotSmooth j (Mm (abs gap)))
+    lineCircle l turn (Circle c (Mm r))
+      | abs (abs h - r) <= tolerance && signum h /= Shape.sense turn = Left (TurnsBack j)
+      | otherwise = touching (abs h - r) (Shape.foot l c)
+      where
+        Mm h = Shape.signedDistance l c
+    circles (t1, Circle c1 (Mm r1)) (t2, Circle c2 (Mm r2))
+      | d <= tolerance = Left (SameCurve j)
+      | t1 == t2 && outerGap <= tolerance || t1 /= t2 && innerGap <= tolerance = Left (TurnsBack j)
+      | t1 == t2 = touching innerGap (along (if r1 >= r2 then r1 else -r1))
+      | otherwise = touching outerGap (along r1)
+      where
+        Mm d = Vec.distance c1 c2
+        outerGap = abs (d - r1 - r2)
+        innerGap = abs (d - abs (r1 - r2))
+        along s = Vec.shift (Vec.scale s (Vec.unit (Vec.to c1 c2))) c1
+
+-- | The common tangent that fits the senses. A point counts as a circle of radius 0.
+tangent :: Joined -> Either Fact Joint
+tangent j = case shapes j of
+  (OnLine _, _) -> Left (TangentNeedsCircles j)
+  (_, OnLine _) -> Left (TangentNeedsCircles j)
+  (OnCircle t1 c1, OnCircle t2 c2) -> between (t1, c1) (t2, c2)
+  (AtPoint p, OnCircle t c) -> between (t, Circle p (Mm 0)) (t, c)
+  (OnCircle t c, AtPoint p) -> between (t, c) (t, Circle p (Mm 0))
+  (AtPoint _, AtPoint _) -> meet j Nothing
+  where
+    between a@(_, c1@(Circle p1 _)) b@(_, c2@(Circle p2 _))
+      | Vec.near p1 p2 = Left (if Intersect.circles c1 c2 == Same then CoincidentTangent j else ConcentricTangent j)
+      | otherwise = case Tangent.directed a b of
+        Just l -> Right (Joint (Shape.from l) (Shape.to l) (Just (Straight (Shape.from l) (Shape.to l))))
+        Nothing -> Left (NoTangent j [sense t1 <> " then " <> sense t2 | (t1, t2, _) <- Tangent.all c1 c2])
+
+sense :: Turn -> Text
+sense turn = case turn of
+  Clockwise -> "cw"
+  CounterClockwise -> "ccw"
+
+-- | The arcs of a radius and a sense, the nearer ones first.
+fillet :: Joined -> Turn -> Mm -> Either Fact (NonEmpty Joint)
+fillet j turn r = case shapes j of
+  (AtPoint _, _) -> Left (FilletAtPoint j)
+  (_, AtPoint _) -> Left (FilletAtPoint j)
+  (a, b) -> case sortOn length' (map joint (Fillet.between r turn a b)) of
+    [] -> Left (NoFillet j r)
+    first : rest -> Right (first :| rest)
+  where
+    joint f = Joint (Fillet.start f) (Fillet.end f) (Just (Segment.arc turn (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
+    length' = fmap Segment.length . inserted
+
+-- | A straight line between the points at a distance along each neighbour from their intersection.
+chamfer :: Joined -> Mm -> Either Fact Joint
+chamfer j (Mm d) = case shapes j of
+  (AtPoint _, _) -> Left (FilletAtPoint j)
+  (_, AtPoint _) -> Left (FilletAtPoint j)
+  (a, b) -> do
+    Joint {leave = corner} <- meet j Nothing
+    let p = along a (-d) corner
+        q = along b d corner
+    Right (Joint p q (Just (Straight p q)))
+  where
+    along shape s p = case shape of
+      OnLine l -> Vec.shift (Vec.scale s (Shape.direction l)) p
+      OnCircle turn (Circle c (Mm r)) -> Vec.shift (Vec.rotate (Rad (Shape.sense turn * s / r)) (Vec.to c p)) c
+      AtPoint q -> q

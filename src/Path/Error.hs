@@ -1,0 +1,99 @@
+-- | What can be wrong with the way of a cutter around a part.
+module Path.Error
+  ( Error (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..), Rad (..), times)
+import Base.Region (Region)
+import Data.Text (Text)
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Element (..), Side (..))
+import Report.Report (Code, Label (..), Place (..), Report (..), report)
+import Report.Report qualified as Report
+
+data Error
+  = -- | @outside@ or @inside@ of an open contour
+    SideOfOpen Region Side Name Region
+  | -- | the statement, the cutter's radius, the arc and its radius, the largest radius that fits
+    ConcaveRadius Region Mm Element Mm (Maybe Mm)
+  | -- | a corner towards the cutter, and where it is
+    InnerCorner Region Mm Element Element Point (Maybe Mm)
+  | -- | on its way along the first element the cutter cuts the second
+    Collision Region Mm Element Element Point (Maybe Mm)
+  | -- | a move that cuts into an element, and how deep
+    CutsPart Region Element Mm Point
+  deriving stock (Eq, Show)
+
+-- | The words for it.
+toReport :: Error -> Report
+toReport err = case err of
+  SideOfOpen region side (Name name) contour ->
+    (at region "E0401" ("the open contour ‘" <> name <> "’ has no " <> sideWord side))
+      { others = [Label contour "this contour is open"],
+        hints = ["Say left or right of the walk, or on."]
+      }
+  ConcaveRadius region r element old largest ->
+    (at (origin element) "E0402" ("a cutter of diameter " <> diameter r <> " does not fit into a concave radius of " <> Decimal.mm old))
+      { label = shape element,
+        others = [Label region "milled here" | region /= origin element],
+        hints = [fits largest]
+      }
+  InnerCorner region r first second p largest ->
+    (at (origin first) "E0403" "no round cutter reaches into this inner corner")
+      { label = shape first,
+        others = second' first second <> [Label region ("milled here with a diameter of " <> diameter r)],
+        message = ["The corner is at " <> point p <> "."],
+        hints = ["Round the corner with a fillet of at least the cutter's radius, " <> Decimal.mm r <> ".", fits largest]
+      }
+  Collision region r first second p largest ->
+    (at (origin first) "E0404" ("a cutter of diameter " <> diameter r <> " cannot follow this element without cutting another one"))
+      { label = shape first,
+        others = second' first second <> [Label region "milled here" | region /= origin first],
+        message = ["With its centre at " <> point p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
+        hints = [fits largest]
+      }
+  CutsPart region element depth p ->
+    (at region "E0405" ("this move cuts into the part by " <> Decimal.mm depth))
+      { label = "the way to here",
+        others = [Label (origin element) (shape element) | origin element /= region],
+        message = ["The cutter's centre is then at " <> point p <> "."],
+        hints = ["Choose approach and retract points from which the straight way stays clear of the part."]
+      }
+
+at :: Region -> Code -> Text -> Report
+at region code = report Report.Error code (InSource region)
+
+second' :: Element -> Element -> [Label]
+second' first second = [Label (origin second) (shape second) | origin second /= origin first]
+
+sideWord :: Side -> Text
+sideWord side = case side of
+  Outside -> "outside"
+  Inside -> "inside"
+  LeftSide -> "left"
+  RightSide -> "right"
+  On -> "centre line"
+
+fits :: Maybe Mm -> Text
+fits largest = case largest of
+  Nothing -> "No cutter fits here, however small."
+  Just (Mm r) -> "The largest cutter that fits has a diameter of " <> Decimal.mm (Mm (fromInteger (floor (2 * r * 1000)) / 1000)) <> "."
+
+diameter :: Mm -> Text
+diameter r = Decimal.mm (times 2 r)
+
+shape :: Element -> Text
+shape element = case segment element of
+  Straight a b -> "the line from " <> point a <> " to " <> point b
+  Arc {start, centre, sweep = Rad s} ->
+    "the " <> (if s > 0 then "counter-clockwise" else "clockwise") <> " arc of radius " <> Decimal.mm (Segment.radius centre start) <> " about " <> point centre
+
+point :: Point -> Text
+point p = "(" <> Decimal.short 3 (Vec.x p) <> ", " <> Decimal.short 3 (Vec.y p) <> ")"

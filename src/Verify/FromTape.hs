@@ -1,0 +1,269 @@
+-- | The proof: the frames read from a tape, run on the virtual controller and compared with the part.
+--
+-- Three comparisons, each exact over whole strokes and whole elements and none of them a
+-- second equidistant:
+--
+-- * gouge: no stroke comes nearer to a milled element than the cutter's radius;
+-- * excess: every point of a milled element has a stroke within the cutter's radius;
+-- * band: between the beginning and the end of a contour no stroke strays further from it
+--   than the cutter's radius, nor to its other side.
+--
+-- Tolerance and one pulse are allowed in each. Then the last position and the feeds.
+module Verify.FromTape
+  ( prove,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Region (Located (..), Region)
+import Control.StraightLine (Stroke (..))
+import Control.StraightLine qualified as Control
+import Data.Either (fromRight)
+import Data.List (minimumBy, sortOn)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Ord (comparing)
+import Frame.Frame (Frame (..), Program)
+import Frame.Frame qualified as Frame
+import Geometry.Box qualified as Box
+import Geometry.Distance (Nearest (Nearest))
+import Geometry.Distance qualified as Distance
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Linear.V3 (V3 (..))
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Element, Milling, Side (..))
+import Part.Part qualified as Part
+import Path.FromPart qualified as Path (leadingSide)
+import Path.Path (Block (..), Path)
+import Path.Path qualified as Path
+import Verify.Proof (Finding (..), Passage (..), Proof (Proof), Witness (..))
+
+-- | A stroke in mm.
+data Trace = Trace {stroke :: Stroke, line :: Segment}
+
+-- | Compare the frames of a tape with the part that a path goes around; the program's own frames
+-- tell where the tape has to begin and end and which feeds belong where.
+prove :: Machine -> Path -> Program -> [Frame] -> Proof
+prove machine path program frames =
+  Proof (length frames) passages closure firstDifference (sortOn order findings)
+  where
+    begin = Frame.start program
+    own = map Frame.frame (Frame.planned program)
+    strokes = Control.run begin frames
+    traces = [Trace s (Control.segment machine s) | s <- strokes]
+    (passages, found) = unzip (follow machine traces [b | b@Cutting {} <- Path.blocks path])
+    closure = begin + sum (map increment frames) - Frame.end program
+    findings =
+      concat found
+        <> take 1 [OffPlane (number s) | s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
+        <> wrongFeeds program frames
+        <> [NotClosed closure | closure /= 0]
+    firstDifference = listToMaybe ([n | (n, a, b) <- zip3 [1 ..] own frames, a /= b] <> [1 + min (length own) (length frames) | length own /= length frames])
+    order finding = case finding of
+      Gouge w _ _ -> (frame w, 0 :: Int)
+      Excess w _ -> (frame w, 1)
+      WrongSide n _ -> (n, 2)
+      NeverBegun _ -> (0, 3)
+      OffPlane n -> (n, 4)
+      WrongFeed n _ _ _ -> (n, 5)
+      NotClosed _ -> (maxBound, 6)
+
+-- | The milled contours one after the other; each begins on the tape behind the end of the one before.
+follow :: Machine -> [Trace] -> [Block] -> [(Passage, [Finding])]
+follow machine traces = go traces
+  where
+    index = Box.index (Box.ofSegment . line) (filter inPlane traces)
+    go rest blocks = case blocks of
+      [] -> []
+      Travelling _ : more -> go rest more
+      Cutting {job = Located region milling, cut} : more ->
+        let entry = Segment.start (Path.segment (NonEmpty.head cut))
+            exit = Segment.end (Path.segment (NonEmpty.last cut))
+            job = Job {milling, statement = region, entry, exit, reach = contactRadius milling, allowed' = plus (Part.tolerance milling) (Machine.pulse machine)}
+            (within, behind) = passageOf job rest
+         in examine machine job traces index within : go behind more
+
+inPlane :: Trace -> Bool
+inPlane t = case (from (stroke t), to (stroke t)) of
+  (V3 _ _ a, V3 _ _ b) -> a == 0 && b == 0
+
+-- | A contour to be found on the tape.
+data Job = Job
+  { milling :: Milling,
+    statement :: Region,
+    entry :: Point,
+    exit :: Point,
+    -- | from the contour to the cutter's centre
+    reach :: Mm,
+    allowed' :: Mm
+  }
+
+-- | The distance of the cutter's centre from the contour.
+contactRadius :: Milling -> Mm
+contactRadius m = case value (Part.side m) of
+  On -> Mm 0
+  Outside -> Part.radius m
+  Inside -> Part.radius m
+  LeftSide -> Part.radius m
+  RightSide -> Part.radius m
+
+elementsOf :: Job -> [Element]
+elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
+
+-- | The strokes from the first arrival at the beginning of the contour to the next one at its end, if
+-- the beginning is reached at all, and the strokes behind them.
+passageOf :: Job -> [Trace] -> (Maybe [Trace], [Trace])
+passageOf job traces = case dropWhile (not . arrives (entry job)) traces of
+  [] -> (Nothing, traces)
+  _ : cutting ->
+    let (leaving, away) = span (arrives (entry job)) cutting
+        (along, back) = break (arrives (exit job)) away
+        (arrival, behind) = span (arrives (exit job)) back
+     in (Just (leaving <> along <> arrival), behind)
+  where
+    arrives p t = Vec.distance p (Segment.end (line t)) <= allowed' job
+
+-- | How one contour came out.
+examine :: Machine -> Job -> [Trace] -> Box.Index Trace -> Maybe [Trace] -> (Passage, [Finding])
+examine machine job traces index within = (passage, findings)
+  where
+    elements = elementsOf job
+    elementIndex = Box.index (Box.ofSegment . Part.segment) elements
+    gouges = mapMaybe (gougeOf job elementIndex) (if reach job > Mm 0 then traces else [])
+    deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
+    missed = uncut job traces index elements
+    strayed = maybe [] (mapMaybe (strayOf job elementIndex)) within
+    most = listToMaybe (sortOn (negated . amount) (missed <> strayed))
+    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowed = allowed' job}
+    tooMuch w = amount w > allowed' job
+    findings =
+      [Gouge first worst (allowed' job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
+        <> [Excess first (allowed' job) | first : _ <- [sortOn frame (filter tooMuch (missed <> strayed))]]
+        <> take 1 (maybe [] (mapMaybe (wrongSide job elementIndex)) within)
+        <> [NeverBegun (statement job) | Nothing <- [within]]
+        <> concatMap (feedOf machine job) (concat within)
+    negated (Mm x) = -x
+
+-- | How deep a stroke cuts into the contour, if it does.
+gougeOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
+gougeOf job index t
+  | null near = Nothing
+  | otherwise = Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) near)
+  where
+    near =
+      [ Witness {amount = minus (reach job) d, frame = number (stroke t), element = Part.origin e, place = p}
+        | e <- Box.within (Box.inflate (reach job) (Box.ofSegment (line t))) index,
+          let Nearest d p = Distance.segments (line t) (Part.segment e),
+          d < reach job
+      ]
+
+-- | For each element the most that is left standing on it, as far as it is more than on those before
+-- or more than is allowed.
+uncut :: Job -> [Trace] -> Box.Index Trace -> [Element] -> [Witness]
+uncut job traces index = go (Mm 0)
+  where
+    go least elements = case elements of
+      [] -> []
+      e : rest
+        | null (gapsAt least near) -> go least rest
+        | null (gapsAt (allowed' job) near) ->
+          let most = halve (\m -> null (gapsAt m near)) least (allowed' job) in witness e most near : go most rest
+        | otherwise -> case filter inPlane traces of
+          [] -> go least rest
+          all' ->
+            let upper = minus (plus (Segment.length s) (minimum (map (Distance.toPoint (Segment.start s) . line) all'))) (reach job)
+                most = halve (\m -> null (gapsAt m all')) (allowed' job) (max upper (allowed' job))
+             in witness e most all' : go least rest
+        where
+          s = Part.segment e
+          near = Box.within (Box.inflate (plus (reach job) (allowed' job)) (Box.ofSegment s)) index
+          gapsAt m ts = Distance.uncovered (plus (reach job) m) (map line ts) s
+    witness e most ts =
+      let s = Part.segment e
+          p = case Distance.uncovered (plus (reach job) (minus most (times 2 Tolerance.resolution))) (map line ts) s of
+            (a, b) : _ -> Segment.at ((a + b) / 2) s
+            [] -> Segment.start s
+          nearest = minimumBy (comparing (Distance.toPoint p . line)) ts
+       in Witness {amount = most, frame = number (stroke nearest), element = Part.origin e, place = p}
+
+-- | Between a value that does not hold and one that does, the smallest that does.
+halve :: (Mm -> Bool) -> Mm -> Mm -> Mm
+halve holds low high
+  | minus high low <= Tolerance.resolution = high
+  | holds middle = halve holds low middle
+  | otherwise = halve holds middle high
+  where
+    middle = times 0.5 (plus low high)
+
+-- | How far a stroke strays from the contour, if it is more than is allowed.
+strayOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
+strayOf job index t = case gaps (allowed' job) near of
+  [] -> Nothing
+  _ ->
+    let most = halve (\m -> null (gaps m everything)) (allowed' job) upper
+        p = case gaps (minus most (times 2 Tolerance.resolution)) everything of
+          (a, b) : _ -> Segment.at ((a + b) / 2) (line t)
+          [] -> Segment.end (line t)
+        e = minimumBy (comparing (Distance.toPoint p . Part.segment)) everything
+     in Just Witness {amount = most, frame = number (stroke t), element = Part.origin e, place = p}
+  where
+    everything = elementsOf job
+    near = Box.within (Box.inflate (plus (reach job) (allowed' job)) (Box.ofSegment (line t))) index
+    gaps m es = Distance.uncovered (plus (reach job) m) (map Part.segment es) (line t)
+    upper = plus (Segment.length (line t)) (minimum (map (Distance.toPoint (Segment.start (line t)) . Part.segment) everything))
+
+-- | A stroke whose middle lies beside an element on the wrong side.
+wrongSide :: Job -> Box.Index Element -> Trace -> Maybe Finding
+wrongSide job index t = case (side, near) of
+  (Just s, _ : _)
+    | Segment.spans element middle && distanceTo nearest > allowed' job && sideOf element /= s ->
+      Just (WrongSide (number (stroke t)) (Part.origin nearest))
+    where
+      nearest = minimumBy (comparing distanceTo) near
+      element = Part.segment nearest
+  _ -> Nothing
+  where
+    side = fromRight Nothing (Path.leadingSide (milling job))
+    middle = Segment.at 0.5 (line t)
+    near = Box.within (Box.inflate (plus (reach job) (allowed' job)) (Box.ofSegment (line t))) index
+    distanceTo e = Distance.toPoint middle (Part.segment e)
+    sideOf s =
+      let foot = Segment.at (Segment.fraction s middle) s
+          ahead = Segment.directionAt (Segment.fraction s middle) s
+       in if Vec.cross ahead (Vec.to foot middle) > 0 then Offset.LeftOf else Offset.RightOf
+
+-- | A stroke along the contour that runs at another feed than its statement asks.
+feedOf :: Machine -> Job -> Trace -> [Finding]
+feedOf machine job t = case Machine.chooseFeed machine (value asked) of
+  Machine.Given wanted _ | code (stroke t) /= wanted -> [WrongFeed (number (stroke t)) (code (stroke t)) wanted (region asked)]
+  _ -> []
+  where
+    asked = Part.feed (milling job)
+
+-- | Frames of the ways between the contours whose feed is not the one that the program asks for. They are
+-- compared one by one; when the tape has more or fewer frames, only as far as the frames before were
+-- the same.
+wrongFeeds :: Program -> [Frame] -> [Finding]
+wrongFeeds program frames =
+  [ WrongFeed n (speed f) (speed own) (Frame.origin planned)
+    | (n, planned, f) <- aligned,
+      not (cutting (Frame.role planned)),
+      let own = Frame.frame planned,
+      speed f /= speed own
+  ]
+  where
+    numbered = zip3 [1 ..] (Frame.planned program) frames
+    aligned
+      | length frames == length (Frame.planned program) = numbered
+      | otherwise = takeWhile (\(_, planned, f) -> increment f == increment (Frame.frame planned)) numbered
+    cutting role = case role of
+      Frame.Cutting _ -> True
+      Frame.Approaching _ -> False
+      Frame.Retracting _ -> False
+      Frame.Travelling -> False
