@@ -1,0 +1,63 @@
+-- | The command @partc@: sets up the streams, runs the command line, turns the end into an exit status.
+module Main (main) where
+
+import Base.Crash (Bug)
+import Cli.Options qualified as Options
+import Cli.Output (Exit (..))
+import Cli.Run qualified as Run
+import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException, try)
+import Data.Version (showVersion)
+import Foreign.C.Error (Errno (Errno), ePIPE)
+import GHC.IO.Encoding (setFileSystemEncoding, setLocaleEncoding, utf8)
+import GHC.IO.Exception (IOException (ioe_errno))
+import Options.Applicative qualified as Opt
+import Paths_partc (version)
+import System.Exit (ExitCode (..), exitWith)
+import System.IO (hFlush, hPutStrLn, hSetEncoding, stderr, stdin, stdout)
+
+main :: IO ()
+main = do
+  setLocaleEncoding utf8
+  setFileSystemEncoding utf8
+  mapM_ (`hSetEncoding` utf8) [stdin, stdout, stderr]
+  code <- work `catches` [Handler exited, Handler pipe, Handler interrupted, Handler crashed, Handler anything]
+  exitWith code
+
+work :: IO ExitCode
+work = do
+  invocation <- Opt.customExecParser (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version))
+  end <- Run.run invocation
+  hFlush stdout
+  pure (statusOf end)
+
+statusOf :: Exit -> ExitCode
+statusOf end = case end of
+  Done -> ExitSuccess
+  Failed -> ExitFailure 1
+  Disproven -> ExitFailure 3
+
+exited :: ExitCode -> IO ExitCode
+exited = pure
+
+-- | A reader that has closed the pipe has seen enough.
+pipe :: IOException -> IO ExitCode
+pipe e
+  | fmap Errno (ioe_errno e) == Just ePIPE = ExitSuccess <$ (try (hFlush stdout) :: IO (Either IOException ()))
+  | otherwise = anything (toException e)
+
+interrupted :: AsyncException -> IO ExitCode
+interrupted e = case e of
+  UserInterrupt -> pure (ExitFailure 130)
+  _ -> anything (toException e)
+
+crashed :: Bug -> IO ExitCode
+crashed b = sorry (show b)
+
+anything :: SomeException -> IO ExitCode
+anything e = sorry (show e)
+
+sorry :: String -> IO ExitCode
+sorry what = do
+  hPutStrLn stderr "This is a bug in partc. Please send us the program that you compiled and these lines:"
+  hPutStrLn stderr what
+  pure (ExitFailure 70)

@@ -1,0 +1,70 @@
+-- | What can be wrong with files, machines and the command line.
+module Cli.Error
+  ( Error (..),
+    Warning (..),
+    toReport,
+    warningReport,
+  )
+where
+
+import Base.Name qualified as Name
+import Base.Region (Region)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Report (Place (..), Report (..), report)
+import Report.Report qualified as Report
+
+data Error
+  = -- | why
+    CannotRead Text
+  | -- | file and why
+    CannotWrite Text Text
+  | NotUtf8
+  | -- | neither the program nor the command line names a machine; the machines there are
+    NoMachine [Text]
+  | -- | a name that no machine has, where the program says it, the machines there are
+    UnknownMachine (Maybe Region) Text [Text]
+  | -- | a description file where none can be read yet
+    DescriptionFile Region
+  | -- | the output would replace the program
+    OverwritesProgram Text
+  | -- | the program punches nothing
+    NothingToPunch
+  deriving stock (Eq, Show)
+
+data Warning
+  = -- | the tape is written as it is
+    Unproven
+  deriving stock (Eq, Show)
+
+-- | The words for it.
+toReport :: Error -> Report
+toReport err = case err of
+  CannotRead why -> wrong "E0801" InFile ("the file cannot be read: " <> why)
+  CannotWrite path why -> wrong "E0802" InFile ("cannot write " <> path <> ": " <> why)
+  NotUtf8 ->
+    (wrong "E0803" InFile "the file is not UTF-8 text")
+      { hints = ["Save it as UTF-8 in your editor."]
+      }
+  NoMachine known ->
+    (wrong "E0804" InFile "no machine is chosen")
+      { hints = ["Say in the program: machine NAME, or on the command line: -t NAME. Machines: " <> Text.intercalate ", " known <> "."]
+      }
+  UnknownMachine place name known ->
+    (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
+      { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
+        hints = ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
+      }
+  DescriptionFile region ->
+    wrong "E0806" (InSource region) "machine descriptions cannot be read from files yet"
+  OverwritesProgram path -> wrong "E0807" InFile ("the output would replace the program " <> path)
+  NothingToPunch ->
+    (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
+      { hints = ["Mill a contour: mill NAME outside { approach … retract … }"]
+      }
+  where
+    wrong = report Report.Error
+
+warningReport :: Warning -> Report
+warningReport warning = case warning of
+  Unproven -> report Report.Warning "W0801" InFile "the tape is written without a proof (--no-verify)"

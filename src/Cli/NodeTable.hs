@@ -1,0 +1,105 @@
+-- | The paper's tables: the nodes of every equidistant, lengths, times, metres of tape.
+module Cli.NodeTable
+  ( nodes,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, total, travelTime)
+import Base.Region (Located (..))
+import Cli.Table (Align (..))
+import Cli.Table qualified as Table
+import Compile (Analysis (..), Punched (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Frame.Frame qualified as Frame
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Choice (..), Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Pace (..))
+import Part.Part qualified as Part
+import Path.Path (Block (..), Move (..))
+import Path.Path qualified as Path
+import Tape.Tape qualified as Tape
+
+-- | The paper's tables for every milled contour, then times and tape.
+nodes :: Maybe (Machine, Punched) -> Analysis -> Text
+nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map milled cuttings <> [summary])
+  where
+    heading = "Part " <> maybe "" (\(Name n) -> n) (Part.name part) <> maybe "" (\t -> ": " <> t) (Part.title part) <> "\n"
+    machine = fst <$> punched
+    cuttings = [(job, NonEmpty.toList cut) | Cutting {job, cut} <- Path.blocks path]
+    milled (job, cut) =
+      "Contour " <> contourName' job <> ": nodes of the " <> pathWord job <> ", numbered from the entry\n\n"
+        <> Table.columns
+          [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
+          (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : zipWith (section (length cut) (ends' job)) [0 ..] cut <> lastNode (ends' job) cut)
+        <> "\nlength " <> fixed3 (lengthOf cut) <> " mm, time " <> seconds (total (map (timeOf machine) cut)) <> " s\n"
+    ends' job = Part.ends (Part.contour (value job))
+    contourName' job = let Name n = value (Part.contourName (Part.contour (value job))) in n
+    pathWord job = case value (Part.side (value job)) of
+      Part.On -> "contour, milled on its line"
+      Part.Outside -> "equidistant outside"
+      Part.Inside -> "equidistant inside"
+      Part.LeftSide -> "equidistant on the left"
+      Part.RightSide -> "equidistant on the right"
+    section count ends k move =
+      let next = case ends of
+            Part.Closed -> (k + 1) `mod` count
+            Part.Open -> k + 1
+          s = segment move
+       in [Decimal.whole k <> "–" <> Decimal.whole next, kind s, Decimal.whole k, fixed3 (Mm (Vec.x (Segment.start s))), fixed3 (Mm (Vec.y (Segment.start s)))]
+            <> centreOf s
+            <> [fixed3 (Segment.length s), seconds (timeOf machine move)]
+    lastNode ends cut = case (ends, reverse cut) of
+      (Part.Open, final : _) -> [["", "end", Decimal.whole (length cut), fixed3 (Mm (Vec.x (Segment.end (segment final)))), fixed3 (Mm (Vec.y (Segment.end (segment final)))), "", "", "", "", ""]]
+      _ -> []
+    everything = concatMap Path.moves (Path.blocks path)
+    summary =
+      Table.columns
+        [ToLeft, ToRight, ToLeft]
+        ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf (concatMap snd cuttings))), "mm"],
+            ["total length of the path", fixed3 (lengthOf everything), "mm"],
+            ["total time", seconds (total (map (timeOf machine) everything)), "s"]
+          ]
+            <> maybe [] tapeRows punched
+        )
+    lengthOf = total . map (Segment.length . segment)
+    tapeRows (m, Punched {program, tape}) =
+      [ ["frames", Decimal.whole (length (Frame.planned program)), ""],
+        ["rows of tape", Decimal.whole (Tape.rowCount tape), ""],
+        ["tape", Decimal.fixed 2 (Tape.metres m tape), "m"]
+      ]
+
+kind :: Segment -> Text
+kind s = case s of
+  Straight _ _ -> "line"
+  Arc {sweep = Rad a} -> if a > 0 then "arc ccw" else "arc cw"
+
+centreOf :: Segment -> [Text]
+centreOf s = case s of
+  Straight _ _ -> ["", "", ""]
+  Arc {start, centre} -> [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
+
+-- | The time of a move at the feed that the machine gives, or at the one asked when there is no machine.
+-- A rapid move takes no time when there is no machine to say how fast it is.
+timeOf :: Maybe Machine -> Move -> Seconds
+timeOf machine move = case (pace move, machine) of
+  (Rapid, Nothing) -> Seconds 0
+  (Rapid, Just m) -> maybe (Seconds 0) (travelTime l) (Machine.feedOf m (Machine.rapidCode m))
+  (At (Located _ asked), Nothing) -> travelTime l asked
+  (At (Located _ asked), Just m) -> case Machine.chooseFeed m asked of
+    Given _ given -> travelTime l given
+    NoSuchFeed _ _ -> travelTime l asked
+  where
+    l = Segment.length (segment move)
+
+fixed3 :: Mm -> Text
+fixed3 (Mm x) = Decimal.fixed 3 x
+
+seconds :: Seconds -> Text
+seconds (Seconds s) = Decimal.fixed 1 s

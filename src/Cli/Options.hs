@@ -1,0 +1,130 @@
+-- | The command line: commands, options, help.
+module Cli.Options
+  ( Command (..),
+    CompileOptions (..),
+    Invocation (..),
+    parser,
+  )
+where
+
+import Cli.Output (ColourChoice (..), Format (..), Settings (..))
+import Control.Applicative (many, optional, (<|>))
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
+import Options.Applicative (Parser, ParserInfo)
+import Options.Applicative qualified as Opt
+
+-- | What to do, and how to talk about it.
+data Invocation = Invocation {settings :: Settings, command :: Command}
+  deriving stock (Eq, Show)
+
+data Command
+  = Compile CompileOptions
+  | Check (NonEmpty FilePath)
+  | -- | program, machine, tape
+    Verify FilePath (Maybe Text) (Maybe FilePath)
+  | -- | program, machine, as JSON lines
+    Frames FilePath (Maybe Text) Bool
+  | Report FilePath (Maybe Text)
+  | Decode (Maybe Text) FilePath
+  | Plot FilePath (Maybe FilePath)
+  | Machines (Maybe Text)
+  deriving stock (Eq, Show)
+
+data CompileOptions = CompileOptions
+  { file :: FilePath,
+    targets :: [Text],
+    place :: Maybe FilePath,
+    unproven :: Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | The parser of a whole command line; the text is the version.
+parser :: String -> ParserInfo Invocation
+parser version =
+  Opt.info
+    (Opt.helper <*> Opt.infoOption ("partc " <> version) (Opt.long "version" <> Opt.help "Show the version") <*> invocation)
+    ( Opt.fullDesc
+        <> Opt.header "partc - from part programs to proven tapes"
+        <> Opt.progDesc "Compiles part programs for numerically controlled machine tools, reads its own tapes back and proves them against the drawing."
+        <> Opt.footer "Example: partc compile flange.part -t lkp-01f"
+        <> Opt.failureCode 2
+    )
+
+invocation :: Parser Invocation
+invocation = (\before (after, command) -> Invocation (settingsFrom (after `over` before)) command) <$> overrides <*> commands
+
+commands :: Parser (Overrides, Command)
+commands =
+  Opt.hsubparser . mconcat $
+    [ entry "compile" "Punch the tape of a program, proven" "partc compile flange.part -t lkp-01f -o flange.tape" (Compile <$> compileOptions),
+      entry "check" "Look for mistakes only" "partc check flange.part" (Check <$> ((:|) <$> program <*> many program)),
+      entry "verify" "Prove a tape against its program" "partc verify flange.part flange.tape" (Verify <$> program <*> optional target <*> optional tape),
+      entry "frames" "List the frames of a program" "partc frames flange.part -t lkp-01f --json" (Frames <$> program <*> optional target <*> Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")),
+      entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
+      entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
+      entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
+      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME")))
+    ]
+  where
+    entry name description example p =
+      Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
+
+compileOptions :: Parser CompileOptions
+compileOptions =
+  CompileOptions
+    <$> program
+    <*> many target
+    <*> optional outputOption
+    <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
+
+program :: Parser FilePath
+program = Opt.strArgument (Opt.metavar "FILE" <> Opt.help "A part program; - for standard input" <> Opt.action "file")
+
+tape :: Parser FilePath
+tape = Opt.strArgument (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard input" <> Opt.action "file")
+
+target :: Parser Text
+target = Opt.strOption (Opt.long "target" <> Opt.short 't' <> Opt.metavar "MACHINE" <> Opt.help "The machine, instead of the program's own")
+
+outputOption :: Parser FilePath
+outputOption = Opt.strOption (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help "The file to write, or a folder; - for standard output" <> Opt.action "file")
+
+-- | Settings as far as they are given; they may stand before the command and behind it.
+data Overrides = Overrides
+  { format' :: Maybe Format,
+    colour' :: Maybe ColourChoice,
+    quiet' :: Bool,
+    werror' :: Bool
+  }
+
+overrides :: Parser Overrides
+overrides =
+  Overrides
+    <$> optional (Opt.option (choice [("human", HumanFormat), ("short", ShortFormat), ("json", JsonFormat)]) (Opt.long "format" <> Opt.metavar "human|short|json" <> Opt.help "How reports are written" <> Opt.completeWith ["human", "short", "json"]))
+    <*> optional (Opt.option (choice [("auto", Auto), ("always", Always), ("never", Never)]) (Opt.long "color" <> Opt.metavar "auto|always|never" <> Opt.help "Colours in reports" <> Opt.completeWith ["auto", "always", "never"]))
+    <*> Opt.switch (Opt.long "quiet" <> Opt.short 'q' <> Opt.help "No warnings")
+    <*> Opt.switch (Opt.long "werror" <> Opt.help "Warnings count as errors")
+
+choice :: [(String, a)] -> Opt.ReadM a
+choice table = Opt.eitherReader $ \word ->
+  maybe (Left ("‘" <> word <> "’ is none of: " <> unwords (map fst table))) Right (lookup word table)
+
+over :: Overrides -> Overrides -> Overrides
+over later earlier =
+  Overrides
+    { format' = format' later <|> format' earlier,
+      colour' = colour' later <|> colour' earlier,
+      quiet' = quiet' later || quiet' earlier,
+      werror' = werror' later || werror' earlier
+    }
+
+settingsFrom :: Overrides -> Settings
+settingsFrom o =
+  Settings
+    { format = fromMaybe HumanFormat (format' o),
+      colour = fromMaybe Auto (colour' o),
+      quiet = quiet' o,
+      werror = werror' o
+    }

@@ -1,0 +1,112 @@
+-- | Reports to standard error, results to standard output, files whole or not at all.
+module Cli.Output
+  ( Format (..),
+    ColourChoice (..),
+    Settings (..),
+    Exit (..),
+    show',
+    result,
+    writeFileWhole,
+    ioProblem,
+  )
+where
+
+import Base.Region (Source)
+import Control.Exception (IOException, onException, try)
+import Control.Monad (when)
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.IO qualified as Text
+import Report.Human qualified as Human
+import Report.Machine qualified as Machine
+import Report.Report (Report)
+import Report.Report qualified as Report
+import System.Directory (canonicalizePath, removeFile, renameFile)
+import System.Environment (lookupEnv)
+import System.FilePath (takeDirectory, takeFileName)
+import System.IO (Handle, hClose, hIsTerminalDevice, openBinaryTempFileWithDefaultPermissions, stderr, stdout)
+import System.IO.Error (ioeGetErrorString, isDoesNotExistError, isFullError, isPermissionError)
+import System.Posix.Files (FileStatus, fileMode, getFileStatus, isDirectory, isRegularFile, setFileMode)
+
+-- | How reports are written.
+data Format = HumanFormat | ShortFormat | JsonFormat
+  deriving stock (Eq, Show)
+
+data ColourChoice = Auto | Always | Never
+  deriving stock (Eq, Show)
+
+-- | What holds for every command.
+data Settings = Settings
+  { format :: Format,
+    colour :: ColourChoice,
+    quiet :: Bool,
+    -- | warnings count as errors
+    werror :: Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | How a command ended.
+data Exit
+  = Done
+  | -- | the program or the tape has errors, or a file can not be read or written
+    Failed
+  | -- | a tape is proven wrong
+    Disproven
+  deriving stock (Eq, Ord, Show)
+
+-- | Why a file can not be read or written.
+ioProblem :: IOException -> Text
+ioProblem e
+  | isDoesNotExistError e = "there is no such file or folder"
+  | isPermissionError e = "permission denied"
+  | isFullError e = "the disk is full"
+  | otherwise = Text.pack (ioeGetErrorString e)
+
+-- | Write the reports on one file. Says whether anything among them stops the work.
+show' :: Settings -> Text -> Source -> [Report] -> IO Bool
+show' settings path source reports = do
+  painted <- useColour settings stderr
+  let render r = case format settings of
+        HumanFormat -> Human.render painted path source r <> "\n"
+        ShortFormat -> Machine.short path source r
+        JsonFormat -> Machine.json path source r
+      visible = Report.sorted (if quiet settings then filter Report.isError reports else reports)
+  mapM_ (Text.hPutStr stderr . render) visible
+  when (format settings == HumanFormat) (Text.hPutStr stderr (Human.summary painted visible))
+  pure (any Report.isError reports || werror settings && not (null reports))
+
+useColour :: Settings -> Handle -> IO Human.Colour
+useColour settings handle = case colour settings of
+  Always -> pure Human.Coloured
+  Never -> pure Human.Plain
+  Auto -> do
+    terminal <- hIsTerminalDevice handle
+    none <- lookupEnv "NO_COLOR"
+    dumb <- lookupEnv "TERM"
+    pure (if terminal && maybe True null none && dumb /= Just "dumb" then Human.Coloured else Human.Plain)
+
+-- | A result on standard output.
+result :: Text -> IO ()
+result = Text.hPutStr stdout
+
+-- | Write a file under a temporary name and rename it: what was there before stays until the new one
+-- is complete. A device or a pipe is written to as it is. The answer says what went wrong.
+writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
+writeFileWhole path bytes = either problem Right <$> try write
+  where
+    write = do
+      before <- try (getFileStatus path) :: IO (Either IOException FileStatus)
+      case before of
+        Right status | not (isRegularFile status || isDirectory status) -> ByteString.writeFile path bytes
+        _ -> canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) before)
+    replace mode place = do
+      (temporary, handle) <- openBinaryTempFileWithDefaultPermissions (takeDirectory place) (takeFileName place <> ".new")
+      flip onException (hClose handle *> removeFile temporary) $ do
+        ByteString.hPut handle bytes
+        hClose handle
+        mapM_ (setFileMode temporary) mode
+        renameFile temporary place
+    problem :: IOException -> Either Text ()
+    problem = Left . ioProblem

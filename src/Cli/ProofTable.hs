@@ -1,0 +1,43 @@
+-- | The proof of a tape as a table and a verdict.
+module Cli.ProofTable
+  ( proof,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..), Pulses (..))
+import Base.Region (Located (..))
+import Cli.Table (Align (..))
+import Cli.Table qualified as Table
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Linear.V3 (V3 (..))
+import Machine.Machine (Axis (..), Machine)
+import Machine.Machine qualified as Machine
+import Verify.Proof (Passage (..), Proof, Witness (..))
+import Verify.Proof qualified as Proof
+
+-- | The proof as a table and a verdict.
+proof :: Machine -> Proof -> Text
+proof machine p =
+  Table.columns [ToLeft, ToRight, ToLeft, ToRight, ToRight] (header : concatMap passageRows (Proof.passages p))
+    <> "\n"
+    <> Table.columns [ToLeft, ToLeft] closing
+  where
+    header = ["contour", "", "mm", "allowed", "frame"]
+    passageRows c =
+      let Name n = value (contour c)
+       in [[n, "gouge"] <> witness c (gouge c), ["", "excess"] <> witness c (excess c)]
+    witness c w = case w of
+      Nothing -> ["0.0000", fixed4 (allowed c), ""]
+      Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 (allowed c), Decimal.whole (Proof.frame x)]
+    fixed4 (Mm x) = Decimal.fixed 4 x
+    V3 (Pulses cx) (Pulses cy) (Pulses cz) = Proof.closure p
+    closing =
+      [ ["frames read back", Decimal.whole (Proof.frames p)],
+        ["largest increment", "x " <> capacityWord X <> ", y " <> capacityWord Y <> ", z " <> capacityWord Z <> " pulses at most"],
+        ["misses its end by", Text.intercalate ", " [axis <> " " <> Decimal.whole d | (axis, d) <- [("x", cx), ("y", cy), ("z", cz)]] <> " pulses"],
+        ["verdict", if Proof.isProven p then "proven" else "WRONG"]
+      ]
+    capacityWord axis = let Pulses n = Machine.capacity machine axis in Decimal.whole n

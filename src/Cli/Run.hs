@@ -1,0 +1,255 @@
+-- | The commands.
+module Cli.Run
+  ( run,
+  )
+where
+
+import Base.Region (Located (..), Source)
+import Base.Region qualified as Region
+import Base.Result (Result (..))
+import Base.Result qualified as Result
+import Cli.Error (Error (..), Warning (..))
+import Cli.Error qualified as Cli
+import Cli.Options (Command (..), CompileOptions (..), Invocation (..))
+import Cli.Output (Exit (..), Settings)
+import Cli.Output qualified as Output
+import Cli.FrameTable qualified as FrameTable
+import Cli.MachineSheet qualified as MachineSheet
+import Cli.NodeTable qualified as NodeTable
+import Cli.ProofTable qualified as ProofTable
+import Compile (Analysis (..), Punched (..))
+import Compile qualified
+import Control.Exception (try)
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Draw.Plot qualified as Plot
+import Frame.Frame qualified as Frame
+import Machine.BuiltIn qualified as BuiltIn
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
+import Part.Part (MachineRef (..))
+import Part.Part qualified as Part
+import Report.Report (Report)
+import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
+import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
+import System.IO (stdout)
+import Tape.Tape (Tape (..))
+
+-- | Run a command.
+run :: Invocation -> IO Exit
+run (Invocation settings command) = case command of
+  Compile options -> compile settings options
+  Check files -> maximum <$> traverse (check settings) (NonEmpty.toList files)
+  Verify file target tape -> verify settings file target tape
+  Frames file target json -> frames settings file target json
+  Report file target -> report settings file target
+  Decode target tape -> decode settings target tape
+  Plot file output -> plot settings file output
+  Machines name -> machines settings name
+
+-- Reading
+
+-- | A program that could be read.
+data Loaded = Loaded {name :: Text, source :: Source}
+
+-- | Read a program and go on with it.
+withProgram :: Settings -> FilePath -> (Loaded -> IO Exit) -> IO Exit
+withProgram settings file continue = do
+  bytes <- readBytes file
+  case bytes of
+    Left e -> complain settings (displayName file) e
+    Right b -> case Encoding.decodeUtf8' b of
+      Left _ -> complain settings (displayName file) NotUtf8
+      Right text -> continue Loaded {name = displayName file, source = Region.fromText text}
+
+readBytes :: FilePath -> IO (Either Error ByteString)
+readBytes file = do
+  bytes <- try (if file == "-" then ByteString.getContents else ByteString.readFile file)
+  pure (either (Left . CannotRead . Output.ioProblem) Right bytes)
+
+displayName :: FilePath -> Text
+displayName file = if file == "-" then "<stdin>" else Text.pack file
+
+-- | A mistake that belongs to a file as a whole.
+complain :: Settings -> Text -> Error -> IO Exit
+complain settings path e = Failed <$ Output.show' settings path (Region.fromText "") [Cli.toReport e]
+
+-- | Write what a stage says; go on with its output when there is nothing against it.
+settle :: Settings -> Loaded -> Result Report Report a -> (a -> IO Exit) -> IO Exit
+settle settings loaded result continue = do
+  stopped <- Output.show' settings (name loaded) (source loaded) (errors result <> warnings result)
+  case output result of
+    Just a | not stopped -> continue a
+    _ -> pure Failed
+
+analyse :: Loaded -> Result Report Report Analysis
+analyse loaded = Compile.analyse (Region.text (source loaded))
+
+-- Machines
+
+-- | The machines to work for: those of the command line, or the program's own.
+chosen :: [Text] -> Analysis -> Result w Report [Machine]
+chosen targets analysis = mapErrors' $ case (targets, Part.machine (part analysis)) of
+  ([], Nothing) -> Result.failed (NoMachine known)
+  ([], Just (Located region (Named n))) -> pure <$> look (Just region) n
+  ([], Just (Located region (Described _))) -> Result.failed (DescriptionFile region)
+  (some, _) -> traverse (look Nothing) some
+  where
+    mapErrors' = Result.mapErrors id Cli.toReport
+    look region n = maybe (Result.failed (UnknownMachine region n known)) pure (BuiltIn.find (MachineName n))
+
+known :: [Text]
+known = [n | MachineName n <- map Machine.name BuiltIn.machines]
+
+-- | The machine of the command line, for commands that have no program.
+machineNamed :: Text -> Either Error Machine
+machineNamed n = maybe (Left (UnknownMachine Nothing n known)) Right (BuiltIn.find (MachineName n))
+
+-- Commands
+
+-- | Punch a program for one machine and prove the tape.
+proven :: Bool -> Analysis -> Machine -> Result Report Report (Machine, Punched)
+proven unproven' analysis machine = do
+  punched <- Compile.punch machine (path analysis)
+  if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure ()
+  if unproven'
+    then Result.warned [Cli.warningReport Unproven]
+    else do
+      read' <- Compile.readTape machine (tape punched)
+      _ <- Compile.prove machine (path analysis) (program punched) read'
+      pure ()
+  pure (machine, punched)
+
+compile :: Settings -> CompileOptions -> IO Exit
+compile settings options = withProgram settings (file options) $ \loaded ->
+  settle settings loaded (analyse loaded >>= \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
+    places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
+    clash <- overwrites (file options) (map fst places)
+    case clash of
+      Just place -> complain settings (name loaded) (OverwritesProgram (Text.pack place))
+      Nothing -> writeAll settings loaded [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+
+-- | Where a tape goes: beside the program, into a folder, or to the file that is named.
+destination :: CompileOptions -> Int -> Machine -> IO FilePath
+destination options count machine = case place options of
+  Nothing -> pure (if file options == "-" then standard else replaceDirectory' standard)
+  Just "-" -> pure "-"
+  Just there -> do
+    folder <- doesDirectoryExist there
+    pure (if folder || hasTrailingPathSeparator there || count > 1 then there </> standard else there)
+  where
+    
+    MachineName machineName = Machine.name machine
+    base = if file options == "-" then "stdin" else dropExtension (takeFileName (file options))
+    standard = base <.> Text.unpack machineName <.> "tape"
+    replaceDirectory' f = replaceDirectory f (directory (file options))
+    directory f = take (length f - length (takeFileName f)) f
+
+-- | The first output that is the program itself.
+overwrites :: FilePath -> [FilePath] -> IO (Maybe FilePath)
+overwrites "-" _ = pure Nothing
+overwrites program' places = do
+  there <- doesFileExist program'
+  self <- if there then canonicalizePath program' else pure program'
+  others <- traverse canonicalizePath places
+  pure (lookup self (zip others places))
+
+writeAll :: Settings -> Loaded -> [(FilePath, ByteString)] -> IO Exit
+writeAll settings loaded files = case files of
+  [] -> pure Done
+  (place, bytes) : rest -> do
+    written <- if place == "-" then Right () <$ ByteString.hPut stdout bytes else Output.writeFileWhole place bytes
+    case written of
+      Left why -> complain settings (name loaded) (CannotWrite (Text.pack place) why)
+      Right () -> writeAll settings loaded rest
+
+-- | Mistakes only: nothing past the path and the machine's limits.
+check :: Settings -> FilePath -> IO Exit
+check settings file' = withProgram settings file' $ \loaded ->
+  settle settings loaded (analyse loaded >>= limits) (const (pure Done))
+  where
+    limits a = case Part.machine (part a) of
+      Nothing -> pure []
+      Just _ -> chosen [] a >>= traverse (\m -> Compile.punch m (path a))
+
+verify :: Settings -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
+verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
+  settle settings loaded (prepared target loaded) $ \(analysis, machine, punched) -> do
+    given <- maybe (pure (Right (tape punched))) (fmap (fmap Tape) . readBytes) tapeFile
+    case given of
+      Left e -> complain settings (maybe "" displayName tapeFile) e
+      Right t -> do
+        let read' = Compile.readTape machine t
+            tapeName = maybe (name loaded) displayName tapeFile
+        broken <- Output.show' settings tapeName (source loaded) (errors read')
+        case output read' of
+          Just fs | not broken -> do
+            let result = Compile.prove machine (path analysis) (program punched) fs
+            mapM_ (Output.result . ProofTable.proof machine) (output result)
+            _ <- Output.show' settings (name loaded) (source loaded) (errors result)
+            pure (if null (errors result) then Done else Disproven)
+          _ -> pure Failed
+
+-- | A program with its frames and tape for one machine.
+prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
+prepared target loaded = do
+  a <- analyse loaded
+  ms <- chosen (maybe [] pure target) a
+  case ms of
+    m : _ -> (\p -> (a, m, p)) <$> Compile.punch m (path a)
+    [] -> Result.failed (Cli.toReport (NoMachine known))
+
+frames :: Settings -> FilePath -> Maybe Text -> Bool -> IO Exit
+frames settings file' target json = withProgram settings file' $ \loaded ->
+  settle settings loaded (prepared target loaded) $ \(_, machine, punched) -> do
+    Output.result ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
+    pure Done
+
+report :: Settings -> FilePath -> Maybe Text -> IO Exit
+report settings file' target = withProgram settings file' $ \loaded ->
+  settle settings loaded (analyse loaded >>= \a -> (a,) <$> onMachine a) $ \(a, punched) ->
+    Done <$ Output.result (NodeTable.nodes punched a)
+  where
+    onMachine a = case (target, Part.machine (part a)) of
+      (Nothing, Nothing) -> pure Nothing
+      _ ->
+        chosen (maybe [] pure target) a >>= \ms -> case ms of
+          m : _ -> (\p -> Just (m, p)) <$> Compile.punch m (path a)
+          [] -> pure Nothing
+
+decode :: Settings -> Maybe Text -> FilePath -> IO Exit
+decode settings target tapeFile = case maybe (Left (NoMachine known)) machineNamed target of
+  Left e -> complain settings (displayName tapeFile) e
+  Right machine -> do
+    bytes <- readBytes tapeFile
+    case bytes of
+      Left e -> complain settings (displayName tapeFile) e
+      Right b -> do
+        let result = Compile.readTape machine (Tape b)
+        _ <- Output.show' settings (displayName tapeFile) (Region.fromText "") (errors result)
+        case output result of
+          Just fs -> Done <$ Output.result (FrameTable.decoded machine fs)
+          Nothing -> pure Failed
+
+plot :: Settings -> FilePath -> Maybe FilePath -> IO Exit
+plot settings file' place = withProgram settings file' $ \loaded ->
+  settle settings loaded (analyse loaded) $ \analysis -> do
+    let svg = Plot.plot (part analysis) (path analysis)
+    case place of
+      Just p | p /= "-" -> do
+        clash <- overwrites file' [p]
+        case clash of
+          Just same -> complain settings (name loaded) (OverwritesProgram (Text.pack same))
+          Nothing -> writeAll settings loaded [(p, Encoding.encodeUtf8 svg)]
+      _ -> Done <$ Output.result svg
+
+machines :: Settings -> Maybe Text -> IO Exit
+machines settings wanted = case wanted of
+  Nothing -> Done <$ Output.result (MachineSheet.machineList BuiltIn.machines)
+  Just n -> case machineNamed n of
+    Left e -> complain settings "" e
+    Right m -> Done <$ Output.result (MachineSheet.machineSheet m)
