@@ -123,7 +123,7 @@ split :: Machine -> V3 Pulses -> (Point, Point) -> [V3 Pulses]
 split machine begin (a, b) = head' (filter fits (map parts [fewest ..]))
   where
     finish = rounded machine b
-    fewest = max 1 (maximum [needed axis d | (axis, d) <- axes (finish - begin)])
+    fewest = maximum (1 : [needed axis d | (axis, d) <- axes (finish - begin)])
     needed axis (Pulses d) = let Pulses c = Machine.capacity machine axis in if d == 0 then 1 else (abs d + c - 1) `div` c
     parts n = [rounded machine (Vec.between (fromIntegral k / fromIntegral n) a b) | k <- [1 .. n - 1]] <> [finish]
     fits stops = and [abs d <= Machine.capacity machine axis | step <- zipWith (-) stops (begin : stops), (axis, d) <- axes step]

@@ -57,12 +57,13 @@ prove machine path program frames =
     own = map Frame.frame (Frame.planned program)
     strokes = Control.run begin frames
     traces = [Trace s (Control.segment machine s) | s <- strokes]
-    (passages, found) = unzip (follow machine traces [b | b@Cutting {} <- Path.blocks path])
+    sameCount = length own == length frames
+    (passages, found) = unzip (follow machine (not sameCount) traces [b | b@Cutting {} <- Path.blocks path])
     closure = begin + sum (map increment frames) - Frame.end program
     findings =
       concat found
         <> take 1 [OffPlane (number s) | s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
-        <> wrongFeeds program frames
+        <> (if sameCount then wrongFeeds program frames else [])
         <> [NotClosed closure | closure /= 0]
     firstDifference = listToMaybe ([n | (n, a, b) <- zip3 [1 ..] own frames, a /= b] <> [1 + min (length own) (length frames) | length own /= length frames])
     order finding = case finding of
@@ -75,8 +76,9 @@ prove machine path program frames =
       NotClosed _ -> (maxBound, 6)
 
 -- | The milled contours one after the other; each begins on the tape behind the end of the one before.
-follow :: Machine -> [Trace] -> [Block] -> [(Passage, [Finding])]
-follow machine traces = go traces
+-- The feeds along them are looked at here only when the frames can not be compared one by one.
+follow :: Machine -> Bool -> [Trace] -> [Block] -> [(Passage, [Finding])]
+follow machine feeds traces = go traces
   where
     index = Box.index (Box.ofSegment . line) (filter inPlane traces)
     go rest blocks = case blocks of
@@ -87,7 +89,8 @@ follow machine traces = go traces
             exit = Segment.end (Path.segment (NonEmpty.last cut))
             job = Job {milling, statement = region, entry, exit, reach = contactRadius milling, allowed' = plus (Part.tolerance milling) (Machine.pulse machine)}
             (within, behind) = passageOf job rest
-         in examine machine job traces index within : go behind more
+            cuts = if feeds then wrongCuts machine job (concat within) else []
+         in ((<> cuts) <$> examine job traces index within) : go behind more
 
 inPlane :: Trace -> Bool
 inPlane t = case (from (stroke t), to (stroke t)) of
@@ -130,24 +133,23 @@ passageOf job traces = case dropWhile (not . arrives (entry job)) traces of
     arrives p t = Vec.distance p (Segment.end (line t)) <= allowed' job
 
 -- | How one contour came out.
-examine :: Machine -> Job -> [Trace] -> Box.Index Trace -> Maybe [Trace] -> (Passage, [Finding])
-examine machine job traces index within = (passage, findings)
+examine :: Job -> [Trace] -> Box.Index Trace -> Maybe [Trace] -> (Passage, [Finding])
+examine job traces index within = (passage, findings)
   where
     elements = elementsOf job
     elementIndex = Box.index (Box.ofSegment . Part.segment) elements
     gouges = mapMaybe (gougeOf job elementIndex) (if reach job > Mm 0 then traces else [])
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
-    missed = uncut job traces index elements
+    missed = uncut job index elements
     strayed = maybe [] (mapMaybe (strayOf job elementIndex)) within
     most = listToMaybe (sortOn (negated . amount) (missed <> strayed))
     passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowed = allowed' job}
     tooMuch w = amount w > allowed' job
     findings =
       [Gouge first worst (allowed' job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
-        <> [Excess first (allowed' job) | first : _ <- [sortOn frame (filter tooMuch (missed <> strayed))]]
+        <> [Excess first (allowed' job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
         <> take 1 (maybe [] (mapMaybe (wrongSide job elementIndex)) within)
         <> [NeverBegun (statement job) | Nothing <- [within]]
-        <> concatMap (feedOf machine job) (concat within)
     negated (Mm x) = -x
 
 -- | How deep a stroke cuts into the contour, if it does.
@@ -165,32 +167,54 @@ gougeOf job index t
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
 -- or more than is allowed.
-uncut :: Job -> [Trace] -> Box.Index Trace -> [Element] -> [Witness]
-uncut job traces index = go (Mm 0)
+uncut :: Job -> Box.Index Trace -> [Element] -> [Witness]
+uncut job index = go (Mm 0)
   where
     go least elements = case elements of
       [] -> []
-      e : rest
-        | null (gapsAt least near) -> go least rest
-        | null (gapsAt (allowed' job) near) ->
-          let most = halve (\m -> null (gapsAt m near)) least (allowed' job) in witness e most near : go most rest
-        | otherwise -> case filter inPlane traces of
-          [] -> go least rest
-          all' ->
-            let upper = minus (plus (Segment.length s) (minimum (map (Distance.toPoint (Segment.start s) . line) all'))) (reach job)
-                most = halve (\m -> null (gapsAt m all')) (allowed' job) (max upper (allowed' job))
-             in witness e most all' : go least rest
-        where
-          s = Part.segment e
-          near = Box.within (Box.inflate (plus (reach job) (allowed' job)) (Box.ofSegment s)) index
-          gapsAt m ts = Distance.uncovered (plus (reach job) m) (map line ts) s
-    witness e most ts =
-      let s = Part.segment e
-          p = case Distance.uncovered (plus (reach job) (minus most (times 2 Tolerance.resolution))) (map line ts) s of
-            (a, b) : _ -> Segment.at ((a + b) / 2) s
-            [] -> Segment.start s
-          nearest = minimumBy (comparing (Distance.toPoint p . line)) ts
-       in Witness {amount = most, frame = number (stroke nearest), element = Part.origin e, place = p}
+      e : rest -> case furthest job around least (Part.segment e) of
+        Nothing -> go least rest
+        Just (most, p, near) ->
+          let nearest = minimumBy (comparing (Distance.toPoint p . line)) near
+              next = if most > allowed' job then least else most
+           in Witness {amount = most, frame = number (stroke nearest), element = Part.origin e, place = p} : go next rest
+    around box = [(line t, t) | t <- Box.within box index]
+
+-- | How far a stroke strays from the contour, if it is more than is allowed.
+strayOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
+strayOf job index t = case furthest job around (allowed' job) (line t) of
+  Nothing -> Nothing
+  Just (most, p, near) ->
+    let e = minimumBy (comparing (Distance.toPoint p . Part.segment)) near
+     in Just Witness {amount = most, frame = number (stroke t), element = Part.origin e, place = p}
+  where
+    around box = [(Part.segment e, e) | e <- Box.within box index]
+
+-- | How much further than the cutter's radius some point of a segment lies from the others, if it is
+-- more than a bound: the excess, the point, the others around it. The others are asked for by boxes.
+-- An excess beyond 'lost' is given as that.
+furthest :: Job -> (Box.Box -> [(Segment, a)]) -> Mm -> Segment -> Maybe (Mm, Point, [a])
+furthest job around least segment
+  | covered least = Nothing
+  | otherwise = case dropWhile (not . covered) widths of
+    [] -> witness lost
+    enough : _ -> witness (halve covered least enough)
+  where
+    widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowed' job)))
+    others m = around (Box.inflate (plus (reach job) m) (Box.ofSegment segment))
+    gaps m = Distance.uncovered (plus (reach job) m) (map fst (others m)) segment
+    covered = null . gaps
+    witness most = case map snd (others most) of
+      [] -> Nothing
+      near ->
+        let p = case gaps (minus most (times 2 Tolerance.resolution)) of
+              (a, b) : _ -> Segment.at ((a + b) / 2) segment
+              [] -> Segment.start segment
+         in Just (most, p, near)
+
+-- | An excess that is as good as infinite: the part is not cut there at all.
+lost :: Mm
+lost = Mm 1e7
 
 -- | Between a value that does not hold and one that does, the smallest that does.
 halve :: (Mm -> Bool) -> Mm -> Mm -> Mm
@@ -200,23 +224,6 @@ halve holds low high
   | otherwise = halve holds middle high
   where
     middle = times 0.5 (plus low high)
-
--- | How far a stroke strays from the contour, if it is more than is allowed.
-strayOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
-strayOf job index t = case gaps (allowed' job) near of
-  [] -> Nothing
-  _ ->
-    let most = halve (\m -> null (gaps m everything)) (allowed' job) upper
-        p = case gaps (minus most (times 2 Tolerance.resolution)) everything of
-          (a, b) : _ -> Segment.at ((a + b) / 2) (line t)
-          [] -> Segment.end (line t)
-        e = minimumBy (comparing (Distance.toPoint p . Part.segment)) everything
-     in Just Witness {amount = most, frame = number (stroke t), element = Part.origin e, place = p}
-  where
-    everything = elementsOf job
-    near = Box.within (Box.inflate (plus (reach job) (allowed' job)) (Box.ofSegment (line t))) index
-    gaps m es = Distance.uncovered (plus (reach job) m) (map Part.segment es) (line t)
-    upper = plus (Segment.length (line t)) (minimum (map (Distance.toPoint (Segment.start (line t)) . Part.segment) everything))
 
 -- | A stroke whose middle lies beside an element on the wrong side.
 wrongSide :: Job -> Box.Index Element -> Trace -> Maybe Finding
@@ -238,32 +245,19 @@ wrongSide job index t = case (side, near) of
           ahead = Segment.directionAt (Segment.fraction s middle) s
        in if Vec.cross ahead (Vec.to foot middle) > 0 then Offset.LeftOf else Offset.RightOf
 
--- | A stroke along the contour that runs at another feed than its statement asks.
-feedOf :: Machine -> Job -> Trace -> [Finding]
-feedOf machine job t = case Machine.chooseFeed machine (value asked) of
-  Machine.Given wanted _ | code (stroke t) /= wanted -> [WrongFeed (number (stroke t)) (code (stroke t)) wanted (region asked)]
-  _ -> []
+-- | Strokes along a contour that run at another feed than its statement asks.
+wrongCuts :: Machine -> Job -> [Trace] -> [Finding]
+wrongCuts machine job within = case Machine.chooseFeed machine (value asked) of
+  Machine.Given wanted _ -> [WrongFeed (number s) (code s) wanted (region asked) | s <- map stroke within, code s /= wanted]
+  Machine.NoSuchFeed _ _ -> []
   where
     asked = Part.feed (milling job)
 
--- | Frames of the ways between the contours whose feed is not the one that the program asks for. They are
--- compared one by one; when the tape has more or fewer frames, only as far as the frames before were
--- the same.
+-- | Frames whose feed is not that of the program's own frame in the same place.
 wrongFeeds :: Program -> [Frame] -> [Finding]
 wrongFeeds program frames =
   [ WrongFeed n (speed f) (speed own) (Frame.origin planned)
-    | (n, planned, f) <- aligned,
-      not (cutting (Frame.role planned)),
+    | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames,
       let own = Frame.frame planned,
       speed f /= speed own
   ]
-  where
-    numbered = zip3 [1 ..] (Frame.planned program) frames
-    aligned
-      | length frames == length (Frame.planned program) = numbered
-      | otherwise = takeWhile (\(_, planned, f) -> increment f == increment (Frame.frame planned)) numbered
-    cutting role = case role of
-      Frame.Cutting _ -> True
-      Frame.Approaching _ -> False
-      Frame.Retracting _ -> False
-      Frame.Travelling -> False

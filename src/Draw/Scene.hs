@@ -1,0 +1,145 @@
+-- | What is to be drawn, laid on paper: contours, cuts and the ways between them.
+module Draw.Scene
+  ( Scene (..),
+    Shape (..),
+    Matter (..),
+    Cut (..),
+    set,
+  )
+where
+
+import Base.Quantity (Mm)
+import Base.Region (Located (..))
+import Data.List (nub)
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isNothing, mapMaybe)
+import Draw.Sheet (Sheet)
+import Draw.Sheet qualified as Sheet
+import Geometry.Box (Box)
+import Geometry.Box qualified as Box
+import Geometry.Contour (Ends (..))
+import Geometry.Contour qualified as Contour
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Part.Part (Milling (contour, radius), Operation (..), Pace (..), Part)
+import Part.Part qualified as Part
+import Path.FromPart qualified as Path
+import Path.Path (Block (..), Move, Path)
+import Path.Path qualified as Path
+
+-- | What is drawn, on paper.
+data Scene = Scene
+  { sheet :: Sheet,
+    shapes :: [Shape],
+    cuts :: [Cut],
+    -- | straight moves without cutting
+    feeds :: [Segment],
+    rapids :: [Segment],
+    start :: Point,
+    -- | the radii of all cutters, in mm of the part
+    tools :: [Mm]
+  }
+
+-- | A contour of the part.
+data Shape = Shape {ends :: Ends, matter :: Matter, outline :: [Segment]}
+
+-- | Where the material is.
+data Matter
+  = -- | within the contour
+    Within
+  | -- | around it
+    Beyond
+  | -- | the drawing does not say
+    Unknown
+  deriving stock (Eq)
+
+-- | The way of the cutter's centre along a contour.
+data Cut = Cut
+  { course :: NonEmpty Segment,
+    -- | the radius of the cutter
+    reach :: Double,
+    -- | the side of the walk that is away from the contour: +1 when it is its right
+    away :: Double,
+    -- | whether it runs on the contour itself
+    upon :: Bool
+  }
+
+-- | Lay a part and a path on a sheet that holds them.
+set :: Part -> Path -> Scene
+set part path =
+  Scene
+    { sheet,
+      shapes = map (shapeOf sheet millings) contours,
+      cuts = mapMaybe (cutOf sheet) (Path.blocks path),
+      feeds = along (\pace -> pace /= Rapid),
+      rapids = along (== Rapid),
+      start = Sheet.place sheet begin,
+      tools = nub (map radius millings)
+    }
+  where
+    begin = value (Path.start path)
+    millings = concatMap millingOf (Part.operations part)
+    contours = nub (Part.contours part <> map contour millings)
+    between = concatMap movesBetween (Path.blocks path)
+    along wanted = map (Sheet.segment sheet) (nub [Path.segment m | m <- between, wanted (Path.pace m)])
+    sheet = Sheet.lay (foldl Box.union (Box.ofPoints begin []) (boxesOf contours path))
+
+millingOf :: Operation -> [Milling]
+millingOf operation = case operation of
+  Mill job -> [value job]
+  Travel _ -> []
+
+movesBetween :: Block -> [Move]
+movesBetween block = case block of
+  Travelling moves -> moves
+  Cutting {approach, retract} -> approach <> retract
+
+-- | What has to be on the page.
+boxesOf :: [Part.Contour] -> Path -> [Box]
+boxesOf contours path =
+  [Sheet.extent s | c <- contours, s <- NonEmpty.toList (Contour.segments (Part.outline c))]
+    <> [Sheet.extent (Path.segment m) | b <- Path.blocks path, m <- Path.moves b]
+    <> concatMap cutterBox (Path.blocks path)
+
+cutterBox :: Block -> [Box]
+cutterBox block = case block of
+  Travelling _ -> []
+  Cutting {job = Located _ milling, cut} ->
+    [Box.inflate (radius milling) (Box.ofPoints (Segment.start (Path.segment (NonEmpty.head cut))) [])]
+
+shapeOf :: Sheet -> [Milling] -> Part.Contour -> Shape
+shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Sheet.segment sheet) (NonEmpty.toList (Contour.segments bare))}
+  where
+    bare = Part.outline c
+    matter = case mapMaybe sideOf (filter (\m -> contour m == c) millings) of
+      side : _ | Part.ends c == Closed -> if (side == Offset.LeftOf) == (Contour.signedArea bare > 0) then Beyond else Within
+      _ -> Unknown
+
+-- | The side of the walk on which the cutter stands, if it stands on one.
+sideOf :: Milling -> Maybe Offset.Side
+sideOf milling = case Path.leadingSide milling of
+  Left _ -> Nothing
+  Right side -> side
+
+cutOf :: Sheet -> Block -> Maybe Cut
+cutOf sheet block = case block of
+  Travelling _ -> Nothing
+  Cutting {job = Located _ milling, cut} ->
+    Just
+      Cut
+        { course = fmap (\m -> Sheet.segment sheet (Path.segment m)) cut,
+          reach = Sheet.onPaper sheet (radius milling),
+          away = awayFrom milling,
+          upon = isNothing (sideOf milling)
+        }
+
+-- | A cutter on the contour itself leaves no side free; the labels then stand outside.
+awayFrom :: Milling -> Double
+awayFrom milling = case (sideOf milling, Part.ends (contour milling)) of
+  (Just Offset.LeftOf, _) -> -1
+  (Just Offset.RightOf, _) -> 1
+  (Nothing, Closed) -> signum (Contour.signedArea (Part.outline (contour milling)))
+  (Nothing, Open) -> -1

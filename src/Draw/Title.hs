@@ -1,0 +1,118 @@
+-- | What stands below the drawing: the legend, the scale bar and the title.
+module Draw.Title
+  ( name,
+    block,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name qualified as Name
+import Base.Quantity (Mm (..), times)
+import Data.Maybe (catMaybes)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Draw.Scene (Cut (upon), Matter (..), Scene (..), Shape (..))
+import Draw.Sheet (Area (..), Sheet)
+import Draw.Sheet qualified as Sheet
+import Draw.Sign qualified as Sign
+import Draw.Svg (Anchor (..), Pen (..), Style (..), Svg)
+import Draw.Svg qualified as Svg
+import Geometry.Segment (Segment (Straight))
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Part)
+import Part.Part qualified as Part
+
+-- | The part's name and its title on one line.
+name :: Part -> Text
+name part = Text.intercalate ". " (catMaybes [Name.text <$> Part.name part, Part.title part])
+
+-- | The frame of the page and the strip below the drawing.
+block :: Part -> Scene -> [Svg]
+block part scene = borders <> legend scene <> scaleBar (sheet scene) <> title part scene
+
+-- | Where the strip is divided, in mm from the left edge of the page.
+barEdge, titleEdge :: Double
+barEdge = 160
+titleEdge = 203
+
+borders :: [Svg]
+borders =
+  [ Svg.rectangle Sign.framePen "none" Sheet.field,
+    Svg.rectangle Sign.framePen "none" Sheet.strip,
+    upright barEdge,
+    upright titleEdge
+  ]
+  where
+    upright x = Svg.stroke Sign.framePen [Straight (Vec.point x (upper Sheet.strip)) (Vec.point x (lower Sheet.strip))]
+
+-- | The signs that the drawing uses, in two rows.
+legend :: Scene -> [Svg]
+legend scene = concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- signs scene])
+  where
+    entry i (sample, words') =
+      let (column, row) = (i :: Int) `divMod` 2
+          p = Vec.point (leftmost Sheet.strip + 3 + 29.4 * fromIntegral column) (upper Sheet.strip + 5 + 6.2 * fromIntegral row)
+       in sample p <> [Svg.text Sign.small Start (Vec.shift (Vec.vec 10 0.9) p) words']
+
+-- | Whether the drawing has a sign, how it is drawn about the left end of its place, and what it means.
+signs :: Scene -> [(Bool, Point -> [Svg], Text)]
+signs Scene {sheet, shapes, cuts, feeds, rapids} =
+  [ (any (\s -> matter s == Unknown) shapes, line Sign.contourPen, "contour"),
+    (any (\s -> matter s /= Unknown) shapes, \p -> surface p <> line Sign.contourPen p, "part"),
+    (not (null cuts), line Sign.pathPen, "cutter path"),
+    (any upon cuts, \p -> concatMap (`line` p) [Sign.edgePen, Sign.bedPen, Sign.pathPen], "on a contour"),
+    (not (null cuts), \p -> [Sign.node True (middle p)], "node"),
+    (not (null feeds), way Sign.feedPen, "way at feed"),
+    (not (null rapids), way Sign.rapidPen, "rapid way"),
+    (not (null cuts), Sign.cutter 2 . middle, "cutter"),
+    (True, Sign.start . middle, "start"),
+    (Sheet.holds Sheet.field (Sheet.place sheet (Vec.point 0 0)), Sign.origin . middle, "origin")
+  ]
+  where
+    line pen p = [Svg.stroke pen [Straight p (right p)]]
+    way pen p = line pen p <> [Svg.arrow Sign.red 2.4 (Vec.vec 1 0) (Vec.shift (Vec.vec 5.2 0) p)]
+    surface p = [Svg.rectangle (Pen "none" 0 []) Sign.matterColour (Area (Vec.x p) (Vec.y p) (Vec.x p + 8) (Vec.y p + 2))]
+    right = Vec.shift (Vec.vec 8 0)
+    middle = Vec.shift (Vec.vec 4 0)
+
+-- | A round length of 12 to 30 mm on paper, in four steps, black and white in turn.
+scaleBar :: Sheet -> [Svg]
+scaleBar sheet = zipWith step [0 ..] [Sign.black, "white", Sign.black, "white"] <> zipWith mark [0, 0.5, 1] ["", "", " mm"]
+  where
+    total = Sheet.round125 (30 / Sheet.onPaper sheet (Mm 1))
+    width = Sheet.onPaper sheet (Mm total)
+    left = (barEdge + titleEdge - width) / 2
+    y = upper Sheet.strip + 5
+    step from colour =
+      Svg.rectangle Sign.axisPen {colour = Sign.black} colour (Area (left + width * from / 4) y (left + width * (from + 1) / 4) (y + 1.6))
+    mark fraction unit =
+      Svg.text Sign.small Middle (Vec.point (left + width * fraction) (y + 5)) (Decimal.short 4 (total * fraction) <> unit)
+
+-- | The title block: the part, the scale and the cutters.
+title :: Part -> Scene -> [Svg]
+title part Scene {sheet, tools} =
+  [ fitted Style {size = 4, ink = Sign.black, bold = True} (Vec.point left (y + 5.6)) (name part),
+    Svg.stroke Sign.axisPen {colour = Sign.black} [Straight (Vec.point titleEdge (y + 8.2)) (Vec.point (rightmost Sheet.strip) (y + 8.2))],
+    Svg.text plain Start (Vec.point left (y + 13.2)) ("scale " <> Sheet.ratio (Sheet.scale sheet)),
+    fitted plain (Vec.point (left + 30) (y + 13.2)) cutters
+  ]
+  where
+    left = titleEdge + 3
+    y = upper Sheet.strip
+    plain = Style {size = 3, ink = Sign.black, bold = False}
+    cutters = case tools of
+      [] -> ""
+      _ -> "cutter Ø " <> Text.intercalate ", " (map diameter tools) <> " mm"
+    diameter r = let Mm d = times 2 r in Decimal.short 4 d
+
+-- | A text made to end before the right edge of the strip: smaller first, then cut short.
+fitted :: Style -> Point -> Text -> Svg
+fitted style p words' = Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)
+  where
+    room = rightmost Sheet.strip - 3 - Vec.x p
+    fits s w = Svg.textWidth s w <= room
+    chosen = max 2 (min (size style) (size style * room / max 1 (Svg.textWidth (size style) words')))
+    short = case filter (fits chosen) (map (<> "…") (reverse (Text.inits words'))) of
+      longest : _ -> longest
+      [] -> "…"

@@ -1,0 +1,71 @@
+-- | The flange of the Ural paper, compiled once for all tests, and what its drawing gives exactly.
+module Flange
+  ( text,
+    analysis,
+    program,
+    tape,
+    frames,
+    exactNodes,
+  )
+where
+
+import Base.Result qualified as Result
+import Compile (Analysis, Punched)
+import Compile qualified
+import Data.ByteString qualified as ByteString
+import Data.Text (Text)
+import Data.Text.Encoding qualified as Encoding
+import Frame.Frame (Frame, Program)
+import Frame.Frame qualified as Frame
+import Machine.Lkp01f (lkp01f)
+import System.IO.Unsafe (unsafePerformIO)
+import Tape.Tape (Tape)
+
+-- | The program as it stands among the examples.
+text :: Text
+text = Encoding.decodeUtf8 (unsafePerformIO (ByteString.readFile "examples/flange.part"))
+{-# NOINLINE text #-}
+
+analysis :: Analysis
+analysis = expect (Compile.analyse text)
+
+punched :: Punched
+punched = expect (Compile.punch lkp01f (Compile.path analysis))
+
+program :: Program
+program = Compile.program punched
+
+tape :: Tape
+tape = Compile.tape punched
+
+frames :: [Frame]
+frames = map Frame.frame (Frame.planned program)
+
+expect :: Show e => Result.Result w e a -> a
+expect r = case Result.settled r of
+  Just a -> a
+  Nothing -> error ("the flange has errors: " <> show (Result.errors r))
+
+-- | The 18 nodes of the equidistant, computed from the drawing independently of this program, in the
+-- paper's order and numbering, to 0.0001 mm.
+exactNodes :: [(Double, Double)]
+exactNodes =
+  [ (4.9343, 40.9132),
+    (7.4339, 61.2915),
+    (14.3993, 73.4239),
+    (24.4448, 90.8232),
+    (31.4691, 102.9216),
+    (47.8674, 115.2755),
+    (70.7326, 115.2755),
+    (87.1309, 102.9216),
+    (94.1552, 90.8232),
+    (104.2007, 73.4239),
+    (111.1661, 61.2915),
+    (113.6657, 40.9132),
+    (102.2331, 21.1113),
+    (83.3352, 13.0869),
+    (69.3455, 13.0529),
+    (49.2545, 13.0529),
+    (35.2648, 13.0869),
+    (16.3669, 21.1113)
+  ]

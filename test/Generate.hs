@@ -1,0 +1,208 @@
+-- | Random contours of lines and arcs for the laws: convex and concave, smooth and with corners,
+-- open and closed, walked either way.
+module Generate
+  ( Case (..),
+    closedCase,
+    openCase,
+    smoothCase,
+    radiusOf,
+    milled,
+    straightPath,
+    Motion (..),
+    motion,
+    move,
+    movePoint,
+    frames,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
+import Base.Region (Located (..), Region (..))
+import Base.Result qualified as Result
+import Data.List (sort)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Frame.Frame (Frame (..))
+import Geometry.Contour (Contour (..), Ends (..))
+import Geometry.Contour qualified as Contour
+import Geometry.Fillet (Fillet (..))
+import Geometry.Fillet qualified as Fillet
+import Geometry.Offset (Piece, Side (..))
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment (Arc, Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Line (..), Turn (..), Walked (..))
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Linear.V3 (V3 (..))
+import Machine.Machine (FeedCode (..), Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Element (..), Milling (Milling), Operation (..), Part (Part), Stop (Stop))
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
+import Path.Path (Path)
+import Path.Path qualified as Path
+import Test.QuickCheck
+
+-- | A contour, a side and a cutter that fits, with the equidistant.
+data Case = Case {contour :: Contour, side :: Side, radius :: Mm, pieces :: NonEmpty Piece}
+  deriving stock (Show)
+
+radiusOf :: Case -> Double
+radiusOf c = let Mm r = radius c in r
+
+-- | Closed contours, with sharp outer corners now and then, walked either way, the cutter on either side.
+closedCase :: Gen Case
+closedCase = fitting (oneof [polygon True, bulged]) =<< elements [LeftOf, RightOf]
+
+-- | Closed contours without corners.
+smoothCase :: Gen Case
+smoothCase = fitting (polygon False) =<< elements [LeftOf, RightOf]
+
+-- | A part of a closed contour.
+openCase :: Gen Case
+openCase = do
+  s <- elements [LeftOf, RightOf]
+  flip fitting s $ do
+    Contour _ ss <- polygon True
+    k <- choose (1, NonEmpty.length ss - 1)
+    pure (Contour Open (NonEmpty.fromList (NonEmpty.take k ss)))
+
+-- | With a cutter that fits; contours that no cutter fits are not of interest.
+fitting :: Gen Contour -> Side -> Gen Case
+fitting gen side = do
+  c <- gen
+  reversed <- arbitrary
+  r <- oneof [choose (0.1, 3), choose (3, 15)]
+  let c' = if reversed then Contour.reverse c else c
+  case Offset.equidistant side (Mm r) c' of
+    Right pieces -> pure Case {contour = c', side, radius = Mm r, pieces}
+    Left _ -> fitting gen side
+
+-- | A star-shaped polygon with rounded corners; outer ones may stay sharp.
+polygon :: Bool -> Gen Contour
+polygon sharp = do
+  vs <- vertices
+  let n = length vs
+      corner k = (vs !! ((k + n - 1) `mod` n), vs !! (k `mod` n), vs !! ((k + 1) `mod` n))
+  roundings <- traverse (rounding . corner) [0 .. n - 1]
+  let ends k = roundings !! (k `mod` n)
+      walk = concat [[Straight (snd' (ends k)) (fst' (ends (k + 1)))] <> middle' (ends (k + 1)) | k <- [0 .. n - 1]]
+  pure (Contour Closed (NonEmpty.fromList (chain (filter ((> Mm 1e-3) . Segment.length) walk))))
+  where
+    chain ss = NonEmpty.toList (Contour.chained id const Closed (NonEmpty.fromList ss))
+    fst' (a, _, _) = a
+    snd' (_, b, _) = b
+    middle' (_, _, m) = m
+    rounding (a, b, c) = do
+      let u = Vec.unit (Vec.to a b)
+          v = Vec.unit (Vec.to b c)
+          Rad turned = Vec.turn u v
+          outer = turned > 0
+          Mm before = Vec.distance a b
+          Mm after = Vec.distance b c
+          most = 0.45 * min before after / tan (abs turned / 2)
+          turn = if outer then CounterClockwise else Clockwise
+      r <- choose (0.3 * most, most)
+      stay <- frequency [(2, pure False), (1, pure (sharp && outer))]
+      pure $
+        if stay || abs turned < 0.02
+          then (b, b, [])
+          else case Fillet.between (Mm r) turn (OnLine (Line a b)) (OnLine (Line b c)) of
+            Fillet m p q : _ -> (p, q, [Segment.arc turn m p q])
+            [] -> (b, b, [])
+
+-- | A convex polygon of arcs that bulge outwards or are nearly straight, with sharp corners.
+bulged :: Gen Contour
+bulged = do
+  n <- choose (2, 6)
+  r <- choose (20, 60)
+  let vs = [Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 7 (-3)) | k <- [0 .. n - 1 :: Int]]
+  arcs <- traverse (uncurry arcOver) (zip vs (drop 1 vs <> take 1 vs))
+  pure (Contour Closed (NonEmpty.fromList arcs))
+  where
+    -- An arc to the right of its chord, of a sweep of at most 100°.
+    arcOver a b = do
+      half <- choose (0.02, 0.87)
+      let Mm chord = Vec.distance a b
+          deep = chord / 2 / tan half
+          c = Vec.shift (Vec.scale deep (Vec.left (Vec.unit (Vec.to a b)))) (Vec.between 0.5 a b)
+      pure (Segment.arc CounterClockwise c a b)
+
+vertices :: Gen [Point]
+vertices = do
+  n <- choose (3, 9 :: Int)
+  jitters <- sort <$> vectorOf n (choose (0, 0.8))
+  radii <- vectorOf n (choose (30, 90))
+  x <- choose (-200, 200)
+  y <- choose (-200, 200)
+  let angle k j = 2 * pi * (fromIntegral k + j) / fromIntegral n
+  pure [Vec.shift (Vec.polar (Mm r) (Rad (angle k j))) (Vec.point x y) | (k, j, r) <- zip3 [0 :: Int ..] jitters radii]
+
+-- | The path of a cutter around a contour that it fits, from a point well away, with a tolerance.
+milled :: Mm -> Case -> Maybe Path
+milled tolerance c = Result.output (FromPart.lay part)
+  where
+    nowhere = Region 0 0
+    here = Located nowhere
+    at p = Stop (here p) Part.Rapid
+    begin = case NonEmpty.head (pieces c) of
+      p -> Segment.start (Offset.segment p)
+    job =
+      Milling
+        { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (`Element` nowhere) (segments (contour c))),
+          Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
+          Part.radius = radius c,
+          Part.tolerance = tolerance,
+          Part.feed = here (Feed 60),
+          Part.approach = [at begin],
+          Part.retract = []
+        }
+    part =
+      Part
+        { Part.name = Nothing,
+          Part.title = Nothing,
+          Part.machine = Nothing,
+          Part.start = Just (here begin),
+          Part.contours = [Part.contour job],
+          Part.operations = [Mill (here job)]
+        }
+
+-- | One move from the zero point.
+straightPath :: Double -> Double -> Path
+straightPath x y = Path.Path (Located nowhere (Vec.point 0 0)) [Path.Travelling [Path.Move (Straight (Vec.point 0 0) (Vec.point x y)) Part.Rapid nowhere]]
+  where
+    nowhere = Region 0 0
+
+-- | A motion of the plane, with or without a mirror.
+data Motion = Motion {mirrored :: Bool, turned :: Rad, shifted :: Vec}
+  deriving stock (Show)
+
+motion :: Gen Motion
+motion = Motion <$> arbitrary <*> (Rad <$> choose (-4, 4)) <*> (Vec.vec <$> choose (-500, 500) <*> choose (-500, 500))
+
+movePoint :: Motion -> Point -> Point
+movePoint m p = Vec.shift (shifted m) (Vec.shift (Vec.rotate (turned m) v) (Vec.point 0 0))
+  where
+    v = if mirrored m then Vec.vec (Vec.x p) (-(Vec.y p)) else Vec.vec (Vec.x p) (Vec.y p)
+
+move :: Motion -> Segment -> Segment
+move m s = case s of
+  Straight a b -> Straight (movePoint m a) (movePoint m b)
+  Arc a b c (Rad sweep) -> Arc (movePoint m a) (movePoint m b) (movePoint m c) (Rad (if mirrored m then -sweep else sweep))
+
+-- | Frames that keep the machine's invariants.
+frames :: Machine -> Gen [Frame]
+frames machine = listOf frame
+  where
+    frame = oneof [moving, commanding]
+    moving = do
+      d <- increment' `suchThat` (/= 0)
+      s <- elements (map fst (NonEmpty.toList (Machine.feeds machine)))
+      Frame d s <$> choose (0, 7)
+    commanding = Frame 0 (FeedCode 0) <$> choose (1, 7)
+    increment' = V3 <$> part Machine.X <*> part Machine.Y <*> part Machine.Z
+    part axis = do
+      let Pulses c = Machine.capacity machine axis
+      Pulses <$> oneof [pure 0, choose (-c, c), elements [c, -c, 1, -1]]

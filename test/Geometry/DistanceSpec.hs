@@ -1,0 +1,66 @@
+-- | Distances in closed form against distances from many points.
+module Geometry.DistanceSpec (spec) where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Geometry.Distance (Nearest (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  it "point to segment: no sample of the segment is nearer, one is nearly as near (catches a foot outside the arc)" $
+    property $
+      forAll ((,) <$> point <*> segment) $ \(p, s) ->
+        let Mm d = Distance.toPoint p s
+            sampled = minimum [apart p q | q <- samples 2000 s]
+         in counterexample (show (d, sampled)) (d <= sampled + 1e-9 && sampled <= d + step 2000 s)
+  it "segment to segment: no pair of samples is nearer, one is nearly as near (catches a common normal that is forgotten)" $
+    property $
+      forAll ((,) <$> segment <*> segment) $ \(a, b) ->
+        let Nearest (Mm d) p = Distance.segments a b
+            sampled = minimum [apart q r | q <- samples 150 a, r <- samples 150 b]
+            Mm there = Distance.toPoint p b
+         in counterexample
+              (show (d, sampled, there))
+              (d <= sampled + 1e-9 && sampled <= d + step 150 a + step 150 b && abs (there - d) < 1e-6)
+  it "uncovered: inside the stretches it names the others are further than the reach, outside them not (catches a missing boundary)" $
+    property $
+      forAll ((,,) <$> segment <*> resize 6 (listOf segment) <*> choose (0.5, 30)) $ \(s, others, reach) ->
+        let gaps = Distance.uncovered (Mm reach) others s
+            far p = and [d > reach | o <- others, let Mm d = Distance.toPoint p o]
+            nearEdge t = any (\(a, b) -> abs (t - a) < 1e-6 || abs (t - b) < 1e-6) gaps
+         in conjoin
+              [ counterexample (show (t, gaps)) (nearEdge t || far (Segment.at t s) == any (\(a, b) -> t > a && t < b) gaps)
+                | k <- [0 .. 200 :: Int],
+                  let t = fromIntegral k / 200
+              ]
+
+point :: Gen Point
+point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
+
+segment :: Gen Segment
+segment = oneof [straight, arc]
+  where
+    straight = Straight <$> point <*> point
+    arc = do
+      c <- point
+      r <- oneof [choose (0.01, 2), choose (2, 40)]
+      a <- choose (-4, 4)
+      s <- oneof [choose (-6.28, 6.28), elements [2 * pi, -2 * pi]]
+      let begin = Vec.shift (Vec.polar (Mm r) (Rad a)) c
+      pure Arc {start = begin, end = Vec.shift (Vec.polar (Mm r) (Rad (a + s))) c, centre = c, sweep = Rad s}
+
+samples :: Int -> Segment -> [Point]
+samples n s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
+
+-- | How far samples lie apart.
+step :: Int -> Segment -> Double
+step n s = let Mm l = Segment.length s in l / fromIntegral n
+
+apart :: Point -> Point -> Double
+apart a b = let Mm d = Vec.distance a b in d

@@ -1,0 +1,195 @@
+-- | The laws of the equidistant. Each says which bug it would catch.
+module Geometry.OffsetSpec (spec) where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity qualified as Quantity
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Generate (Case (..), Motion (..))
+import Generate qualified
+import Geometry.Contour (Contour (..), Ends (..))
+import Geometry.Contour qualified as Contour
+
+import Geometry.Distance qualified as Distance
+import Geometry.Offset (Cause (..), Obstacle (..), Origin (..), Piece (..), Side (..))
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Circle (Circle), Turn (..))
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  describe "laws of the equidistant" $ do
+    it "distance: every point is at the cutter's radius from the contour (catches an arc whose radius changes by the wrong sign)" $
+      property $
+        forAll Generate.closedCase distanceLaw
+    it "distance, open contours (catches a corner arc at an end that has no corner)" $
+      property $
+        forAll Generate.openCase distanceLaw
+    it "clearance: no piece comes nearer to any element, by closed form (catches a collision that is not found)" $
+      property $
+        forAll Generate.closedCase clearanceLaw
+    it "continuity: every piece begins where the one before ends, a closed path closes (catches a missing corner arc)" $
+      property $
+        forAll Generate.closedCase continuityLaw
+    it "reversal: the other side of the reversed contour is the reversed path (catches a side that depends on the sense of an arc)" $
+      property $
+        forAll Generate.closedCase reversalLaw
+    it "motion: moving, turning and mirroring the part does so to the path (catches a formula that knows the axes)" $
+      property $
+        forAll Generate.closedCase $ \c -> forAll Generate.motion (motionLaw c)
+    it "length: outside of a closed contour it is L + 2πR, inside L − 2πR (catches an arc walked the long way round)" $
+      property $
+        forAll Generate.smoothCase lengthLaw
+    it "reaches contours with hollows, with corners, and with the cutter on either side" $
+      checkCoverage $
+        forAll Generate.closedCase $ \c ->
+          cover 25 (hollow c) "hollow" (cover 25 (any isCorner (pieces c)) "corner" (cover 25 (side c == LeftOf) "left" True))
+    it "length, with sharp corners (catches a corner arc of another radius or sweep)" $
+      property $
+        forAll Generate.closedCase lengthLaw
+  describe "obstacles" $ do
+    it "the largest cutter that fits does fit, and one a little larger does not (catches a search that stops early)" $
+      property $
+        forAll (Generate.contour <$> Generate.closedCase) $ \c -> forAll (elements [LeftOf, RightOf]) (largestLaw c)
+    it "a concave radius below the cutter's is named" $
+      causeOf LeftOf 6 (circle CounterClockwise 5) `shouldBe` Just (Concave 0 (Mm 5), 5)
+    it "a cutter that just fits into a circle stands still in its centre" $
+      fmap (fmap segmentLength) (Offset.equidistant LeftOf (Mm 5) (circle CounterClockwise 5)) `shouldBe` Right (0 :| [])
+    it "an inner corner is named, and no cutter fits" $
+      fmap fst (causeOf LeftOf 2 square) `shouldBe` Just (InnerCorner 0 1 (Vec.point 10 0))
+    it "a slot of 8 whose walls are far apart in the contour stops a cutter of 10" $
+      causeOf RightOf 5 keyhole `shouldSatisfy` \case
+        Just (Collision _ _ _, fits) -> abs (fits - 4) < 1e-5
+        _ -> False
+    it "a cutter of 8 goes down a slot of 8" $
+      causeOf RightOf 4 keyhole `shouldBe` Nothing
+    it "a radius of 0 gives the contour itself" $
+      fmap (fmap segment) (Offset.equidistant LeftOf (Mm 0) square) `shouldBe` Right (segments square)
+
+samples :: Segment -> [Point]
+samples s = [Segment.at t s | t <- [0, 0.13, 0.5, 0.77, 1]]
+
+distanceLaw :: Case -> Property
+distanceLaw c = conjoin (map near (concatMap (samples . segment) (NonEmpty.toList (pieces c))))
+  where
+    near p = let Mm d = minimum (fmap (Distance.toPoint p) (segments (contour c))) in counterexample (show (p, d)) (abs (d - Generate.radiusOf c) < 1e-6)
+
+clearanceLaw :: Case -> Property
+clearanceLaw c =
+  conjoin
+    [ counterexample (show (p, s, d)) (d > Generate.radiusOf c - 1e-6)
+      | p <- NonEmpty.toList (pieces c),
+        s <- NonEmpty.toList (segments (contour c)),
+        let Mm d = Distance.distance (Distance.segments (segment p) s)
+    ]
+
+continuityLaw :: Case -> Property
+continuityLaw c = conjoin (zipWith joined ps (drop 1 ps <> take 1 ps)) .&&. conjoin (map onCircle ps)
+  where
+    ps = map segment (NonEmpty.toList (pieces c))
+    joined a b = Segment.end a === Segment.start b
+    -- Both ends of an arc lie on its circle, a sweep apart.
+    onCircle s = case s of
+      Straight _ _ -> property True
+      Arc {start, end, centre, sweep} ->
+        counterexample (show s) (apart (Vec.shift (Vec.rotate sweep (Vec.to centre start)) centre) end < 1e-6)
+
+reversalLaw :: Case -> Property
+reversalLaw c = case Offset.equidistant (other (side c)) (radius c) (Contour.reverse (contour c)) of
+  Left o -> counterexample (show o) False
+  Right back -> sameWalk (map (Segment.reverse . segment) (NonEmpty.toList back)) (map segment (NonEmpty.toList (pieces c)))
+
+other :: Side -> Side
+other s = case s of
+  LeftOf -> RightOf
+  RightOf -> LeftOf
+
+motionLaw :: Case -> Motion -> Property
+motionLaw c m = case Offset.equidistant side' (radius c) moved of
+  Left o -> counterexample (show o) False
+  Right ps -> sameWalk (map segment (NonEmpty.toList ps)) (map (Generate.move m . segment) (NonEmpty.toList (pieces c)))
+  where
+    moved = Contour (ends (contour c)) (fmap (Generate.move m) (segments (contour c)))
+    side' = if mirrored m then other (side c) else side c
+
+-- | The same segments, whichever comes first.
+sameWalk :: [Segment] -> [Segment] -> Property
+sameWalk as bs = length as === length bs .&&. conjoin [counterexample (show a) (any (alike a) bs) | a <- as]
+  where
+    alike a b = apart (Segment.start a) (Segment.start b) < 1e-6 && apart (Segment.end a) (Segment.end b) < 1e-6 && apart (Segment.at 0.5 a) (Segment.at 0.5 b) < 1e-6
+
+lengthLaw :: Case -> Property
+lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * pi * r)) < 1e-6)
+  where
+    Mm len = Quantity.total (map (Segment.length . segment) (NonEmpty.toList (pieces c)))
+    Mm old = Contour.length (contour c)
+    r = Generate.radiusOf c
+    outside = (Contour.signedArea (contour c) > 0) == (side c == RightOf)
+    sign = if outside then 1 else -1
+
+largestLaw :: Contour -> Side -> Property
+largestLaw c s = case Offset.equidistant s (Mm 60) c of
+  Right _ -> discard
+  Left (Obstacle _ Nothing) -> classify True "no cutter fits" (isBlocked 0.001)
+  Left (Obstacle _ (Just (Mm r))) -> classify True "some cutter fits" (counterexample (show r) (not (isBlocked r) && isBlocked (r + 1e-3)))
+  where
+    isBlocked r = case Offset.equidistant s (Mm r) c of
+      Left _ -> True
+      Right _ -> False
+
+causeOf :: Side -> Double -> Contour -> Maybe (Cause, Double)
+causeOf s r c = case Offset.equidistant s (Mm r) c of
+  Left (Obstacle cause largest) -> Just (cause, maybe 0 (\(Mm l) -> fromIntegral (round (l * 1e5) :: Int) / 1e5) largest)
+  Right _ -> Nothing
+
+circle :: Turn -> Double -> Contour
+circle turn r = Contour Closed (Segment.fullCircle turn (Circle (Vec.point 3 4) (Mm r)) (Vec.point (3 + r) 4) :| [])
+
+-- | A contour with arcs of both senses.
+hollow :: Case -> Bool
+hollow c = any ((> 0) . sweepOf) (segments (contour c)) && any ((< 0) . sweepOf) (segments (contour c))
+  where
+    sweepOf s = case s of
+      Straight _ _ -> 0
+      Arc {sweep = Rad a} -> a
+
+isCorner :: Piece -> Bool
+isCorner p = case origin p of
+  Around _ -> True
+  Along _ -> False
+
+square :: Contour
+square = Contour Closed (lines' :| rest)
+  where
+    lines' = Straight (Vec.point 0 0) (Vec.point 10 0)
+    rest = [Straight (Vec.point 10 0) (Vec.point 10 10), Straight (Vec.point 10 10) (Vec.point 0 10), Straight (Vec.point 0 10) (Vec.point 0 0)]
+
+-- | A block with a slot of width 8 that widens to a round of radius 20, walked counter-clockwise.
+keyhole :: Contour
+keyhole =
+  Contour
+    Closed
+    ( Straight (Vec.point (-40) (-80)) (Vec.point 40 (-80))
+        :| [ Straight (Vec.point 40 (-80)) (Vec.point 40 40),
+             Straight (Vec.point 40 40) (Vec.point 4 40),
+             Straight (Vec.point 4 40) (Vec.point 4 neck),
+             Segment.arc Clockwise (Vec.point 0 (-20)) (Vec.point 4 neck) (Vec.point (-4) neck),
+             Straight (Vec.point (-4) neck) (Vec.point (-4) 40),
+             Straight (Vec.point (-4) 40) (Vec.point (-40) 40),
+             Straight (Vec.point (-40) 40) (Vec.point (-40) (-80))
+           ]
+    )
+  where
+    neck = -20 + sqrt (20 * 20 - 4 * 4)
+
+segmentLength :: Piece -> Double
+segmentLength p = let Mm l = Segment.length (segment p) in l
+
+apart :: Point -> Point -> Double
+apart a b = let Mm d = Vec.distance a b in d
+

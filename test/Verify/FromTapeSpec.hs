@@ -1,0 +1,139 @@
+-- | The proof finds every change of the flange's tape that moves the path or changes a feed.
+module Verify.FromTapeSpec (spec) where
+
+import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Result qualified as Result
+import Compile (Analysis (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Flange qualified
+import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
+import Frame.FromPath qualified as FromPath
+import Generate qualified
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Linear.V3 (V3 (..))
+import Machine.Lkp01f (lkp01f)
+import Machine.Machine (FeedCode (..))
+import Path.Path (Path)
+import Path.Path qualified as Path
+import Test.Hspec
+import Test.QuickCheck
+import Verify.FromTape qualified as Verify
+import Verify.Proof (Finding (..), Proof (..))
+import Verify.Proof qualified as Proof
+
+spec :: Spec
+spec = do
+  it "the flange's own frames are proven" $
+    findings (proofOf Flange.frames) `shouldBe` []
+  it "every change of a legal digit that moves the path is found, its frame named, and said to leave the band where it does" $
+    [(n, f, findings p) | (n, f, fs) <- changes, let p = proofOf fs, not (isFound n f p)] `shouldBe` []
+  it "every change of a speed code is a wrong feed in its frame" $
+    [ (n, s)
+      | (n, f) <- zip [1 ..] Flange.frames,
+        s <- map FeedCode [1 .. 9],
+        s /= speed f,
+        wrongFeeds (proofOf (replaceFrame n f {speed = s})) /= [n]
+    ]
+      `shouldBe` []
+  it "a frame left out, doubled or swapped with the next is found" $
+    [ (n, what)
+      | n <- [3, 17, 60, 111, 139],
+        (what, fs) <- [("left out" :: String, without n), ("doubled", doubled n), ("swapped", swapped n)],
+        fs /= Flange.frames,
+        Proof.isProven (proofOf fs)
+    ]
+      `shouldBe` []
+  it "two lobes that are never cut, although the path closes, are an excess" $
+    findings (proofOf shortcut) `shouldSatisfy` any isExcess
+  it "random contours with random cutters are proven; for a tolerance that their chords exceed they are not (catches a proof that looks at nodes only)" $
+    property $
+      forAll Generate.closedCase $ \c -> case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
+        (Just rough, Just fine) -> case Result.output (FromPath.quantise lkp01f rough) of
+          Just program ->
+            let fs = map Frame.frame (Frame.planned program)
+                coarse = any ((> 0.06) . chordError) (cutSegments rough)
+             in classify coarse "with coarse chords" $
+                  findings (Verify.prove lkp01f rough program fs) === []
+                    .&&. (null (findings (Verify.prove lkp01f fine program fs)) === not coarse .||. property (not coarse))
+          Nothing -> counterexample "no frames" False
+        _ -> counterexample "no path" False
+
+proofOf :: [Frame] -> Proof
+proofOf = Verify.prove lkp01f (path Flange.analysis) Flange.program
+
+-- | The error of the chords that an arc is given for a tolerance of 0.3 mm.
+chordError :: Segment -> Double
+chordError s = case s of
+  Straight _ _ -> 0
+  Arc {start, centre, sweep = Rad a} ->
+    let Mm r = Segment.radius centre start
+     in r * (1 - cos (abs a / fromIntegral (FromPath.chordCount lkp01f (Mm 0.3) s) / 2))
+
+cutSegments :: Path -> [Segment]
+cutSegments p = [Path.segment m | Path.Cutting {Path.cut} <- Path.blocks p, m <- NonEmpty.toList cut]
+
+-- | Tapes that differ in one digit or one sign and are legal: the frame's number, the changed frame, all frames.
+changes :: [(Int, Frame, [Frame])]
+changes =
+  [ (n, f', replaceFrame n f')
+    | (n, f) <- zip [1 ..] Flange.frames,
+      V3 x y z <- [increment f],
+      d <- [V3 x' y z | x' <- digitChanges 4 x] <> [V3 x y' z | y' <- digitChanges 4 y] <> [V3 x y z' | z' <- digitChanges 3 z],
+      d /= 0,
+      let f' = f {increment = d}
+  ]
+
+-- | One digit one more or less (or turned round at the ends), or the sign changed.
+digitChanges :: Int -> Pulses -> [Pulses]
+digitChanges count (Pulses v) =
+  [Pulses (signum' v * changed) | k <- [0 .. count - 1], step <- [1, 9], let changed = turned k step, changed /= abs v]
+    <> [Pulses (-v) | v /= 0]
+  where
+    signum' n = if n < 0 then -1 else 1
+    turned k step =
+      let digit = abs v `div` 10 ^ k `mod` 10
+       in abs v + ((digit + step) `mod` 10 - digit) * 10 ^ k
+
+replaceFrame :: Int -> Frame -> [Frame]
+replaceFrame n f = take (n - 1) Flange.frames <> [f] <> drop n Flange.frames
+
+without, doubled, swapped :: Int -> [Frame]
+without n = take (n - 1) Flange.frames <> drop n Flange.frames
+doubled n = take n Flange.frames <> drop (n - 1) Flange.frames
+swapped n = take (n - 1) Flange.frames <> [Flange.frames !! n, Flange.frames !! (n - 1)] <> drop (n + 1) Flange.frames
+
+-- | The path with all but its beginning and end replaced by one straight frame.
+shortcut :: [Frame]
+shortcut = take 10 Flange.frames <> [(Flange.frames !! 10) {increment = sum (map increment (take 120 (drop 10 Flange.frames)))}] <> drop 130 Flange.frames
+
+-- | The end is missed and the frame is named as the first that differs. A change within the contour of more
+-- than the allowance lets the path leave the band in this frame or later.
+isFound :: Int -> Frame -> Proof -> Bool
+isFound n f p = firstDifference p == Just n && any isOpen (findings p) && (not cutting || moved <= 3 || any (leavesBandFrom n) (findings p))
+  where
+    V3 (Pulses x) (Pulses y) _ = increment f - increment (Flange.frames !! (n - 1))
+    moved = max (abs x) (abs y)
+    cutting = Frame.role (Frame.planned Flange.program !! (n - 1)) == Frame.Cutting 0 && n < length Flange.frames - 12
+
+-- | A gouge or an excess in a frame from this one on.
+leavesBandFrom :: Int -> Finding -> Bool
+leavesBandFrom n finding = case finding of
+  Gouge w _ _ -> Proof.frame w >= n
+  Excess w _ -> Proof.frame w >= n
+  _ -> False
+
+isExcess :: Finding -> Bool
+isExcess finding = case finding of
+  Excess _ _ -> True
+  _ -> False
+
+isOpen :: Finding -> Bool
+isOpen finding = case finding of
+  NotClosed _ -> True
+  _ -> False
+
+-- | The frames that are blamed for their feed.
+wrongFeeds :: Proof -> [Int]
+wrongFeeds p = [n | WrongFeed n _ _ _ <- findings p]
