@@ -5,45 +5,33 @@ import Base.Crash (Bug)
 import Cli.Options qualified as Options
 import Cli.Output (Exit (..))
 import Cli.Run qualified as Run
-import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException, try)
+import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException)
 import Data.Version (showVersion)
-import Foreign.C.Error (Errno (Errno), ePIPE)
-import GHC.IO.Encoding (setFileSystemEncoding, setLocaleEncoding, utf8)
-import GHC.IO.Exception (IOException (ioe_errno))
+import GHC.IO.Encoding (mkTextEncoding, setFileSystemEncoding, setLocaleEncoding, utf8)
 import Options.Applicative qualified as Opt
 import Paths_partc (version)
 import System.Exit (ExitCode (..), exitWith)
-import System.IO (hFlush, hPutStrLn, hSetEncoding, stderr, stdin, stdout)
+import System.IO (hPutStrLn, hSetEncoding, stderr, stdin, stdout)
 
 main :: IO ()
 main = do
   setLocaleEncoding utf8
-  setFileSystemEncoding utf8
+  -- File names are bytes; those that are not UTF-8 go in and out unchanged.
+  mkTextEncoding "UTF-8//ROUNDTRIP" >>= setFileSystemEncoding
   mapM_ (`hSetEncoding` utf8) [stdin, stdout, stderr]
-  code <- work `catches` [Handler exited, Handler pipe, Handler interrupted, Handler crashed, Handler anything]
+  code <- work `catches` [Handler pure, Handler interrupted, Handler crashed, Handler anything]
   exitWith code
 
 work :: IO ExitCode
 work = do
   invocation <- Opt.customExecParser (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version))
-  end <- Run.run invocation
-  hFlush stdout
-  pure (statusOf end)
+  statusOf <$> Run.run invocation
 
 statusOf :: Exit -> ExitCode
 statusOf end = case end of
   Done -> ExitSuccess
   Failed -> ExitFailure 1
   Disproven -> ExitFailure 3
-
-exited :: ExitCode -> IO ExitCode
-exited = pure
-
--- | A reader that has closed the pipe has seen enough.
-pipe :: IOException -> IO ExitCode
-pipe e
-  | fmap Errno (ioe_errno e) == Just ePIPE = ExitSuccess <$ (try (hFlush stdout) :: IO (Either IOException ()))
-  | otherwise = anything (toException e)
 
 interrupted :: AsyncException -> IO ExitCode
 interrupted e = case e of

@@ -1,18 +1,22 @@
 -- | The flange of the Ural paper: its nodes, its frames, its proof.
 module FlangeSpec (spec) where
 
+import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
 import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text qualified as Text
 import Data.Text.IO qualified as Text
+import Data.Text.Read qualified as Text (double)
 import Flange qualified
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Lkp01f (lkp01f)
 import Path.Path (Block (..), Move (segment))
 import Path.Path qualified as Path
+import Tape.Tape qualified as Tape
 import Test.Hspec
 import Verify.Proof qualified as Proof
 
@@ -27,9 +31,18 @@ spec = do
     let proof = Compile.prove lkp01f (path Flange.analysis) Flange.program Flange.frames
     Result.errors proof `shouldBe` []
     fmap Proof.isProven (Result.output proof) `shouldBe` Just True
-  it "its page shows the table as printed, corrected and computed" $ do
+  it "its page shows what is computed, node by node, and the figures of the tape" $ do
     page <- Text.readFile "docs/flange.md"
-    page `shouldSatisfy` (/= "")
+    let rows = [(ours, x, y) | [_, ours, _, _, _, _, x, y, _] <- map cells (Text.lines page), Just _ <- [number ours]]
+    [(n, px, py) | (n, px, py) <- rows, Just k <- [number n], (x, y) <- take 1 (drop (round k) nodes), (px, py) /= (Decimal.fixed 3 x, Decimal.fixed 3 y)] `shouldBe` []
+    length rows `shouldBe` 18
+    Text.lines page `shouldContain` ["| frames | " <> Decimal.whole (length Flange.frames) <> " |"]
+    page `shouldSatisfy` Text.isInfixOf (Decimal.fixed 2 (Tape.metres lkp01f Flange.tape) <> " m")
+  it "its program on the first page of the documentation is the one among the examples" $ do
+    page <- Text.readFile "README.md"
+    page `shouldSatisfy` Text.isInfixOf (Text.strip (snd (Text.breakOn "part flange" Flange.text)))
   where
+    cells line = map Text.strip (drop 1 (init (Text.splitOn "|" line)))
+    number text = either (const Nothing) (Just . fst) (Text.double text)
     nodes = [(Vec.x p, Vec.y p) | Cutting {cut} <- Path.blocks (path Flange.analysis), m <- NonEmpty.toList cut, let p = Segment.start (segment m)]
     apart (a, b) (c, d) = let Mm l = Vec.distance (Vec.point a b) (Vec.point c d) in l

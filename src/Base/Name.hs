@@ -16,12 +16,13 @@ newtype Name = Name {text :: Text}
   deriving stock (Show)
 
 -- | The candidates near enough to a misspelt name to be worth suggesting, the nearest first:
--- at most one edit for short names, a third of the length for long ones.
+-- one edit for every three letters.
 nearest :: Text -> [Text] -> [Text]
 nearest wanted candidates =
-  map fst (sortOn snd [(c, d) | c <- candidates, let d = distance wanted c, d <= allowed])
+  map fst (sortOn snd [(c, d) | c <- candidates, abs (Text.length c - size) <= allowed, let d = distance wanted c, d <= allowed])
   where
-    allowed = max 1 (Text.length wanted `div` 3)
+    size = Text.length wanted
+    allowed = size `div` 3
 
 -- | The edit distance of Levenshtein, letter case ignored.
 distance :: Text -> Text -> Int

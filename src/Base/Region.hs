@@ -19,8 +19,10 @@ module Base.Region
   )
 where
 
+import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Vector qualified as Boxed
 import Data.Vector.Unboxed qualified as Vector
 import Prelude hiding (length, span)
 
@@ -48,7 +50,7 @@ point :: Int -> Region
 point at = Region at at
 
 -- | A text with an index of its lines. Lines end with LF, CR or CR LF.
-data Source = Source {text :: Text, length :: Int, starts :: Vector.Vector Int}
+data Source = Source {text :: Text, length :: Int, starts :: Vector.Vector Int, contents :: Boxed.Vector Text}
 
 -- | A line and a column, both from 1.
 data Position = Position {line :: Int, column :: Int}
@@ -56,16 +58,16 @@ data Position = Position {line :: Int, column :: Int}
 
 -- | Index a text. Linear in its length.
 fromText :: Text -> Source
-fromText text = Source {text, length = Text.length text, starts = Vector.fromList (0 : go 0 text)}
+fromText text = Source {text, length = Text.length text, starts = Vector.fromList (map fst found), contents = Boxed.fromList (map snd found)}
   where
+    found = go 0 text
     go at rest =
       let (before, after) = Text.break (\c -> c == '\n' || c == '\r') rest
           ending = case Text.unpack (Text.take 2 after) of
             "\r\n" -> 2
             [] -> 0
             _ -> 1
-          next = at + Text.length before + ending
-       in if ending == 0 then [] else next : go next (Text.drop ending after)
+       in (at, before) : if ending == 0 then [] else go (at + Text.length before + ending) (Text.drop ending after)
 
 -- | How many lines the text has; a final line end begins one more, empty, line.
 lineCount :: Source -> Int
@@ -87,6 +89,4 @@ position Source {length, starts} offset = Position {line = index + 1, column = a
 
 -- | A line by its number from 1, without its line end.
 lineText :: Source -> Int -> Text
-lineText Source {text, starts} line
-  | line < 1 || line > Vector.length starts = ""
-  | otherwise = Text.takeWhile (\c -> c /= '\n' && c /= '\r') (Text.drop (starts Vector.! (line - 1)) text)
+lineText Source {contents} line = Maybe.fromMaybe "" (contents Boxed.!? (line - 1))

@@ -13,6 +13,7 @@ module Base.Result
     fromEither,
     mapErrors,
     settled,
+    thenSound,
   )
 where
 
@@ -60,3 +61,9 @@ mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 -- | The output only when there is no error.
 settled :: Result w e a -> Maybe a
 settled (Result _ es a) = if null es then a else Nothing
+
+-- | Go on only when there is no error so far.
+thenSound :: Result w e a -> (a -> Result w e b) -> Result w e b
+thenSound r f = case settled r of
+  Just _ -> r >>= f
+  Nothing -> r {output = Nothing}

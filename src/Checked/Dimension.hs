@@ -18,6 +18,7 @@ module Checked.Dimension
     describe,
     unitWord,
     isKnown,
+    isUnknownSquare,
   )
 where
 
@@ -59,6 +60,10 @@ unknowns (Dimension m) = [n | Unknown n <- Map.keys m]
 isKnown :: Dimension -> Bool
 isKnown = null . unknowns
 
+-- | Whether it is known only that the dimension is a square.
+isUnknownSquare :: Dimension -> Bool
+isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
+
 -- | How an equation is solved: done, impossible, or one unknown replaced and the rest to be solved.
 data Step
   = Solved
@@ -96,6 +101,7 @@ describe d@(Dimension m)
   | d == times (atom Length) (power (-1) (atom Time)) = "a feed"
   | d == power 2 (atom Length) = "an area"
   | d == atom Time = "a time"
+  | isUnknownSquare d = "an area or another square"
   | Map.null known = "a quantity"
   | otherwise = "a quantity in " <> unitWord d
   where

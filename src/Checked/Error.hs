@@ -12,6 +12,8 @@ import Base.Name qualified as Name
 import Base.Region (Region)
 import Checked.Type (Type)
 import Checked.Type qualified as Type
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), report)
@@ -25,10 +27,10 @@ data Error
   | DefinedTwice Region Name Region
   | -- | a name of the language itself
     NameTaken Region Name
-  | -- | what was expected, what is there, and where it was used as that before
-    Mismatch Region Type Type (Maybe Region)
-  | -- | the two operands of a sum
-    Disagree Region (Region, Type) (Region, Type)
+  | -- | what was expected, what is there, and the places where one of them was settled before
+    Mismatch Region Type Type [(Region, Type)]
+  | -- | the two operands of a sum, and the places where they were settled before
+    Disagree Region (Region, Type) (Region, Type) [(Region, Type)]
   | -- | an operation on things that have none: the operation in words, the operands
     NoOperation Region Text [(Region, Type)]
   | -- | function, its parameters, how many arguments
@@ -43,8 +45,8 @@ data Error
     NotWalkable Region Type
   | NoPart Region
   | SettingTwice Region Setting Region
-  | -- | the statement that needs a setting
-    SettingMissing Region Setting
+  | -- | the statement that needs them
+    SettingsMissing Region (NonEmpty Setting)
   | -- | a function that uses itself
     Recursive Region Name
   deriving stock (Eq, Show)
@@ -77,15 +79,15 @@ toReport err = case err of
     (at region "E0204" (quote name <> " already means something in the language"))
       { hints = ["Choose another name, for example " <> name <> "1."]
       }
-  Mismatch region expected found before ->
+  Mismatch region expected found settled ->
     (at region "E0205" ("this is " <> Type.describe found <> ", but " <> Type.describe expected <> " is needed here"))
       { label = Type.describe found,
-        others = [Label r ("it is used as " <> Type.describe found <> " here") | Just r <- [before]],
+        others = settledHere settled,
         hints = mismatchHint expected found
       }
-  Disagree region (leftRegion, left) (rightRegion, right) ->
-    (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be added, subtracted or compared"))
-      { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)]
+  Disagree region (leftRegion, left) (rightRegion, right) settled ->
+    (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be added or subtracted"))
+      { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)] <> settledHere settled
       }
   NoOperation region what operands ->
     (at region "E0207" (what <> " is not defined for " <> Text.intercalate " and " (map (Type.describe . snd) operands)))
@@ -101,7 +103,9 @@ toReport err = case err of
       }
   FunctionAsValue region (Name name) parameters ->
     (at region "E0210" (quote name <> " is a function and needs its arguments"))
-      { hints = ["Write " <> name <> "(" <> Text.intercalate ", " parameters <> ")."]
+      { hints =
+          ["Write " <> name <> "(" <> Text.intercalate ", " parameters <> ")."]
+            <> ["For a feed write mm/min without spaces." | name == "min"]
       }
   SenseMissing region ->
     (at region "E0211" "a circle in a contour needs a sense")
@@ -124,10 +128,10 @@ toReport err = case err of
       { label = "set again here",
         others = [Label before "first set here"]
       }
-  SettingMissing region setting ->
-    (at region "E0217" (needs setting))
+  SettingsMissing region missing ->
+    (at region "E0217" (listed (NonEmpty.toList (fmap settingWord missing)) <> (if length missing == 1 then " is" else " are") <> " not given"))
       { label = "needed here",
-        hints = [example setting]
+        hints = ["Say before it, for example: " <> Text.intercalate "; " (NonEmpty.toList (fmap example missing))]
       }
   Recursive region (Name name) ->
     (at region "E0214" (quote name <> " is used in its own definition"))
@@ -143,10 +147,16 @@ quote text = "‘" <> text <> "’"
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
+-- | Where something came to be what it is.
+settledHere :: [(Region, Type)] -> [Label]
+settledHere settled = [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- settled]
+
 mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found
   | expected == Type.angle && found == Type.number = ["A number of radians becomes an angle when it is multiplied by 1 rad."]
   | expected == Type.number && found == Type.angle = ["An angle becomes a number of radians when it is divided by 1 rad."]
+  | expected == found = []
+  | Type.isSquare expected = ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []
 
 settingWord :: Setting -> Text
@@ -158,14 +168,18 @@ settingWord setting = case setting of
   ToleranceSetting -> "the tolerance"
   FromSetting -> "the starting point"
 
-needs :: Setting -> Text
-needs setting = settingWord setting <> " is not given"
-
 example :: Setting -> Text
 example setting = case setting of
-  PartSetting -> "Begin with: part NAME"
-  MachineSetting -> "Say before it, for example: machine lkp-01f"
-  ToolSetting -> "Say before it, for example: tool mill(diameter 20 mm)"
-  FeedSetting -> "Say before it, for example: feed 60 mm/min"
-  ToleranceSetting -> "Say before it, for example: tolerance 0.02 mm"
-  FromSetting -> "Say before it where the cutter starts, for example: from (0, 0)"
+  PartSetting -> "part NAME"
+  MachineSetting -> "machine lkp-01f"
+  ToolSetting -> "tool mill(diameter 20 mm)"
+  FeedSetting -> "feed 60 mm/min"
+  ToleranceSetting -> "tolerance 0.02 mm"
+  FromSetting -> "from (0, 0)"
+
+-- | Words in a row: a, b and c.
+listed :: [Text] -> Text
+listed words' = case reverse words' of
+  [] -> ""
+  [one] -> one
+  final : before -> Text.intercalate ", " (reverse before) <> " and " <> final

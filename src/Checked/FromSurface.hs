@@ -28,6 +28,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes)
+import Data.Text (Text)
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 import Surface.Token (Unit (..))
@@ -85,10 +86,14 @@ settings written = begins <> go Map.empty written
       [] -> []
       Located at s : rest ->
         let (given, needed) = use s
-            missing = [SettingMissing at {end = start at + 4} one | one <- needed, not (Map.member one seen)]
+            missing = maybe [] (\some -> [SettingsMissing at {end = start at + length' s} some]) (NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed))
             twice = [SettingTwice at one before | Just one <- [given], one /= FeedSetting, Just before <- [Map.lookup one seen]]
             seen' = foldr (\one -> Map.insertWith (\_ old -> old) one at) seen (needed <> maybe [] pure given)
          in missing <> twice <> go seen' rest
+    -- The keyword of the statement.
+    length' s = case s of
+      Surface.Travel _ -> 5
+      _ -> 4
     use s = case s of
       Surface.Part _ _ -> (Just PartSetting, [])
       Surface.Machine _ -> (Just MachineSetting, [])
@@ -189,6 +194,9 @@ setting defined (Located _ s) = case s of
   Surface.Retract stops -> (\ps -> ([], NonEmpty.toList ps)) <$> mapM (stop defined) stops
   Surface.BrokenSetting -> ([], []) <$ Infer.taint
 
+nameText :: Located Name -> Text
+nameText (Located _ (Name text)) = text
+
 stop :: Defined -> Surface.Stop -> Infer (Later Checked.Stop)
 stop defined (Surface.Stop p pace) = do
   p' <- expect defined Type.aPoint p
@@ -200,8 +208,9 @@ stop defined (Surface.Stop p pace) = do
 
 item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
 item defined (Located at i) = case i of
-  Surface.BrokenItem -> (\_ -> Located at (Checked.For (Name "") (Located at (Checked.List [])) [])) <$ Infer.taint
+  Surface.BrokenItem name -> mapM_ (\n -> Infer.define (value n) (Poisoned (region n))) name *> Infer.taint *> pure (\_ -> Located at (Checked.For (Name "") (Located at (Checked.List [])) []))
   Surface.For counter list items -> do
+    when (nameText counter `elem` Builtin.names) (Infer.mistake (NameTaken (region counter) (value counter)))
     t <- Infer.freshType
     list' <- expect defined (Type.ListOf t) list
     items' <- Infer.withLocals [(value counter, t)] (mapM (item defined) items)
@@ -235,7 +244,7 @@ linked defined (Located at l) = fmap (Located at .) $ case l of
     pure (\sol -> Checked.Meet (($ sol) <$> near'))
   Surface.Smooth -> pure (const Checked.Smooth)
   Surface.Tangent -> pure (const Checked.Tangent)
-  Surface.Fillet sign e -> (\e' sol -> Checked.Fillet sign (e' sol)) <$> expect defined Type.len e
+  Surface.Fillet e -> (Checked.Fillet .) <$> expect defined Type.len e
   Surface.Chamfer e -> (Checked.Chamfer .) <$> expect defined Type.len e
 
 -- Expressions
@@ -249,13 +258,17 @@ expect defined wanted e = do
 
 -- | The found type at a place has to be the wanted one.
 equal :: Region -> Type -> Type -> Infer ()
-equal at wanted t = do
-  before <- Infer.known t
-  place <- Infer.decidedAt t
+equal at wanted t = () <$ agrees at wanted t
+
+-- | Whether the found type at a place is the wanted one; a mistake if not.
+agrees :: Region -> Type -> Type -> Infer Bool
+agrees at wanted t = do
+  found <- Infer.known t
+  wanted' <- Infer.known wanted
+  places <- Infer.settledPlaces [(at, t, found), (at, wanted, wanted')]
   same <- Infer.unify at wanted t
-  unless same $ do
-    wanted' <- Infer.known wanted
-    Infer.mistake (Mismatch at wanted' before (if place == Just at then Nothing else place))
+  unless same (Infer.mistakeOnce (map fst places) (Mismatch at wanted' found places))
+  pure same
 
 infer :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 infer defined (Located at e) = case e of
@@ -345,8 +358,12 @@ call defined at (Located place name@(Name text)) arguments = do
     applied names ts t make
       | length ts /= length given = wrong (ArgumentCount at name names (length given))
       | otherwise = do
-        es <- zipWithM (expect defined) ts given
-        pure (t, \sol -> Located at (make (map ($ sol) es)))
+        checked <- zipWithM argument ts given
+        pure (if all fst checked then t else Type.Wrong, \sol -> Located at (make (map (($ sol) . snd) checked)))
+    argument wanted e = do
+      (t, e') <- infer defined e
+      fine <- agrees (region e) wanted t
+      pure (fine, e')
 
 -- Units
 

@@ -8,6 +8,7 @@ module Checked.Infer
     run,
     -- * Mistakes
     mistake,
+    mistakeOnce,
     taint,
     separately,
     -- * Names
@@ -21,7 +22,7 @@ module Checked.Infer
     monomorphic,
     known,
     knownDimension,
-    decidedAt,
+    settledPlaces,
     -- * Equations
     unify,
     -- * Functions
@@ -50,6 +51,8 @@ import Data.IntSet qualified as IntSet
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Set (Set)
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Surface.Syntax (Operator (..))
 
@@ -71,6 +74,8 @@ data Memory = Memory
     pending :: [Arithmetic],
     found :: [Error],
     tainted :: Bool,
+    -- | places that decided an unknown wrongly used elsewhere; each is reported once
+    blamed :: Set Region,
     scope :: Map Name Entry
   }
 
@@ -102,6 +107,7 @@ run infer = (reverse (found memory), resolveDimension (dimensions memory), a)
           pending = [],
           found = [],
           tainted = False,
+          blamed = Set.empty,
           scope = Map.empty
         }
 
@@ -110,6 +116,14 @@ run infer = (reverse (found memory), resolveDimension (dimensions memory), a)
 -- | Record a mistake; the statement at hand is of no further use.
 mistake :: Error -> Infer ()
 mistake e = modify' (\m -> m {found = e : found m, tainted = True})
+
+-- | Record a mistake for which the places were decisive, unless one of them is blamed already: then the
+-- mistake is the same again.
+mistakeOnce :: [Region] -> Error -> Infer ()
+mistakeOnce places e = do
+  before <- gets blamed
+  if any (`Set.member` before) places then taint else mistake e
+  modify' (\m -> m {blamed = foldr Set.insert (blamed m) places})
 
 -- | The statement at hand depends on something that is wrong already.
 taint :: Infer ()
@@ -191,7 +205,7 @@ decidedAt t = gets (\m -> listToMaybe (places m t))
   where
     places m t' = case t' of
       Variable n -> mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (places m) (IntMap.lookup n (types m))
-      ListOf inner -> places m inner
+      ListOf _ -> []
       Quantity d -> ofDimension m d
       Spatial d -> ofDimension m d
       Circle -> []
@@ -203,6 +217,15 @@ decidedAt t = gets (\m -> listToMaybe (places m t))
         [ mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (ofDimension m) (IntMap.lookup n (dimensions m))
           | n <- Dimension.unknowns d
         ]
+
+-- | Of some terms at their places, as they are written and as they are known: where else it was decided
+-- what they are.
+settledPlaces :: [(Region, Type, Type)] -> Infer [(Region, Type)]
+settledPlaces terms = concat <$> traverse one terms
+  where
+    one (at, written, found') = do
+      place' <- decidedAt written
+      pure [(p, found') | Just p <- [place'], p /= at]
 
 -- Equations
 
@@ -356,17 +379,21 @@ attempt a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
     (_, Variable _, Quantity _) -> pure False
     (_, Quantity _, Variable _) -> pure False
     (_, Variable _, Variable _) -> pure False
-    (Add, _, _) -> wrong (Disagree region (leftRegion, l) (rightRegion, r))
-    (Subtract, _, _) -> wrong (Disagree region (leftRegion, l) (rightRegion, r))
+    (Add, _, _) -> disagree l r
+    (Subtract, _, _) -> disagree l r
     (Multiply, _, _) -> wrong (NoOperation region "a product" [(leftRegion, l), (rightRegion, r)])
     (Divide, _, _) -> wrong (NoOperation region "a quotient" [(leftRegion, l), (rightRegion, r)])
   where
     quotient d e = Dimension.times d (Dimension.power (-1) e)
     result' t = True <$ unify region outcome' t
     wrong e = mistake e *> result' Wrong
+    disagree l r = do
+      places <- settledPlaces [(leftRegion, left', l), (rightRegion, right', r)]
+      mistakeOnce (map fst places) (Disagree region (leftRegion, l) (rightRegion, r) places)
+      result' Wrong
     sum' d e l r = do
       same <- unifyDimensions region d e
-      if same then result' (Quantity d) else wrong (Disagree region (leftRegion, l) (rightRegion, r))
+      if same then result' (Quantity d) else disagree l r
     -- In a sum an unknown operand is of the other one's kind.
     alike l r = case (l, r) of
       (Variable _, Quantity d) -> Just (unify leftRegion l (Quantity d) *> attempt a)

@@ -18,7 +18,6 @@ module Checked.Syntax
     MachineRef (..),
     Operator (..),
     Side (..),
-    Sign (..),
     Walk (..),
   )
 where
@@ -27,7 +26,7 @@ import Base.Name (Name)
 import Base.Region (Located)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
-import Surface.Syntax (Closure (..), MachineRef (..), Operator (..), Side (..), Sign (..), Walk (..))
+import Surface.Syntax (Closure (..), MachineRef (..), Operator (..), Side (..), Walk (..))
 
 -- | A program. Statements that contain a mistake are left out.
 data Program = Program
@@ -102,7 +101,7 @@ data Link_
   = Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | Fillet Sign Expr
+  | Fillet Expr
   | Chamfer Expr
   deriving stock (Eq, Show)
 

@@ -8,6 +8,7 @@ module Checked.Type
     aPoint,
     aVector,
     describe,
+    isSquare,
     dimensions,
     variables,
   )
@@ -53,10 +54,15 @@ describe t = case t of
   Circle -> "a circle"
   Line -> "a line"
   Contour -> "a contour"
-  ListOf (Variable _) -> "a list"
-  ListOf inner -> "a list, each item " <> describe inner
+  ListOf _ -> "a list"
   Variable _ -> "a value"
   Wrong -> "a value"
+
+-- | Whether it is known of a quantity only that it is a square.
+isSquare :: Type -> Bool
+isSquare t = case t of
+  Quantity d -> Dimension.isUnknownSquare d
+  _ -> False
 
 -- | The unknown dimensions in a type.
 dimensions :: Type -> [Int]

@@ -22,6 +22,8 @@ data Error
   | NotUtf8
   | -- | neither the program nor the command line names a machine; the machines there are
     NoMachine [Text]
+  | -- | no machine for a tape; the machines there are
+    NoMachineForTape [Text]
   | -- | a name that no machine has, where the program says it, the machines there are
     UnknownMachine (Maybe Region) Text [Text]
   | -- | a description file where none can be read yet
@@ -50,6 +52,10 @@ toReport err = case err of
     (wrong "E0804" InFile "no machine is chosen")
       { hints = ["Say in the program: machine NAME, or on the command line: -t NAME. Machines: " <> Text.intercalate ", " known <> "."]
       }
+  NoMachineForTape known ->
+    (wrong "E0804" InFile "no machine is chosen")
+      { hints = ["Say on the command line whose tape this is: -t NAME. Machines: " <> Text.intercalate ", " known <> "."]
+      }
   UnknownMachine place name known ->
     (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
@@ -60,7 +66,7 @@ toReport err = case err of
   OverwritesProgram path -> wrong "E0807" InFile ("the output would replace the program " <> path)
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
-      { hints = ["Mill a contour: mill NAME outside { approach … retract … }"]
+      { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]
       }
   where
     wrong = report Report.Error

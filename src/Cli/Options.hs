@@ -8,8 +8,9 @@ module Cli.Options
 where
 
 import Cli.Output (ColourChoice (..), Format (..), Settings (..))
-import Control.Applicative (many, optional, (<|>))
-import Data.List.NonEmpty (NonEmpty (..))
+import Control.Applicative (many, optional, some, (<|>))
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Options.Applicative (Parser, ParserInfo)
@@ -59,7 +60,7 @@ commands :: Parser (Overrides, Command)
 commands =
   Opt.hsubparser . mconcat $
     [ entry "compile" "Punch the tape of a program, proven" "partc compile flange.part -t lkp-01f -o flange.tape" (Compile <$> compileOptions),
-      entry "check" "Look for mistakes only" "partc check flange.part" (Check <$> ((:|) <$> program <*> many program)),
+      entry "check" "Look for mistakes only" "partc check flange.part" (Check . NonEmpty.fromList <$> some program),
       entry "verify" "Prove a tape against its program" "partc verify flange.part flange.tape" (Verify <$> program <*> optional target <*> optional tape),
       entry "frames" "List the frames of a program" "partc frames flange.part -t lkp-01f --json" (Frames <$> program <*> optional target <*> Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")),
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),

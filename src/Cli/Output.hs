@@ -6,19 +6,23 @@ module Cli.Output
     Exit (..),
     show',
     result,
+    resultBytes,
     writeFileWhole,
     ioProblem,
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Region (Source)
-import Control.Exception (IOException, onException, try)
-import Control.Monad (when)
+import Control.Exception (onException, try)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
 import Data.Text.IO qualified as Text
+import Foreign.C.Error (Errno (Errno), ePIPE)
+import GHC.IO.Exception (IOErrorType (..), IOException (ioe_errno, ioe_type))
 import Report.Human qualified as Human
 import Report.Machine qualified as Machine
 import Report.Report (Report)
@@ -26,7 +30,7 @@ import Report.Report qualified as Report
 import System.Directory (canonicalizePath, removeFile, renameFile)
 import System.Environment (lookupEnv)
 import System.FilePath (takeDirectory, takeFileName)
-import System.IO (Handle, hClose, hIsTerminalDevice, openBinaryTempFileWithDefaultPermissions, stderr, stdout)
+import System.IO (Handle, hClose, hFlush, hIsTerminalDevice, openBinaryTempFileWithDefaultPermissions, stderr, stdout)
 import System.IO.Error (ioeGetErrorString, isDoesNotExistError, isFullError, isPermissionError)
 import System.Posix.Files (FileStatus, fileMode, getFileStatus, isDirectory, isRegularFile, setFileMode)
 
@@ -62,7 +66,10 @@ ioProblem e
   | isDoesNotExistError e = "there is no such file or folder"
   | isPermissionError e = "permission denied"
   | isFullError e = "the disk is full"
-  | otherwise = Text.pack (ioeGetErrorString e)
+  | otherwise = case ioe_type e of
+    InappropriateType -> "it is not a file"
+    InvalidArgument -> "this is not a possible file name"
+    _ -> Text.pack (ioeGetErrorString e)
 
 -- | Write the reports on one file. Says whether anything among them stops the work.
 show' :: Settings -> Text -> Source -> [Report] -> IO Bool
@@ -72,10 +79,22 @@ show' settings path source reports = do
         HumanFormat -> Human.render painted path source r <> "\n"
         ShortFormat -> Machine.short path source r
         JsonFormat -> Machine.json path source r
-      visible = Report.sorted (if quiet settings then filter Report.isError reports else reports)
-  mapM_ (Text.hPutStr stderr . render) visible
-  when (format settings == HumanFormat) (Text.hPutStr stderr (Human.summary painted visible))
+      visible = Report.sorted (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
+      (shown, more) = if format settings == HumanFormat then splitAt mostReports visible else (visible, [])
+  mapM_ (say . render) shown
+  say (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
+  say (if format settings == HumanFormat then Human.summary painted visible else "")
   pure (any Report.isError reports || werror settings && not (null reports))
+
+-- | A person reads no more reports at once.
+mostReports :: Int
+mostReports = 50
+
+-- | Write to standard error. When nobody reads there, the work goes on.
+say :: Text -> IO ()
+say text = do
+  _ <- try (Text.hPutStr stderr text) :: IO (Either IOException ())
+  pure ()
 
 useColour :: Settings -> Handle -> IO Human.Colour
 useColour settings handle = case colour settings of
@@ -87,9 +106,19 @@ useColour settings handle = case colour settings of
     dumb <- lookupEnv "TERM"
     pure (if terminal && maybe True null none && dumb /= Just "dumb" then Human.Coloured else Human.Plain)
 
--- | A result on standard output.
-result :: Text -> IO ()
-result = Text.hPutStr stdout
+-- | A result on standard output, all of it. The answer says what went wrong; a reader who has seen
+-- enough and closed the pipe is nothing wrong.
+result :: Text -> IO (Either Text ())
+result = resultBytes . Encoding.encodeUtf8
+
+-- | The same for bytes.
+resultBytes :: ByteString -> IO (Either Text ())
+resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> hFlush stdout)
+  where
+    judge e
+      | ioe_errno e == Just pipe = Right ()
+      | otherwise = Left (ioProblem e)
+    Errno pipe = ePIPE
 
 -- | Write a file under a temporary name and rename it: what was there before stays until the new one
 -- is complete. A device or a pipe is written to as it is. The answer says what went wrong.

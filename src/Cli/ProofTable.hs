@@ -33,11 +33,12 @@ proof machine p =
       Nothing -> ["0.0000", fixed4 (allowed c), ""]
       Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 (allowed c), Decimal.whole (Proof.frame x)]
     fixed4 (Mm x) = Decimal.fixed 4 x
-    V3 (Pulses cx) (Pulses cy) (Pulses cz) = Proof.closure p
+    inOrder (V3 x y z) = [x, y, z]
+    axes words' = Text.intercalate ", " (zipWith (\axis w -> axis <> " " <> w) ["x", "y", "z"] words') <> " pulses"
     closing =
       [ ["frames read back", Decimal.whole (Proof.frames p)],
-        ["largest increment", "x " <> capacityWord X <> ", y " <> capacityWord Y <> ", z " <> capacityWord Z <> " pulses at most"],
-        ["misses its end by", Text.intercalate ", " [axis <> " " <> Decimal.whole d | (axis, d) <- [("x", cx), ("y", cy), ("z", cz)]] <> " pulses"],
+        ["largest increments", axes [Decimal.whole d <> " of " <> capacityWord a | (Pulses d, a) <- zip (inOrder (Proof.largest p)) [X, Y, Z]]],
+        ["misses its end by", axes [Decimal.whole d | Pulses d <- inOrder (Proof.closure p)]],
         ["verdict", if Proof.isProven p then "proven" else "WRONG"]
       ]
     capacityWord axis = let Pulses n = Machine.capacity machine axis in Decimal.whole n

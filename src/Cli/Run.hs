@@ -4,6 +4,7 @@ module Cli.Run
   )
 where
 
+import Base.Crash (bug)
 import Base.Region (Located (..), Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -36,7 +37,6 @@ import Part.Part qualified as Part
 import Report.Report (Report)
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
-import System.IO (stdout)
 import Tape.Tape (Tape (..))
 
 -- | Run a command.
@@ -64,7 +64,8 @@ withProgram settings file continue = do
     Left e -> complain settings (displayName file) e
     Right b -> case Encoding.decodeUtf8' b of
       Left _ -> complain settings (displayName file) NotUtf8
-      Right text -> continue Loaded {name = displayName file, source = Region.fromText text}
+      -- A mark of the byte order is not part of the text.
+      Right text -> continue Loaded {name = displayName file, source = Region.fromText (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)}
 
 readBytes :: FilePath -> IO (Either Error ByteString)
 readBytes file = do
@@ -84,7 +85,17 @@ settle settings loaded result continue = do
   stopped <- Output.show' settings (name loaded) (source loaded) (errors result <> warnings result)
   case output result of
     Just a | not stopped -> continue a
+    Nothing | not stopped -> bug "a stage gave neither an output nor a report"
     _ -> pure Failed
+
+-- | Print a result.
+printed :: Settings -> Text -> IO Exit
+printed settings text = delivered settings =<< Output.result text
+
+delivered :: Settings -> Either Text () -> IO Exit
+delivered settings written = case written of
+  Left why -> complain settings "" (CannotWrite "to standard output" why)
+  Right () -> pure Done
 
 analyse :: Loaded -> Result Report Report Analysis
 analyse loaded = Compile.analyse (Region.text (source loaded))
@@ -126,12 +137,12 @@ proven unproven' analysis machine = do
 
 compile :: Settings -> CompileOptions -> IO Exit
 compile settings options = withProgram settings (file options) $ \loaded ->
-  settle settings loaded (analyse loaded >>= \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
+  settle settings loaded (analyse loaded `Result.thenSound` \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (file options) (map fst places)
     case clash of
       Just place -> complain settings (name loaded) (OverwritesProgram (Text.pack place))
-      Nothing -> writeAll settings loaded [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+      Nothing -> writeAll settings [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
 
 -- | Where a tape goes: beside the program, into a folder, or to the file that is named.
 destination :: CompileOptions -> Int -> Machine -> IO FilePath
@@ -158,19 +169,19 @@ overwrites program' places = do
   others <- traverse canonicalizePath places
   pure (lookup self (zip others places))
 
-writeAll :: Settings -> Loaded -> [(FilePath, ByteString)] -> IO Exit
-writeAll settings loaded files = case files of
+writeAll :: Settings -> [(FilePath, ByteString)] -> IO Exit
+writeAll settings files = case files of
   [] -> pure Done
   (place, bytes) : rest -> do
-    written <- if place == "-" then Right () <$ ByteString.hPut stdout bytes else Output.writeFileWhole place bytes
+    written <- if place == "-" then Output.resultBytes bytes else Output.writeFileWhole place bytes
     case written of
-      Left why -> complain settings (name loaded) (CannotWrite (Text.pack place) why)
-      Right () -> writeAll settings loaded rest
+      Left why -> complain settings "" (CannotWrite (Text.pack place) why)
+      Right () -> writeAll settings rest
 
 -- | Mistakes only: nothing past the path and the machine's limits.
 check :: Settings -> FilePath -> IO Exit
 check settings file' = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse loaded >>= limits) (const (pure Done))
+  settle settings loaded (analyse loaded `Result.thenSound` limits) (const (pure Done))
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
@@ -189,15 +200,14 @@ verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
         case output read' of
           Just fs | not broken -> do
             let result = Compile.prove machine (path analysis) (program punched) fs
-            mapM_ (Output.result . ProofTable.proof machine) (output result)
+            table <- maybe (pure Done) (printed settings . ProofTable.proof machine) (output result)
             _ <- Output.show' settings (name loaded) (source loaded) (errors result)
-            pure (if null (errors result) then Done else Disproven)
+            pure (if null (errors result) then table else Disproven)
           _ -> pure Failed
 
 -- | A program with its frames and tape for one machine.
 prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
-prepared target loaded = do
-  a <- analyse loaded
+prepared target loaded = analyse loaded `Result.thenSound` \a -> do
   ms <- chosen (maybe [] pure target) a
   case ms of
     m : _ -> (\p -> (a, m, p)) <$> Compile.punch m (path a)
@@ -206,13 +216,12 @@ prepared target loaded = do
 frames :: Settings -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames settings file' target json = withProgram settings file' $ \loaded ->
   settle settings loaded (prepared target loaded) $ \(_, machine, punched) -> do
-    Output.result ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
-    pure Done
+    printed settings ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
 
 report :: Settings -> FilePath -> Maybe Text -> IO Exit
 report settings file' target = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse loaded >>= \a -> (a,) <$> onMachine a) $ \(a, punched) ->
-    Done <$ Output.result (NodeTable.nodes punched a)
+  settle settings loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine a) $ \(a, punched) ->
+    printed settings (NodeTable.nodes punched a)
   where
     onMachine a = case (target, Part.machine (part a)) of
       (Nothing, Nothing) -> pure Nothing
@@ -222,7 +231,7 @@ report settings file' target = withProgram settings file' $ \loaded ->
           [] -> pure Nothing
 
 decode :: Settings -> Maybe Text -> FilePath -> IO Exit
-decode settings target tapeFile = case maybe (Left (NoMachine known)) machineNamed target of
+decode settings target tapeFile = case maybe (Left (NoMachineForTape known)) machineNamed target of
   Left e -> complain settings (displayName tapeFile) e
   Right machine -> do
     bytes <- readBytes tapeFile
@@ -232,7 +241,7 @@ decode settings target tapeFile = case maybe (Left (NoMachine known)) machineNam
         let result = Compile.readTape machine (Tape b)
         _ <- Output.show' settings (displayName tapeFile) (Region.fromText "") (errors result)
         case output result of
-          Just fs -> Done <$ Output.result (FrameTable.decoded machine fs)
+          Just fs -> printed settings (FrameTable.decoded machine fs)
           Nothing -> pure Failed
 
 plot :: Settings -> FilePath -> Maybe FilePath -> IO Exit
@@ -244,12 +253,12 @@ plot settings file' place = withProgram settings file' $ \loaded ->
         clash <- overwrites file' [p]
         case clash of
           Just same -> complain settings (name loaded) (OverwritesProgram (Text.pack same))
-          Nothing -> writeAll settings loaded [(p, Encoding.encodeUtf8 svg)]
-      _ -> Done <$ Output.result svg
+          Nothing -> writeAll settings [(p, Encoding.encodeUtf8 svg)]
+      _ -> printed settings svg
 
 machines :: Settings -> Maybe Text -> IO Exit
 machines settings wanted = case wanted of
-  Nothing -> Done <$ Output.result (MachineSheet.machineList BuiltIn.machines)
+  Nothing -> printed settings (MachineSheet.machineList BuiltIn.machines)
   Just n -> case machineNamed n of
     Left e -> complain settings "" e
-    Right m -> Done <$ Output.result (MachineSheet.machineSheet m)
+    Right m -> printed settings (MachineSheet.machineSheet m)

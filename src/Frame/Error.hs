@@ -25,14 +25,14 @@ data Error
     OutOfReach Region Point Mm
   | -- | more frames than a tape may have
     TooManyFrames Region Int
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 data Warning
   = -- | the feed asked and the feed obtained
     FeedDiffers Region Feed Feed
   | -- | where the program starts, and where the machine can stand
     StartRounded Region Point Point
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | The words for an error on a machine.
 toReport :: Machine -> Error -> Report

@@ -11,14 +11,16 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Control.Applicative ((<|>))
-import Data.List (nub)
+import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
 import Frame.Error (Error (..), Warning (..))
 import Frame.Frame (Frame (..), Planned (Planned, frame), Program (Program), Role (..))
 import Frame.Frame qualified as Frame
+import Geometry.Box qualified as Box
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V3 (V3 (..))
@@ -43,7 +45,7 @@ quantise machine path = case problems of
     from = Path.start path
     begin = rounded machine (value from)
     planned = concat (zipWith (framesOf machine) (begin : map (rounded machine . Segment.end . segment . move) tasks) tasks)
-    warnings = nub (startWarning <> mapMaybe feedWarning tasks)
+    warnings = nubOrd (startWarning <> mapMaybe feedWarning tasks)
     startWarning =
       let at = Frame.position machine begin
        in [StartRounded (region from) (value from) at | not (Vec.near at (value from))]
@@ -52,28 +54,26 @@ quantise machine path = case problems of
       At (Located region asked@(Feed f)) -> case Machine.chooseFeed machine asked of
         Machine.Given _ given@(Feed g) | abs (g - f) > feedSlack * f -> Just (FeedDiffers region asked given)
         _ -> Nothing
-    problems = nub (mapMaybe feedProblem tasks <> mapMaybe reachProblem tasks <> tooLong)
+    problems = nubOrd (mapMaybe feedProblem tasks <> mapMaybe reachProblem tasks <> tooLong)
     feedProblem task = case pace (move task) of
       Rapid -> Nothing
       At (Located region asked) -> case Machine.chooseFeed machine asked of
         Machine.NoSuchFeed low high -> Just (FeedMissing region asked low high)
         Machine.Given _ _ -> Nothing
-    reachProblem task = beyond (origin (move task)) (Segment.end (segment (move task))) <|> beyond (region from) (value from)
+    reachProblem task =
+      let Box.Box l b r t = Box.ofSegment (segment (move task))
+       in beyond (origin (move task)) (Vec.point l b) <|> beyond (origin (move task)) (Vec.point r t) <|> beyond (region from) (value from)
     beyond :: Region -> Point -> Maybe Error
-    beyond region p = if max (abs (Vec.x p)) (abs (Vec.y p)) > limit then Just (OutOfReach region p reach) else Nothing
-    Mm limit = reach
+    beyond region p = if max (abs (Vec.x p)) (abs (Vec.y p)) <= limit then Nothing else Just (OutOfReach region p Tolerance.reach)
+    Mm limit = Tolerance.reach
     tooLong = case dropWhile ((<= mostFrames) . fst) (scanl (\(n, _) t -> (n + count t, Just t)) (0, Nothing) tasks) of
       (_, Just t) : _ -> [TooManyFrames (origin (move t)) mostFrames]
       _ -> []
-    count task = chordCount machine (sagitta task) (segment (move task))
+    count task = frameCount machine (sagitta task) (segment (move task))
 
 -- | A feed obtained that differs from the one asked by more than this share is worth a warning.
 feedSlack :: Double
 feedSlack = 0.1
-
--- | Coordinates up to 1 km; more is a slip of the pen.
-reach :: Mm
-reach = Mm 1e6
 
 -- | More frames than this are 38 km of tape.
 mostFrames :: Int
@@ -139,6 +139,15 @@ chords :: Machine -> Mm -> Segment -> [Point]
 chords machine sagitta segment = [Segment.at (fromIntegral k / fromIntegral n) segment | k <- [1 .. n]]
   where
     n = chordCount machine sagitta segment
+
+-- | How many frames a segment needs, or one less for each chord: its chords, each split to fit the fields of a frame.
+frameCount :: Machine -> Mm -> Segment -> Int
+frameCount machine sagitta segment = n * max 1 (ceiling (l / fromIntegral n / (fromIntegral field * pulse)))
+  where
+    n = chordCount machine sagitta segment
+    Mm l = Segment.length segment
+    Mm pulse = Machine.pulse machine
+    Pulses field = max 1 (minimum [Machine.capacity machine axis | axis <- [X, Y]])
 
 -- | How many chords a segment needs. Chords shorter than a pulse serve nobody.
 chordCount :: Machine -> Mm -> Segment -> Int

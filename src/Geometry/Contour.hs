@@ -20,6 +20,7 @@ import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
@@ -104,7 +105,12 @@ selfCrossing contour@(Contour ends ss) = listToMaybe (concatMap pairs numbered)
       [ (i, j, p)
         | (j, other) <- Box.within (Box.ofSegment s) index,
           j > i,
-          p <- Distance.crossings s other,
-          not (joined i j && any (Vec.near p) joint)
+          p <- if joined i j then retraced s other <> filter (\q -> not (any (Vec.near q) joint)) (Distance.crossings s other) else Distance.crossings s other
       ]
+    -- A neighbour that runs back along the way it came meets it at its middle.
+    retraced s other =
+      let shorter = if Segment.length s <= Segment.length other then s else other
+          longer = if Segment.length s <= Segment.length other then other else s
+          middle = Segment.at 0.5 shorter
+       in [middle | Distance.toPoint middle longer <= Tolerance.coincident]
     joined i j = j == i + 1 || (ends == Closed && i == 0 && j == count - 1)

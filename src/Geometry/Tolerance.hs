@@ -6,6 +6,7 @@ module Geometry.Tolerance
     clearance,
     sameLength,
     resolution,
+    reach,
   )
 where
 
@@ -32,6 +33,11 @@ clearance = Mm 1e-5
 -- | Two contours whose lengths differ by no more are equally long: the choice between them is a tie.
 sameLength :: Mm
 sameLength = Mm 1e-6
+
+-- | Coordinates and radii up to 1 km; anything more is a slip of the pen, and beyond what the other
+-- tolerances are meant for.
+reach :: Mm
+reach = Mm 1e6
 
 -- | How finely a largest cutter or a largest excess is determined.
 resolution :: Mm

@@ -1,4 +1,4 @@
--- | The tape-to-code converter ЛКП-01Ф of the Ural paper (1962): straight moves only.
+-- | The tape-to-code converter ЛКП-01Ф of the Ural paper: straight moves only.
 module Machine.Lkp01f
   ( lkp01f,
   )
@@ -14,7 +14,7 @@ lkp01f :: Machine
 lkp01f =
   Machine
     { name = MachineName "lkp-01f",
-      title = "ЛКП-01Ф, tape-to-code converter for the milling machine 6Н13ГЭ-1 (1962)",
+      title = "ЛКП-01Ф, tape-to-code converter for the milling machine 6Н13ГЭ-1",
       tracks = 5,
       pulse = Mm 0.02,
       layout =

@@ -47,21 +47,23 @@ solve region ends walks = do
   elements <- maybe (Left nothingLeft) Right (NonEmpty.nonEmpty (filter long chosen))
   let contour = Contour.chained segment (\s e -> e {segment = s}) ends elements
   case Contour.selfCrossing (Contour.Contour ends (fmap segment contour)) of
-    Just (i, j, p) -> Left (CrossesItself region (origin (contour NonEmpty.!! i)) (origin (contour NonEmpty.!! j)) p)
+    Just (i, j, p) -> Left (CrossesItself region (origin (contour NonEmpty.!! i)) (origin (contour NonEmpty.!! j)) p (any hasFillet walks))
     Nothing -> Right contour
   where
     long e = Segment.length (segment e) > Tolerance.coincident
-    nothingLeft = case NonEmpty.head walks of
-      Walk {place, shape} -> Overrun place shape (Mm 0) []
+    nothingLeft = NoLength region
+    hasFillet w = case link w of
+      Just (_, Fillet _ _) -> True
+      _ -> False
 
 -- | A closed contour of one element: a circle, from its rightmost point.
 lone :: Walk -> Either Fact [Element]
 lone (Walk place shape link) = case (shape, link) of
-  (_, Just (at, _)) -> Left (SameCurve (Joined at (place, shape) (place, shape)))
+  (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
     Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place]
-  (OnLine _, Nothing) -> Left (LoneElement place shape)
-  (AtPoint _, Nothing) -> Left (LoneElement place shape)
+  (OnLine _, _) -> Left (LoneElement place shape)
+  (AtPoint _, _) -> Left (LoneElement place shape)
 
 -- | An open contour runs from the first point of its first element to the last one of its last.
 open :: NonEmpty Walk -> Either Fact [Element]
@@ -72,7 +74,7 @@ open walks = do
     Just (at, _) -> Left (LinkAtEnd at (place first))
     Nothing -> Right ()
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
-  route <- shortest list begin [Joint.through finish] joints
+  route <- decided =<< shortest list begin [Joint.through finish] joints
   Right (elementsOf list begin route)
   where
     list = NonEmpty.toList walks
@@ -93,8 +95,8 @@ closed walks = do
   case sortOn (cost . snd) routes of
     [] -> Left (minimumBy (comparing gravity) [f | (_, Left f) <- attempts])
     (c, route) : others -> case [o | (o, r) <- others, cost r <= plus (cost route) Tolerance.sameLength] of
-      o : _ | Just ambiguous <- tie (fst closing) [c, o] -> Left ambiguous
-      _ -> Right (elementsOf list (enter c) route)
+      o : _ | Just fact <- tie (fst closing) [c, o] -> Left fact
+      _ -> elementsOf list (enter c) <$> decided route
   where
     list = NonEmpty.toList walks
     first = NonEmpty.head walks
@@ -109,13 +111,14 @@ jointsOf a b = (joined,) <$> Joint.candidates joined (maybe (Meet Nothing) snd (
   where
     joined = Joined (maybe (place b) fst (link a)) (place a, shape a) (place b, shape b)
 
--- | A way through all links: the joints in order, the last one first, and its length so far.
-data Route = Route {cost :: Mm, taken :: [Joint]}
+-- | A way through the links so far: its length, the joints with the last one first, and the choice between
+-- it and another of the same length, if there is one.
+data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe Fact}
 
 -- | The shortest way from a point on the first element through all links; the last link is given
 -- by its candidates.
 shortest :: [Walk] -> Point -> [Joint] -> [(Joined, NonEmpty Joint)] -> Either Fact Route
-shortest walks begin final joints = go walks [(begin, Route (Mm 0) [])] (map Just joints <> [Nothing])
+shortest walks begin final joints = go walks [(begin, Route (Mm 0) [] Nothing)] (map Just joints <> [Nothing])
   where
     go ws states layers = case (ws, layers) of
       (w : rest, layer : more) -> do
@@ -128,18 +131,20 @@ shortest walks begin final joints = go walks [(begin, Route (Mm 0) [])] (map Jus
           reached = [(joint, sortOn cost [r | Right r <- ways joint]) | joint <- candidates]
       case [(joint, best, others) | (joint, best : others) <- reached] of
         [] -> Left (overrun w (minimum [by | joint <- candidates, Left by <- ways joint]) layer)
-        fine -> do
-          mapM_ unambiguous fine
-          Right [(enter joint, best) | (joint, best, _) <- fine]
-    -- Two ways of one length to the same joint differ in the link before it.
-    unambiguous (_, best, others) = case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
+        fine -> Right [(enter joint, weighed best others) | (joint, best, others) <- fine]
+    -- Of two ways of one length to the same joint either will do, but not without asking.
+    weighed best others = case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
       o : _
         | Just (j, a, b) <- firstDifference (reverse (taken best)) (reverse (taken o)) (map fst joints),
           Just fact <- tie j [a, b] ->
-          Left fact
-      _ -> Right ()
+          best {ambiguous = Just fact}
+      _ -> best
     overrun w by layer = Overrun (place w) (shape w) by (catMaybes [fst <$> link w, jointRegion <$> layer])
     jointRegion (j, _) = Error.link j
+
+-- | A way without another of the same length.
+decided :: Route -> Either Fact Route
+decided route = maybe (Right route) Left (ambiguous route)
 
 -- | The first link at which two ways part.
 firstDifference :: [Joint] -> [Joint] -> [Joined] -> Maybe (Joined, Joint, Joint)
@@ -157,9 +162,9 @@ tie j choice = case mapMaybe inserted choice of
 -- | Walk an element from where a way has come to a joint, and along what the joint inserts; or how far
 -- that would be backwards.
 extend :: Walk -> (Point, Route) -> Joint -> Either Mm Route
-extend w (at, Route c js) joint
+extend w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm by = along in Mm (-by))
-  | otherwise = Right (Route (plus c (plus along (maybe (Mm 0) Segment.length (inserted joint)))) (joint : js))
+  | otherwise = Right (Route (plus c (plus along (maybe (Mm 0) Segment.length (inserted joint)))) (joint : js) choice)
   where
     along = walked (shape w) at (leave joint)
 
@@ -173,14 +178,13 @@ walked shape a b = case shape of
   OnCircle _ _ -> maybe (Mm 0) Segment.length (stretch shape a b)
   AtPoint _ -> Mm 0
 
--- | The segment along an element between two of its points; none when they are one.
+-- | The segment along an element between two of its points. A circle that is entered where it is left is
+-- walked once round: a contour that does not walk an element at all would be the shortest.
 stretch :: Walked -> Point -> Point -> Maybe Segment
-stretch shape a b
-  | Vec.near a b = Nothing
-  | otherwise = case shape of
-    OnLine (Line _ _) -> Just (Straight a b)
-    OnCircle turn (Circle c _) -> Just (Segment.arc turn c a b)
-    AtPoint _ -> Nothing
+stretch shape a b = case shape of
+  OnLine (Line _ _) -> if Vec.near a b then Nothing else Just (Straight a b)
+  OnCircle turn circle@(Circle c _) -> Just (if Vec.near a b then Segment.fullCircle turn circle a else Segment.arc turn c a b)
+  AtPoint _ -> Nothing
 
 -- | The segments of a way.
 elementsOf :: [Walk] -> Point -> Route -> [Element]

@@ -12,6 +12,7 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..))
 import Base.Region (Region)
+import Data.List (nub)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Shape (Circle (..), Line (..), Walked (..))
@@ -34,6 +35,10 @@ data Fact
     OutOfRange Region Text Text Text
   | -- | a result that no number can hold
     TooLarge Region
+  | -- | a length, radius or coordinate beyond what any machine reaches, and that limit
+    OutOfReach Region Mm
+  | -- | the evaluation would take more steps than this
+    TooMuchWork Region Integer
   | RadiusNotPositive Region Mm
   | -- | the two points of the line are one
     ZeroLine Region Point
@@ -42,6 +47,10 @@ data Fact
   | EmptyContour Region Name
   | -- | a closed contour of one element that is no circle
     LoneElement Region Walked
+  | -- | a contour of which nothing is left to walk
+    NoLength Region
+  | -- | a link behind a circle that closes by itself
+    LinkOfLoneCircle Region
   | -- | an open contour whose first or last element has no end of its own
     NoEnd Region Walked
   | LinkAtEnd Region Region
@@ -68,7 +77,8 @@ data Fact
     AmbiguousFillet Joined [Point]
   | -- | an element whose end lies before its beginning, by so much
     Overrun Region Walked Mm [Region]
-  | CrossesItself Region Region Region Point
+  | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
+    CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -80,6 +90,20 @@ toReport (Error fact calls) = addCalls $ case fact of
       { message = [function <> " takes " <> range <> "."]
       }
   TooLarge region -> at region "E0303" "the result is too large for a number"
+  OutOfReach region limit ->
+    (at region "E0326" "this is further than any machine reaches")
+      { message = ["Coordinates and radii may be up to " <> Decimal.mm limit <> "."]
+      }
+  TooMuchWork region limit ->
+    (at region "E0327" ("this takes more than " <> Text.pack (show limit) <> " steps to compute"))
+      { message = ["Functions that use one another several times, or repetitions in repetitions, multiply their steps."]
+      }
+  NoLength region ->
+    at region "E0328" "the contour has no length"
+  LinkOfLoneCircle region ->
+    (at region "E0329" "a circle alone closes by itself and needs no link")
+      { hints = ["Leave the link out."]
+      }
   RadiusNotPositive region r ->
     (at region "E0304" ("a circle needs a positive radius, this one is " <> Decimal.mm r))
       { label = Decimal.mm r
@@ -168,18 +192,19 @@ toReport (Error fact calls) = addCalls $ case fact of
   Overrun region walked overlap links ->
     (at region "E0324" ("the links do not fit: " <> describe walked <> " is too short for them by " <> Decimal.mm overlap))
       { label = "it would have to be walked backwards",
-        others = [Label l "this link takes its share" | l <- links],
+        others = [Label l "this link takes its share" | l <- nub links],
         message = [stop "17535"],
         hints = ["Make the fillet or chamfer smaller, or check the directions of the neighbours."]
       }
-  CrossesItself contour first second p ->
+  CrossesItself contour first second p fillets ->
     (at first "E0325" "the contour crosses or touches itself")
       { label = "this element",
         others = [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
-        message = ["They meet at " <> point p <> "."]
+        message = ["They meet at " <> point p <> "."],
+        hints = ["Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise." | fillets]
       }
   where
-    addCalls r = r {others = others r <> [Label c "in this call" | c <- take 1 calls]}
+    addCalls r = r {others = others r <> [Label c "in this call" | c <- nub (take 1 calls <> take 1 (reverse calls))]}
 
 at :: Region -> Code -> Text -> Report
 at region code = report Report.Error code (InSource region)

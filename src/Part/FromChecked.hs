@@ -10,7 +10,7 @@ import Base.Name (Name)
 import Base.Quantity (Feed (..), Mm (..), times)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
-import Checked.Syntax (Expr, Item, Item_ (..), Sign (..), Walk)
+import Checked.Syntax (Expr, Item, Item_ (..), Walk)
 import Checked.Syntax qualified as Checked
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -72,9 +72,9 @@ step state (Located region s) = case s of
   Checked.Feed e -> keep (feedOf env e) (\f -> state {feed' = Just f})
   Checked.Tolerance e -> keep (positive env "the tolerance" Decimal.mm Mm e) (\t -> state {tolerance' = Just t})
   Checked.From e -> keep (pointOf env e) (\p -> state {start' = Just (Located region p)})
-  Checked.LetValue name e -> keep (Value.evaluate env e) (define name)
+  Checked.LetValue name e -> keep (affordable env 1 e *> Value.evaluate env e) (define name)
   Checked.LetFunction name parameters body ->
-    state {environment = env {functions = Map.insert name (parameters, body) (functions env)}}
+    state {environment = env {functions = Map.insert name (parameters, body) (functions env), costs = Map.insert name (1 + Value.steps env body) (costs env)}}
   Checked.Contour name closure items ->
     keep (contourOf env name closure items) $ \c -> (define (value name) (ContourValue c)) {contours' = c : contours' state}
   Checked.Mill e side before after ->
@@ -91,18 +91,31 @@ step state (Located region s) = case s of
       Right Nothing -> state
       Right (Just a) -> f a
 
+-- Steps
+
+-- | Evaluations may not take more steps.
+mostSteps :: Integer
+mostSteps = 10000000
+
+-- | Whether an expression can be evaluated so often.
+affordable :: Environment -> Integer -> Expr -> Either Error ()
+affordable env times' e
+  | times' * Value.steps env e <= mostSteps = Right ()
+  | otherwise = Left (Error (TooMuchWork (region e) mostSteps) [])
+
 -- Settings
 
 pointOf :: Environment -> Expr -> Answer Point
-pointOf env e = fmap Value.place <$> Value.evaluate env e
+pointOf env e = affordable env 1 e *> (fmap Value.place <$> Value.evaluate env e)
 
 -- | A quantity above zero; what it is and how it is written for the report.
 positive :: Environment -> Text -> (q -> Text) -> (Double -> q) -> Expr -> Answer q
 positive env what written make e = do
+  affordable env 1 e
   v <- Value.evaluate env e
   case Value.double <$> v of
     Just x | x <= 0 -> Left (Error (NotPositive (region e) what (written (make x))) [])
-    Just x -> Right (Just (make x))
+    Just x -> Just (make x) <$ Value.within (region e) x
     Nothing -> Right Nothing
 
 feedOf :: Environment -> Expr -> Answer (Located Feed)
@@ -138,7 +151,7 @@ stopsOf state stops = sequence <$> traverse stop stops
 
 contourOf :: Environment -> Located Name -> Checked.Closure -> [Item] -> Answer Contour
 contourOf env name closure items = do
-  walks <- walksOf env items
+  walks <- walksOf env 1 items
   case walks of
     Nothing -> Right Nothing
     Just ws -> case NonEmpty.nonEmpty ws of
@@ -151,18 +164,21 @@ contourOf env name closure items = do
       Checked.Open -> Open
       Checked.Closed -> Closed
 
-walksOf :: Environment -> [Item] -> Answer [Chain.Walk]
-walksOf env items = fmap concat . sequence <$> traverse (itemOf env) items
+-- | The elements of some items, which are evaluated so often in all.
+walksOf :: Environment -> Integer -> [Item] -> Answer [Chain.Walk]
+walksOf env times' items = fmap concat . sequence <$> traverse (itemOf env times') items
 
-itemOf :: Environment -> Item -> Answer [Chain.Walk]
-itemOf env (Located _ i) = case i of
+itemOf :: Environment -> Integer -> Item -> Answer [Chain.Walk]
+itemOf env times' (Located _ i) = case i of
   For name list body -> do
+    affordable env times' list
     v <- Value.evaluate env list
     case v of
       Nothing -> Right Nothing
-      Just (ListValue vs) -> fmap concat . sequence <$> traverse (\x -> walksOf env {locals = Map.insert name x (locals env)} body) vs
+      Just (ListValue vs) -> fmap concat . sequence <$> traverse (\x -> walksOf env {locals = Map.insert name x (locals env)} (times' * fromIntegral (length vs)) body) vs
       Just _ -> bug "a repetition over a value that is no list"
   Element walk e link -> do
+    affordable env times' e
     shape <- fmap (walked walk) <$> Value.evaluate env e
     link' <- maybe (Right (Just Nothing)) (linkOf env) link
     Right ((\s l -> [Chain.Walk {Chain.place = region e, Chain.shape = s, Chain.link = l}]) <$> shape <*> link')
@@ -181,20 +197,16 @@ linkOf env (Located at l) = case l of
   Checked.Meet (Just p) -> found (fmap (Meet . Just) <$> pointOf env p)
   Checked.Smooth -> found (Right (Just Smooth))
   Checked.Tangent -> found (Right (Just Tangent))
-  Checked.Fillet sign e -> found $ do
+  Checked.Fillet e -> found $ do
     v <- fmap Value.double <$> Value.evaluate env e
     case v of
       Just 0 -> Left (Error (NotPositive (region e) "the radius of a fillet" "0 mm") [])
-      _ -> Right (signed sign <$> v)
+      Just r -> Just (signed r) <$ Value.within (region e) r
+      Nothing -> Right Nothing
   Checked.Chamfer e -> found (fmap Chamfer <$> positive env "the chamfer" Decimal.mm Mm e)
   where
     found answer = fmap (fmap (Just . (at,))) answer
 
 -- | +R is walked clockwise, −R counter-clockwise (Kolsanova: links between pieces).
-signed :: Sign -> Double -> Link
-signed sign r = Fillet turn (Mm (abs r))
-  where
-    turn = case sign of
-      Plus | r > 0 -> Shape.Clockwise
-      Minus | r < 0 -> Shape.Clockwise
-      _ -> Shape.CounterClockwise
+signed :: Double -> Link
+signed r = Fillet (if r > 0 then Shape.Clockwise else Shape.CounterClockwise) (Mm (abs r))

@@ -4,6 +4,8 @@ module Part.Value
     Environment (..),
     empty,
     evaluate,
+    within,
+    steps,
     double,
     place,
   )
@@ -20,6 +22,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Geometry.Shape (Circle (..), Line (..))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Part.Error (Error (..), Fact (..))
@@ -40,11 +43,26 @@ data Value
 data Environment = Environment
   { values :: Map Name Value,
     functions :: Map Name (NonEmpty Name, Expr),
+    -- | how many steps a call of each function takes
+    costs :: Map Name Integer,
     locals :: Map Name Value
   }
 
 empty :: Environment
-empty = Environment Map.empty Map.empty Map.empty
+empty = Environment Map.empty Map.empty Map.empty Map.empty
+
+-- | How many steps it takes to evaluate an expression. There is no recursion and no repetition in
+-- expressions, so this is known beforehand.
+steps :: Environment -> Expr -> Integer
+steps env (Located _ e) = case e of
+  Number _ -> 1
+  Variable _ -> 1
+  Apply name arguments -> Map.findWithDefault 1 name (costs env) + sum (fmap (steps env) arguments)
+  Builtin _ arguments -> 1 + sum (map (steps env) arguments)
+  Negate inner -> 1 + steps env inner
+  Binary _ l r -> 1 + steps env l + steps env r
+  Pair x y -> 1 + steps env x + steps env y
+  List items -> 1 + sum (map (steps env) items)
 
 -- | The value of an expression; Nothing when it depends on something that has none.
 evaluate :: Environment -> Expr -> Either Error (Maybe Value)
@@ -65,7 +83,7 @@ evaluate env (Located region e) = case e of
     [a, b] -> Just <$> binary region op a b
     _ -> bug "an operator with other than two operands"
   Pair x y -> withAll [x, y] $ \vs -> case map double vs of
-    [a, b] -> Right (Just (Spatial (Vec.vec a b)))
+    [a, b] -> Just <$> spatial region (Vec.vec a b)
     _ -> bug "a pair of other than two"
   List items -> withAll items (Right . Just . ListValue)
   where
@@ -87,12 +105,12 @@ inCall region result = case result of
 
 binary :: Region -> Operator -> Value -> Value -> Either Error Value
 binary region op l r = case (op, l, r) of
-  (Add, Spatial a, Spatial b) -> spatial (Vec.add a b)
-  (Subtract, Spatial a, Spatial b) -> spatial (Vec.add a (Vec.negate b))
-  (Multiply, Quantity k, Spatial a) -> spatial (Vec.scale k a)
-  (Multiply, Spatial a, Quantity k) -> spatial (Vec.scale k a)
+  (Add, Spatial a, Spatial b) -> spatial region (Vec.add a b)
+  (Subtract, Spatial a, Spatial b) -> spatial region (Vec.add a (Vec.negate b))
+  (Multiply, Quantity k, Spatial a) -> spatial region (Vec.scale k a)
+  (Multiply, Spatial a, Quantity k) -> spatial region (Vec.scale k a)
   (Divide, Spatial _, Quantity 0) -> zero
-  (Divide, Spatial a, Quantity k) -> spatial (Vec.scale (1 / k) a)
+  (Divide, Spatial a, Quantity k) -> spatial region (Vec.scale (1 / k) a)
   (Add, Quantity a, Quantity b) -> number (a + b)
   (Subtract, Quantity a, Quantity b) -> number (a - b)
   (Multiply, Quantity a, Quantity b) -> number (a * b)
@@ -102,7 +120,18 @@ binary region op l r = case (op, l, r) of
   where
     zero = Left (Error (DivisionByZero region) [])
     number = finite region
-    spatial v = v' <$ finite region (Vec.norm v) where v' = Spatial v
+
+-- | A point or vector that a machine reaches.
+spatial :: Region -> Vec -> Either Error Value
+spatial region v = Spatial v <$ within region (Vec.norm v)
+
+-- | A length that a machine reaches.
+within :: Region -> Double -> Either Error ()
+within region x
+  | abs x <= limit = Right ()
+  | otherwise = Left (Error (OutOfReach region Tolerance.reach) [])
+  where
+    Mm limit = Tolerance.reach
 
 -- | A number that can be held.
 finite :: Region -> Double -> Either Error Value
@@ -113,10 +142,10 @@ finite region x
 apply :: Region -> Builtin -> [Value] -> Either Error Value
 apply region builtin arguments = case (builtin, arguments) of
   (Pi, []) -> Right (Quantity pi)
-  (Polar, [Quantity r, Quantity a]) -> Right (Spatial (Vec.polar (Mm r) (Rad a)))
+  (Polar, [Quantity r, Quantity a]) -> spatial region (Vec.polar (Mm r) (Rad a))
   (MakeCircle, [Spatial c, Quantity r])
     | r <= 0 -> failing (RadiusNotPositive region (Mm r))
-    | otherwise -> Right (CircleValue (Circle (point c) (Mm r)))
+    | otherwise -> CircleValue (Circle (point c) (Mm r)) <$ within region r
   (MakeLine, [Spatial p, Spatial q])
     | Vec.near (point p) (point q) -> failing (ZeroLine region (point p))
     | otherwise -> Right (LineValue (Line (point p) (point q)))

@@ -27,8 +27,8 @@ data Error
     InnerCorner Region Mm Element Element Point (Maybe Mm)
   | -- | on its way along the first element the cutter cuts the second
     Collision Region Mm Element Element Point (Maybe Mm)
-  | -- | a move that cuts into an element, and how deep
-    CutsPart Region Element Mm Point
+  | -- | a move that cuts into an element, how deep, and whether it even crosses it
+    CutsPart Region Element Mm Bool Point
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -50,7 +50,7 @@ toReport err = case err of
       { label = shape first,
         others = second' first second <> [Label region ("milled here with a diameter of " <> diameter r)],
         message = ["The corner is at " <> point p <> "."],
-        hints = ["Round the corner with a fillet of at least the cutter's radius, " <> Decimal.mm r <> ".", fits largest]
+        hints = "Round the corner with a fillet of at least the cutter's radius, " <> Decimal.mm r <> "." : [fits largest | Just _ <- [largest]]
       }
   Collision region r first second p largest ->
     (at (origin first) "E0404" ("a cutter of diameter " <> diameter r <> " cannot follow this element without cutting another one"))
@@ -59,8 +59,8 @@ toReport err = case err of
         message = ["With its centre at " <> point p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
         hints = [fits largest]
       }
-  CutsPart region element depth p ->
-    (at region "E0405" ("this move cuts into the part by " <> Decimal.mm depth))
+  CutsPart region element depth crosses p ->
+    (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
         message = ["The cutter's centre is then at " <> point p <> "."],

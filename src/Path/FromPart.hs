@@ -7,7 +7,7 @@ module Path.FromPart
 where
 
 import Base.Quantity (Mm (..), minus, plus)
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.Bifunctor (first)
 import Data.List (minimumBy)
@@ -22,6 +22,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (..), Element, Milling (contour, feed, radius, side, tolerance), Operation (..), Part, Side (..), Stop)
@@ -30,11 +31,13 @@ import Path.Error (Error (..))
 import Path.Path (Block (..), Move (..), Path (Path, blocks))
 import Path.Path qualified as Path
 
--- | Lay the path. No path when an operation has none or the start is unknown.
+-- | Lay the path. No path when an operation has none, or when there are operations but the start is
+-- unknown, which is reported already; a part that is only drawn has a path without moves.
 lay :: Part -> Result w Error Path
-lay part = case Part.start part of
-  Nothing -> Result [] [] Nothing
-  Just begin -> case collect (value begin) (Part.operations part) of
+lay part = case (Part.start part, Part.operations part) of
+  (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Vec.point 0 0)) []))
+  (Nothing, _) -> Result [] [] Nothing
+  (Just begin, _) -> case collect (value begin) (Part.operations part) of
     ([], blocks) ->
       let path = Path begin blocks
        in Result [] (intrusions path) (Just path)
@@ -123,10 +126,10 @@ intrusion milling index move
   | otherwise = [minimumBy (comparing depth) deep]
   where
     depth e = case e of
-      CutsPart _ _ (Mm d) _ -> -d
+      CutsPart _ _ (Mm d) _ _ -> -d
       _ -> 0
     deep =
-      [ CutsPart (Path.origin move) element (minus (radius milling) d) p
+      [ CutsPart (Path.origin move) element (minus (radius milling) d) (d <= Tolerance.coincident) p
         | element <- Box.within (Box.inflate (radius milling) (Box.ofSegment (Path.segment move))) index,
           let Nearest d p = Distance.segments (Path.segment move) (Part.segment element),
           plus d (tolerance milling) < radius milling

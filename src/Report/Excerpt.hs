@@ -3,12 +3,13 @@
 module Report.Excerpt
   ( Excerpt (..),
     excerpt,
+    visible,
   )
 where
 
 import Base.Region (Position (..), Region (..), Source)
 import Base.Region qualified as Region
-import Data.Char (isControl, ord)
+import Data.Char (GeneralCategory (Format), generalCategory, isControl, ord)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Text.DocLayout (realLength)
@@ -19,18 +20,39 @@ data Excerpt = Excerpt {lineNumber :: Int, shown :: Text, indent :: Int, width :
 
 -- | The line on which a region begins. A region of several lines is marked to the end of its first.
 excerpt :: Source -> Region -> Excerpt
-excerpt source region = Excerpt {lineNumber = line, shown = Text.concat cells, indent, width}
+excerpt source region = Excerpt {lineNumber = line, shown = Text.concat (cutBefore <> window <> cutAfter), indent, width}
   where
     Position {line, column} = Region.position source (start region)
     content = Region.lineText source line
     cells = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
-    (before, rest) = splitAt (column - 1) cells
-    indent = realLength (Text.concat before)
+    -- Of a very long line only the surroundings of the place are shown.
+    skipped = if Text.length content > longest then max 0 (column - 1 - longest `div` 2) else 0
+    window = take longest (drop skipped cells)
+    cutBefore = ["…" | skipped > 0]
+    cutAfter = ["…" | Text.length content - skipped > longest]
+    (before, rest) = splitAt (column - 1 - skipped) window
+    indent = realLength (Text.concat (cutBefore <> before))
     width = max 1 (realLength (Text.concat (take length' rest)))
 
--- | What each character becomes on the terminal: tabs reach the next multiple of four,
--- control characters become visible signs.
+-- | How many characters of a line are shown.
+longest :: Int
+longest = 120
+
+-- | A text without characters that a terminal would obey.
+visible :: Text -> Text
+visible = Text.map sign
+  where
+    sign c = if c == '\n' then c else shownAs c
+
+-- | Control characters become visible signs, those that steer the writing direction a mark.
+shownAs :: Char -> Char
+shownAs c
+  | ord c < 0x20 = toEnum (0x2400 + ord c)
+  | isControl c || generalCategory c == Format = '\xFFFD'
+  | otherwise = c
+
+-- | What each character becomes on the terminal: tabs reach the next multiple of four.
 expand :: Int -> String -> [Text]
 expand at string = case string of
   [] -> []
@@ -38,6 +60,4 @@ expand at string = case string of
     where
       cell
         | c == '\t' = Text.replicate (4 - at `mod` 4) " "
-        | ord c < 0x20 = Text.singleton (toEnum (0x2400 + ord c))
-        | isControl c = "\xFFFD"
-        | otherwise = Text.singleton c
+        | otherwise = Text.singleton (shownAs c)

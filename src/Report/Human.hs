@@ -27,8 +27,9 @@ data Role = Severe Severity | Title | Frame | Secondary | Advice
 
 -- | One report; the path names the file it is about.
 render :: Colour -> Text -> Source -> Report -> Text
-render colour path source r = Text.unlines (heading : location <> body <> advice)
+render colour path source report = Text.unlines (heading : location <> body <> advice)
   where
+    r = cleaned report
     paint' = paint colour
     Code code = Report.code r
     heading =
@@ -72,6 +73,19 @@ render colour path source r = Text.unlines (heading : location <> body <> advice
           : map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
     lead = Text.replicate (gutter + 1) " "
     number' = Decimal.whole . lineNumber
+
+-- | Without characters that a terminal would obey; the excerpt sees to its own.
+cleaned :: Report -> Report
+cleaned r =
+  r
+    { title = clean (title r),
+      label = clean (label r),
+      others = [Label region (clean words') | Label region words' <- others r],
+      message = map clean (message r),
+      hints = map clean (hints r)
+    }
+  where
+    clean = Excerpt.visible
 
 -- | How many errors and warnings there were, as the last line. Nothing when there were none.
 summary :: Colour -> [Report] -> Text

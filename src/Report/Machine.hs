@@ -13,13 +13,14 @@ import Data.Aeson.Encoding (encodingToLazyByteString)
 import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
+import Report.Excerpt qualified as Excerpt
 import Report.Report (Code (..), Label (..), Place (..), Report (..))
 import Report.Report qualified as Report
 
 -- | @file:line:col: error[E0123]: text@. A report about a tape has the row in the line's place.
 short :: Text -> Source -> Report -> Text
 short path source r =
-  path <> at <> ": " <> Report.severityWord (severity r) <> "[" <> code <> "]: " <> title r <> "\n"
+  path <> at <> ": " <> Report.severityWord (severity r) <> "[" <> code <> "]: " <> Excerpt.visible (title r) <> "\n"
   where
     Code code = Report.code r
     at = case place r of

@@ -14,7 +14,8 @@ module Report.Report
 where
 
 import Base.Region (Region)
-import Data.List (nub, sortOn)
+import Data.List (sortOn)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.String (IsString)
 import Data.Text (Text)
 
@@ -77,4 +78,4 @@ isError r = case severity r of
 
 -- | By place, each once.
 sorted :: [Report] -> [Report]
-sorted = nub . sortOn (\r -> (place r, severity r, code r))
+sorted = map NonEmpty.head . NonEmpty.group . sortOn (\r -> (place r, severity r, code r, title r))

@@ -6,12 +6,13 @@ module Surface.Error
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), report)
-import Surface.Token (Token_ (..), describe)
+import Surface.Token (Token_ (..), describe, unitName)
 
 -- | A fact about the text, and where it stands.
 data Error
@@ -23,6 +24,12 @@ data Error
     UnknownStatement Region Text [Text]
   | -- | a keyword or a unit where a name was to be given
     Reserved Region Text
+  | -- | something behind a complete statement or item
+    Trailing Region Token_
+  | -- | a statement in the braces of another
+    Misplaced Region Text
+  | -- | brackets nested deeper than so many
+    TooDeep Region Int
   deriving stock (Eq, Ord, Show)
 
 -- | What stands there.
@@ -50,6 +57,8 @@ toReport err = case err of
         hints = case (found, expected) of
           (FoundToken (Symbol ","), _) ->
             ["A decimal point is a point: 59.3. A comma separates values."]
+          (FoundToken (Symbol "("), _) -> [touches]
+          (FoundToken (Symbol "+"), _) -> ["A positive number needs no sign."]
           _ -> []
       }
   Unclosed region opened what ->
@@ -66,6 +75,39 @@ toReport err = case err of
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
       { hints = ["Choose another name, for example " <> word <> "1."]
       }
+
+  Trailing region token | isBroken token -> toReport (Unexpected region (FoundToken token) [])
+  Trailing region token ->
+    (at region "E0108" ("the statement ends before " <> describe token))
+      { message = ["Every statement begins on a line of its own."],
+        hints = case token of
+          Word _ -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
+          Symbol "(" -> [touches]
+          _ -> []
+      }
+  Misplaced region word ->
+    (at region "E0109" (quote word <> " is a statement and does not belong in these braces"))
+      { hints =
+          if word `elem` ["rapid", "feed"]
+            then ["Behind a point, " <> quote word <> " stands on the line of that point."]
+            else ["Move it above the statement in whose braces it stands."]
+      }
+  TooDeep region limit ->
+    at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
+
+touches :: Text
+touches = "The parenthesis of a call, or of a function's parameters, touches the name: f(3)."
+
+-- | Whether a token is wrong wherever it stands.
+isBroken :: Token_ -> Bool
+isBroken token = case token of
+  Stray _ -> True
+  OpenText -> True
+  BadNumber _ -> True
+  Word _ -> False
+  Number _ _ -> False
+  Text _ -> False
+  Symbol _ -> False
 
 at :: Region -> Code -> Text -> Report
 at region code = report Error code (InSource region)
@@ -89,5 +131,6 @@ strayHint c
   | c `elem` ("−–—" :: String) = ["Write the minus sign as -."]
   | c `elem` ("“”„«»'" :: String) = ["A text stands between \" and \"."]
   | c == ';' = ["Statements need no separator; a comment begins with --."]
+  | c == '.' = ["Write a number with digits on both sides of its point: 0.5, 5.0 or 5."]
   | c == '°' = ["Write degrees as deg: 45 deg."]
   | otherwise = []

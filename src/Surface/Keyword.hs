@@ -1,6 +1,7 @@
 -- | The words that the language keeps for itself.
 module Surface.Keyword
   ( statements,
+    beginsItem,
     isReserved,
   )
 where
@@ -14,6 +15,10 @@ import Surface.Token (unitName)
 statements :: [Text]
 statements =
   ["part", "machine", "tool", "feed", "tolerance", "from", "let", "contour", "mill", "rapid", "move"]
+
+-- | Whether a word begins an item of a block.
+beginsItem :: Text -> Bool
+beginsItem word = word `elem` ["for", "cw", "ccw", "approach", "retract"]
 
 -- | Whether a word can not be the name of a value.
 isReserved :: Text -> Bool

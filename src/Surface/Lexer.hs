@@ -35,7 +35,7 @@ go before rest = case Text.uncons rest of
   Nothing -> ([], [])
   Just (c, after)
     | isLineEnd c -> go before {at = at before + 1, fresh = True, touching = False, machine = False} after
-    | isSpace c || c == '\xFEFF' -> go before {at = at before + 1, touching = False} after
+    | isSpace c -> go before {at = at before + 1, touching = False} after
     | "--" `Text.isPrefixOf` rest ->
       let comment = Text.takeWhile (not . isLineEnd) rest
           region = Region (at before) (at before + Text.length comment)
@@ -77,7 +77,7 @@ quoted rest = case Text.uncons after of
 -- | A number with the unit that may stand behind it on its line.
 numeral :: Text -> (Token_, Int)
 numeral rest
-  | junk = (BadNumber written, Text.length written)
+  | junk || Text.length digits > mostDigits = (BadNumber written, Text.length written)
   | otherwise = case Read.double digits of
     Right (value, "") | not (isInfinite value) -> case unitBehind (Text.drop size rest) of
       Just (unit, gap, length') -> (Number value (Just unit), size + gap + length')
@@ -96,11 +96,15 @@ numeral rest
     junk = extraPoint || not (Text.null tailWord) && maybe True (\(_, gap, _) -> gap > 0) (unitBehind (Text.drop size rest))
     written = Text.takeWhile (\c -> isWordPart c || c == '.') rest
 
+-- | No drawing has numbers with more digits.
+mostDigits :: Int
+mostDigits = 40
+
 -- | A unit at most some spaces away: the unit, the spaces before it, its length.
 unitBehind :: Text -> Maybe (Unit, Int, Int)
 unitBehind rest = found <$> find fits longestFirst
   where
-    (gap, word) = Text.span (\c -> c == ' ' || c == '\t') rest
+    (gap, word) = Text.span (\c -> isSpace c && not (isLineEnd c)) rest
     fits unit =
       unitName unit `Text.isPrefixOf` word
         && not (Text.any isWordPart (Text.take 1 (Text.drop (Text.length (unitName unit)) word)))

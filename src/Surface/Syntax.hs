@@ -12,7 +12,6 @@ module Surface.Syntax
     Walk (..),
     Link,
     Link_ (..),
-    Sign (..),
     Side (..),
     MachineRef (..),
     Setting,
@@ -93,8 +92,8 @@ data Item_
     Element (Maybe (Located Walk)) Expr (Maybe Link)
   | -- | @for a in list { … }@
     For (Located Name) Expr [Item]
-  | -- | an item that could not be read
-    BrokenItem
+  | -- | an item that could not be read, and the name that it would have defined
+    BrokenItem (Maybe (Located Name))
   deriving stock (Eq, Show)
 
 -- | The sense in which a circle is walked.
@@ -108,13 +107,10 @@ data Link_
     Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | -- | the radius as written with its sign: + is walked clockwise
-    Fillet Sign Expr
+  | -- | the radius; positive is walked clockwise, negative counter-clockwise
+    Fillet Expr
   | Chamfer Expr
   deriving stock (Eq, Show)
-
-data Sign = Plus | Minus
-  deriving stock (Eq, Show, Enum, Bounded)
 
 -- | Where the cutter stands.
 data Side = Outside | Inside | LeftSide | RightSide | On
@@ -126,7 +122,8 @@ type Setting = Located Setting_
 data Setting_
   = Approach (NonEmpty Stop)
   | Retract (NonEmpty Stop)
-  | BrokenSetting
+  | -- | a setting that could not be read
+    BrokenSetting
   deriving stock (Eq, Show)
 
 -- | A point to go to, and how fast.

@@ -43,8 +43,10 @@ data Damage = Damage {row :: Int, frame :: Maybe Int, cause :: Cause}
   deriving stock (Eq, Show)
 
 data Cause
-  = -- | a hole in the leader or less of it than there must be
+  = -- | a hole in the leader, and how many rows it must have
     LeaderNotBlank Int
+  | -- | a tape that ends within its leader
+    NoFrames Int
   | -- | a hole in the blank rows before an even frame
     ShiftNotBlank
   | -- | the tape ends within a frame
@@ -59,7 +61,7 @@ read :: Machine -> Tape -> Either Damage [Frame]
 read machine (Tape rows) = case ByteString.findIndex (/= 0) front of
   Just k -> Left (Damage (k + 1) Nothing (LeaderNotBlank leader))
   Nothing
-    | ByteString.length front < leader -> Left (Damage (ByteString.length front) Nothing (LeaderNotBlank leader))
+    | ByteString.length front < leader -> Left (Damage (max 1 (ByteString.length front)) Nothing (NoFrames leader))
     | otherwise -> go 1 leader (ByteString.drop leader rows)
   where
     leader = Machine.leader machine
@@ -96,11 +98,13 @@ toReport (Damage row frame cause) =
       _ -> ""
     because = case cause of
       LeaderNotBlank _ -> "the leader is not blank"
+      NoFrames _ -> "the tape is empty or ends within its leader"
       ShiftNotBlank -> "a hole in the blank rows before an even frame"
       CutOff -> "the tape ends within a frame"
       TrailerLength _ _ -> "the end of the tape is not as it should be"
       InFrame fault -> reasonWord (Layout.reason fault)
     explanation = case cause of
+      NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
       LeaderNotBlank wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
       TrailerLength found wanted ->
         [ "Behind the last frame stand " <> Decimal.whole found <> " blank rows, and it should be " <> Decimal.whole wanted

@@ -51,7 +51,7 @@ data Trace = Trace {stroke :: Stroke, line :: Segment}
 -- tell where the tape has to begin and end and which feeds belong where.
 prove :: Machine -> Path -> Program -> [Frame] -> Proof
 prove machine path program frames =
-  Proof (length frames) passages closure firstDifference (sortOn order findings)
+  Proof (length frames) passages closure largest firstDifference (sortOn order findings)
   where
     begin = Frame.start program
     own = map Frame.frame (Frame.planned program)
@@ -64,7 +64,19 @@ prove machine path program frames =
       concat found
         <> take 1 [OffPlane (number s) | s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
         <> (if sameCount then wrongFeeds program frames else [])
-        <> [NotClosed closure | closure /= 0]
+        <> (if sameCount then wrongCommands program frames else [])
+        <> [NotClosed closure | closure /= 0, not (any leaves (concat found))]
+    largest = foldl (\(V3 a b c) (V3 x y z) -> V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) 0 (map increment frames)
+    -- A path that has left the band does not end where it should either.
+    leaves finding = case finding of
+      Gouge {} -> True
+      Excess {} -> True
+      WrongSide {} -> True
+      NeverBegun {} -> True
+      OffPlane {} -> False
+      WrongFeed {} -> False
+      WrongCommand {} -> False
+      NotClosed {} -> False
     firstDifference = listToMaybe ([n | (n, a, b) <- zip3 [1 ..] own frames, a /= b] <> [1 + min (length own) (length frames) | length own /= length frames])
     order finding = case finding of
       Gouge w _ _ -> (frame w, 0 :: Int)
@@ -73,7 +85,8 @@ prove machine path program frames =
       NeverBegun _ -> (0, 3)
       OffPlane n -> (n, 4)
       WrongFeed n _ _ _ -> (n, 5)
-      NotClosed _ -> (maxBound, 6)
+      WrongCommand n _ _ -> (n, 6)
+      NotClosed _ -> (maxBound, 7)
 
 -- | The milled contours one after the other; each begins on the tape behind the end of the one before.
 -- The feeds along them are looked at here only when the frames can not be compared one by one.
@@ -88,9 +101,10 @@ follow machine feeds traces = go traces
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = Segment.end (Path.segment (NonEmpty.last cut))
             job = Job {milling, statement = region, entry, exit, reach = contactRadius milling, allowed' = plus (Part.tolerance milling) (Machine.pulse machine)}
-            (within, behind) = passageOf job rest
+            elementIndex = Box.index (Box.ofSegment . Part.segment) (elementsOf job)
+            (within, behind) = passageOf job elementIndex rest
             cuts = if feeds then wrongCuts machine job (concat within) else []
-         in ((<> cuts) <$> examine job traces index within) : go behind more
+         in ((<> cuts) <$> examine job elementIndex traces index within) : go behind more
 
 inPlane :: Trace -> Bool
 inPlane t = case (from (stroke t), to (stroke t)) of
@@ -119,25 +133,39 @@ contactRadius m = case value (Part.side m) of
 elementsOf :: Job -> [Element]
 elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 
--- | The strokes from the first arrival at the beginning of the contour to the next one at its end, if
--- the beginning is reached at all, and the strokes behind them.
-passageOf :: Job -> [Trace] -> (Maybe [Trace], [Trace])
-passageOf job traces = case dropWhile (not . arrives (entry job)) traces of
+-- | The strokes along the contour, if its beginning is reached at all, and the strokes behind them.
+-- Of several arrivals at the beginning the first is taken from which the contour is followed; when it is
+-- followed from none, the first.
+passageOf :: Job -> Box.Index Element -> [Trace] -> (Maybe [Trace], [Trace])
+passageOf job index traces = case filter (follows . fst) candidates <> candidates of
   [] -> (Nothing, traces)
-  _ : cutting ->
-    let (leaving, away) = span (arrives (entry job)) cutting
-        (along, back) = break (arrives (exit job)) away
-        (arrival, behind) = span (arrives (exit job)) back
-     in (Just (leaving <> along <> arrival), behind)
+  (within, behind) : _ -> (Just within, behind)
   where
-    arrives p t = Vec.distance p (Segment.end (line t)) <= allowed' job
+    follows = null . mapMaybe (strayOf job index)
+    candidates = map (passageFrom job) (standing <> arrivals traces)
+    -- The cutter may stand at the beginning already.
+    standing = [traces | t : _ <- [traces], isNear job (entry job) (Segment.start (line t))]
+    arrivals ts = case dropWhile (not . isNear job (entry job) . Segment.end . line) ts of
+      [] -> []
+      _ : cutting -> cutting : arrivals cutting
+
+-- | From strokes that set out at the beginning: those up to the next arrival at the end, and the rest.
+passageFrom :: Job -> [Trace] -> ([Trace], [Trace])
+passageFrom job traces = (leaving <> along <> arrival, behind)
+  where
+    ends p = isNear job p . Segment.end . line
+    (leaving, away) = span (ends (entry job)) traces
+    (along, back) = break (ends (exit job)) away
+    (arrival, behind) = span (ends (exit job)) back
+
+isNear :: Job -> Point -> Point -> Bool
+isNear job p q = Vec.distance p q <= allowed' job
 
 -- | How one contour came out.
-examine :: Job -> [Trace] -> Box.Index Trace -> Maybe [Trace] -> (Passage, [Finding])
-examine job traces index within = (passage, findings)
+examine :: Job -> Box.Index Element -> [Trace] -> Box.Index Trace -> Maybe [Trace] -> (Passage, [Finding])
+examine job elementIndex traces index within = (passage, findings)
   where
     elements = elementsOf job
-    elementIndex = Box.index (Box.ofSegment . Part.segment) elements
     gouges = mapMaybe (gougeOf job elementIndex) (if reach job > Mm 0 then traces else [])
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
     missed = uncut job index elements
@@ -149,7 +177,7 @@ examine job traces index within = (passage, findings)
       [Gouge first worst (allowed' job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
         <> [Excess first (allowed' job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
         <> take 1 (maybe [] (mapMaybe (wrongSide job elementIndex)) within)
-        <> [NeverBegun (statement job) | Nothing <- [within]]
+        <> [NeverBegun (statement job) | Nothing <- [within], not (any tooMuch (gouges <> missed))]
     negated (Mm x) = -x
 
 -- | How deep a stroke cuts into the contour, if it does.
@@ -252,6 +280,14 @@ wrongCuts machine job within = case Machine.chooseFeed machine (value asked) of
   Machine.NoSuchFeed _ _ -> []
   where
     asked = Part.feed (milling job)
+
+-- | Frames with another auxiliary command than the program's own frame in the same place.
+wrongCommands :: Program -> [Frame] -> [Finding]
+wrongCommands program frames =
+  [ WrongCommand n (auxiliary f) (auxiliary own)
+    | (n, own, f) <- zip3 [1 ..] (map Frame.frame (Frame.planned program)) frames,
+      auxiliary f /= auxiliary own
+  ]
 
 -- | Frames whose feed is not that of the program's own frame in the same place.
 wrongFeeds :: Program -> [Frame] -> [Finding]

@@ -45,6 +45,8 @@ data Proof = Proof
     passages :: [Passage],
     -- | the last position less the one where the tape should end
     closure :: V3 Pulses,
+    -- | the largest increment of each axis, whatever its sign
+    largest :: V3 Pulses,
     -- | the first frame that is not as the program's own
     firstDifference :: Maybe Int,
     -- | in the order of the tape; none when the tape is proven
@@ -66,6 +68,8 @@ data Finding
     OffPlane Int
   | -- | the frame, the code on the tape, the code that belongs there, what asks for it
     WrongFeed Int FeedCode FeedCode Region
+  | -- | the frame, the auxiliary command on the tape, the one that belongs there
+    WrongCommand Int Int Int
   | NotClosed (V3 Pulses)
   deriving stock (Eq, Show)
 
@@ -100,6 +104,10 @@ toReport machine finding = case finding of
   WrongFeed n found wanted region ->
     (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: speed " <> code found))
       { message = ["Here belongs speed " <> code wanted <> "."]
+      }
+  WrongCommand n found wanted ->
+    (wrong "E0708" InFile (frameWord n <> " gives the auxiliary command " <> Decimal.whole found))
+      { message = [if wanted == 0 then "The program commands nothing there." else "The program commands " <> Decimal.whole wanted <> " there."]
       }
   NotClosed (V3 x y z) ->
     wrong "E0707" InFile ("the tape does not end where it should: it misses by " <> Text.intercalate ", " [pulses d <> " in " <> axis | (axis, d) <- [("x", x), ("y", y), ("z", z)], d /= 0])

@@ -108,10 +108,14 @@ swapped n = take (n - 1) Flange.frames <> [Flange.frames !! n, Flange.frames !! 
 shortcut :: [Frame]
 shortcut = take 10 Flange.frames <> [(Flange.frames !! 10) {increment = sum (map increment (take 120 (drop 10 Flange.frames)))}] <> drop 130 Flange.frames
 
--- | The end is missed and the frame is named as the first that differs. A change within the contour of more
--- than the allowance lets the path leave the band in this frame or later.
+-- | The frame is named as the first that differs. A change within the contour of more than the allowance lets
+-- the path leave the band in this frame or later; a path that stays in it misses its end.
 isFound :: Int -> Frame -> Proof -> Bool
-isFound n f p = firstDifference p == Just n && any isOpen (findings p) && (not cutting || moved <= 3 || any (leavesBandFrom n) (findings p))
+isFound n f p =
+  firstDifference p == Just n
+    && closure p /= 0
+    && any (\finding -> isOpen finding || leavesBandFrom (if cutting then n else 1) finding) (findings p)
+    && (not cutting || moved <= 3 || any (leavesBandFrom n) (findings p))
   where
     V3 (Pulses x) (Pulses y) _ = increment f - increment (Flange.frames !! (n - 1))
     moved = max (abs x) (abs y)
@@ -122,6 +126,7 @@ leavesBandFrom :: Int -> Finding -> Bool
 leavesBandFrom n finding = case finding of
   Gouge w _ _ -> Proof.frame w >= n
   Excess w _ -> Proof.frame w >= n
+  OffPlane m -> m == n
   _ -> False
 
 isExcess :: Finding -> Bool

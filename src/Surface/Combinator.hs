@@ -1,0 +1,313 @@
+-- | What the grammar is built from: tokens, names, brackets, blocks, and the way on after a mistake.
+module Surface.Combinator
+  ( Parser,
+    Problem (..),
+    run,
+    -- * Tokens
+    token,
+    symbol,
+    keyword,
+    name,
+    usedName,
+    onThisLine,
+    located,
+    quoted,
+    -- * Brackets
+    parens,
+    brackets,
+    block,
+    sepBy1,
+    nested,
+    -- * Recovery
+    recovering,
+    brokenStatement,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Name qualified as Name
+import Base.Region (Located (..), Region (..))
+import Base.Region qualified as Region
+import Control.Monad (void, when)
+import Control.Monad.State.Strict (State, get, gets, lift, modify', runState)
+import Data.List (sortOn)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Vector qualified as Vector
+import Surface.Error (Error, Found (..))
+import Surface.Error qualified as Error
+import Surface.Keyword qualified as Keyword
+import Surface.Stream (Input (..))
+import Surface.Syntax (Statement, Statement_ (..))
+import Surface.Token (Token (..), Token_ (..))
+import Surface.Token qualified as Token
+import Text.Megaparsec (ErrorItem (..), ParseError (..), ParsecT, (<?>))
+import Text.Megaparsec qualified as Parsec
+
+type Failure = ParseError Input Problem
+
+-- | Failures with words of their own.
+data Problem
+  = UnclosedBlock Region Text
+  | -- | a word that begins no statement
+    NoStatement Text
+  | -- | a keyword where a name is to be given
+    NoName Text
+  | -- | something behind a complete statement
+    Trailing Token_
+  | -- | a statement in a block
+    Misplaced Text
+  | TooDeep
+  deriving stock (Eq, Ord, Show)
+
+-- | What the parser remembers: the failures that it recovered from, where the last token ended, and how
+-- many brackets are open.
+data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int}
+
+type Parser = ParsecT Problem Input (State Memory)
+
+-- | Run a parser over the tokens of a text: the errors in order, and the output if there is one.
+run :: Parser a -> Text -> [Token] -> ([Error], Maybe a)
+run parser text tokens = (map (fromFailure (Vector.fromList tokens) (Text.length text)) inOrder, output)
+  where
+    (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0}
+    inOrder = sortOn Parsec.errorOffset (final <> failures memory)
+    (output, final) = case result of
+      Right a -> (Just a, [])
+      Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
+
+-- Tokens
+
+-- | A token that the function accepts; the label names what was expected.
+token :: Text -> (Token -> Maybe a) -> Parser a
+token expected accept = do
+  (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
+  lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
+  pure a
+
+symbol :: Text -> Parser Region
+symbol s = token ("‘" <> s <> "’") (\t -> if shape t == Symbol s then Just (Token.place t) else Nothing)
+
+keyword :: Text -> Parser ()
+keyword word = token ("‘" <> word <> "’") (\t -> if shape t == Word word then Just () else Nothing)
+
+-- | A name that is to be given to something. A keyword in its place is a mistake of its own.
+name :: Parser (Located Name)
+name = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  case next of
+    Just Token {shape = Word word, newLine} | Keyword.isReserved word && not newLine -> Parsec.customFailure (NoName word)
+    _ -> usedName
+
+-- | A name that is no keyword.
+usedName :: Parser (Located Name)
+usedName = located (token "a name" nameOf)
+  where
+    nameOf t = case shape t of
+      Word word | not (Keyword.isReserved word) -> Just (Name word)
+      _ -> Nothing
+
+-- | Only if the next token stands on the line of the last one.
+onThisLine :: Parser a -> Parser a
+onThisLine p = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  if maybe False newLine next then Parsec.empty else p
+
+-- | With the region from the first to the last token.
+located :: Parser a -> Parser (Located a)
+located p = do
+  Input input <- Parsec.getInput
+  x <- p
+  Memory {lastEnd} <- lift get
+  let begin = case input of
+        t : _ -> start (Token.place t)
+        [] -> lastEnd
+  pure (Located (Region begin (max begin lastEnd)) x)
+
+quoted :: Name -> Text
+quoted (Name text) = "‘" <> text <> "’"
+
+-- Brackets
+
+parens :: Parser a -> Parser a
+parens = enclosed "(" ")"
+
+brackets :: Parser a -> Parser a
+brackets = enclosed "[" "]"
+
+enclosed :: Text -> Text -> Parser a -> Parser a
+enclosed open close inside = do
+  opened <- symbol open
+  attempt <- Parsec.observing (nested inside)
+  x <- either (blame opened) pure attempt
+  closing opened what close
+  pure x
+  where
+    what = quoted (Name open)
+    -- What is missing where the statement ends is the closing bracket.
+    blame opened failure = do
+      ended <- atEnd
+      case failure of
+        TrivialError {} | ended -> Parsec.customFailure (UnclosedBlock opened what)
+        _ -> Parsec.parseError failure
+
+-- | Items in braces. An item that can not be read is skipped.
+block :: Text -> (Maybe (Located Name) -> a) -> Parser a -> Parser [Located a]
+block what broken one = do
+  opened <- symbol "{"
+  items <- Parsec.many (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+  closing opened what "}"
+  pure items
+  where
+    inside = do
+      Input rest <- Parsec.getInput
+      case rest of
+        [] -> Parsec.empty
+        t : _ | shape t == Symbol "}" -> Parsec.empty
+        t : _ | beginsStatement t && not (closesBlock rest) -> Parsec.empty
+        _ -> pure ()
+    -- A statement in a block whose closing brace follows further down.
+    strayStatement = do
+      next <- Parsec.lookAhead Parsec.anySingle
+      case shape next of
+        Word word | beginsStatement next -> Parsec.customFailure (Misplaced word)
+        _ -> pure ()
+
+-- | Whether the tokens hold a closing brace that belongs to a block which is open already.
+closesBlock :: [Token] -> Bool
+closesBlock = go (0 :: Int)
+  where
+    go open ts = case ts of
+      [] -> False
+      t : rest -> case shape t of
+        Symbol "{" -> go (open + 1) rest
+        Symbol "}" -> open == 0 || go (open - 1) rest
+        _ -> go open rest
+
+-- | The closing bracket. When the program or the statement ends before it, the opening one is blamed.
+closing :: Region -> Text -> Text -> Parser ()
+closing opened what close = do
+  ended <- atEnd
+  when ended (Parsec.customFailure (UnclosedBlock opened what))
+  void (symbol close)
+
+-- | Whether the program or the statement ends here.
+atEnd :: Parser Bool
+atEnd = maybe True beginsStatement <$> Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+
+sepBy1 :: Parser a -> Text -> Parser (NonEmpty a)
+sepBy1 p separator = (:|) <$> p <*> Parsec.many (symbol separator *> p)
+
+-- | One bracket deeper.
+nested :: Parser a -> Parser a
+nested p = do
+  open <- lift (gets depth)
+  when (open >= deepest) (Parsec.customFailure TooDeep)
+  lift (modify' (\m -> m {depth = open + 1}))
+  a <- p
+  lift (modify' (\m -> m {depth = open}))
+  pure a
+
+-- | Expressions are not nested deeper.
+deepest :: Int
+deepest = 500
+
+-- Recovery
+
+-- | Run a parser. If it fails, keep the failure and let the other make something of the tokens that were
+-- read up to there; at least one token is consumed either way.
+recovering :: ([Token] -> Parser a) -> Parser a -> Parser a
+recovering repair p = do
+  begin <- Parsec.getOffset
+  Input input <- Parsec.getInput
+  Parsec.withRecovery (again begin input) p
+  where
+    again begin input failure = do
+      lift (modify' (\m -> m {failures = failure : failures m, depth = 0}))
+      now <- Parsec.getOffset
+      when (now == begin) (void Parsec.anySingle)
+      after <- Parsec.getOffset
+      repair (take (after - begin) input)
+
+-- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt like one,
+-- and the name that was to be defined.
+brokenStatement :: [Token] -> Parser Statement
+brokenStatement taken = do
+  more <- Parsec.many (Parsec.try (Parsec.anySingle >>= \t -> if beginsStatement t then Parsec.empty else followed t))
+  pure (Located (foldr (Region.merge . Token.place) (place' taken) taken) (uncurry Broken (meaning (taken <> more))))
+  where
+    -- Two words in a row on a new line are a misspelt statement rather than the rest of this one.
+    followed :: Token -> Parser Token
+    followed t = do
+      next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+      case (shape t, fmap shape next, fmap newLine next) of
+        (Word word, Just (Word _), Just False) | newLine t && not (Keyword.beginsItem word) -> Parsec.empty
+        _ -> pure t
+    meaning ts = case map shape (take 2 ts) of
+      [Word word, Word what] | not (Keyword.isReserved what) -> (spelt word, Just (Located (place' (drop 1 ts)) (Name what)))
+      Word word : _ -> (spelt word, Nothing)
+      _ -> (Nothing, Nothing)
+    spelt word = case filter (== word) Keyword.statements <> Name.nearest word Keyword.statements of
+      w : _ -> Just w
+      [] -> Nothing
+    place' ts = case ts of
+      t : _ -> Token.place t
+      [] -> Region 0 0
+
+-- | Skip to the next line of the block that is in no bracket of this item, or to the block's end.
+-- Tell the name that a definition in the wrong place was to define.
+brokenItem :: (Maybe (Located Name) -> a) -> [Token] -> Parser a
+brokenItem broken taken = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  skip (sum (map opens taken)) False
+  pure (broken (defined taken next))
+  where
+    defined ts next = case (map shape ts, next) of
+      ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
+      _ -> Nothing
+    -- How many brackets are open, and whether a comma says that the item goes on.
+    skip :: Int -> Bool -> Parser ()
+    skip open goesOn = do
+      next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+      case next of
+        Nothing -> pure ()
+        Just t
+          | beginsStatement t -> pure ()
+          | shape t == Symbol "}" && open <= 0 -> pure ()
+          | newLine t && open <= 0 && not goesOn -> pure ()
+          | otherwise -> Parsec.anySingle *> skip (open + opens t) (shape t == Symbol ",")
+    opens t = case shape t of
+      Symbol s
+        | s `elem` ["(", "[", "{"] -> 1
+        | s `elem` [")", "]", "}"] -> -1
+      _ -> 0
+
+beginsStatement :: Token -> Bool
+beginsStatement t = case shape t of
+  Word word -> newLine t && word `elem` Keyword.statements
+  _ -> False
+
+-- Failures into errors
+
+fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
+fromFailure ts size failure = case failure of
+  FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of
+    UnclosedBlock opened what -> Error.Unclosed region opened what
+    NoStatement word -> Error.UnknownStatement region word Keyword.statements
+    NoName word -> Error.Reserved region word
+    Trailing shape' -> Error.Trailing region shape'
+    Misplaced word -> Error.Misplaced region word
+    TooDeep -> Error.TooDeep region deepest
+  FancyError _ _ -> Error.Unexpected region found []
+  TrivialError _ _ expected -> Error.Unexpected region found (concatMap wanted (Set.toList expected))
+  where
+    here = ts Vector.!? Parsec.errorOffset failure
+    region = maybe (Region size size) Token.place here
+    found = maybe FoundEnd (FoundToken . shape) here
+    wanted expected' = case expected' of
+      Label text -> [Text.pack (NonEmpty.toList text)]
+      Parsec.Tokens _ -> []
+      EndOfInput -> []

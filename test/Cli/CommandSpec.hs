@@ -1,0 +1,130 @@
+-- | The command itself, run as a user runs it: exit status, streams, files.
+module Cli.CommandSpec (spec) where
+
+import Control.Monad (forM_)
+import Data.Aeson qualified as Aeson
+import Data.ByteString qualified as ByteString
+import Data.ByteString.Lazy qualified as LazyByteString
+import Data.Either (isRight)
+import Data.List (isInfixOf, isPrefixOf)
+import Flange qualified
+import System.Directory (doesFileExist, findExecutable, listDirectory)
+import System.Exit (ExitCode (..))
+import System.FilePath ((</>))
+import System.IO.Temp (withSystemTempDirectory)
+import System.Process (readCreateProcessWithExitCode, readProcessWithExitCode, shell)
+import Tape.Tape (Tape (..))
+import Test.Hspec
+
+spec :: Spec
+spec = do
+  describe "compile" $ do
+    it "writes the tape beside the program, and nothing else" $ inFolder $ \folder -> do
+      copyFlange folder
+      partc ["compile", folder </> "flange.part"] `shouldReturn` (ExitSuccess, "", "")
+      tape <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
+      Tape tape `shouldBe` Flange.tape
+      files <- listDirectory folder
+      files `shouldMatchList` ["flange.part", "flange.lkp-01f.tape"]
+    it "gives the same bytes through a folder, a file, and standard output" $ inFolder $ \folder -> do
+      copyFlange folder
+      _ <- partc ["compile", folder </> "flange.part", "-o", folder <> "/"]
+      _ <- partc ["compile", folder </> "flange.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
+      a <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
+      b <- ByteString.readFile (folder </> "x.tape")
+      (code, _, _) <- readCreateProcessWithExitCode (shell ("partc compile - -o - < " <> (folder </> "flange.part") <> " > " <> (folder </> "y.tape"))) ""
+      c <- ByteString.readFile (folder </> "y.tape")
+      code `shouldBe` ExitSuccess
+      [b, c] `shouldBe` [a, a]
+    it "leaves an old tape as it was when the program is wrong" $ inFolder $ \folder -> do
+      writeFile (folder </> "x.part") "part x\nlet a = (1,\n"
+      writeFile (folder </> "x.tape") "keep"
+      (code, out, err) <- partc ["compile", folder </> "x.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
+      (code, out) `shouldBe` (ExitFailure 1, "")
+      err `shouldSatisfy` isInfixOf "error[E0105]"
+      readFile (folder </> "x.tape") `shouldReturn` "keep"
+    it "writes no file for every bad program" $ inFolder $ \folder ->
+      forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do
+        (code, out, err) <- partc ["compile", "test/programs/" <> name <> ".part", "-o", folder </> "out.tape"]
+        (code, out) `shouldBe` (ExitFailure 1, "")
+        err `shouldSatisfy` isInfixOf "error[E"
+        doesFileExist (folder </> "out.tape") `shouldReturn` False
+    it "refuses to write over the program, and into a folder that is not there" $ inFolder $ \folder -> do
+      copyFlange folder
+      forM_ [folder </> "flange.part", folder </> "no" </> "x.tape"] $ \place -> do
+        (code, _, err) <- partc ["compile", folder </> "flange.part", "-o", place]
+        code `shouldBe` ExitFailure 1
+        err `shouldSatisfy` isInfixOf "error[E080"
+      fmap Tape (ByteString.readFile (folder </> "flange.part")) `shouldNotReturn` Flange.tape
+    it "says so when it does not prove the tape" $ inFolder $ \folder -> do
+      copyFlange folder
+      (code, _, err) <- partc ["compile", folder </> "flange.part", "--no-verify", "-o", folder </> "x.tape"]
+      code `shouldBe` ExitSuccess
+      err `shouldSatisfy` isInfixOf "warning[W0801]"
+  describe "verify" $ do
+    it "proves its own tape, and disproves one with a changed digit with status 3" $ inFolder $ \folder -> do
+      (good, table, _) <- partc ["verify", "examples/flange.part"]
+      good `shouldBe` ExitSuccess
+      table `shouldSatisfy` isInfixOf "proven"
+      let Tape rows = Flange.tape
+          (front, back) = ByteString.splitAt (25 + 15 * 49 + 2 * 25 + 3) rows
+      ByteString.writeFile (folder </> "bad.tape") (front <> ByteString.cons 0x0F (ByteString.drop 1 back))
+      (bad, table', err) <- partc ["verify", "examples/flange.part", folder </> "bad.tape"]
+      bad `shouldBe` ExitFailure 3
+      table' `shouldSatisfy` isInfixOf "WRONG"
+      err `shouldSatisfy` isInfixOf "The first frame that differs from this program's own is frame 50."
+    it "reports a damaged tape with its row" $ inFolder $ \folder -> do
+      let Tape rows = Flange.tape
+      ByteString.writeFile (folder </> "cut.tape") (ByteString.take 1007 rows)
+      (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
+      (code, out) `shouldBe` (ExitFailure 1, "")
+      err `shouldSatisfy` isInfixOf "the tape ends within a frame"
+  describe "formats" $ do
+    it "short: one line a report, and nothing else" $ do
+      (_, _, err) <- partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
+      length (lines err) `shouldBe` 5
+      lines err `shouldSatisfy` all ("test/programs/surface/bad/five-mistakes.part:" `isPrefixOf`)
+    it "json: one object a line, and nothing else" $ do
+      (_, _, err) <- partc ["--format", "json", "check", "test/programs/surface/bad/five-mistakes.part"]
+      length (lines err) `shouldBe` 5
+      [l | l <- lines err, not (isRight (Aeson.eitherDecodeStrict (LazyByteString.toStrict (Aeson.encode l)) :: Either String Aeson.Value))] `shouldBe` []
+    it "colours only when asked, or on a terminal" $ do
+      (_, _, plain) <- partc ["check", "test/programs/surface/bad/five-mistakes.part"]
+      (_, _, coloured) <- partc ["check", "--color", "always", "test/programs/surface/bad/five-mistakes.part"]
+      plain `shouldNotSatisfy` isInfixOf "\ESC["
+      coloured `shouldSatisfy` isInfixOf "\ESC["
+  describe "the streams" $ do
+    it "a closed pipe is no error, and does not hide one" $ do
+      (a, _, err) <- readCreateProcessWithExitCode (shell "partc frames examples/flange.part | head -1 > /dev/null") ""
+      (a, err) `shouldBe` (ExitSuccess, "")
+      (b, _, _) <- readCreateProcessWithExitCode (shell "bash -c 'set -o pipefail; partc check test/programs/surface/bad/five-mistakes.part 2>&1 | true'") ""
+      b `shouldBe` ExitFailure 1
+    it "a full disk is a report" $ do
+      (code, _, err) <- readCreateProcessWithExitCode (shell "partc report examples/flange.part > /dev/full") ""
+      code `shouldBe` ExitFailure 1
+      err `shouldSatisfy` isInfixOf "the disk is full"
+    it "Cyrillic comes through under any locale" $ do
+      (code, out, _) <- readCreateProcessWithExitCode (shell "LC_ALL=C partc report examples/flange.part") ""
+      code `shouldBe` ExitSuccess
+      out `shouldSatisfy` isInfixOf "Фланец"
+    it "wrong usage is status 2" $ do
+      (code, _, _) <- partc ["compile"]
+      code `shouldBe` ExitFailure 2
+  it "every command explains itself with an example" $
+    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines"] $ \command -> do
+      (code, out, _) <- partc [command, "--help"]
+      code `shouldBe` ExitSuccess
+      out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
+
+partc :: [String] -> IO (ExitCode, String, String)
+partc arguments = do
+  there <- findExecutable "partc"
+  case there of
+    Nothing -> fail "partc is not on the path"
+    Just program -> readProcessWithExitCode program arguments ""
+
+inFolder :: (FilePath -> IO a) -> IO a
+inFolder = withSystemTempDirectory "partc"
+
+copyFlange :: FilePath -> IO ()
+copyFlange folder = ByteString.readFile "examples/flange.part" >>= ByteString.writeFile (folder </> "flange.part")

@@ -1,0 +1,90 @@
+-- | The small programs of test/programs: good ones beside their frames, bad ones beside their reports.
+--
+-- Folders are features. With PARTC_RECORD set, missing and differing expectations are written anew;
+-- without it a missing one is a failure.
+module ProgramsSpec (spec) where
+
+import Base.Region qualified as Region
+import Base.Result (Result (..))
+import Base.Result qualified as Result
+import Cli.FrameTable qualified as FrameTable
+import Compile (Analysis (..), Punched (..))
+import Compile qualified
+import Control.Monad (filterM, forM_)
+import Data.ByteString qualified as ByteString
+import Data.List (isInfixOf, nub, sort)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Machine.Lkp01f (lkp01f)
+import Report.Human qualified as Human
+import Report.Report (Report)
+import Report.Report qualified as Report
+import System.Directory (doesDirectoryExist, doesFileExist, listDirectory)
+import System.Environment (lookupEnv)
+import System.FilePath (takeExtension, takeFileName, (-<.>), (</>))
+import Test.Hspec
+import Verify.Proof qualified as Proof
+
+spec :: Spec
+spec = do
+  programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
+  let kind k = filter (("/" <> k <> "/") `isInfixOf`) programs
+  describe "good programs are proven and give their frames" $
+    forM_ (kind "good") $ \file -> it file $ do
+      text <- readText file
+      let source = Region.fromText text
+          outcome = Compile.analyse text `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
+      case Result.settled outcome of
+        Nothing -> expectationFailure (Text.unpack (rendered file text (errors outcome)))
+        Just (a, p) -> do
+          fs <- maybe (fail "the tape cannot be read") pure (output (Compile.readTape lkp01f (tape p)))
+          let proof = Compile.prove lkp01f (path a) (program p) fs
+          fmap Proof.findings (output proof) `shouldBe` Just []
+          expected (file -<.> "frames") (FrameTable.frames lkp01f source (program p) <> rendered file text (warnings outcome))
+  describe "bad programs give their reports, and no tape" $
+    forM_ (kind "bad") $ \file -> it file $ do
+      text <- readText file
+      let outcome = reportsOf text
+      errors outcome `shouldNotBe` []
+      fmap (const ()) (Result.settled outcome) `shouldBe` Nothing
+      expected (file -<.> "report") (rendered file text (errors outcome <> warnings outcome))
+  describe "report codes" $
+    it "each code of the language has a bad program, each warning a good one" $ do
+      sources <- filter ("Error.hs" `isInfixOf`) <$> walk "src"
+      codes <- nub . sort . concatMap codesIn <$> traverse readText (filter (not . ("Cli" `isInfixOf`)) sources)
+      expectations <- Text.concat <$> (traverse readText . filter ((`elem` [".report", ".frames"]) . takeExtension) =<< walk "test/programs")
+      [c | c <- codes, not (Text.isInfixOf ("[" <> c <> "]") expectations)] `shouldBe` []
+
+-- | All that the compiler says of a program, up to the machine's limits.
+reportsOf :: Text -> Result Report Report ()
+reportsOf text = Compile.analyse text `Result.thenSound` \a -> () <$ Compile.punch lkp01f (path a)
+
+rendered :: FilePath -> Text -> [Report] -> Text
+rendered file text reports = Text.concat (map render (Report.sorted reports))
+  where
+    render r = Human.render Human.Plain (Text.pack (takeFileName file)) (Region.fromText text) r <> "\n"
+
+-- | Codes in a source text: quotation mark, letter, four digits.
+codesIn :: Text -> [Text]
+codesIn text = [code | piece <- drop 1 (Text.splitOn "\"" text), let code = piece, Text.length code == 5, Text.take 1 code `elem` ["E", "W"], Text.all (`elem` ['0' .. '9']) (Text.drop 1 code)]
+
+-- | Compare with the file, or write it when recording.
+expected :: FilePath -> Text -> Expectation
+expected file actual = do
+  recording <- lookupEnv "PARTC_RECORD"
+  there <- doesFileExist file
+  case recording of
+    Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 actual)
+    Nothing
+      | there -> readText file >>= (actual `shouldBe`)
+      | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")
+
+readText :: FilePath -> IO Text
+readText file = Encoding.decodeUtf8 <$> ByteString.readFile file
+
+walk :: FilePath -> IO [FilePath]
+walk folder = do
+  entries <- map (folder </>) <$> listDirectory folder
+  folders <- filterM doesDirectoryExist entries
+  (filter (`notElem` folders) entries <>) . concat <$> traverse walk folders
