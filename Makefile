@@ -70,7 +70,7 @@ bench: setup ## time every stage
 	$(call banner,build with benchmark)
 	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
 	$(call banner,bench)
-	@$(BENCH) --verbosity warn bench --flag partc:bench
+	@$(BENCH) --verbosity info bench --flag partc:bench
 
 demo: build ## compile, prove, report and draw an example part
 	@mkdir -p build

@@ -24,7 +24,7 @@ spec :: Spec
 spec = do
   it "all 18 nodes of the equidistant agree with the drawing to 0.001 mm" $ do
     length nodes `shouldBe` 18
-    [(e, d) | e <- Flange.exactNodes, let d = minimum (map (apart e) nodes), d > 0.001] `shouldBe` []
+    [(e, d) | e <- Flange.exactNodes, let { d = minimum (map (apart e) nodes) }, d > 0.001] `shouldBe` []
   it "the nodes come in the paper's order; node 0 of the paper is the second from the entry" $
     [e | (e, n) <- zip Flange.exactNodes (drop 1 nodes <> take 1 nodes), apart e n > 0.001] `shouldBe` []
   it "its tape is proven, within tolerance and one pulse" $ do

@@ -10,7 +10,7 @@ import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
-import Control.Monad (filterM, forM_)
+import Control.Monad (filterM, forM_, void)
 import Data.ByteString qualified as ByteString
 import Data.List (isInfixOf, nub, sort)
 import Data.Text (Text)
@@ -47,7 +47,7 @@ spec = do
       text <- readText file
       let outcome = reportsOf text
       errors outcome `shouldNotBe` []
-      fmap (const ()) (Result.settled outcome) `shouldBe` Nothing
+      void (Result.settled outcome) `shouldBe` Nothing
       expected (file -<.> "report") (rendered file text (errors outcome <> warnings outcome))
   describe "report codes" $
     it "each code of the language has a bad program, each warning a good one" $ do
@@ -58,7 +58,7 @@ spec = do
 
 -- | All that the compiler says of a program, up to the machine's limits.
 reportsOf :: Text -> Result Report Report ()
-reportsOf text = Compile.analyse text `Result.thenSound` \a -> () <$ Compile.punch lkp01f (path a)
+reportsOf text = Compile.analyse text `Result.thenSound` \a -> void (Compile.punch lkp01f (path a))
 
 rendered :: FilePath -> Text -> [Report] -> Text
 rendered file text reports = Text.concat (map render (Report.sorted reports))

@@ -22,7 +22,7 @@ import Checked.Syntax (Program (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (unless, when, zipWithM)
+import Control.Monad (unless, void, when, zipWithM)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -208,7 +208,10 @@ stop defined (Surface.Stop p pace) = do
 
 item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
 item defined (Located at i) = case i of
-  Surface.BrokenItem name -> mapM_ (\n -> Infer.define (value n) (Poisoned (region n))) name *> Infer.taint *> pure (\_ -> Located at (Checked.For (Name "") (Located at (Checked.List [])) []))
+  Surface.BrokenItem name -> do
+    mapM_ (\n -> Infer.define (value n) (Poisoned (region n))) name
+    Infer.taint
+    pure (const (Located at (Checked.For (Name "") (Located at (Checked.List [])) [])))
   Surface.For counter list items -> do
     when (nameText counter `elem` Builtin.names) (Infer.mistake (NameTaken (region counter) (value counter)))
     t <- Infer.freshType
@@ -258,7 +261,7 @@ expect defined wanted e = do
 
 -- | The found type at a place has to be the wanted one.
 equal :: Region -> Type -> Type -> Infer ()
-equal at wanted t = () <$ agrees at wanted t
+equal at wanted t = void (agrees at wanted t)
 
 -- | Whether the found type at a place is the wanted one; a mistake if not.
 agrees :: Region -> Type -> Type -> Infer Bool
@@ -341,7 +344,7 @@ call defined at (Located place name@(Name text)) arguments = do
       applied parameters ts t (\es -> Checked.Apply name (NonEmpty.fromList es))
     Just (Value before _) -> wrong (NotAFunction place name (Just before))
     Just (Local _) -> wrong (NotAFunction place name Nothing)
-    Just (Poisoned _) -> otherArguments *> Infer.taint *> pure nothing
+    Just (Poisoned _) -> nothing <$ (otherArguments *> Infer.taint)
     Nothing -> do
       d <- Infer.freshDimension
       case Builtin.lookup text of
@@ -354,7 +357,7 @@ call defined at (Located place name@(Name text)) arguments = do
     nothing = (Type.Wrong, const (Located at (Checked.Number 0)))
     -- The arguments may contain mistakes of their own.
     otherArguments = mapM_ (infer defined) given
-    wrong e = otherArguments *> Infer.mistake e *> pure nothing
+    wrong e = nothing <$ (otherArguments *> Infer.mistake e)
     applied names ts t make
       | length ts /= length given = wrong (ArgumentCount at name names (length given))
       | otherwise = do

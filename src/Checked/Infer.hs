@@ -6,16 +6,19 @@ module Checked.Infer
     Scheme (..),
     Solution,
     run,
+
     -- * Mistakes
     mistake,
     mistakeOnce,
     taint,
     separately,
+
     -- * Names
     find,
     define,
     withLocals,
     entries,
+
     -- * Unknowns
     freshType,
     freshDimension,
@@ -23,11 +26,14 @@ module Checked.Infer
     known,
     knownDimension,
     settledPlaces,
+
     -- * Equations
     unify,
+
     -- * Functions
     generalising,
     instantiate,
+
     -- * Arithmetic
     Arithmetic (..),
     require,

@@ -13,6 +13,7 @@ module Checked.Syntax
     Stop (..),
     Pace (..),
     Builtin (..),
+
     -- * As in the surface syntax
     Closure (..),
     MachineRef (..),

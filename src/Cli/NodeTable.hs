@@ -38,7 +38,11 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map mi
         <> Table.columns
           [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
           (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : zipWith (section (length cut) (ends' job)) [0 ..] cut <> lastNode (ends' job) cut)
-        <> "\nlength " <> fixed3 (lengthOf cut) <> " mm, time " <> seconds (total (map (timeOf machine) cut)) <> " s\n"
+        <> "\nlength "
+        <> fixed3 (lengthOf cut)
+        <> " mm, time "
+        <> seconds (total (map (timeOf machine) cut))
+        <> " s\n"
     ends' job = Part.ends (Part.contour (value job))
     contourName' job = let Name n = value (Part.contourName (Part.contour (value job))) in n
     pathWord job = case value (Part.side (value job)) of

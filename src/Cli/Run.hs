@@ -11,12 +11,12 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
-import Cli.Options (Command (..), CompileOptions (..), Invocation (..))
-import Cli.Output (Exit (..), Settings)
-import Cli.Output qualified as Output
 import Cli.FrameTable qualified as FrameTable
 import Cli.MachineSheet qualified as MachineSheet
 import Cli.NodeTable qualified as NodeTable
+import Cli.Options (Command (..), CompileOptions (..), Invocation (..))
+import Cli.Output (Exit (..), Settings)
+import Cli.Output qualified as Output
 import Cli.ProofTable qualified as ProofTable
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
@@ -153,7 +153,6 @@ destination options count machine = case place options of
     folder <- doesDirectoryExist there
     pure (if folder || hasTrailingPathSeparator there || count > 1 then there </> standard else there)
   where
-    
     MachineName machineName = Machine.name machine
     base = if file options == "-" then "stdin" else dropExtension (takeFileName (file options))
     standard = base <.> Text.unpack machineName <.> "tape"
@@ -207,11 +206,12 @@ verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
 
 -- | A program with its frames and tape for one machine.
 prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
-prepared target loaded = analyse loaded `Result.thenSound` \a -> do
-  ms <- chosen (maybe [] pure target) a
-  case ms of
-    m : _ -> (\p -> (a, m, p)) <$> Compile.punch m (path a)
-    [] -> Result.failed (Cli.toReport (NoMachine known))
+prepared target loaded =
+  analyse loaded `Result.thenSound` \a -> do
+    ms <- chosen (maybe [] pure target) a
+    case ms of
+      m : _ -> (a,m,) <$> Compile.punch m (path a)
+      [] -> Result.failed (Cli.toReport (NoMachine known))
 
 frames :: Settings -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames settings file' target json = withProgram settings file' $ \loaded ->
@@ -226,7 +226,7 @@ report settings file' target = withProgram settings file' $ \loaded ->
     onMachine a = case (target, Part.machine (part a)) of
       (Nothing, Nothing) -> pure Nothing
       _ ->
-        chosen (maybe [] pure target) a >>= \ms -> case ms of
+        chosen (maybe [] pure target) a >>= \case
           m : _ -> (\p -> Just (m, p)) <$> Compile.punch m (path a)
           [] -> pure Nothing
 

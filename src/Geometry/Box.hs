@@ -24,7 +24,7 @@ data Box = Box {left :: Double, bottom :: Double, right :: Double, top :: Double
 
 -- | The smallest box that holds some points, of which there is at least the first.
 ofPoints :: Point -> [Point] -> Box
-ofPoints p ps = foldl (\box q -> union box (single q)) (single p) ps
+ofPoints p ps = foldl (\box q -> box `union` single q) (single p) ps
   where
     single q = Box (Vec.x q) (Vec.y q) (Vec.x q) (Vec.y q)
 
@@ -63,7 +63,7 @@ index box things = build (length things) things
             (first, second) = splitAt half ts
          in node (build half first) (build (n - half) second)
     node a b = case (extent a, extent b) of
-      (Just p, Just q) -> Node (union p q) a b
+      (Just p, Just q) -> Node (p `union` q) a b
       (Nothing, _) -> b
       (_, Nothing) -> a
     extent i = case i of

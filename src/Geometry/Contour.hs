@@ -95,17 +95,18 @@ winding (Contour _ ss) p = round (sum (fmap swept ss) / (2 * pi))
 
 -- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
 selfCrossing :: Contour -> Maybe (Int, Int, Point)
-selfCrossing contour@(Contour ends ss) = listToMaybe (concatMap pairs numbered)
+selfCrossing (Contour ends ss) = listToMaybe (concatMap pairs numbered)
   where
     numbered = zip [0 ..] (NonEmpty.toList ss)
     count = NonEmpty.length ss
     index = Box.index (Box.ofSegment . snd) numbered
-    joint = [Segment.end s | (_, s, _) <- joints contour]
     pairs (i, s) =
       [ (i, j, p)
         | (j, other) <- Box.within (Box.ofSegment s) index,
           j > i,
-          p <- if joined i j then retraced s other <> filter (\q -> not (any (Vec.near q) joint)) (Distance.crossings s other) else Distance.crossings s other
+          p <- case joints' i j s of
+            [] -> Distance.crossings s other
+            shared -> retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
       ]
     -- A neighbour that runs back along the way it came meets it at its middle.
     retraced s other =
@@ -113,4 +114,5 @@ selfCrossing contour@(Contour ends ss) = listToMaybe (concatMap pairs numbered)
           longer = if Segment.length s <= Segment.length other then other else s
           middle = Segment.at 0.5 shorter
        in [middle | Distance.toPoint middle longer <= Tolerance.coincident]
-    joined i j = j == i + 1 || (ends == Closed && i == 0 && j == count - 1)
+    -- Where two segments are joined: behind the first, or where the contour closes.
+    joints' i j s = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]

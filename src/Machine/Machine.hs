@@ -3,6 +3,7 @@ module Machine.Machine
   ( Machine (..),
     MachineName (..),
     FeedCode (..),
+
     -- * The layout of a frame
     Layout (..),
     Field (..),
@@ -12,11 +13,13 @@ module Machine.Machine
     DigitCode (..),
     digits,
     capacity,
+
     -- * Feeds
     rapidCode,
     feedOf,
     chooseFeed,
     Choice (..),
+
     -- * What is known and how
     Fact (..),
     Mark (..),

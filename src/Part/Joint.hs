@@ -11,7 +11,6 @@ import Base.Quantity (Mm (..), Rad (..))
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
-
 import Geometry.Fillet qualified as Fillet
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect

@@ -79,7 +79,7 @@ evaluate env (Located region e) = case e of
           inCall region (evaluate env {locals = Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList given))} body)
   Builtin builtin arguments -> withAll arguments (fmap Just . apply region builtin)
   Negate inner -> withAll [inner] $ \vs -> Just <$> binary region Multiply (Quantity (-1)) (only vs)
-  Binary op l r -> withAll [l, r] $ \vs -> case vs of
+  Binary op l r -> withAll [l, r] $ \case
     [a, b] -> Just <$> binary region op a b
     _ -> bug "an operator with other than two operands"
   Pair x y -> withAll [x, y] $ \vs -> case map double vs of

@@ -50,8 +50,8 @@ render colour path source report = Text.unlines (heading : location <> body <> a
          in ":" <> Decimal.whole line <> ":" <> Decimal.whole column
       InTape row -> ", row " <> Decimal.whole row
       InFile -> ""
-    body = concat (zipWith shownAt (False : map sameLine (zip excerpts (drop 1 excerpts))) excerpts)
-    sameLine ((_, a, _), (_, b, _)) = lineNumber a == lineNumber b
+    body = concat (zipWith shownAt (False : zipWith sameLine excerpts (drop 1 excerpts)) excerpts)
+    sameLine (_, a, _) (_, b, _) = lineNumber a == lineNumber b
     shownAt joined (isMain, e, words') =
       [bar | not joined]
         <> [ paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
@@ -69,8 +69,8 @@ render colour path source report = Text.unlines (heading : location <> body <> a
     noted kind words' = case wrap (76 - Text.length kind) words' of
       [] -> []
       first : rest ->
-        (lead <> paint' Frame "= " <> paint' Advice kind <> first)
-          : map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
+        (lead <> paint' Frame "= " <> paint' Advice kind <> first) :
+        map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
     lead = Text.replicate (gutter + 1) " "
     number' = Decimal.whole . lineNumber
 

@@ -3,6 +3,7 @@ module Surface.Combinator
   ( Parser,
     Problem (..),
     run,
+
     -- * Tokens
     token,
     symbol,
@@ -12,12 +13,14 @@ module Surface.Combinator
     onThisLine,
     located,
     quoted,
+
     -- * Brackets
     parens,
     brackets,
     block,
     sepBy1,
     nested,
+
     -- * Recovery
     recovering,
     brokenStatement,

@@ -75,7 +75,6 @@ toReport err = case err of
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
       { hints = ["Choose another name, for example " <> word <> "1."]
       }
-
   Trailing region token | isBroken token -> toReport (Unexpected region (FoundToken token) [])
   Trailing region token ->
     (at region "E0108" ("the statement ends before " <> describe token))

@@ -177,7 +177,7 @@ examine job elementIndex traces index within = (passage, findings)
       [Gouge first worst (allowed' job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
         <> [Excess first (allowed' job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
         <> take 1 (maybe [] (mapMaybe (wrongSide job elementIndex)) within)
-        <> [NeverBegun (statement job) | Nothing <- [within], not (any tooMuch (gouges <> missed))]
+        <> [NeverBegun (statement job) | not (any tooMuch (gouges <> missed)), Nothing <- [within]]
     negated (Mm x) = -x
 
 -- | How deep a stroke cuts into the contour, if it does.

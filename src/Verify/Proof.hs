@@ -78,8 +78,9 @@ isProven = null . findings
 
 -- | The words for all findings.
 toReports :: Machine -> Proof -> [Report]
-toReports machine proof = map (\r -> r {message = message r <> difference}) (map (toReport machine) (findings proof))
+toReports machine proof = map (withDifference . toReport machine) (findings proof)
   where
+    withDifference r = r {message = message r <> difference}
     difference = case firstDifference proof of
       Just n -> ["The first frame that differs from this program's own is frame " <> Decimal.whole n <> "."]
       Nothing -> []

@@ -19,66 +19,74 @@ import Test.Hspec
 spec :: Spec
 spec = do
   describe "compile" $ do
-    it "writes the tape beside the program, and nothing else" $ inFolder $ \folder -> do
-      copyFlange folder
-      partc ["compile", folder </> "flange.part"] `shouldReturn` (ExitSuccess, "", "")
-      tape <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
-      Tape tape `shouldBe` Flange.tape
-      files <- listDirectory folder
-      files `shouldMatchList` ["flange.part", "flange.lkp-01f.tape"]
-    it "gives the same bytes through a folder, a file, and standard output" $ inFolder $ \folder -> do
-      copyFlange folder
-      _ <- partc ["compile", folder </> "flange.part", "-o", folder <> "/"]
-      _ <- partc ["compile", folder </> "flange.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
-      a <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
-      b <- ByteString.readFile (folder </> "x.tape")
-      (code, _, _) <- readCreateProcessWithExitCode (shell ("partc compile - -o - < " <> (folder </> "flange.part") <> " > " <> (folder </> "y.tape"))) ""
-      c <- ByteString.readFile (folder </> "y.tape")
-      code `shouldBe` ExitSuccess
-      [b, c] `shouldBe` [a, a]
-    it "leaves an old tape as it was when the program is wrong" $ inFolder $ \folder -> do
-      writeFile (folder </> "x.part") "part x\nlet a = (1,\n"
-      writeFile (folder </> "x.tape") "keep"
-      (code, out, err) <- partc ["compile", folder </> "x.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
-      (code, out) `shouldBe` (ExitFailure 1, "")
-      err `shouldSatisfy` isInfixOf "error[E0105]"
-      readFile (folder </> "x.tape") `shouldReturn` "keep"
-    it "writes no file for every bad program" $ inFolder $ \folder ->
-      forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do
-        (code, out, err) <- partc ["compile", "test/programs/" <> name <> ".part", "-o", folder </> "out.tape"]
+    it "writes the tape beside the program, and nothing else" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        partc ["compile", folder </> "flange.part"] `shouldReturn` (ExitSuccess, "", "")
+        tape <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
+        Tape tape `shouldBe` Flange.tape
+        files <- listDirectory folder
+        files `shouldMatchList` ["flange.part", "flange.lkp-01f.tape"]
+    it "gives the same bytes through a folder, a file, and standard output" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        _ <- partc ["compile", folder </> "flange.part", "-o", folder <> "/"]
+        _ <- partc ["compile", folder </> "flange.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
+        a <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
+        b <- ByteString.readFile (folder </> "x.tape")
+        (code, _, _) <- readCreateProcessWithExitCode (shell ("partc compile - -o - < " <> (folder </> "flange.part") <> " > " <> (folder </> "y.tape"))) ""
+        c <- ByteString.readFile (folder </> "y.tape")
+        code `shouldBe` ExitSuccess
+        [b, c] `shouldBe` [a, a]
+    it "leaves an old tape as it was when the program is wrong" $
+      inFolder $ \folder -> do
+        writeFile (folder </> "x.part") "part x\nlet a = (1,\n"
+        writeFile (folder </> "x.tape") "keep"
+        (code, out, err) <- partc ["compile", folder </> "x.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
-        err `shouldSatisfy` isInfixOf "error[E"
-        doesFileExist (folder </> "out.tape") `shouldReturn` False
-    it "refuses to write over the program, and into a folder that is not there" $ inFolder $ \folder -> do
-      copyFlange folder
-      forM_ [folder </> "flange.part", folder </> "no" </> "x.tape"] $ \place -> do
-        (code, _, err) <- partc ["compile", folder </> "flange.part", "-o", place]
-        code `shouldBe` ExitFailure 1
-        err `shouldSatisfy` isInfixOf "error[E080"
-      fmap Tape (ByteString.readFile (folder </> "flange.part")) `shouldNotReturn` Flange.tape
-    it "says so when it does not prove the tape" $ inFolder $ \folder -> do
-      copyFlange folder
-      (code, _, err) <- partc ["compile", folder </> "flange.part", "--no-verify", "-o", folder </> "x.tape"]
-      code `shouldBe` ExitSuccess
-      err `shouldSatisfy` isInfixOf "warning[W0801]"
+        err `shouldSatisfy` isInfixOf "error[E0105]"
+        readFile (folder </> "x.tape") `shouldReturn` "keep"
+    it "writes no file for every bad program" $
+      inFolder $ \folder ->
+        forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do
+          (code, out, err) <- partc ["compile", "test/programs/" <> name <> ".part", "-o", folder </> "out.tape"]
+          (code, out) `shouldBe` (ExitFailure 1, "")
+          err `shouldSatisfy` isInfixOf "error[E"
+          doesFileExist (folder </> "out.tape") `shouldReturn` False
+    it "refuses to write over the program, and into a folder that is not there" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        forM_ [folder </> "flange.part", folder </> "no" </> "x.tape"] $ \place -> do
+          (code, _, err) <- partc ["compile", folder </> "flange.part", "-o", place]
+          code `shouldBe` ExitFailure 1
+          err `shouldSatisfy` isInfixOf "error[E080"
+        fmap Tape (ByteString.readFile (folder </> "flange.part")) `shouldNotReturn` Flange.tape
+    it "says so when it does not prove the tape" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        (code, _, err) <- partc ["compile", folder </> "flange.part", "--no-verify", "-o", folder </> "x.tape"]
+        code `shouldBe` ExitSuccess
+        err `shouldSatisfy` isInfixOf "warning[W0801]"
   describe "verify" $ do
-    it "proves its own tape, and disproves one with a changed digit with status 3" $ inFolder $ \folder -> do
-      (good, table, _) <- partc ["verify", "examples/flange.part"]
-      good `shouldBe` ExitSuccess
-      table `shouldSatisfy` isInfixOf "proven"
-      let Tape rows = Flange.tape
-          (front, back) = ByteString.splitAt (25 + 15 * 49 + 2 * 25 + 3) rows
-      ByteString.writeFile (folder </> "bad.tape") (front <> ByteString.cons 0x0F (ByteString.drop 1 back))
-      (bad, table', err) <- partc ["verify", "examples/flange.part", folder </> "bad.tape"]
-      bad `shouldBe` ExitFailure 3
-      table' `shouldSatisfy` isInfixOf "WRONG"
-      err `shouldSatisfy` isInfixOf "The first frame that differs from this program's own is frame 50."
-    it "reports a damaged tape with its row" $ inFolder $ \folder -> do
-      let Tape rows = Flange.tape
-      ByteString.writeFile (folder </> "cut.tape") (ByteString.take 1007 rows)
-      (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
-      (code, out) `shouldBe` (ExitFailure 1, "")
-      err `shouldSatisfy` isInfixOf "the tape ends within a frame"
+    it "proves its own tape, and disproves one with a changed digit with status 3" $
+      inFolder $ \folder -> do
+        (good, table, _) <- partc ["verify", "examples/flange.part"]
+        good `shouldBe` ExitSuccess
+        table `shouldSatisfy` isInfixOf "proven"
+        let Tape rows = Flange.tape
+            (front, back) = ByteString.splitAt (25 + 15 * 49 + 2 * 25 + 3) rows
+        ByteString.writeFile (folder </> "bad.tape") (front <> ByteString.cons 0x0F (ByteString.drop 1 back))
+        (bad, table', err) <- partc ["verify", "examples/flange.part", folder </> "bad.tape"]
+        bad `shouldBe` ExitFailure 3
+        table' `shouldSatisfy` isInfixOf "WRONG"
+        err `shouldSatisfy` isInfixOf "The first frame that differs from this program's own is frame 50."
+    it "reports a damaged tape with its row" $
+      inFolder $ \folder -> do
+        let Tape rows = Flange.tape
+        ByteString.writeFile (folder </> "cut.tape") (ByteString.take 1007 rows)
+        (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
+        (code, out) `shouldBe` (ExitFailure 1, "")
+        err `shouldSatisfy` isInfixOf "the tape ends within a frame"
   describe "formats" $ do
     it "short: one line a report, and nothing else" $ do
       (_, _, err) <- partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]

@@ -85,4 +85,3 @@ sagitta = elements [0.005, 0.02, 0.1, 1]
 
 longMove :: Double -> Double -> [Frame]
 longMove x y = maybe [] (map frame . Frame.planned) (Result.output (FromPath.quantise lkp01f (Generate.straightPath x y)))
-

@@ -9,7 +9,6 @@ import Generate (Case (..), Motion (..))
 import Generate qualified
 import Geometry.Contour (Contour (..), Ends (..))
 import Geometry.Contour qualified as Contour
-
 import Geometry.Distance qualified as Distance
 import Geometry.Offset (Cause (..), Obstacle (..), Origin (..), Piece (..), Side (..))
 import Geometry.Offset qualified as Offset
@@ -64,7 +63,7 @@ spec = do
       fmap fst (causeOf LeftOf 2 square) `shouldBe` Just (InnerCorner 0 1 (Vec.point 10 0))
     it "a slot of 8 whose walls are far apart in the contour stops a cutter of 10" $
       causeOf RightOf 5 keyhole `shouldSatisfy` \case
-        Just (Collision _ _ _, fits) -> abs (fits - 4) < 1e-5
+        Just (Collision {}, fits) -> abs (fits - 4) < 1e-5
         _ -> False
     it "a cutter of 8 goes down a slot of 8" $
       causeOf RightOf 4 keyhole `shouldBe` Nothing
@@ -192,4 +191,3 @@ segmentLength p = let Mm l = Segment.length (segment p) in l
 
 apart :: Point -> Point -> Double
 apart a b = let Mm d = Vec.distance a b in d
-

@@ -28,7 +28,7 @@ spec = do
   it "the flange's own frames are proven" $
     findings (proofOf Flange.frames) `shouldBe` []
   it "every change of a legal digit that moves the path is found, its frame named, and said to leave the band where it does" $
-    [(n, f, findings p) | (n, f, fs) <- changes, let p = proofOf fs, not (isFound n f p)] `shouldBe` []
+    [(n, f, findings p) | (n, f, fs) <- changes, let { p = proofOf fs }, not (isFound n f p)] `shouldBe` []
   it "every change of a speed code is a wrong feed in its frame" $
     [ (n, s)
       | (n, f) <- zip [1 ..] Flange.frames,
