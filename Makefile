@@ -29,7 +29,7 @@ PARTC = $$($(STACK) path --local-install-root 2>/dev/null)/bin/partc
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: help setup build test check format format-check lint bench demo install clean
+.PHONY: mutants help setup build test check format format-check lint bench demo install clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -71,6 +71,10 @@ bench: setup ## time every stage
 	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
 	$(call banner,bench)
 	@$(BENCH) --verbosity info bench --flag partc:bench
+
+mutants: setup ## break the code once for every law and see the law fail
+	$(call banner,mutants)
+	@bash scripts/mutants.sh $(MUTANTS)
 
 demo: build ## compile, prove, report and draw an example part
 	@mkdir -p build

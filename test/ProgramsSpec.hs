@@ -10,19 +10,20 @@ import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
-import Control.Monad (filterM, forM_, void)
+import Control.Monad (forM_, void)
 import Data.ByteString qualified as ByteString
 import Data.List (isInfixOf, nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
+import Files (readText, walk)
 import Machine.Lkp01f (lkp01f)
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
-import System.Directory (doesDirectoryExist, doesFileExist, listDirectory)
+import System.Directory (doesFileExist)
 import System.Environment (lookupEnv)
-import System.FilePath (takeExtension, takeFileName, (-<.>), (</>))
+import System.FilePath (takeExtension, takeFileName, (-<.>))
 import Test.Hspec
 import Verify.Proof qualified as Proof
 
@@ -79,12 +80,3 @@ expected file actual = do
     Nothing
       | there -> readText file >>= (actual `shouldBe`)
       | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")
-
-readText :: FilePath -> IO Text
-readText file = Encoding.decodeUtf8 <$> ByteString.readFile file
-
-walk :: FilePath -> IO [FilePath]
-walk folder = do
-  entries <- map (folder </>) <$> listDirectory folder
-  folders <- filterM doesDirectoryExist entries
-  (filter (`notElem` folders) entries <>) . concat <$> traverse walk folders

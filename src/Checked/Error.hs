@@ -16,7 +16,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), report)
+import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
 
 -- | A fact, and where it shows.
 data Error
@@ -140,9 +140,6 @@ toReport err = case err of
 
 at :: Region -> Code -> Text -> Report
 at region code = report Error code (InSource region)
-
-quote :: Text -> Text
-quote text = "‘" <> text <> "’"
 
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"

@@ -12,7 +12,7 @@ import Cli.Table qualified as Table
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Machine.Machine (Axis (..), Content (..), Fact (..), FeedCode (..), Field, Machine, MachineName (..), Mark (..), Service (..))
+import Machine.Machine (Fact (..), FeedCode (..), Field, Machine, MachineName (..), Mark (..), Service (..))
 import Machine.Machine qualified as Machine
 
 -- | A line for every machine.
@@ -43,14 +43,7 @@ machineSheet m =
     fieldRow k (what, service) = [Decimal.whole k, what, service]
 
 fieldRows :: Field -> [(Text, Text)]
-fieldRows f = [(contentWord (Machine.content f), serviceWord s) | s <- NonEmpty.toList (Machine.service f)]
-
-contentWord :: Content -> Text
-contentWord content = case content of
-  Increment X -> "x"
-  Increment Y -> "y"
-  Increment Z -> "z"
-  Speed -> "speed"
+fieldRows f = [(Machine.contentWord (Machine.content f), serviceWord s) | s <- NonEmpty.toList (Machine.service f)]
 
 serviceWord :: Service -> Text
 serviceWord service = case service of

@@ -42,7 +42,7 @@ toReport machine err = case err of
       { message = ["Its feeds go from " <> feed lowest <> " to " <> feed highest <> "."]
       }
   OutOfReach region p limit ->
-    (report Report.Error "E0502" (InSource region) ("the cutter would go to " <> point p <> ", further than any machine reaches"))
+    (report Report.Error "E0502" (InSource region) ("the cutter would go to " <> Vec.written 4 p <> ", further than any machine reaches"))
       { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."]
       }
   TooManyFrames region limit ->
@@ -58,8 +58,8 @@ warningReport machine warning = case warning of
       { message = ["Asked is " <> feed asked <> "; the machine has no feed nearer to it that does not exceed it."]
       }
   StartRounded region asked given ->
-    (report Report.Warning "W0502" (InSource region) ("the cutter cannot start at " <> point asked <> ": it is between two pulses"))
-      { message = ["The tape is computed for a start at " <> point given <> " (a pulse is " <> Decimal.mm (Machine.pulse machine) <> ")."]
+    (report Report.Warning "W0502" (InSource region) ("the cutter cannot start at " <> Vec.written 4 asked <> ": it is between two pulses"))
+      { message = ["The tape is computed for a start at " <> Vec.written 4 given <> " (a pulse is " <> Decimal.mm (Machine.pulse machine) <> ")."]
       }
 
 machineName :: Machine -> Text
@@ -67,6 +67,3 @@ machineName machine = let MachineName name = Machine.name machine in name
 
 feed :: Feed -> Text
 feed (Feed f) = Decimal.short 2 f <> " mm/min"
-
-point :: Point -> Text
-point p = "(" <> Decimal.short 4 (Vec.x p) <> ", " <> Decimal.short 4 (Vec.y p) <> ")"

@@ -26,10 +26,13 @@ module Geometry.Vec
     distance,
     between,
     near,
+    written,
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..))
+import Data.Text (Text)
 import Geometry.Tolerance qualified as Tolerance
 import Linear.Metric qualified as Linear
 import Linear.V2 (V2 (..))
@@ -120,3 +123,7 @@ between t a b = shift (scale t (to a b)) a
 -- | Whether two points are one point.
 near :: Point -> Point -> Bool
 near a b = distance a b <= Tolerance.coincident
+
+-- | A point as a person writes it, with at most so many decimals.
+written :: Int -> Point -> Text
+written decimals p = "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"

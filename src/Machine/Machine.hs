@@ -13,6 +13,7 @@ module Machine.Machine
     DigitCode (..),
     digits,
     capacity,
+    contentWord,
 
     -- * Feeds
     rapidCode,
@@ -98,6 +99,14 @@ data Service
 -- | The holes of the digits 0 to 9 in the tracks below the service track, bit k−1 for track k.
 data DigitCode = DigitCode {codeName :: Text, digitWords :: [Word8]}
   deriving stock (Eq, Show)
+
+-- | What a field holds, in a word.
+contentWord :: Content -> Text
+contentWord content' = case content' of
+  Increment X -> "x"
+  Increment Y -> "y"
+  Increment Z -> "z"
+  Speed -> "speed"
 
 -- | How many digits a field has.
 digits :: Field -> Int

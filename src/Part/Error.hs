@@ -18,7 +18,7 @@ import Data.Text qualified as Text
 import Geometry.Shape (Circle (..), Line (..), Walked (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Report.Report (Code, Label (..), Place (..), Report (..), report)
+import Report.Report (Code, Label (..), Place (..), Report (..), quote, report)
 import Report.Report qualified as Report
 
 -- | A fact, and the calls of functions through which it came about, the innermost first.
@@ -110,7 +110,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   ZeroLine region p ->
     (at region "E0305" "this line has no length")
-      { message = ["Both its points are " <> point p <> "; a line needs two different ones."]
+      { message = ["Both its points are " <> Vec.written 4 p <> "; a line needs two different ones."]
       }
   NotPositive region what value ->
     at region "E0306" (what <> " must be more than zero, this one is " <> value)
@@ -144,8 +144,8 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   AmbiguousMeeting j points ->
     (joined "E0314" j (things j <> " meet in more than one point"))
-      { message = ["They meet at " <> Text.intercalate " and at " (map point points) <> "."],
-        hints = ["Choose with: meet near " <> point p | p <- take 1 points]
+      { message = ["They meet at " <> Text.intercalate " and at " (map (Vec.written 4) points) <> "."],
+        hints = ["Choose with: meet near " <> Vec.written 4 p | p <- take 1 points]
       }
   NotSmooth j gap ->
     (joined "E0315" j (things j <> " do not touch: they miss it by " <> Decimal.mm gap))
@@ -186,7 +186,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   AmbiguousFillet j centres ->
     (joined "E0323" j "two fillets make contours of the same length")
-      { message = ["Their centres are " <> Text.intercalate " and " (map point centres) <> "."],
+      { message = ["Their centres are " <> Text.intercalate " and " (map (Vec.written 4) centres) <> "."],
         hints = ["Change the order or the senses of the elements so that one of them is the shorter way."]
       }
   Overrun region walked overlap links ->
@@ -200,7 +200,7 @@ toReport (Error fact calls) = addCalls $ case fact of
     (at first "E0325" "the contour crosses or touches itself")
       { label = "this element",
         others = [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
-        message = ["They meet at " <> point p <> "."],
+        message = ["They meet at " <> Vec.written 4 p <> "."],
         hints = ["Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise." | fillets]
       }
   where
@@ -221,15 +221,9 @@ things j = describe (snd (before j)) <> " and " <> describe (snd (after j))
 -- | An element in words.
 describe :: Walked -> Text
 describe walked = case walked of
-  OnLine (Line p q) -> "the line from " <> point p <> " to " <> point q
-  OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> point c
-  AtPoint p -> "the point " <> point p
-
-point :: Point -> Text
-point p = "(" <> Decimal.short 4 (Vec.x p) <> ", " <> Decimal.short 4 (Vec.y p) <> ")"
-
-quote :: Text -> Text
-quote text = "‘" <> text <> "’"
+  OnLine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
+  OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
+  AtPoint p -> "the point " <> Vec.written 4 p
 
 stop :: Text -> Text
 stop number = "The Minsk-22 system stopped here with " <> number <> "."

@@ -49,21 +49,21 @@ toReport err = case err of
     (at (origin first) "E0403" "no round cutter reaches into this inner corner")
       { label = shape first,
         others = second' first second <> [Label region ("milled here with a diameter of " <> diameter r)],
-        message = ["The corner is at " <> point p <> "."],
+        message = ["The corner is at " <> Vec.written 3 p <> "."],
         hints = "Round the corner with a fillet of at least the cutter's radius, " <> Decimal.mm r <> "." : [fits largest | Just _ <- [largest]]
       }
   Collision region r first second p largest ->
     (at (origin first) "E0404" ("a cutter of diameter " <> diameter r <> " cannot follow this element without cutting another one"))
       { label = shape first,
         others = second' first second <> [Label region "milled here" | region /= origin first],
-        message = ["With its centre at " <> point p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
+        message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
         hints = [fits largest]
       }
   CutsPart region element depth crosses p ->
     (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
-        message = ["The cutter's centre is then at " <> point p <> "."],
+        message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
         hints = ["Choose approach and retract points from which the straight way stays clear of the part."]
       }
 
@@ -91,9 +91,6 @@ diameter r = Decimal.mm (times 2 r)
 
 shape :: Element -> Text
 shape element = case segment element of
-  Straight a b -> "the line from " <> point a <> " to " <> point b
+  Straight a b -> "the line from " <> Vec.written 3 a <> " to " <> Vec.written 3 b
   Arc {start, centre, sweep = Rad s} ->
-    "the " <> (if s > 0 then "counter-clockwise" else "clockwise") <> " arc of radius " <> Decimal.mm (Segment.radius centre start) <> " about " <> point centre
-
-point :: Point -> Text
-point p = "(" <> Decimal.short 3 (Vec.x p) <> ", " <> Decimal.short 3 (Vec.y p) <> ")"
+    "the " <> (if s > 0 then "counter-clockwise" else "clockwise") <> " arc of radius " <> Decimal.mm (Segment.radius centre start) <> " about " <> Vec.written 3 centre

@@ -7,6 +7,7 @@ module Report.Report
     Place (..),
     Label (..),
     report,
+    quote,
     severityWord,
     isError,
     sorted,
@@ -64,6 +65,10 @@ data Report = Report
 report :: Severity -> Code -> Place -> Text -> Report
 report severity code place title =
   Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
+
+-- | A word of the program in a sentence.
+quote :: Text -> Text
+quote text = "‘" <> text <> "’"
 
 severityWord :: Severity -> Text
 severityWord severity = case severity of

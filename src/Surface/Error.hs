@@ -11,7 +11,7 @@ import Base.Name qualified as Name
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), report)
+import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
 import Surface.Token (Token_ (..), describe, unitName)
 
 -- | A fact about the text, and where it stands.
@@ -121,9 +121,6 @@ expectation expected = case expected of
   [] -> ""
   [one] -> ", expected " <> one
   many' -> ", expected " <> Text.intercalate ", " (init many') <> " or " <> last many'
-
-quote :: Text -> Text
-quote text = "‘" <> text <> "’"
 
 strayHint :: Char -> [Text]
 strayHint c

@@ -16,7 +16,7 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame (Frame)
-import Machine.Machine (Axis (..), Content (..), Machine)
+import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Report.Report (Place (..), Report (..), report)
 import Report.Report qualified as Report
@@ -94,7 +94,7 @@ toReport (Damage row frame cause) =
   where
     place = maybe "" (\n -> " (frame " <> Decimal.whole n <> fieldWord <> ")") frame
     fieldWord = case cause of
-      InFrame fault -> maybe "" ((", " <>) . contentWord) (Layout.field fault)
+      InFrame fault -> maybe "" ((", " <>) . Machine.contentWord) (Layout.field fault)
       _ -> ""
     because = case cause of
       LeaderNotBlank _ -> "the leader is not blank"
@@ -111,13 +111,6 @@ toReport (Damage row frame cause) =
             <> ": frames are missing, or the tape is torn."
         ]
       _ -> []
-
-contentWord :: Content -> Text
-contentWord content = case content of
-  Increment X -> "x"
-  Increment Y -> "y"
-  Increment Z -> "z"
-  Speed -> "speed"
 
 reasonWord :: Reason -> Text
 reasonWord reason = case reason of

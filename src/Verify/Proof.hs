@@ -13,7 +13,6 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
-import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -91,13 +90,13 @@ toReport machine finding = case finding of
     (wrong "E0701" (InSource (element first)) (frameWord (frame first) <> " cuts " <> micro (amount first) <> " into the part"))
       { label = "into this element",
         message =
-          ["The cutter's centre is then at " <> point (place first) <> ". Allowed is a gouge of " <> micro allowed <> ", the tolerance and one pulse."]
+          ["The cutter's centre is then at " <> Vec.written 3 (place first) <> ". Allowed is a gouge of " <> micro allowed <> ", the tolerance and one pulse."]
             <> ["The deepest gouge is " <> micro (amount worst) <> ", in frame " <> Decimal.whole (frame worst) <> "." | frame worst /= frame first]
       }
   Excess w allowed ->
     (wrong "E0702" (InSource (element w)) (frameWord (frame w) <> " leaves " <> micro (amount w) <> " of material standing"))
       { label = "at this element",
-        message = ["It is worst at " <> point (place w) <> ". Allowed is an excess of " <> micro allowed <> ", the tolerance and one pulse."]
+        message = ["It is worst at " <> Vec.written 3 (place w) <> ". Allowed is an excess of " <> micro allowed <> ", the tolerance and one pulse."]
       }
   WrongSide n region -> wrong "E0703" (InSource region) (frameWord n <> " runs along this element on its wrong side")
   NeverBegun region -> wrong "E0704" (InSource region) "the tape never reaches the beginning of this contour"
@@ -118,6 +117,3 @@ toReport machine finding = case finding of
     micro (Mm x) = Decimal.fixed 4 x <> " mm"
     pulses (Pulses n) = Decimal.whole n <> (if abs n == 1 then " pulse" else " pulses")
     code c@(FeedCode n) = Decimal.whole n <> maybe "" (\(Feed f) -> " (" <> Decimal.short 2 f <> " mm/min)") (Machine.feedOf machine c)
-
-point :: Point -> Text
-point p = "(" <> Decimal.short 3 (Vec.x p) <> ", " <> Decimal.short 3 (Vec.y p) <> ")"
