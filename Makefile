@@ -91,6 +91,7 @@ demo: build ## compile, prove, report and draw an example part
 install: build ## copy partc to $(PREFIX)/bin
 	$(call banner,install)
 	@install -D -m 755 "$(PARTC)" "$(DESTDIR)$(PREFIX)/bin/partc"
+	@install -D -m 644 docs/partc.1 "$(DESTDIR)$(PREFIX)/share/man/man1/partc.1"
 	@printf 'installed %s\n' '$(DESTDIR)$(PREFIX)/bin/partc'
 
 clean: ## remove everything that was built

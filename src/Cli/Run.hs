@@ -17,10 +17,12 @@ import Cli.NodeTable qualified as NodeTable
 import Cli.Options (Command (..), CompileOptions (..), Invocation (..))
 import Cli.Output (Exit (..), Settings)
 import Cli.Output qualified as Output
+import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
-import Control.Exception (try)
+import Control.Exception (evaluate, try)
+import Control.Monad (void)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
@@ -82,11 +84,16 @@ complain settings path e = Failed <$ Output.show' settings path (Region.fromText
 -- | Write what a stage says; go on with its output when there is nothing against it.
 settle :: Settings -> Loaded -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 settle settings loaded result continue = do
+  Progress.during ("working on " <> name loaded) (computed result)
   stopped <- Output.show' settings (name loaded) (source loaded) (errors result <> warnings result)
   case output result of
     Just a | not stopped -> continue a
     Nothing | not stopped -> bug "a stage gave neither an output nor a report"
     _ -> pure Failed
+
+-- | Compute a result as far as its errors and warnings depend on it.
+computed :: Result w e a -> IO ()
+computed result = void (evaluate (length (errors result) + length (warnings result)))
 
 -- | Print a result.
 printed :: Settings -> Text -> IO Exit
@@ -199,6 +206,7 @@ verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
         case output read' of
           Just fs | not broken -> do
             let result = Compile.prove machine (path analysis) (program punched) fs
+            Progress.during ("proving " <> tapeName) (computed result)
             table <- maybe (pure Done) (printed settings . ProofTable.proof machine) (output result)
             _ <- Output.show' settings (name loaded) (source loaded) (errors result)
             pure (if null (errors result) then table else Disproven)

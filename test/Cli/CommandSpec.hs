@@ -87,6 +87,10 @@ spec = do
         (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "the tape ends within a frame"
+    it "shows the table that the documentation shows" $ do
+      (_, table, _) <- partc ["verify", "examples/flange.part"]
+      page <- readFile "README.md"
+      page `shouldSatisfy` isInfixOf table
   describe "formats" $ do
     it "short: one line a report, and nothing else" $ do
       (_, _, err) <- partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]

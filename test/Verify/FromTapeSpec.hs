@@ -85,10 +85,10 @@ changes =
       let f' = f {increment = d}
   ]
 
--- | One digit one more or less (or turned round at the ends), or the sign changed.
+-- | One digit changed to any other, or the sign.
 digitChanges :: Int -> Pulses -> [Pulses]
 digitChanges count (Pulses v) =
-  [Pulses (signum' v * changed) | k <- [0 .. count - 1], step <- [1, 9], let changed = turned k step, changed /= abs v]
+  [Pulses (signum' v * changed) | k <- [0 .. count - 1], step <- [1 .. 9], let changed = turned k step, changed /= abs v]
     <> [Pulses (-v) | v /= 0]
   where
     signum' n = if n < 0 then -1 else 1
