@@ -340,8 +340,8 @@ call defined at (Located place name@(Name text)) arguments = do
   entry <- Infer.find name
   case entry of
     Just (Function _ parameters scheme) -> do
-      (ts, t) <- Infer.instantiate scheme
-      applied parameters ts t (\es -> Checked.Apply name (NonEmpty.fromList es))
+      (ts, t, operations) <- Infer.instantiate at scheme
+      applied parameters ts t (\es -> Checked.Apply name (NonEmpty.fromList es)) <* operations
     Just (Value before _) -> wrong (NotAFunction place name (Just before))
     Just (Local _) -> wrong (NotAFunction place name Nothing)
     Just (Poisoned _) -> nothing <$ (otherArguments *> Infer.taint)

@@ -94,8 +94,9 @@ data Entry
   | -- | a definition that is already reported as wrong
     Poisoned Region
 
--- | The type of a function with the unknowns that are fresh at each use.
-data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type}
+-- | The type of a function: the unknowns that are fresh at each use, and the operations of its body that
+-- can be decided only when the arguments are known.
+data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type, open :: [Arithmetic]}
 
 -- | Run a check from the beginning: the errors in order, the solution, the output.
 run :: Infer a -> ([Error], Solution, a)
@@ -288,22 +289,31 @@ generalising infer = do
   begin <- gets next
   modify' (\m -> m {outside = begin})
   (ps, r, a) <- infer
-  settle
+  undecided <- decide
   ps' <- mapM known ps
   r' <- known r
+  open <- mapM knownOperation undecided
   m <- get
-  let mine = IntSet.fromList [n | t <- r' : ps', n <- Type.variables t <> Type.dimensions t, n >= begin]
+  let inside = r' : ps' <> concatMap typesOf open
+      mine = IntSet.fromList [n | t <- inside, n <- Type.variables t <> Type.dimensions t, n >= begin]
       kept = IntSet.fromList (concatMap (sharedNow m) (IntSet.toList (snd (IntSet.split (begin - 1) (shared m)))))
   put m {outside = before}
-  pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r'}, a)
+  pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r', open}, a)
   where
+    knownOperation op = do
+      l <- known (snd (left op))
+      r <- known (snd (right op))
+      o <- known (outcome op)
+      pure op {left = (fst (left op), l), right = (fst (right op), r), outcome = o}
+    typesOf op = [snd (left op), snd (right op), outcome op]
     sharedNow m n =
       Type.variables (resolve m (Variable n))
         <> Dimension.unknowns (resolveDimension (dimensions m) (Dimension.atom (Dimension.Unknown n)))
 
--- | The type of a function at one of its uses.
-instantiate :: Scheme -> Infer ([Type], Type)
-instantiate scheme = do
+-- | The type of a function at one of its uses, and what decides the open operations of its body once the
+-- arguments are known.
+instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
+instantiate use scheme = do
   renamed <- traverse (const freshNumber) (IntMap.fromSet id (general scheme))
   let type' t = case t of
         Quantity d -> Quantity (dimension d)
@@ -316,7 +326,8 @@ instantiate scheme = do
         Wrong -> t
       dimension d = foldl (\d' n -> Dimension.substitute n (fresh n) d') d (Dimension.unknowns d)
       fresh n = Dimension.atom (Dimension.Unknown (IntMap.findWithDefault n n renamed))
-  pure (map type' (parameters scheme), type' (result scheme))
+      operation op = op {place = use, left = type' <$> left op, right = type' <$> right op, outcome = type' (outcome op)}
+  pure (map type' (parameters scheme), type' (result scheme), mapM_ (require . operation) (open scheme))
 
 -- Arithmetic
 
@@ -335,22 +346,28 @@ require a = do
   done <- attempt a
   unless done (modify' (\m -> m {pending = a : pending m}))
 
--- | Decide the operations that are left: what is still unknown is a quantity.
-settle :: Infer ()
-settle = do
+-- | Decide the waiting operations as far as their operands are known by now; the others are returned, and
+-- wait no longer.
+decide :: Infer [Arithmetic]
+decide = do
   waiting <- gets pending
   modify' (\m -> m {pending = []})
-  left' <- filterM (fmap not . attempt) (reverse waiting)
-  case left' of
+  undecided <- filterM (fmap not . attempt) (reverse waiting)
+  if length undecided < length waiting
+    then modify' (\m -> m {pending = reverse undecided}) *> decide
+    else pure undecided
+
+-- | Decide all waiting operations: what is still unknown is a quantity.
+settle :: Infer ()
+settle = do
+  undecided <- decide
+  case undecided of
     [] -> pure ()
-    first : rest
-      | length left' < length waiting -> again left'
-      | otherwise -> do
-        quantity (left first)
-        quantity (right first)
-        again (first : rest)
+    first : _ -> do
+      quantity (left first)
+      quantity (right first)
+      modify' (\m -> m {pending = reverse undecided}) *> settle
   where
-    again as = modify' (\m -> m {pending = reverse as}) *> settle
     quantity (region, t) = do
       t' <- known t
       case t' of
