@@ -404,7 +404,10 @@ attempt a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
     (_, Variable _, Variable _) -> pure False
     (Add, _, _) -> disagree l r
     (Subtract, _, _) -> disagree l r
-    (Multiply, _, _) -> wrong (NoOperation region "a product" [(leftRegion, l), (rightRegion, r)])
+    (Multiply, _, _)
+      -- A minus is a product with −1, whose place is the whole term.
+      | leftRegion == region -> wrong (NoOperation region "a minus" [(rightRegion, r)])
+      | otherwise -> wrong (NoOperation region "a product" [(leftRegion, l), (rightRegion, r)])
     (Divide, _, _) -> wrong (NoOperation region "a quotient" [(leftRegion, l), (rightRegion, r)])
   where
     quotient d e = Dimension.times d (Dimension.power (-1) e)
