@@ -54,6 +54,7 @@ import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
+import Data.List (partition)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (listToMaybe, mapMaybe)
@@ -289,10 +290,9 @@ generalising infer = do
   begin <- gets next
   modify' (\m -> m {outside = begin})
   (ps, r, a) <- infer
-  undecided <- decide
+  open <- undecided
   ps' <- mapM known ps
   r' <- known r
-  open <- mapM knownOperation undecided
   m <- get
   let inside = r' : ps' <> concatMap typesOf open
       mine = IntSet.fromList [n | t <- inside, n <- Type.variables t <> Type.dimensions t, n >= begin]
@@ -300,15 +300,37 @@ generalising infer = do
   put m {outside = before}
   pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r', open}, a)
   where
+    typesOf op = [snd (left op), snd (right op), outcome op]
+    sharedNow m n =
+      Type.variables (resolve m (Variable n))
+        <> Dimension.unknowns (resolveDimension (dimensions m) (Dimension.atom (Dimension.Unknown n)))
+
+-- | The operations that stay open, each once. When there are too many, what is unknown is a quantity after all.
+undecided :: Infer [Arithmetic]
+undecided = do
+  waiting <- decide >>= mapM knownOperation
+  once <- merged waiting
+  if length once > mostOpen
+    then modify' (\m -> m {pending = reverse once}) *> settle *> pure []
+    else if length once < length waiting then modify' (\m -> m {pending = reverse once}) *> undecided else pure once
+  where
     knownOperation op = do
       l <- known (snd (left op))
       r <- known (snd (right op))
       o <- known (outcome op)
       pure op {left = (fst (left op), l), right = (fst (right op), r), outcome = o}
-    typesOf op = [snd (left op), snd (right op), outcome op]
-    sharedNow m n =
-      Type.variables (resolve m (Variable n))
-        <> Dimension.unknowns (resolveDimension (dimensions m) (Dimension.atom (Dimension.Unknown n)))
+    -- Equal operations on equal operands have equal outcomes.
+    merged ops = case ops of
+      [] -> pure []
+      op : rest -> do
+        let (same, different) = partition (alike op) rest
+        mapM_ (unify (place op) (outcome op) . outcome) same
+        (op :) <$> merged different
+    alike a b = operator a == operator b && snd (left a) == snd (left b) && snd (right a) == snd (right b)
+
+-- | A function leaves at most so many operations open.
+mostOpen :: Int
+mostOpen = 50
 
 -- | The type of a function at one of its uses, and what decides the open operations of its body once the
 -- arguments are known.
@@ -352,21 +374,21 @@ decide :: Infer [Arithmetic]
 decide = do
   waiting <- gets pending
   modify' (\m -> m {pending = []})
-  undecided <- filterM (fmap not . attempt) (reverse waiting)
-  if length undecided < length waiting
-    then modify' (\m -> m {pending = reverse undecided}) *> decide
-    else pure undecided
+  left' <- filterM (fmap not . attempt) (reverse waiting)
+  if length left' < length waiting
+    then modify' (\m -> m {pending = reverse left'}) *> decide
+    else pure left'
 
 -- | Decide all waiting operations: what is still unknown is a quantity.
 settle :: Infer ()
 settle = do
-  undecided <- decide
-  case undecided of
+  open <- decide
+  case open of
     [] -> pure ()
     first : _ -> do
       quantity (left first)
       quantity (right first)
-      modify' (\m -> m {pending = reverse undecided}) *> settle
+      modify' (\m -> m {pending = reverse open}) *> settle
   where
     quantity (region, t) = do
       t' <- known t
