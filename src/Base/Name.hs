@@ -2,10 +2,12 @@
 module Base.Name
   ( Name (..),
     nearest,
+    lookAlike,
   )
 where
 
 import Data.List (sortOn)
+import Data.Maybe qualified as Maybe
 import Data.String (IsString)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -23,6 +25,14 @@ nearest wanted candidates =
   where
     size = Text.length wanted
     allowed = size `div` 3
+
+-- | The candidates that look the same but are written with letters of another alphabet.
+lookAlike :: Text -> [Text] -> [Text]
+lookAlike wanted candidates = [c | c <- candidates, c /= wanted, Text.map latin c == Text.map latin wanted]
+
+-- | The Latin letter that a Cyrillic one looks like.
+latin :: Char -> Char
+latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
 -- | The edit distance of Levenshtein, letter case ignored.
 distance :: Text -> Text -> Int

@@ -60,9 +60,10 @@ toReport :: Error -> Report
 toReport err = case err of
   UndefinedName region (Name name) known ->
     (at region "E0201" ("nothing is named " <> quote name))
-      { hints = case Name.nearest name known of
-          [] -> []
-          near -> ["Did you mean " <> Text.intercalate " or " (map quote (take 2 near)) <> "?"]
+      { hints = case (Name.lookAlike name known, Name.nearest name known) of
+          (_ : _, _) -> ["There is a name that looks the same but has a letter of the other alphabet, Cyrillic or Latin: write both alike."]
+          ([], []) -> []
+          ([], near) -> ["Did you mean " <> Text.intercalate " or " (map quote (take 2 near)) <> "?"]
       }
   UsedBeforeDefinition region (Name name) defined ->
     (at region "E0202" (quote name <> " is used before it is defined"))

@@ -311,7 +311,7 @@ undecided = do
   waiting <- decide >>= mapM knownOperation
   once <- merged waiting
   if length once > mostOpen
-    then modify' (\m -> m {pending = reverse once}) *> settle *> pure []
+    then [] <$ (modify' (\m -> m {pending = reverse once}) *> settle)
     else if length once < length waiting then modify' (\m -> m {pending = reverse once}) *> undecided else pure once
   where
     knownOperation op = do

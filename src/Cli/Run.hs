@@ -132,8 +132,7 @@ machineNamed n = maybe (Left (UnknownMachine Nothing n known)) Right (BuiltIn.fi
 -- | Punch a program for one machine and prove the tape.
 proven :: Bool -> Analysis -> Machine -> Result Report Report (Machine, Punched)
 proven unproven' analysis machine = do
-  punched <- Compile.punch machine (path analysis)
-  if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure ()
+  punched <- Compile.punch machine (path analysis) >>= moving
   if unproven'
     then Result.warned [Cli.warningReport Unproven]
     else do
@@ -141,6 +140,10 @@ proven unproven' analysis machine = do
       _ <- Compile.prove machine (path analysis) (program punched) read'
       pure ()
   pure (machine, punched)
+
+-- | A tape that moves something.
+moving :: Punched -> Result w Report Punched
+moving punched = if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure punched
 
 compile :: Settings -> CompileOptions -> IO Exit
 compile settings options = withProgram settings (file options) $ \loaded ->
@@ -218,7 +221,7 @@ prepared target loaded =
   analyse loaded `Result.thenSound` \a -> do
     ms <- chosen (maybe [] pure target) a
     case ms of
-      m : _ -> (a,m,) <$> Compile.punch m (path a)
+      m : _ -> (a,m,) <$> (Compile.punch m (path a) >>= moving)
       [] -> Result.failed (Cli.toReport (NoMachine known))
 
 frames :: Settings -> FilePath -> Maybe Text -> Bool -> IO Exit

@@ -62,7 +62,7 @@ dots cut = [Sign.node (marked n) (place n) | n <- NonEmpty.toList numbered, mark
 -- | The numbers of the nodes; where a closed way ends, it has both its numbers.
 labels :: Cut -> [Label]
 labels cut
-  | Vec.near (place first) (place final) = entry ("0, " <> Decimal.whole (number final)) first : map plain between
+  | Vec.near (place first) (place final) = entry "0" first : map plain between
   | otherwise = entry "0" first : plain final : map plain between
   where
     numbered = nodes cut

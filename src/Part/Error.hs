@@ -132,11 +132,13 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   NoMeeting j gap ->
     (joined "E0311" j (things j <> " do not meet: they miss one another by " <> Decimal.mm gap))
-      { message = [stop "17533"]
+      { message = [stop "17533"],
+        hints = ["Correct the numbers; circles that are apart are joined by tangent or fillet, and a line begins at the point before it."]
       }
   ParallelLines j gap ->
     (joined "E0312" j ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
-      { message = [stop "17533"]
+      { message = [stop "17533"],
+        hints = ["Is an edge between them missing? A closed contour joins its last element to its first."]
       }
   SameCurve j ->
     (joined "E0313" j "these are the same curve, so they have no one point in common")
@@ -150,7 +152,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   NotSmooth j gap ->
     (joined "E0315" j (things j <> " do not touch: they miss it by " <> Decimal.mm gap))
       { message = [stop "17533"],
-        hints = ["Correct the numbers, or join them with tangent, fillet or meet."]
+        hints = ["Correct the numbers, or join them with a fillet."]
       }
   TurnsBack j ->
     (joined "E0316" j "the elements touch here, but the walk would have to turn back")

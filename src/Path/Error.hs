@@ -28,7 +28,9 @@ data Error
   | -- | on its way along the first element the cutter cuts the second
     Collision Region Mm Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element, how deep, and whether it even crosses it
-    CutsPart Region Element Mm Bool Point
+    CutsPart Region Segment Element Mm Bool Point
+  | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
+    MillsAnother Region Region Element Mm Point
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -59,12 +61,19 @@ toReport err = case err of
         message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
         hints = [fits largest]
       }
-  CutsPart region element depth crosses p ->
+  CutsPart region way element depth crosses p ->
     (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
-        message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
+        message = ["It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
         hints = ["Choose approach and retract points from which the straight way stays clear of the part."]
+      }
+  MillsAnother region milled element depth p ->
+    (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
+      { label = "milled here",
+        others = [Label milled "along this element", Label (origin element) ("it cuts " <> shape element)],
+        message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
+        hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
       }
 
 at :: Region -> Code -> Text -> Report

@@ -20,7 +20,7 @@ import Geometry.Contour qualified as Contour
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Offset qualified as Offset
-import Geometry.Segment (Segment (..))
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
@@ -59,7 +59,7 @@ block at operation = case operation of
     let entry = Segment.start (Offset.segment (NonEmpty.head pieces))
         exit = Segment.end (Offset.segment (NonEmpty.last pieces))
         pace = Part.At (feed milling)
-        before = ways at (Part.approach milling <> [Part.Stop (Located region entry) pace])
+        before = ways at (Part.approach milling <> [Part.Stop (Located (keyword region) entry) pace])
         origins = Vector.fromList (map Part.origin (NonEmpty.toList (elements (contour milling))))
         number origin = case origin of
           Offset.Along i -> i
@@ -114,10 +114,20 @@ intrusions path = concat (zipWith against [0 :: Int ..] (blocks path))
         On -> []
         _ ->
           let index = Box.index (Box.ofSegment . Part.segment) (NonEmpty.toList (elements (contour milling)))
-           in concatMap (intrusion milling index) (concat (zipWith (foreign' n) [0 ..] (blocks path)))
-    foreign' n k b = case b of
-      Cutting {approach, retract} | n == k -> approach <> retract
-      _ -> Path.moves b
+           in concat (zipWith (foreign' milling index n) [0 ..] (blocks path))
+    foreign' milling index n k b = case b of
+      Travelling ms -> concatMap (intrusion milling index) ms
+      Cutting {job, approach, cut, retract} ->
+        concatMap (intrusion milling index) (approach <> retract)
+          <> take 1 (if n == k then [] else concatMap (map (another job) . intrusion milling index) (NonEmpty.toList cut))
+    -- A cut along another contour is no way that could be chosen otherwise.
+    another (Located statement _) e = case e of
+      CutsPart milled _ element depth _ p -> MillsAnother (keyword statement) milled element depth p
+      _ -> e
+
+-- | The first word of a milling statement.
+keyword :: Region -> Region
+keyword r = r {end = start r + 4}
 
 -- | Where a move cuts deepest into a contour, if it does.
 intrusion :: Milling -> Box.Index Element -> Move -> [Error]
@@ -126,10 +136,10 @@ intrusion milling index move
   | otherwise = [minimumBy (comparing depth) deep]
   where
     depth e = case e of
-      CutsPart _ _ (Mm d) _ _ -> -d
+      CutsPart _ _ _ (Mm d) _ _ -> -d
       _ -> 0
     deep =
-      [ CutsPart (Path.origin move) element (minus (radius milling) d) (d <= Tolerance.coincident) p
+      [ CutsPart (Path.origin move) (Path.segment move) element (minus (radius milling) d) (d <= Tolerance.coincident) p
         | element <- Box.within (Box.inflate (radius milling) (Box.ofSegment (Path.segment move))) index,
           let Nearest d p = Distance.segments (Path.segment move) (Part.segment element),
           plus d (tolerance milling) < radius milling

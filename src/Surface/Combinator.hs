@@ -11,6 +11,7 @@ module Surface.Combinator
     name,
     usedName,
     onThisLine,
+    endOfLine,
     located,
     quoted,
 
@@ -118,6 +119,14 @@ onThisLine :: Parser a -> Parser a
 onThisLine p = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   if maybe False newLine next then Parsec.empty else p
+
+-- | Nothing more stands on this line.
+endOfLine :: Parser ()
+endOfLine = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  case next of
+    Just t | not (newLine t) -> Parsec.customFailure (Trailing (shape t))
+    _ -> pure ()
 
 -- | With the region from the first to the last token.
 located :: Parser a -> Parser (Located a)
@@ -301,12 +310,16 @@ fromFailure ts size failure = case failure of
     UnclosedBlock opened what -> Error.Unclosed region opened what
     NoStatement word -> Error.UnknownStatement region word Keyword.statements
     NoName word -> Error.Reserved region word
-    Trailing shape' -> Error.Trailing region shape'
+    Trailing shape' -> Error.Trailing region shape' neighbours
     Misplaced word -> Error.Misplaced region word
     TooDeep -> Error.TooDeep region deepest
-  FancyError _ _ -> Error.Unexpected region found []
-  TrivialError _ _ expected -> Error.Unexpected region found (concatMap wanted (Set.toList expected))
+  FancyError _ _ -> Error.Unexpected region found [] neighbours
+  TrivialError _ _ expected -> Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours
   where
+    neighbours = (shape <$> ts Vector.!? (Parsec.errorOffset failure - 1), shape <$> touchingNext)
+    touchingNext = case ts Vector.!? (Parsec.errorOffset failure + 1) of
+      Just t | attached t -> Just t
+      _ -> Nothing
     here = ts Vector.!? Parsec.errorOffset failure
     region = maybe (Region size size) Token.place here
     found = maybe FoundEnd (FoundToken . shape) here

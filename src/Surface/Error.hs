@@ -16,8 +16,8 @@ import Surface.Token (Token_ (..), describe, unitName)
 
 -- | A fact about the text, and where it stands.
 data Error
-  = -- | a token where something else was expected
-    Unexpected Region Found [Text]
+  = -- | a token where something else was expected, and the tokens beside it
+    Unexpected Region Found [Text] Neighbours
   | -- | a bracket that is never closed: where it was missed, the bracket, what it opened
     Unclosed Region Region Text
   | -- | a word that begins no statement; the words that do
@@ -25,12 +25,15 @@ data Error
   | -- | a keyword or a unit where a name was to be given
     Reserved Region Text
   | -- | something behind a complete statement or item
-    Trailing Region Token_
+    Trailing Region Token_ Neighbours
   | -- | a statement in the braces of another
     Misplaced Region Text
   | -- | brackets nested deeper than so many
     TooDeep Region Int
   deriving stock (Eq, Ord, Show)
+
+-- | The token before, and the token behind if it touches.
+type Neighbours = (Maybe Token_, Maybe Token_)
 
 -- | What stands there.
 data Found = FoundToken Token_ | FoundEnd
@@ -39,27 +42,24 @@ data Found = FoundToken Token_ | FoundEnd
 -- | The words for it.
 toReport :: Error -> Report
 toReport err = case err of
-  Unexpected region (FoundToken (Stray c)) _ ->
+  Unexpected region (FoundToken (Stray c)) _ _ ->
     (at region "E0102" ("the character " <> quote (Text.singleton c) <> " has no place in a program"))
       { hints = strayHint c
       }
-  Unexpected region (FoundToken OpenText) _ ->
+  Unexpected region (FoundToken OpenText) _ _ ->
     (at region "E0103" "a text without its closing quotation mark")
       { hints = ["A text ends with \" on the line on which it begins."]
       }
-  Unexpected region (FoundToken (BadNumber text)) _ ->
+  Unexpected region (FoundToken (BadNumber text)) _ _ ->
     (at region "E0104" (quote text <> " is not a number"))
       { hints = ["Numbers look like 41, 59.3 or 0.02; a unit may follow: 20 mm, 45 deg, 60 mm/min."]
       }
-  Unexpected region found expected ->
+  Unexpected region found expected neighbours ->
     (at region "E0101" ("found " <> shown found <> expectation expected))
       { label = "here",
-        hints = case (found, expected) of
-          (FoundToken (Symbol ","), _) ->
-            ["A decimal point is a point: 59.3. A comma separates values."]
-          (FoundToken (Symbol "("), _) -> [touches]
-          (FoundToken (Symbol "+"), _) -> ["A positive number needs no sign."]
-          _ -> []
+        hints = case found of
+          FoundToken token -> advice token neighbours
+          FoundEnd -> []
       }
   Unclosed region opened what ->
     (at region "E0105" (what <> " is not closed"))
@@ -75,14 +75,11 @@ toReport err = case err of
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
       { hints = ["Choose another name, for example " <> word <> "1."]
       }
-  Trailing region token | isBroken token -> toReport (Unexpected region (FoundToken token) [])
-  Trailing region token ->
+  Trailing region token neighbours | isBroken token -> toReport (Unexpected region (FoundToken token) [] neighbours)
+  Trailing region token neighbours ->
     (at region "E0108" ("the statement ends before " <> describe token))
       { message = ["Every statement begins on a line of its own."],
-        hints = case token of
-          Word _ -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
-          Symbol "(" -> [touches]
-          _ -> []
+        hints = advice token neighbours
       }
   Misplaced region word ->
     (at region "E0109" (quote word <> " is a statement and does not belong in these braces"))
@@ -94,8 +91,16 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
 
-touches :: Text
-touches = "The parenthesis of a call, or of a function's parameters, touches the name: f(3)."
+-- | What is probably meant by a token in the wrong place, from what stands beside it.
+advice :: Token_ -> Neighbours -> [Text]
+advice token neighbours = case (token, neighbours) of
+  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) -> ["A decimal point is a point: 59.3. A comma separates values."]
+  (Symbol ",", _) -> ["No comma belongs here: the elements of a contour stand one after another, and a point in brackets: (0, 0)."]
+  (Symbol "(", (Just (Word _), _)) -> ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
+  (Symbol "(", _) -> ["Is a comma missing before it?"]
+  (Symbol "+", _) -> ["A positive number needs no sign."]
+  (Word _, (Just (Number _ _), _)) -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
+  _ -> []
 
 -- | Whether a token is wrong wherever it stands.
 isBroken :: Token_ -> Bool

@@ -37,10 +37,12 @@ program :: Parser [Statement]
 program = Parsec.manyTill (recovering brokenStatement statement) Parsec.eof
 
 statement :: Parser Statement
-statement = located $ do
+statement = located (statement_ <* endOfLine)
+
+statement_ :: Parser Statement_
+statement_ = do
   begin <- Parsec.lookAhead Parsec.anySingle
   case shape begin of
-    _ | not (newLine begin) -> Parsec.customFailure (Trailing (shape begin))
     Word "part" -> keyword "part" *> (Part <$> name <*> Parsec.optional (onThisLine title))
     Word "machine" -> keyword "machine" *> (Machine <$> (onThisLine (located machine) <?> "the name of a machine"))
     Word "tool" -> keyword "tool" *> (Tool <$> cutter)

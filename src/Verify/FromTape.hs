@@ -21,7 +21,7 @@ import Control.StraightLine qualified as Control
 import Data.Either (fromRight)
 import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Frame.Frame (Frame (..), Program)
 import Frame.Frame qualified as Frame
@@ -80,7 +80,7 @@ prove machine path program frames =
     firstDifference = listToMaybe ([n | (n, a, b) <- zip3 [1 ..] own frames, a /= b] <> [1 + min (length own) (length frames) | length own /= length frames])
     order finding = case finding of
       Gouge w _ _ -> (frame w, 0 :: Int)
-      Excess w _ -> (frame w, 1)
+      Excess w _ _ -> (frame w, 1)
       WrongSide n _ -> (n, 2)
       NeverBegun _ -> (0, 3)
       OffPlane n -> (n, 4)
@@ -175,7 +175,7 @@ examine job elementIndex traces index within = (passage, findings)
     tooMuch w = amount w > allowed' job
     findings =
       [Gouge first worst (allowed' job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
-        <> [Excess first (allowed' job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
+        <> [Excess first (fromMaybe first most) (allowed' job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
         <> take 1 (maybe [] (mapMaybe (wrongSide job elementIndex)) within)
         <> [NeverBegun (statement job) | not (any tooMuch (gouges <> missed)), Nothing <- [within]]
     negated (Mm x) = -x

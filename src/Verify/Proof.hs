@@ -57,8 +57,8 @@ data Proof = Proof
 data Finding
   = -- | the first frame that cuts too deep, the worst one, what is allowed
     Gouge Witness Witness Mm
-  | -- | the first frame that leaves too much, what is allowed
-    Excess Witness Mm
+  | -- | the first frame that leaves too much, the worst one, what is allowed
+    Excess Witness Witness Mm
   | -- | the cutter runs along an element on its wrong side
     WrongSide Int Region
   | -- | the beginning of the contour is never reached
@@ -93,10 +93,12 @@ toReport machine finding = case finding of
           ["The cutter's centre is then at " <> Vec.written 3 (place first) <> ". Allowed is a gouge of " <> micro allowed <> ", the tolerance and one pulse."]
             <> ["The deepest gouge is " <> micro (amount worst) <> ", in frame " <> Decimal.whole (frame worst) <> "." | frame worst /= frame first]
       }
-  Excess w allowed ->
+  Excess w worst allowed ->
     (wrong "E0702" (InSource (element w)) (frameWord (frame w) <> " leaves " <> micro (amount w) <> " of material standing"))
       { label = "at this element",
-        message = ["It is worst at " <> Vec.written 3 (place w) <> ". Allowed is an excess of " <> micro allowed <> ", the tolerance and one pulse."]
+        message =
+          ["It is worst at " <> Vec.written 3 (place w) <> ". Allowed is an excess of " <> micro allowed <> ", the tolerance and one pulse."]
+            <> ["The most that is left is " <> micro (amount worst) <> ", in frame " <> Decimal.whole (frame worst) <> "." | frame worst /= frame w]
       }
   WrongSide n region -> wrong "E0703" (InSource region) (frameWord n <> " runs along this element on its wrong side")
   NeverBegun region -> wrong "E0704" (InSource region) "the tape never reaches the beginning of this contour"

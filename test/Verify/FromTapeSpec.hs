@@ -125,13 +125,13 @@ isFound n f p =
 leavesBandFrom :: Int -> Finding -> Bool
 leavesBandFrom n finding = case finding of
   Gouge w _ _ -> Proof.frame w >= n
-  Excess w _ -> Proof.frame w >= n
+  Excess w _ _ -> Proof.frame w >= n
   OffPlane m -> m == n
   _ -> False
 
 isExcess :: Finding -> Bool
 isExcess finding = case finding of
-  Excess _ _ -> True
+  Excess {} -> True
   _ -> False
 
 isOpen :: Finding -> Bool
