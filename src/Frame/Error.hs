@@ -23,6 +23,8 @@ data Error
     FeedMissing Region Feed Feed Feed
   | -- | a place that no machine reaches
     OutOfReach Region Point Mm
+  | -- | a milling statement whose tolerance is not small against its cutter's radius: tolerance, radius
+    ToleranceTooLarge Region Mm Mm
   | -- | more frames than a tape may have
     TooManyFrames Region Int
   deriving stock (Eq, Ord, Show)
@@ -44,6 +46,11 @@ toReport machine err = case err of
   OutOfReach region p limit ->
     (report Report.Error "E0502" (InSource region) ("the cutter would go to " <> Vec.written 4 p <> ", further than any machine reaches"))
       { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."]
+      }
+  ToleranceTooLarge region tolerance radius ->
+    (report Report.Error "E0504" (InSource region) ("a tolerance of " <> Decimal.mm tolerance <> " is too large for a cutter of radius " <> Decimal.mm radius))
+      { message = ["The tolerance and one pulse (" <> Decimal.mm (Machine.pulse machine) <> ") have to stay below the cutter's radius: a cutter that may be off by its own size proves nothing."],
+        hints = ["Give a smaller tolerance."]
       }
   TooManyFrames region limit ->
     (report Report.Error "E0503" (InSource region) ("the tape would have more than " <> Decimal.whole limit <> " frames"))

@@ -7,7 +7,7 @@ module Frame.FromPath
   )
 where
 
-import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..), plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Control.Applicative ((<|>))
@@ -54,7 +54,12 @@ quantise machine path = case problems of
       At (Located region asked@(Feed f)) -> case Machine.chooseFeed machine asked of
         Machine.Given _ given@(Feed g) | abs (g - f) > feedSlack * f -> Just (FeedDiffers region asked given)
         _ -> Nothing
-    problems = nubOrd (mapMaybe feedProblem tasks <> mapMaybe reachProblem tasks <> tooLong)
+    problems = nubOrd (mapMaybe toleranceProblem (Path.blocks path) <> mapMaybe feedProblem tasks <> mapMaybe reachProblem tasks <> tooLong)
+    toleranceProblem block = case block of
+      Path.Cutting {Path.job = Located _ job}
+        | value (Part.side job) /= Part.On && plus (Part.tolerance job) (Machine.pulse machine) >= Part.radius job ->
+          Just (ToleranceTooLarge (region (Part.side job)) (Part.tolerance job) (Part.radius job))
+      _ -> Nothing
     feedProblem task = case pace (move task) of
       Rapid -> Nothing
       At (Located region asked) -> case Machine.chooseFeed machine asked of

@@ -14,8 +14,8 @@ module Verify.FromTape
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus, times)
-import Base.Region (Located (..), Region)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Region (Located (..))
 import Control.StraightLine (Stroke (..))
 import Control.StraightLine qualified as Control
 import Data.Either (fromRight)
@@ -29,7 +29,7 @@ import Geometry.Box qualified as Box
 import Geometry.Distance (Nearest (Nearest))
 import Geometry.Distance qualified as Distance
 import Geometry.Offset qualified as Offset
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
@@ -42,10 +42,9 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 import Path.Path (Block (..), Path)
 import Path.Path qualified as Path
+import Verify.Passage (Job (..), Trace (..), elementsOf)
+import Verify.Passage qualified as Passage
 import Verify.Proof (Finding (..), Passage (..), Proof (Proof), Witness (..))
-
--- | A stroke in mm.
-data Trace = Trace {stroke :: Stroke, line :: Segment}
 
 -- | Compare the frames of a tape with the part that a path goes around; the program's own frames
 -- tell where the tape has to begin and end and which feeds belong where.
@@ -58,13 +57,13 @@ prove machine path program frames =
     strokes = Control.run begin frames
     traces = [Trace s (Control.segment machine s) | s <- strokes]
     sameCount = length own == length frames
-    (passages, found) = unzip (follow machine (not sameCount) traces [b | b@Cutting {} <- Path.blocks path])
+    (passages, found) = unzip (follow machine (not sameCount) (Frame.position machine begin) traces [b | b@Cutting {} <- Path.blocks path])
     closure = begin + sum (map increment frames) - Frame.end program
     findings =
       concat found
         <> take 1 [OffPlane (number s) | s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
         <> (if sameCount then wrongFeeds program frames else [])
-        <> (if sameCount then wrongCommands program frames else [])
+        <> wrongCommands program frames
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found))]
     largest = foldl (\(V3 a b c) (V3 x y z) -> V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) 0 (map increment frames)
     -- A path that has left the band does not end where it should either.
@@ -73,6 +72,7 @@ prove machine path program frames =
       Excess {} -> True
       WrongSide {} -> True
       NeverBegun {} -> True
+      NotFollowed {} -> True
       OffPlane {} -> False
       WrongFeed {} -> False
       WrongCommand {} -> False
@@ -83,43 +83,36 @@ prove machine path program frames =
       Excess w _ _ -> (frame w, 1)
       WrongSide n _ -> (n, 2)
       NeverBegun _ -> (0, 3)
+      NotFollowed _ -> (0, 3)
       OffPlane n -> (n, 4)
       WrongFeed n _ _ _ -> (n, 5)
       WrongCommand n _ _ -> (n, 6)
       NotClosed _ -> (maxBound, 7)
 
--- | The milled contours one after the other; each begins on the tape behind the end of the one before.
--- The feeds along them are looked at here only when the frames can not be compared one by one.
-follow :: Machine -> Bool -> [Trace] -> [Block] -> [(Passage, [Finding])]
-follow machine feeds traces = go traces
+-- | The milled contours one after the other, from where the cutter stands; each begins on the tape behind the
+-- end of the one before. The feeds along them are looked at here only when the frames can not be compared one by one.
+follow :: Machine -> Bool -> Point -> [Trace] -> [Block] -> [(Passage, [Finding])]
+follow machine feeds begin traces = go begin traces
   where
-    index = Box.index (Box.ofSegment . line) (filter inPlane traces)
-    go rest blocks = case blocks of
+    go at rest blocks = case blocks of
       [] -> []
-      Travelling _ : more -> go rest more
+      Travelling _ : more -> go at rest more
       Cutting {job = Located region milling, cut} : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = Segment.end (Path.segment (NonEmpty.last cut))
-            job = Job {milling, statement = region, entry, exit, reach = contactRadius milling, allowed' = plus (Part.tolerance milling) (Machine.pulse machine)}
-            elementIndex = Box.index (Box.ofSegment . Part.segment) (elementsOf job)
-            (within, behind) = passageOf job elementIndex rest
-            cuts = if feeds then wrongCuts machine job (concat within) else []
-         in ((<> cuts) <$> examine job elementIndex traces index within) : go behind more
+            job = Job {milling, statement = region, entry, exit, reach = contactRadius milling, allowance = plus (Part.tolerance milling) (Machine.pulse machine)}
+            found = Passage.find job at rest
+            (within, behind) = case found of
+              Passage.Followed _ along after -> (along, after)
+              Passage.Lost _ along after -> (along, after)
+              Passage.NeverBegun -> ([], rest)
+            cuts = if feeds then wrongCuts machine job within else []
+            next = foldl (\_ t -> Segment.end (line t)) at (take (length rest - length behind) rest)
+         in ((<> cuts) <$> examine job traces found) : go next behind more
 
 inPlane :: Trace -> Bool
 inPlane t = case (from (stroke t), to (stroke t)) of
   (V3 _ _ a, V3 _ _ b) -> a == 0 && b == 0
-
--- | A contour to be found on the tape.
-data Job = Job
-  { milling :: Milling,
-    statement :: Region,
-    entry :: Point,
-    exit :: Point,
-    -- | from the contour to the cutter's centre
-    reach :: Mm,
-    allowed' :: Mm
-  }
 
 -- | The distance of the cutter's centre from the contour.
 contactRadius :: Milling -> Mm
@@ -130,54 +123,32 @@ contactRadius m = case value (Part.side m) of
   LeftSide -> Part.radius m
   RightSide -> Part.radius m
 
-elementsOf :: Job -> [Element]
-elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
-
--- | The strokes along the contour, if its beginning is reached at all, and the strokes behind them.
--- Of several arrivals at the beginning the first is taken from which the contour is followed; when it is
--- followed from none, the first.
-passageOf :: Job -> Box.Index Element -> [Trace] -> (Maybe [Trace], [Trace])
-passageOf job index traces = case filter (follows . fst) candidates <> candidates of
-  [] -> (Nothing, traces)
-  (within, behind) : _ -> (Just within, behind)
-  where
-    follows = null . mapMaybe (strayOf job index)
-    candidates = map (passageFrom job) (standing <> arrivals traces)
-    -- The cutter may stand at the beginning already.
-    standing = [traces | t : _ <- [traces], isNear job (entry job) (Segment.start (line t))]
-    arrivals ts = case dropWhile (not . isNear job (entry job) . Segment.end . line) ts of
-      [] -> []
-      _ : cutting -> cutting : arrivals cutting
-
--- | From strokes that set out at the beginning: those up to the next arrival at the end, and the rest.
-passageFrom :: Job -> [Trace] -> ([Trace], [Trace])
-passageFrom job traces = (leaving <> along <> arrival, behind)
-  where
-    ends p = isNear job p . Segment.end . line
-    (leaving, away) = span (ends (entry job)) traces
-    (along, back) = break (ends (exit job)) away
-    (arrival, behind) = span (ends (exit job)) back
-
-isNear :: Job -> Point -> Point -> Bool
-isNear job p q = Vec.distance p q <= allowed' job
-
--- | How one contour came out.
-examine :: Job -> Box.Index Element -> [Trace] -> Box.Index Trace -> Maybe [Trace] -> (Passage, [Finding])
-examine job elementIndex traces index within = (passage, findings)
+-- | How one contour came out. Only the strokes that follow it count as milling it.
+examine :: Job -> [Trace] -> Passage.Found -> (Passage, [Finding])
+examine job traces found = (passage, if null findings then order else findings)
   where
     elements = elementsOf job
+    elementIndex = Box.index (Box.ofSegment . Part.segment) elements
+    (milled, within) = case found of
+      Passage.Followed arrival along _ -> (arrival <> along, along)
+      Passage.Lost _ along _ -> (traces, along)
+      Passage.NeverBegun -> (traces, [])
     gouges = mapMaybe (gougeOf job elementIndex) (if reach job > Mm 0 then traces else [])
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
-    missed = uncut job index elements
-    strayed = maybe [] (mapMaybe (strayOf job elementIndex)) within
+    missed = uncut job (Box.index (Box.ofSegment . line) (filter inPlane milled)) elements
+    strayed = mapMaybe (strayOf job elementIndex) within
     most = listToMaybe (sortOn (negated . amount) (missed <> strayed))
-    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowed = allowed' job}
-    tooMuch w = amount w > allowed' job
+    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowed = allowance job}
+    tooMuch w = amount w > allowance job
     findings =
-      [Gouge first worst (allowed' job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
-        <> [Excess first (fromMaybe first most) (allowed' job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
-        <> take 1 (maybe [] (mapMaybe (wrongSide job elementIndex)) within)
-        <> [NeverBegun (statement job) | not (any tooMuch (gouges <> missed)), Nothing <- [within]]
+      [Gouge first worst (allowance job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
+        <> [Excess first (fromMaybe first most) (allowance job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
+        <> take 1 (mapMaybe (wrongSide job elementIndex) within)
+    -- Nothing else is wrong with the contour but the order in which it is walked.
+    order = case found of
+      Passage.Followed {} -> []
+      Passage.Lost {} -> [NotFollowed (statement job)]
+      Passage.NeverBegun -> [NeverBegun (statement job)]
     negated (Mm x) = -x
 
 -- | How deep a stroke cuts into the contour, if it does.
@@ -200,17 +171,30 @@ uncut job index = go (Mm 0)
   where
     go least elements = case elements of
       [] -> []
-      e : rest -> case furthest job around least (Part.segment e) of
+      e : rest -> case furthest job (around e) least (Part.segment e) of
         Nothing -> go least rest
         Just (most, p, near) ->
           let nearest = minimumBy (comparing (Distance.toPoint p . line)) near
-              next = if most > allowed' job then least else most
+              next = if most > allowance job then least else most
            in Witness {amount = most, frame = number (stroke nearest), element = Part.origin e, place = p} : go next rest
-    around box = [(line t, t) | t <- Box.within box index]
+    around e box = [(line t, t) | t <- Box.within box index, onLeadingSide job (Part.segment e) (line t)]
+
+-- | Whether a stroke runs on the side of an element on which the cutter has to stand: another one would reach
+-- the element through the part.
+onLeadingSide :: Job -> Segment -> Segment -> Bool
+onLeadingSide job element t = case fromRight Nothing (Path.leadingSide (milling job)) of
+  Nothing -> True
+  Just side -> leftOf == (side == Offset.LeftOf)
+  where
+    -- Where the stroke is nearest: an arc's inside and outside are not those of the whole stroke.
+    Nearest _ p = Distance.segments t element
+    leftOf = case element of
+      Straight a b -> Vec.cross (Vec.to a b) (Vec.to a p) > 0
+      Arc {start, centre, sweep = Rad s} -> (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
 -- | How far a stroke strays from the contour, if it is more than is allowed.
 strayOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
-strayOf job index t = case furthest job around (allowed' job) (line t) of
+strayOf job index t = case furthest job around (allowance job) (line t) of
   Nothing -> Nothing
   Just (most, p, near) ->
     let e = minimumBy (comparing (Distance.toPoint p . Part.segment)) near
@@ -228,8 +212,10 @@ furthest job around least segment
     [] -> witness lost
     enough : _ -> witness (halve covered least enough)
   where
-    widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowed' job)))
-    others m = around (Box.inflate (plus (reach job) m) (Box.ofSegment segment))
+    widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowance job)))
+    others m = if m <= allowance job then nearby else within m
+    nearby = within (allowance job)
+    within m = around (Box.inflate (plus (reach job) m) (Box.ofSegment segment))
     gaps m = Distance.uncovered (plus (reach job) m) (map fst (others m)) segment
     covered = null . gaps
     witness most = case map snd (others most) of
@@ -257,7 +243,7 @@ halve holds low high
 wrongSide :: Job -> Box.Index Element -> Trace -> Maybe Finding
 wrongSide job index t = case (side, near) of
   (Just s, _ : _)
-    | Segment.spans element middle && distanceTo nearest > allowed' job && sideOf element /= s ->
+    | Segment.spans element middle && distanceTo nearest > allowance job && sideOf element /= s ->
       Just (WrongSide (number (stroke t)) (Part.origin nearest))
     where
       nearest = minimumBy (comparing distanceTo) near
@@ -266,7 +252,7 @@ wrongSide job index t = case (side, near) of
   where
     side = fromRight Nothing (Path.leadingSide (milling job))
     middle = Segment.at 0.5 (line t)
-    near = Box.within (Box.inflate (plus (reach job) (allowed' job)) (Box.ofSegment (line t))) index
+    near = Box.within (Box.inflate (plus (reach job) (allowance job)) (Box.ofSegment (line t))) index
     distanceTo e = Distance.toPoint middle (Part.segment e)
     sideOf s =
       let foot = Segment.at (Segment.fraction s middle) s
@@ -284,9 +270,9 @@ wrongCuts machine job within = case Machine.chooseFeed machine (value asked) of
 -- | Frames with another auxiliary command than the program's own frame in the same place.
 wrongCommands :: Program -> [Frame] -> [Finding]
 wrongCommands program frames =
-  [ WrongCommand n (auxiliary f) (auxiliary own)
-    | (n, own, f) <- zip3 [1 ..] (map Frame.frame (Frame.planned program)) frames,
-      auxiliary f /= auxiliary own
+  [ WrongCommand n (auxiliary f) own
+    | (n, own, f) <- zip3 [1 ..] (map (auxiliary . Frame.frame) (Frame.planned program) <> repeat 0) frames,
+      auxiliary f /= own
   ]
 
 -- | Frames whose feed is not that of the program's own frame in the same place.

@@ -63,6 +63,8 @@ data Finding
     WrongSide Int Region
   | -- | the beginning of the contour is never reached
     NeverBegun Region
+  | -- | the contour is not followed in order from its beginning to its end
+    NotFollowed Region
   | -- | a frame that leaves the plane of the part
     OffPlane Int
   | -- | the frame, the code on the tape, the code that belongs there, what asks for it
@@ -102,6 +104,7 @@ toReport machine finding = case finding of
       }
   WrongSide n region -> wrong "E0703" (InSource region) (frameWord n <> " runs along this element on its wrong side")
   NeverBegun region -> wrong "E0704" (InSource region) "the tape never reaches the beginning of this contour"
+  NotFollowed region -> wrong "E0709" (InSource region) "the tape does not follow this contour from its beginning to its end in the direction of the walk"
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " leaves the plane of the part (it moves z)")
   WrongFeed n found wanted region ->
     (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: speed " <> code found))

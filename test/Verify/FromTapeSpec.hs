@@ -47,9 +47,13 @@ spec = do
       `shouldBe` []
   it "two lobes that are never cut, although the path closes, are an excess" $
     findings (proofOf shortcut) `shouldSatisfy` any isExcess
+  it "the contour walked backwards is not the one of the program" $
+    findings (proofOf backwards) `shouldSatisfy` any isNotFollowed
+  it "a command that the program does not give is found, also when the frames cannot be compared one by one" $
+    findings (proofOf (commanded (doubledFirst Flange.frames))) `shouldSatisfy` any isCommand
   it "random contours with random cutters are proven; for a tolerance that their chords exceed they are not (catches a proof that looks at nodes only)" $
     property $
-      forAll Generate.closedCase $ \c -> case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
+      forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c -> case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
         (Just rough, Just fine) -> case Result.output (FromPath.quantise lkp01f rough) of
           Just program ->
             let fs = map Frame.frame (Frame.planned program)
@@ -107,6 +111,37 @@ swapped n = take (n - 1) Flange.frames <> [Flange.frames !! n, Flange.frames !! 
 -- | The path with all but its beginning and end replaced by one straight frame.
 shortcut :: [Frame]
 shortcut = take 10 Flange.frames <> [(Flange.frames !! 10) {increment = sum (map increment (take 120 (drop 10 Flange.frames)))}] <> drop 130 Flange.frames
+
+-- | The same ways in and out, and between them the contour the other way round.
+backwards :: [Frame]
+backwards = before <> reverse [f {increment = negate (increment f)} | f <- along] <> after
+  where
+    numbered = zip (map Frame.role (Frame.planned Flange.program)) Flange.frames
+    before = take 2 Flange.frames
+    along = [f | (Frame.Cutting _, f) <- numbered]
+    after = drop (2 + length along) Flange.frames
+
+-- | The first frame in two halves.
+doubledFirst :: [Frame] -> [Frame]
+doubledFirst fs = case fs of
+  f : rest -> [f {increment = fmap (`div` 2) (increment f)}, f {increment = increment f - fmap (`div` 2) (increment f)}] <> rest
+  [] -> []
+
+-- | With an auxiliary command in the last frame.
+commanded :: [Frame] -> [Frame]
+commanded fs = case reverse fs of
+  f : rest -> reverse (f {auxiliary = 7} : rest)
+  [] -> []
+
+isNotFollowed :: Finding -> Bool
+isNotFollowed finding = case finding of
+  NotFollowed _ -> True
+  _ -> False
+
+isCommand :: Finding -> Bool
+isCommand finding = case finding of
+  WrongCommand {} -> True
+  _ -> False
 
 -- | The frame is named as the first that differs. A change within the contour of more than the allowance lets
 -- the path leave the band in this frame or later; a path that stays in it misses its end.

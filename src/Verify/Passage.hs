@@ -1,0 +1,145 @@
+-- | Where on a tape a contour is milled: the strokes that follow it from its beginning to its end, in the
+-- direction of the walk.
+module Verify.Passage
+  ( Job (..),
+    Trace (..),
+    Found (..),
+    elementsOf,
+    find,
+  )
+where
+
+import Base.Quantity (Mm (..), plus)
+import Base.Region (Region)
+import Control.StraightLine (Stroke)
+import Data.List (minimumBy)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Ord (comparing)
+import Geometry.Box qualified as Box
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Element, Milling)
+import Part.Part qualified as Part
+
+-- | A stroke in mm.
+data Trace = Trace {stroke :: Stroke, line :: Segment}
+
+-- | A contour to be found on the tape.
+data Job = Job
+  { milling :: Milling,
+    statement :: Region,
+    entry :: Point,
+    exit :: Point,
+    -- | from the contour to the cutter's centre
+    reach :: Mm,
+    -- | tolerance and one pulse
+    allowance :: Mm
+  }
+
+-- | The strokes of one contour.
+data Found
+  = -- | the stroke that reaches the beginning, those along the contour, those behind it
+    Followed [Trace] [Trace] [Trace]
+  | -- | the beginning is reached, but the contour is not followed to its end: as above, as far as the next
+    -- arrival at the end
+    Lost [Trace] [Trace] [Trace]
+  | NeverBegun
+
+elementsOf :: Job -> [Element]
+elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
+
+-- | Find a contour among strokes that begin at a point. Of several arrivals at its beginning the first counts
+-- from which it is followed.
+find :: Job -> Point -> [Trace] -> Found
+find job at traces = case mapMaybe followed starts of
+  found : _ -> found
+  [] -> case starts of
+    (arrival, rest) : _ -> let (along, behind) = untilExit job rest in Lost arrival along behind
+    [] -> NeverBegun
+  where
+    ruler = measure job
+    followed (arrival, rest) = (\(along, behind) -> Followed arrival along behind) <$> follows job ruler rest
+    -- The cutter may stand at the beginning already.
+    starts = [([], traces) | isNear job (entry job) at] <> arrivals traces
+    arrivals ts = case dropWhile (not . endsNear job (entry job)) ts of
+      [] -> []
+      arriving : rest -> ([arriving], rest) : arrivals rest
+
+isNear :: Job -> Point -> Point -> Bool
+isNear job p q = Vec.distance p q <= allowance job
+
+endsNear :: Job -> Point -> Trace -> Bool
+endsNear job p = isNear job p . Segment.end . line
+
+-- | The strokes up to the next arrival at the end, and the rest.
+untilExit :: Job -> [Trace] -> ([Trace], [Trace])
+untilExit job traces = (leaving <> along <> arrival, behind)
+  where
+    (leaving, away) = span (endsNear job (entry job)) traces
+    (along, back) = break (endsNear job (exit job)) away
+    (arrival, behind) = span (endsNear job (exit job)) back
+
+-- | A contour as a ruler: its elements with their distances from the beginning along it, its length, and how far
+-- back a step of the cutter may seem to go by rounding alone.
+data Ruler = Ruler {marks :: Box.Index (Double, Segment), whole :: Double, slack :: Double, closed :: Bool}
+
+measure :: Job -> Ruler
+measure job =
+  Ruler
+    { marks = Box.index (Box.ofSegment . snd) (zip (scanl (+) 0 lengths) segments),
+      whole = sum lengths,
+      slack = maximum (2 * a : map blur segments),
+      closed = Part.ends (Part.contour (milling job)) == Part.Closed
+    }
+  where
+    segments = map Part.segment (elementsOf job)
+    lengths = [l | s <- segments, let Mm l = Segment.length s]
+    Mm a = allowance job
+    Mm r = reach job
+    -- In a hollow not much wider than the cutter its centre hardly moves, and says little of where it touches.
+    blur s = case s of
+      Straight _ _ -> 2 * a
+      Arc {start, centre} ->
+        let Mm old = Segment.radius centre start
+            Mm l = Segment.length s
+         in min l (4 * a * old / max 1e-9 (abs (old - r)))
+
+-- | The strokes that follow the contour to its end, and the rest; none when they stray from it, turn back on
+-- it, or end before.
+follows :: Job -> Ruler -> [Trace] -> Maybe ([Trace], [Trace])
+follows job ruler = go 0 0 (entry job)
+  where
+    go gone mark at traces
+      | gone >= whole ruler - slack ruler && isNear job (exit job) at = Just (span (endsNear job (exit job)) traces)
+      | otherwise = case traces of
+        [] -> Nothing
+        t : rest -> do
+          (gone', mark') <- step gone mark (Segment.at 0.5 (line t))
+          (gone'', mark'') <- step gone' mark' (Segment.end (line t))
+          (along, behind) <- go gone'' mark'' (Segment.end (line t)) rest
+          Just (t : along, behind)
+    -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
+    step gone mark p = do
+      delta <- listToMaybe' (filter (>= negate (slack ruler)) (map (difference mark) (places p)))
+      Just (gone + delta, mark + delta)
+    listToMaybe' ds = listToMaybe [minimumBy (comparing abs) ds | not (null ds)]
+    difference mark s
+      | closed ruler = let d = s - mark - whole ruler * fromIntegral (round' ((s - mark) / whole ruler)) in d
+      | otherwise = s - mark
+    round' x = floor (x + 0.5) :: Int
+    places p =
+      [ before + max 0 (min 1 (footOf s p)) * len
+        | (before, s) <- Box.within (Box.inflate near (Box.ofPoints p [])) (marks ruler),
+          Distance.toPoint p s <= near,
+          let Mm len = Segment.length s
+      ]
+    near = plus (reach job) (allowance job)
+    -- Beside an arc the nearer of its ends counts.
+    footOf s p
+      | Segment.spans s p = Segment.fraction s p
+      | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
+      | otherwise = 1
