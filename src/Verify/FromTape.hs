@@ -147,7 +147,7 @@ examine job traces found = (passage, if null findings then order else findings)
     -- Nothing else is wrong with the contour but the order in which it is walked.
     order = case found of
       Passage.Followed {} -> []
-      Passage.Lost {} -> [NotFollowed (statement job)]
+      Passage.Lost {} -> [NotFollowed (statement job) | Passage.measurable job]
       Passage.NeverBegun -> [NeverBegun (statement job)]
     negated (Mm x) = -x
 

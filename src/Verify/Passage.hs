@@ -6,10 +6,11 @@ module Verify.Passage
     Found (..),
     elementsOf,
     find,
+    measurable,
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), Rad (..), plus)
 import Base.Region (Region)
 import Control.StraightLine (Stroke)
 import Data.List (minimumBy)
@@ -18,12 +19,14 @@ import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
+import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
+import Path.FromPart qualified as Path (leadingSide)
 
 -- | A stroke in mm.
 data Trace = Trace {stroke :: Stroke, line :: Segment}
@@ -55,14 +58,14 @@ elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 -- | Find a contour among strokes that begin at a point. Of several arrivals at its beginning the first counts
 -- from which it is followed.
 find :: Job -> Point -> [Trace] -> Found
-find job at traces = case mapMaybe followed starts of
+find job at traces = case if measurable job then mapMaybe followed starts else [] of
   found : _ -> found
   [] -> case starts of
     (arrival, rest) : _ -> let (along, behind) = untilExit job rest in Lost arrival along behind
     [] -> NeverBegun
   where
     ruler = measure job
-    followed (arrival, rest) = (\(along, behind) -> Followed arrival along behind) <$> follows job ruler rest
+    followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
     -- The cutter may stand at the beginning already.
     starts = [([], traces) | isNear job (entry job) at] <> arrivals traces
     arrivals ts = case dropWhile (not . endsNear job (entry job)) ts of
@@ -87,26 +90,36 @@ untilExit job traces = (leaving <> along <> arrival, behind)
 -- back a step of the cutter may seem to go by rounding alone.
 data Ruler = Ruler {marks :: Box.Index (Double, Segment), whole :: Double, slack :: Double, closed :: Bool}
 
+-- | Whether the place of the cutter's centre tells where it touches: not in a hollow in which the centre
+-- hardly moves while the cutter touches all of it.
+measurable :: Job -> Bool
+measurable job = and [blur job s < l | s@Arc {} <- map Part.segment (elementsOf job), let Mm l = Segment.length s]
+
+-- | How far along an element the place of touch may seem to go back by rounding alone.
+blur :: Job -> Segment -> Double
+blur job s = case s of
+  Arc {start, centre, sweep = Rad turned}
+    | inside turned -> let Mm old = Segment.radius centre start in 4 * a * old / max 1e-9 (abs (old - r))
+  _ -> 2 * a
+  where
+    Mm a = allowance job
+    Mm r = reach job
+    inside turned = case Path.leadingSide (milling job) of
+      Right (Just Offset.LeftOf) -> turned > 0
+      Right (Just Offset.RightOf) -> turned < 0
+      _ -> False
+
 measure :: Job -> Ruler
 measure job =
   Ruler
     { marks = Box.index (Box.ofSegment . snd) (zip (scanl (+) 0 lengths) segments),
       whole = sum lengths,
-      slack = maximum (2 * a : map blur segments),
+      slack = maximum (0 : map (blur job) segments),
       closed = Part.ends (Part.contour (milling job)) == Part.Closed
     }
   where
     segments = map Part.segment (elementsOf job)
     lengths = [l | s <- segments, let Mm l = Segment.length s]
-    Mm a = allowance job
-    Mm r = reach job
-    -- In a hollow not much wider than the cutter its centre hardly moves, and says little of where it touches.
-    blur s = case s of
-      Straight _ _ -> 2 * a
-      Arc {start, centre} ->
-        let Mm old = Segment.radius centre start
-            Mm l = Segment.length s
-         in min l (4 * a * old / max 1e-9 (abs (old - r)))
 
 -- | The strokes that follow the contour to its end, and the rest; none when they stray from it, turn back on
 -- it, or end before.

@@ -114,12 +114,12 @@ shortcut = take 10 Flange.frames <> [(Flange.frames !! 10) {increment = sum (map
 
 -- | The same ways in and out, and between them the contour the other way round.
 backwards :: [Frame]
-backwards = before <> reverse [f {increment = negate (increment f)} | f <- along] <> after
+backwards = wayIn <> reverse [f {increment = negate (increment f)} | f <- along] <> wayOut
   where
     numbered = zip (map Frame.role (Frame.planned Flange.program)) Flange.frames
-    before = take 2 Flange.frames
+    wayIn = take 2 Flange.frames
     along = [f | (Frame.Cutting _, f) <- numbered]
-    after = drop (2 + length along) Flange.frames
+    wayOut = drop (2 + length along) Flange.frames
 
 -- | The first frame in two halves.
 doubledFirst :: [Frame] -> [Frame]
