@@ -4,11 +4,10 @@ module Base.Decimal
     short,
     whole,
     mm,
-    deg,
   )
 where
 
-import Base.Quantity (Mm (..), Rad, degrees)
+import Base.Quantity (Mm (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Numeric (showFFloat)
@@ -36,7 +35,3 @@ whole = Text.pack . show
 -- | A length for a message: at most four decimals, with its unit.
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
-
--- | An angle for a message: degrees, at most four decimals.
-deg :: Rad -> Text
-deg r = short 4 (degrees r) <> " deg"

@@ -10,12 +10,10 @@ module Base.Region
     Position (..),
     span,
     merge,
-    point,
     fromText,
     text,
     position,
     lineText,
-    lineCount,
   )
 where
 
@@ -45,10 +43,6 @@ span a b = Region (start a) (end b)
 merge :: Region -> Region -> Region
 merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 
--- | The empty region at an offset.
-point :: Int -> Region
-point at = Region at at
-
 -- | A text with an index of its lines. Lines end with LF, CR or CR LF.
 data Source = Source {text :: Text, length :: Int, starts :: Vector.Vector Int, contents :: Boxed.Vector Text}
 
@@ -68,10 +62,6 @@ fromText text = Source {text, length = Text.length text, starts = Vector.fromLis
             [] -> 0
             _ -> 1
        in (at, before) : if ending == 0 then [] else go (at + Text.length before + ending) (Text.drop ending after)
-
--- | How many lines the text has; a final line end begins one more, empty, line.
-lineCount :: Source -> Int
-lineCount Source {starts} = Vector.length starts
 
 -- | The position of an offset; an offset outside the text counts as its nearest end.
 position :: Source -> Int -> Position

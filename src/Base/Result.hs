@@ -9,7 +9,6 @@ module Base.Result
     failed,
     failing,
     warned,
-    optional,
     fromEither,
     mapErrors,
     settled,
@@ -45,10 +44,6 @@ failing es a = Result [] es (Just a)
 -- | A warning.
 warned :: [w] -> Result w e ()
 warned ws = Result ws [] (Just ())
-
--- | The output as a value: errors are kept, but what follows goes on without it.
-optional :: Result w e a -> Result w e (Maybe a)
-optional (Result ws es a) = Result ws es (Just a)
 
 -- | An answer that is either one error or an output.
 fromEither :: Either e a -> Result w e a

@@ -7,7 +7,6 @@ module Geometry.Contour
     joints,
     chained,
     signedArea,
-    winding,
     selfCrossing,
   )
 where
@@ -77,21 +76,6 @@ signedArea (Contour _ ss@(first :| _)) = sum (fmap part ss)
       Straight _ _ -> 0
       Arc {start, centre, sweep = Rad a} ->
         let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2
-
--- | How often a closed contour runs around a point, counter-clockwise positive. The point is not on it.
-winding :: Contour -> Point -> Int
-winding (Contour _ ss) p = round (sum (fmap swept ss) / (2 * pi))
-  where
-    swept s = let Rad t = chordTurn s in t + extra s
-    chordTurn s = Vec.turn (Vec.to p (Segment.start s)) (Vec.to p (Segment.end s))
-    -- Between an arc and its chord the arc turns once more about the point than the chord.
-    extra s = case s of
-      Straight _ _ -> 0 :: Double
-      Arc {start, end, centre, sweep = Rad a}
-        | Vec.distance p centre < Segment.radius centre start
-            && (start == end || signum a * Vec.cross (Vec.to start end) (Vec.to start p) < 0) ->
-          signum a * 2 * pi
-        | otherwise -> 0
 
 -- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
 selfCrossing :: Contour -> Maybe (Int, Int, Point)

@@ -7,7 +7,6 @@ module Geometry.Shape
     parallelAt,
     Circle (..),
     Turn (..),
-    opposite,
     sense,
     Walked (..),
   )
@@ -48,11 +47,6 @@ data Circle = Circle {centre :: Point, radius :: Mm}
 -- | The sense in which an arc is walked.
 data Turn = Clockwise | CounterClockwise
   deriving stock (Eq, Ord, Show, Enum, Bounded)
-
-opposite :: Turn -> Turn
-opposite t = case t of
-  Clockwise -> CounterClockwise
-  CounterClockwise -> Clockwise
 
 -- | +1 counter-clockwise, −1 clockwise: the side on which the centre lies, left positive.
 sense :: Turn -> Double
