@@ -34,7 +34,7 @@ spec = do
   describe "good programs are proven and give their frames" $
     forM_ (kind "good") $ \file -> it file $ do
       text <- readText file
-      let source = Region.fromText text
+      let source = Region.fromText (Text.pack (takeFileName file)) text
           outcome = Compile.analyse text `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
       case Result.settled outcome of
         Nothing -> expectationFailure (Text.unpack (rendered file text (errors outcome)))
@@ -64,7 +64,7 @@ reportsOf text = Compile.analyse text `Result.thenSound` \a -> void (Compile.pun
 rendered :: FilePath -> Text -> [Report] -> Text
 rendered file text reports = Text.concat (map render (Report.sorted reports))
   where
-    render r = Human.render Human.Plain (Text.pack (takeFileName file)) (Region.fromText text) r <> "\n"
+    render r = Human.render Human.Plain (Text.pack (takeFileName file)) (Region.fromText (Text.pack (takeFileName file)) text) r <> "\n"
 
 -- | Codes in a source text: quotation mark, letter, four digits.
 codesIn :: Text -> [Text]

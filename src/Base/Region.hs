@@ -1,8 +1,9 @@
 -- | Places in a source text.
 --
--- Inside the compiler a place is an offset in characters (code points) from the
--- start of the text. This module is the only one that turns offsets into lines
--- and columns; both count from 1, and a column counts characters.
+-- Inside the compiler a place is an offset in characters (code points). The texts of a
+-- program and of what it imports lie one behind the other, so an offset tells the file as
+-- well. This module is the only one that turns offsets into lines and columns; both
+-- count from 1, and a column counts characters.
 module Base.Region
   ( Region (..),
     Located (..),
@@ -11,13 +12,16 @@ module Base.Region
     span,
     merge,
     fromText,
+    add,
+    next,
     text,
+    mainFile,
     position,
+    offset,
     lineText,
   )
 where
 
-import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Boxed
@@ -43,18 +47,40 @@ span a b = Region (start a) (end b)
 merge :: Region -> Region -> Region
 merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 
--- | A text with an index of its lines. Lines end with LF, CR or CR LF.
-data Source = Source {text :: Text, length :: Int, starts :: Vector.Vector Int, contents :: Boxed.Vector Text}
+-- | Texts with an index of their lines, the program's own first. Lines end with LF, CR or CR LF.
+newtype Source = Source (Boxed.Vector File)
 
--- | A line and a column, both from 1.
-data Position = Position {line :: Int, column :: Int}
+data File = File {path :: Text, base :: Int, content :: Text, length :: Int, starts :: Vector.Vector Int, contents :: Boxed.Vector Text}
+
+-- | A file, a line and a column; the numbers count from 1.
+data Position = Position {file :: Text, line :: Int, column :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | Index a text. Linear in its length.
-fromText :: Text -> Source
-fromText text = Source {text, length = Text.length text, starts = Vector.fromList (map fst found), contents = Boxed.fromList (map snd found)}
+-- | Index the text of a program; the first argument names its file. Linear in its length.
+fromText :: Text -> Text -> Source
+fromText path = Source . Boxed.singleton . indexed path 0
+
+-- | Put another file behind the ones that are there.
+add :: Text -> Text -> Source -> Source
+add path content source@(Source files) = Source (Boxed.snoc files (indexed path (next source) content))
+
+-- | The offset at which the next file will begin.
+next :: Source -> Int
+next (Source files) = let final = Boxed.last files in base final + length final + 1
+
+-- | The program's own text.
+text :: Source -> Text
+text (Source files) = content (Boxed.head files)
+
+-- | The program's own file.
+mainFile :: Source -> Text
+mainFile (Source files) = path (Boxed.head files)
+
+indexed :: Text -> Int -> Text -> File
+indexed path base content =
+  File {path, base, content, length = Text.length content, starts = Vector.fromList (map fst found), contents = Boxed.fromList (map snd found)}
   where
-    found = go 0 text
+    found = go 0 content
     go at rest =
       let (before, after) = Text.break (\c -> c == '\n' || c == '\r') rest
           ending = case Text.unpack (Text.take 2 after) of
@@ -63,13 +89,32 @@ fromText text = Source {text, length = Text.length text, starts = Vector.fromLis
             _ -> 1
        in (at, before) : if ending == 0 then [] else go (at + Text.length before + ending) (Text.drop ending after)
 
--- | The position of an offset; an offset outside the text counts as its nearest end.
+-- | The file that holds an offset; an offset outside all counts as the nearest.
+fileAt :: Source -> Int -> File
+fileAt (Source files) at = Boxed.last (Boxed.cons (Boxed.head files) (Boxed.takeWhile ((<= at) . base) files))
+
+-- | The position of an offset; an offset outside its text counts as its nearest end.
 position :: Source -> Int -> Position
-position Source {length, starts} offset = Position {line = index + 1, column = at - starts Vector.! index + 1}
+position source at = Position {file = path found, line = index + 1, column = within + 1 - starts found Vector.! index}
   where
-    at = max 0 (min offset length)
-    index = search 0 (Vector.length starts)
-    -- The last line that begins at or before the offset: low is such a line, high is not.
+    found = fileAt source at
+    within = max 0 (min (at - base found) (length found))
+    index = lineIndex found within
+
+-- | The offset of a line and a column of the program's own text, both from 1; a column behind its line counts as its end.
+offset :: Source -> Int -> Int -> Int
+offset (Source files) line column
+  | line > Vector.length (starts own) = length own
+  | otherwise = starts own Vector.! index + max 0 (min (column - 1) (Text.length (contents own Boxed.! index)))
+  where
+    own = Boxed.head files
+    index = max 0 (line - 1)
+
+-- | The last line that begins at or before an offset within its file.
+lineIndex :: File -> Int -> Int
+lineIndex File {starts} at = search 0 (Vector.length starts)
+  where
+    -- The line searched is low or behind it, and before high.
     search low high
       | high - low <= 1 = low
       | starts Vector.! middle <= at = search middle high
@@ -77,6 +122,6 @@ position Source {length, starts} offset = Position {line = index + 1, column = a
       where
         middle = (low + high) `div` 2
 
--- | A line by its number from 1, without its line end.
+-- | The line in which an offset lies, without its line end.
 lineText :: Source -> Int -> Text
-lineText Source {contents} line = Maybe.fromMaybe "" (contents Boxed.!? (line - 1))
+lineText source at = let found = fileAt source at in contents found Boxed.! lineIndex found (max 0 (min (at - base found) (length found)))

@@ -67,7 +67,7 @@ withProgram settings file continue = do
     Right b -> case Encoding.decodeUtf8' b of
       Left _ -> complain settings (displayName file) NotUtf8
       -- A mark of the byte order is not part of the text.
-      Right text -> continue Loaded {name = displayName file, source = Region.fromText (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)}
+      Right text -> continue Loaded {name = displayName file, source = Region.fromText (displayName file) (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)}
 
 readBytes :: FilePath -> IO (Either Error ByteString)
 readBytes file = do
@@ -79,7 +79,7 @@ displayName file = if file == "-" then "<stdin>" else Text.pack file
 
 -- | A mistake that belongs to a file as a whole.
 complain :: Settings -> Text -> Error -> IO Exit
-complain settings path e = Failed <$ Output.show' settings path (Region.fromText "") [Cli.toReport e]
+complain settings path e = Failed <$ Output.show' settings path (Region.fromText path "") [Cli.toReport e]
 
 -- | Write what a stage says; go on with its output when there is nothing against it.
 settle :: Settings -> Loaded -> Result Report Report a -> (a -> IO Exit) -> IO Exit
@@ -250,7 +250,7 @@ decode settings target tapeFile = case maybe (Left (NoMachineForTape known)) mac
       Left e -> complain settings (displayName tapeFile) e
       Right b -> do
         let result = Compile.readTape machine (Tape b)
-        _ <- Output.show' settings (displayName tapeFile) (Region.fromText "") (errors result)
+        _ <- Output.show' settings (displayName tapeFile) (Region.fromText (displayName tapeFile) "") (errors result)
         case output result of
           Just fs -> printed settings (FrameTable.decoded machine fs)
           Nothing -> pure Failed

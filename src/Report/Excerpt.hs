@@ -15,15 +15,15 @@ import Data.Text qualified as Text
 import Text.DocLayout (realLength)
 
 -- | A line to print, and where under it the marks go, in columns of the terminal from 0.
-data Excerpt = Excerpt {lineNumber :: Int, shown :: Text, indent :: Int, width :: Int}
+data Excerpt = Excerpt {place :: Position, shown :: Text, indent :: Int, width :: Int}
   deriving stock (Eq, Show)
 
 -- | The line on which a region begins. A region of several lines is marked to the end of its first.
 excerpt :: Source -> Region -> Excerpt
-excerpt source region = Excerpt {lineNumber = line, shown = Text.concat (cutBefore <> window <> cutAfter), indent, width}
+excerpt source region = Excerpt {place, shown = Text.concat (cutBefore <> window <> cutAfter), indent, width}
   where
-    Position {line, column} = Region.position source (start region)
-    content = Region.lineText source line
+    place@Position {column} = Region.position source (start region)
+    content = Region.lineText source (start region)
     cells = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
     -- Of a very long line only the surroundings of the place are shown.

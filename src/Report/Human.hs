@@ -12,7 +12,7 @@ import Base.Region qualified as Region
 import Data.List (sortOn)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Excerpt (Excerpt (..))
+import Report.Excerpt (Excerpt (indent, shown, width))
 import Report.Excerpt qualified as Excerpt
 import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..))
 import Report.Report qualified as Report
@@ -25,7 +25,7 @@ data Colour = Coloured | Plain
 -- | What a piece of the rendering is, which decides its colour.
 data Role = Severe Severity | Title | Frame | Secondary | Advice
 
--- | One report; the path names the file it is about.
+-- | One report; the path names the file it is about when it has no place in the program.
 render :: Colour -> Text -> Source -> Report -> Text
 render colour path source report = Text.unlines (heading : location <> body <> advice)
   where
@@ -43,21 +43,30 @@ render colour path source report = Text.unlines (heading : location <> body <> a
     excerpts = [(isMain, Excerpt.excerpt source region, words') | (isMain, Label region words') <- ordered]
     gutter = maximum (1 : [Text.length (number' e) | (_, e, _) <- excerpts])
     bar = Text.replicate (gutter + 1) " " <> paint' Frame "|"
-    location = [Text.replicate gutter " " <> paint' Frame "--> " <> path <> where' | path /= ""]
+    location = [Text.replicate gutter " " <> paint' Frame "--> " <> where' | where' /= ""]
     where' = case place r of
-      InSource region ->
-        let Position {line, column} = Region.position source (start region)
-         in ":" <> Decimal.whole line <> ":" <> Decimal.whole column
-      InTape row -> ", row " <> Decimal.whole row
-      InFile -> ""
-    body = concat (zipWith shownAt (False : zipWith sameLine excerpts (drop 1 excerpts)) excerpts)
-    sameLine (_, a, _) (_, b, _) = lineNumber a == lineNumber b
-    shownAt joined (isMain, e, words') =
+      InSource region -> written (Region.position source (start region))
+      InTape row -> path <> ", row " <> Decimal.whole row
+      InFile -> path
+    written Position {file, line, column} = file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
+    body = concat (zipWith shownAt (Nothing : map Just excerpts) excerpts)
+    -- Nothing between two marks of one line; a heading where another file begins.
+    shownAt before (isMain, e, words') =
       [bar | not joined]
+        <> [Text.replicate gutter " " <> paint' Frame "::: " <> written (Excerpt.place e) | fileOf e /= fileBefore]
         <> [ paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
              | not joined
            ]
         <> [bar <> " " <> Text.replicate (indent e) " " <> mark isMain e words']
+      where
+        at = Excerpt.place e
+        joined = maybe False (\(_, b, _) -> fileOf b == fileOf e && line (Excerpt.place b) == line at) before
+        fileBefore = maybe mainPlace (\(_, b, _) -> fileOf b) before
+    fileOf e = let Position {file} = Excerpt.place e in file
+    -- The excerpts begin in the file that the heading names.
+    mainPlace = case place r of
+      InSource region -> let Position {file} = Region.position source (start region) in file
+      _ -> Region.mainFile source
     mark isMain e words' =
       let role = if isMain then Severe (severity r) else Secondary
           sign = if isMain then "^" else "-"
@@ -72,7 +81,7 @@ render colour path source report = Text.unlines (heading : location <> body <> a
         (lead <> paint' Frame "= " <> paint' Advice kind <> first) :
         map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
     lead = Text.replicate (gutter + 1) " "
-    number' = Decimal.whole . lineNumber
+    number' e = Decimal.whole (line (Excerpt.place e))
 
 -- | Without characters that a terminal would obey; the excerpt sees to its own.
 cleaned :: Report -> Report

@@ -20,15 +20,15 @@ import Report.Report qualified as Report
 -- | @file:line:col: error[E0123]: text@. A report about a tape has the row in the line's place.
 short :: Text -> Source -> Report -> Text
 short path source r =
-  path <> at <> ": " <> Report.severityWord (severity r) <> "[" <> code <> "]: " <> Excerpt.visible (title r) <> "\n"
+  at <> ": " <> Report.severityWord (severity r) <> "[" <> code <> "]: " <> Excerpt.visible (title r) <> "\n"
   where
     Code code = Report.code r
     at = case place r of
       InSource region ->
-        let Position {line, column} = Region.position source (start region)
-         in ":" <> Decimal.whole line <> ":" <> Decimal.whole column
-      InTape row -> ":" <> Decimal.whole row <> ":1"
-      InFile -> ":1:1"
+        let Position {file, line, column} = Region.position source (start region)
+         in file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
+      InTape row -> path <> ":" <> Decimal.whole row <> ":1"
+      InFile -> path <> ":1:1"
 
 -- | One JSON object and a line end. Lines and columns count characters, from 1; @end@ is the
 -- position behind the last character.
@@ -41,13 +41,17 @@ json path source r =
       "schemaVersion" .= (1 :: Int)
         <> "severity" .= Report.severityWord (severity r)
         <> "code" .= code
-        <> "file" .= path
+        <> "file" .= file'
         <> placed
         <> "title" .= title r
         <> "label" .= label r
         <> "message" .= message r
         <> "hints" .= hints r
         <> "related" .= map related (others r)
+    file' = case place r of
+      InSource region -> let Position {file} = Region.position source (start region) in file
+      InTape _ -> path
+      InFile -> path
     placed :: Series
     placed = case place r of
       InSource region -> "start" .= position (start region) <> "end" .= position (end region)
@@ -57,4 +61,5 @@ json path source r =
       let Position {line, column} = Region.position source offset
        in object ["line" .= line, "column" .= column]
     related (Label region words') =
-      object ["start" .= position (start region), "end" .= position (end region), "label" .= words']
+      let Position {file} = Region.position source (start region)
+       in object ["file" .= file, "start" .= position (start region), "end" .= position (end region), "label" .= words']
