@@ -19,6 +19,7 @@ module Surface.Combinator
     parens,
     brackets,
     block,
+    statementBlock,
     sepBy1,
     nested,
 
@@ -64,20 +65,22 @@ data Problem
     Trailing Token_
   | -- | a statement in a block
     Misplaced Text
+  | -- | brackets with more than three values
+    ManyCoordinates Region
   | TooDeep
   deriving stock (Eq, Ord, Show)
 
 -- | What the parser remembers: the failures that it recovered from, where the last token ended, and how
--- many brackets are open.
-data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int}
+-- many brackets are open; how many blocks of statements the statement at hand stands in.
+data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int, within :: Int}
 
 type Parser = ParsecT Problem Input (State Memory)
 
--- | Run a parser over the tokens of a text: the errors in order, and the output if there is one.
-run :: Parser a -> Text -> [Token] -> ([Error], Maybe a)
-run parser text tokens = (map (fromFailure (Vector.fromList tokens) (Text.length text)) inOrder, output)
+-- | Run a parser over the tokens of a text that ends at an offset: the errors in order, and the output if there is one.
+run :: Parser a -> Int -> [Token] -> ([Error], Maybe a)
+run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
-    (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0}
+    (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0}
     inOrder = sortOn Parsec.errorOffset (final <> failures memory)
     (output, final) = case result of
       Right a -> (Just a, [])
@@ -120,12 +123,13 @@ onThisLine p = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   if maybe False newLine next then Parsec.empty else p
 
--- | Nothing more stands on this line.
+-- | Nothing more stands on this line, but for the end of the block.
 endOfLine :: Parser ()
 endOfLine = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  inBlock <- lift (gets ((> 0) . within))
   case next of
-    Just t | not (newLine t) -> Parsec.customFailure (Trailing (shape t))
+    Just t | not (newLine t) && not (inBlock && shape t == Symbol "}") -> Parsec.customFailure (Trailing (shape t))
     _ -> pure ()
 
 -- | With the region from the first to the last token.
@@ -188,6 +192,26 @@ block what broken one = do
         Word word | beginsStatement next -> Parsec.customFailure (Misplaced word)
         _ -> pure ()
 
+-- | Statements in braces.
+statementBlock :: Text -> Parser Statement -> Parser [Statement]
+statementBlock what one = do
+  opened <- symbol "{"
+  lift (modify' (\m -> m {within = within m + 1}))
+  statements <- nested (Parsec.many (inside *> recovering brokenStatement one))
+  lift (modify' (\m -> m {within = within m - 1}))
+  ended <- null <$> rest
+  when ended (Parsec.customFailure (UnclosedBlock opened what))
+  void (symbol "}")
+  pure statements
+  where
+    rest = Parsec.getInput >>= \(Input ts) -> pure ts
+    inside = do
+      ts <- rest
+      case ts of
+        [] -> Parsec.empty
+        t : _ | shape t == Symbol "}" -> Parsec.empty
+        _ -> pure ()
+
 -- | Whether the tokens hold a closing brace that belongs to a block which is open already.
 closesBlock :: [Token] -> Bool
 closesBlock = go (0 :: Int)
@@ -235,10 +259,11 @@ recovering :: ([Token] -> Parser a) -> Parser a -> Parser a
 recovering repair p = do
   begin <- Parsec.getOffset
   Input input <- Parsec.getInput
-  Parsec.withRecovery (again begin input) p
+  before <- lift get
+  Parsec.withRecovery (again before begin input) p
   where
-    again begin input failure = do
-      lift (modify' (\m -> m {failures = failure : failures m, depth = 0}))
+    again before begin input failure = do
+      lift (modify' (\m -> m {failures = failure : failures m, depth = depth before, within = within before}))
       now <- Parsec.getOffset
       when (now == begin) (void Parsec.anySingle)
       after <- Parsec.getOffset
@@ -248,16 +273,31 @@ recovering repair p = do
 -- and the name that was to be defined.
 brokenStatement :: [Token] -> Parser Statement
 brokenStatement taken = do
-  more <- Parsec.many (Parsec.try (Parsec.anySingle >>= \t -> if beginsStatement t then Parsec.empty else followed t))
+  inBlock <- lift (gets ((> 0) . within))
+  more <- skipped inBlock (sum (map braces taken))
   pure (Located (foldr (Region.merge . Token.place) (place' taken) taken) (uncurry Broken (meaning (taken <> more))))
   where
+    -- What is skipped; the brace that closes the block in which the statement stands is not.
+    skipped :: Bool -> Int -> Parser [Token]
+    skipped inBlock open = do
+      Input rest <- Parsec.getInput
+      case rest of
+        t : others
+          | not (beginsStatement t || opensBlock open t || misspelt t others || inBlock && open <= 0 && shape t == Symbol "}") ->
+            Parsec.anySingle *> ((t :) <$> skipped inBlock (open + braces t))
+        _ -> pure []
+    -- A block of statements, unless it stands in braces that belong to the mistake.
+    opensBlock open t = case shape t of
+      Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
+      _ -> False
     -- Two words in a row on a new line are a misspelt statement rather than the rest of this one.
-    followed :: Token -> Parser Token
-    followed t = do
-      next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
-      case (shape t, fmap shape next, fmap newLine next) of
-        (Word word, Just (Word _), Just False) | newLine t && not (Keyword.beginsItem word) -> Parsec.empty
-        _ -> pure t
+    misspelt t others = case (shape t, others) of
+      (Word word, next : _) | Word _ <- shape next -> newLine t && not (newLine next) && not (Keyword.beginsItem word)
+      _ -> False
+    braces t = case shape t of
+      Symbol "{" -> 1 :: Int
+      Symbol "}" -> -1
+      _ -> 0
     meaning ts = case map shape (take 2 ts) of
       [Word word, Word what] | not (Keyword.isReserved what) -> (spelt word, Just (Located (place' (drop 1 ts)) (Name what)))
       Word word : _ -> (spelt word, Nothing)
@@ -305,13 +345,14 @@ beginsStatement t = case shape t of
 -- Failures into errors
 
 fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
-fromFailure ts size failure = case failure of
+fromFailure ts finish failure = case failure of
   FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of
     UnclosedBlock opened what -> Error.Unclosed region opened what
-    NoStatement word -> Error.UnknownStatement region word Keyword.statements
+    NoStatement word -> Error.UnknownStatement region word (Keyword.statements <> Keyword.blocks)
     NoName word -> Error.Reserved region word
     Trailing shape' -> Error.Trailing region shape' neighbours
     Misplaced word -> Error.Misplaced region word
+    ManyCoordinates place -> Error.ManyCoordinates place
     TooDeep -> Error.TooDeep region deepest
   FancyError _ _ -> Error.Unexpected region found [] neighbours
   TrivialError _ _ expected -> Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours
@@ -321,7 +362,7 @@ fromFailure ts size failure = case failure of
       Just t | attached t -> Just t
       _ -> Nothing
     here = ts Vector.!? Parsec.errorOffset failure
-    region = maybe (Region size size) Token.place here
+    region = maybe (Region finish finish) Token.place here
     found = maybe FoundEnd (FoundToken . shape) here
     wanted expected' = case expected' of
       Label text -> [Text.pack (NonEmpty.toList text)]

@@ -30,6 +30,8 @@ data Error
     Misplaced Region Text
   | -- | brackets nested deeper than so many
     TooDeep Region Int
+  | -- | brackets with more than three values
+    ManyCoordinates Region
   deriving stock (Eq, Ord, Show)
 
 -- | The token before, and the token behind if it touches.
@@ -87,6 +89,10 @@ toReport err = case err of
           if word `elem` ["rapid", "feed"]
             then ["Behind a point, " <> quote word <> " stands on the line of that point."]
             else ["Move it above the statement in whose braces it stands."]
+      }
+  ManyCoordinates region ->
+    (at region "E0111" "a point has two or three coordinates")
+      { hints = ["A list stands in square brackets: [1, 2, 3, 4]."]
       }
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")

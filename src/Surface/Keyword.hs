@@ -1,8 +1,12 @@
 -- | The words that the language keeps for itself.
+--
+-- Words that only ever stand where no name can (@depth@, @within@, @by@ …) are not among them.
 module Surface.Keyword
   ( statements,
+    blocks,
     beginsItem,
     isReserved,
+    reservedWords,
   )
 where
 
@@ -11,25 +15,34 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Surface.Token (unitName)
 
--- | The words that begin a statement.
+-- | The words that begin a statement and nothing else.
 statements :: [Text]
 statements =
-  ["part", "machine", "tool", "feed", "tolerance", "from", "let", "contour", "mill", "rapid", "move"]
+  ["part", "machine", "import", "tool", "feed", "tolerance", "clearance", "from"]
+    <> ["let", "param", "contour", "assert"]
+    <> ["mill", "turn", "drill", "rapid", "move", "change", "spindle", "coolant", "aux", "with"]
+
+-- | The words that begin a statement with a block, and an item of a contour as well.
+blocks :: [Text]
+blocks = ["for", "if"]
 
 -- | Whether a word begins an item of a block.
 beginsItem :: Text -> Bool
-beginsItem word = word `elem` ["for", "cw", "ccw", "approach", "retract"]
+beginsItem word = word `elem` ["for", "if", "cw", "ccw", "approach", "retract"]
 
 -- | Whether a word can not be the name of a value.
 isReserved :: Text -> Bool
 isReserved word = Set.member word reserved
 
+-- | The words that can not be names, in the order of the manual.
+reservedWords :: [Text]
+reservedWords =
+  statements
+    <> blocks
+    <> ["open", "closed", "in", "cw", "ccw", "else", "then", "and", "or", "not"]
+    <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer", "slow", "allowance"]
+    <> ["outside", "inside", "left", "right", "on", "first", "last", "approach", "retract"]
+    <> filter (/= "in") (map unitName [minBound .. maxBound])
+
 reserved :: Set Text
-reserved =
-  Set.fromList
-    ( statements
-        <> ["open", "closed", "for", "cw", "ccw"]
-        <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer"]
-        <> ["outside", "inside", "left", "right", "on", "approach", "retract", "diameter"]
-        <> map unitName [minBound .. maxBound]
-    )
+reserved = Set.fromList reservedWords

@@ -13,7 +13,7 @@ import Data.Ord (Down (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
-import Surface.Token (Token (..), Token_ (..), Unit, unitName)
+import Surface.Token (Numeral (Numeral), Token (..), Token_ (..), Unit, unitName)
 
 -- | What the lexer knows between two tokens.
 data Before = Before
@@ -26,9 +26,9 @@ data Before = Before
     machine :: Bool
   }
 
--- | All tokens of a text and all its comments, in order.
-tokens :: Text -> ([Token], [Located Text])
-tokens = go Before {at = 0, fresh = True, touching = False, machine = False}
+-- | All tokens of a text and all its comments, in order; the first character has the offset given.
+tokens :: Int -> Text -> ([Token], [Located Text])
+tokens begin = go Before {at = begin, fresh = True, touching = False, machine = False}
 
 go :: Before -> Text -> ([Token], [Located Text])
 go before rest = case Text.uncons rest of
@@ -54,7 +54,8 @@ token c rest
   | isDigit c = numeral rest
   | isWordStart c = let word = Text.takeWhile isWordPart rest in (Word word, Text.length word)
   | c == '"' = quoted rest
-  | c `elem` ("(){}[],=+-*/" :: String) = (Symbol (Text.singleton c), 1)
+  | Text.take 2 rest `elem` ["..", "<=", ">=", "!="] = (Symbol (Text.take 2 rest), 2)
+  | c `elem` ("(){}[],=+-*/<>" :: String) = (Symbol (Text.singleton c), 1)
   | otherwise = (Stray c, 1)
 
 -- | The name of a machine: letters, digits, @.@ and @-@; a quoted text is the name of a description file.
@@ -80,8 +81,8 @@ numeral rest
   | junk || Text.length digits > mostDigits = (BadNumber written, Text.length written)
   | otherwise = case Read.double digits of
     Right (value, "") | not (isInfinite value) -> case unitBehind (Text.drop size rest) of
-      Just (unit, gap, length') -> (Number value (Just unit), size + gap + length')
-      Nothing -> (Number value Nothing, size)
+      Just (unit, gap, length') -> (Number (Numeral digits value) (Just unit), size + gap + length')
+      Nothing -> (Number (Numeral digits value) Nothing, size)
     _ -> (BadNumber digits, size)
   where
     whole = Text.takeWhile isDigit rest

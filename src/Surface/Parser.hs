@@ -4,9 +4,11 @@
 -- goes on at the next one, so that one run finds them all.
 module Surface.Parser
   ( parse,
+    parseExpr,
   )
 where
 
+import Base.Name (Name (..))
 import Base.Region (Located (..), span)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -15,6 +17,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Surface.Combinator
 import Surface.Error (Error)
 import Surface.Lexer qualified as Lexer
@@ -24,12 +27,19 @@ import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
 
--- | Read a program. The output holds all that could be read.
-parse :: Text -> Result w Error Program
-parse text = Result {warnings = [], errors, output = Just Program {statements = Maybe.fromMaybe [] read', comments}}
+-- | Read a program whose text begins at an offset. The output holds all that could be read.
+parse :: Int -> Text -> Result w Error Program
+parse begin text = Result {warnings = [], errors, output = Just Program {statements = Maybe.fromMaybe [] read', comments}}
   where
-    (tokens, comments) = Lexer.tokens text
-    (errors, read') = run program text tokens
+    (tokens, comments) = Lexer.tokens begin text
+    (errors, read') = run program (begin + Text.length text) tokens
+
+-- | Read one expression, which is the whole text; its offsets count from 0.
+parseExpr :: Text -> Result w Error Expr
+parseExpr text = Result {warnings = [], errors, output}
+  where
+    (errors, output) = run (expr <* endOfText) (Text.length text) (fst (Lexer.tokens 0 text))
+    endOfText = Parsec.eof <?> "the end of the value"
 
 -- Statements
 
@@ -43,29 +53,44 @@ statement_ :: Parser Statement_
 statement_ = do
   begin <- Parsec.lookAhead Parsec.anySingle
   case shape begin of
-    Word "part" -> keyword "part" *> (Part <$> name <*> Parsec.optional (onThisLine title))
-    Word "machine" -> keyword "machine" *> (Machine <$> (onThisLine (located machine) <?> "the name of a machine"))
-    Word "tool" -> keyword "tool" *> (Tool <$> cutter)
-    Word "feed" -> keyword "feed" *> (Feed <$> expr)
-    Word "tolerance" -> keyword "tolerance" *> (Tolerance <$> expr)
-    Word "from" -> keyword "from" *> (From <$> expr)
-    Word "let" -> keyword "let" *> definition
-    Word "contour" -> keyword "contour" *> contour
-    Word "mill" -> keyword "mill" *> mill
-    Word "rapid" -> keyword "rapid" *> (Travel . fmap rapidly <$> stops)
-    Word "move" -> keyword "move" *> (Travel <$> stops)
+    Word word | Just rest <- lookup word forms -> keyword word *> rest
     Word word -> Parsec.customFailure (NoStatement word)
     _ -> Parsec.empty <?> "a statement"
 
--- | Every stop of a @rapid@ statement is reached in rapid unless it says otherwise.
-rapidly :: Stop -> Stop
-rapidly stop = case pace stop of
-  Cutting -> stop {pace = Rapid}
-  Rapid -> stop
-  AtFeed _ -> stop
+-- | The rest of a statement by its first word.
+forms :: [(Text, Parser Statement_)]
+forms =
+  [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
+    ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
+    ("import", Import <$> (text' <?> "the name of a file in quotation marks")),
+    ("tool", Tool <$> cutter),
+    ("feed", Feed <$> expr),
+    ("tolerance", Tolerance <$> accuracy),
+    ("clearance", Clearance <$> expr),
+    ("from", From <$> expr),
+    ("let", definition),
+    ("param", Param <$> name <* symbol "=" <*> expr),
+    ("contour", contour),
+    ("assert", Assert <$> expr <*> Parsec.optional (keyword "within" *> expr)),
+    ("mill", machining "mill" Mill),
+    ("turn", machining "turn" Turn),
+    ("drill", keyword "at" *> (Drill <$> expr <* keyword "depth" <*> expr <*> Parsec.option [] (onThisLine (settings "drill")))),
+    ("rapid", Travel RapidMotion <$> stops),
+    ("move", Travel FeedMotion <$> stops),
+    ("change", Change <$> expr <*> cutter),
+    ("spindle", Spindle <$> spin),
+    ("coolant", Coolant <$> ((SwitchOn <$ keyword "on") <|> (SwitchOff <$ keyword "off"))),
+    ("aux", Auxiliary <$> expr),
+    ("for", forEach >>= \(variable, from) -> Repeat variable from <$> statementBlock "the repetition" statement),
+    ("if", When <$> expr <*> statementBlock "the block of ‘if’" statement <*> Parsec.option [] otherwise'),
+    ("with", With <$> expr <*> statementBlock "the block of ‘with’" statement)
+  ]
+  where
+    otherwise' = keyword "else" *> ((: []) <$> located elseIf <|> statementBlock "the block of ‘else’" statement)
+    elseIf = keyword "if" *> (When <$> expr <*> statementBlock "the block of ‘if’" statement <*> Parsec.option [] otherwise')
 
-title :: Parser (Located Text)
-title = located (token "a text" textOf)
+text' :: Parser (Located Text)
+text' = located (token "a text" textOf)
   where
     textOf t = case shape t of
       Text x -> Just x
@@ -80,8 +105,19 @@ machine = token "the name of a machine" machineOf
       _ -> Nothing
 
 -- | @mill(diameter 20 mm)@
-cutter :: Parser Expr
-cutter = keyword "mill" *> parens (keyword "diameter" *> expr)
+cutter :: Parser Cutter
+cutter = located (one "mill" "diameter" MillCutter <|> one "drill" "diameter" DrillCutter <|> one "turn" "nose" TurningCutter)
+  where
+    one kind measure make = keyword kind *> parens (keyword measure *> (make <$> expr))
+
+accuracy :: Parser Accuracy
+accuracy = (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
+
+spin :: Parser Spin
+spin = (Still <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
+
+sense :: Parser Walk
+sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
 
 definition :: Parser Statement_
 definition = do
@@ -98,20 +134,36 @@ contour = do
   Contour what closure <$> block ("the contour " <> quoted (value what)) BrokenItem item
 
 item :: Parser Item_
-item = repetition <|> element
+item = repetition <|> choice <|> element
+
+-- | @for x in list@, behind its first word.
+forEach :: Parser (Located Name, Expr)
+forEach = (,) <$> name <* (keyword "in" <?> "‘in’") <*> expr
 
 repetition :: Parser Item_
 repetition = do
-  keyword "for"
-  variable <- name
-  keyword "in" <?> "‘in’"
-  list <- expr
-  For variable list <$> block "the repetition" BrokenItem item
+  (variable, from) <- keyword "for" *> forEach
+  For variable from <$> nested (block "the repetition" BrokenItem item)
+
+-- | @if c { … }@, or an element whose value begins with @if@.
+choice :: Parser Item_
+choice = do
+  Located region (condition, then') <- located (keyword "if" *> ((,) <$> expr <*> branch))
+  case then' of
+    Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
+    Left (a, b) -> Element Nothing (Located region (If condition a b)) <$> Parsec.many (located modifier) <*> Parsec.optional (located link)
+  where
+    branch = (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
+    otherwise' = ((: []) <$> located choice) <|> nested (block "the block of ‘else’" BrokenItem item)
 
 element :: Parser Item_
-element = Element <$> Parsec.optional (located walk) <*> expr <*> Parsec.optional (located link)
-  where
-    walk = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
+element = Element <$> Parsec.optional (located sense) <*> expr <*> Parsec.many (located modifier) <*> Parsec.optional (located link)
+
+modifier :: Parser Modifier_
+modifier =
+  (keyword "feed" *> (AtElementFeed <$> expr))
+    <|> (Slow <$ keyword "slow")
+    <|> (keyword "allowance" *> (ElementAllowance <$> expr))
 
 link :: Parser Link_
 link =
@@ -121,16 +173,37 @@ link =
     <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
     <|> (keyword "chamfer" *> (Chamfer <$> expr))
 
-mill :: Parser Statement_
-mill = do
-  what <- expr
-  side <- located (Parsec.choice [s <$ keyword k | (k, s) <- sides])
-  Mill what side <$> block "the block of ‘mill’" (const BrokenSetting) setting
+-- | A contour, a side, and settings.
+machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
+machining word make = make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
   where
     sides = [("outside", Outside), ("inside", Inside), ("left", LeftSide), ("right", RightSide), ("on", On)]
 
+settings :: Text -> Parser [Setting]
+settings word = block ("the block of " <> quoted (Name word)) (const BrokenSetting) setting
+
 setting :: Parser Setting_
-setting = (keyword "approach" *> (Approach <$> stops)) <|> (keyword "retract" *> (Retract <$> stops))
+setting = do
+  begin <- Parsec.lookAhead Parsec.anySingle
+  case shape begin of
+    Word word | Just rest <- lookup word settingForms -> keyword word *> rest
+    _ -> Parsec.choice [Parsec.empty <?> Text.unpack ("‘" <> word <> "’") | (word, _) <- settingForms]
+
+-- | The rest of a setting by its first word.
+settingForms :: [(Text, Parser Setting_)]
+settingForms =
+  [ ("approach", Approach <$> stops),
+    ("retract", Retract <$> stops),
+    ("depth", Depth <$> expr <*> Parsec.optional (keyword "step" *> expr)),
+    ("lead", LeadBy <$> ((LeadIn <$ keyword "in") <|> (LeadOut <$ keyword "out")) <*> ((LeadLine <$ keyword "line") <|> (LeadArc <$ keyword "arc")) <*> expr),
+    ("allowance", Allowances <$> (expr `sepBy1` ",")),
+    ("corners", CornerStyle <$> ((Round <$ keyword "round") <|> (Sharp <$ keyword "sharp"))),
+    ("climb", pure (CutBy Climb)),
+    ("conventional", pure (CutBy Conventional)),
+    ("start", keyword "near" *> (StartNear <$> expr)),
+    ("plunge", Plunge <$> expr),
+    ("peck", Peck <$> expr)
+  ]
 
 stops :: Parser (NonEmpty Stop)
 stops = stop `sepBy1` ","
@@ -138,10 +211,43 @@ stops = stop `sepBy1` ","
     stop = Stop <$> expr <*> (Maybe.fromMaybe Cutting <$> Parsec.optional (onThisLine pace'))
     pace' = (Rapid <$ keyword "rapid") <|> (AtFeed <$> (keyword "feed" *> expr))
 
--- Expressions
+-- Expressions, the loosest operators first
 
 expr :: Parser Expr
-expr = chain (operators [("+", Add), ("-", Subtract)]) product'
+expr = conditional <|> disjunction
+
+-- | @if c then a else b@
+conditional :: Parser Expr
+conditional = located ((\c (a, b) -> If c a b) <$> (keyword "if" *> nested expr) <*> alternatives)
+
+alternatives :: Parser (Expr, Expr)
+alternatives = (,) <$> (keyword "then" *> nested expr) <*> (keyword "else" *> nested expr)
+
+disjunction :: Parser Expr
+disjunction = chain (Parsec.hidden (Or <$ keyword "or")) conjunction
+
+conjunction :: Parser Expr
+conjunction = chain (Parsec.hidden (And <$ keyword "and")) negation
+
+negation :: Parser Expr
+negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) <|> comparison
+
+-- | At most one comparison: @a < b < c@ is none.
+comparison :: Parser Expr
+comparison = range >>= more
+  where
+    more left = (operators table >>= \op -> joined op left <$> range) <|> pure left
+    table = [("<=", AtMost), (">=", AtLeast), ("!=", Unequal), ("<", Less), (">", Greater), ("=", Equal)]
+
+-- | @a..b by s@
+range :: Parser Expr
+range = sum' >>= more
+  where
+    more low = (Parsec.hidden (symbol "..") *> (to low <$> sum' <*> Parsec.optional (Parsec.hidden (keyword "by") *> sum'))) <|> pure low
+    to low high step = Located (span (Region.region low) (Region.region (Maybe.fromMaybe high step))) (Range low high step)
+
+sum' :: Parser Expr
+sum' = chain (operators [("+", Add), ("-", Subtract)]) product'
 
 product' :: Parser Expr
 product' = chain (operators [("*", Multiply), ("/", Divide)]) factor
@@ -153,8 +259,10 @@ operators table = Parsec.hidden (Parsec.choice [op <$ symbol s | (s, op) <- tabl
 chain :: Parser Operator -> Parser Expr -> Parser Expr
 chain operator operand = operand >>= more
   where
-    more left = (operator >>= \op -> operand >>= \right -> more (join op left right)) <|> pure left
-    join op left right = Located (span (Region.region left) (Region.region right)) (Binary op left right)
+    more left = (operator >>= \op -> operand >>= \right -> more (joined op left right)) <|> pure left
+
+joined :: Operator -> Expr -> Expr -> Expr
+joined op left right = Located (span (Region.region left) (Region.region right)) (Binary op left right)
 
 factor :: Parser Expr
 factor = Parsec.hidden (located (Negate <$> (symbol "-" *> nested factor))) <|> primary
@@ -166,20 +274,37 @@ primary = (number <|> variableOrCall <|> pairOrGroup <|> list) <?> "a value"
     numberOf t = case shape t of
       Number x unit -> Just (Literal x unit)
       _ -> Nothing
-    list = located (List <$> brackets (Parsec.option [] (NonEmpty.toList <$> (expr `sepBy1` ","))))
+
+-- | @[a, b, c]@ and @[e for x in list]@
+list :: Parser Expr
+list = located (brackets (Parsec.option (List []) (expr >>= more)))
+  where
+    more e = (each e <$> (Parsec.hidden (keyword "for") *> forEach)) <|> (List . (e :) <$> Parsec.many (symbol "," *> expr))
+    each e (variable, from) = Each e variable from
 
 variableOrCall :: Parser Expr
 variableOrCall = located $ do
   what <- usedName
-  arguments <- Parsec.optional (touching *> parens (expr `sepBy1` ","))
+  arguments <- Parsec.optional (touching *> parens (argument `sepBy1` ","))
   pure (maybe (Variable (value what)) (Call what) arguments)
+
+argument :: Parser Argument
+argument = Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
+  where
+    chosen = Chosen <$> located (Parsec.choice [c <$ keyword k | (k, c) <- choices]) <*> expr
+    choices = [("near", Near), ("left", ToLeft), ("right", ToRight), ("inside", Within'), ("outside", Beyond)]
+    ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
 
 -- | Only if a parenthesis follows without a space.
 touching :: Parser ()
 touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy (\t -> attached t && shape t == Symbol "("))))
 
--- | @(a)@ is a, @(a, b)@ a point or a vector.
+-- | @(a)@ is a, @(a, b)@ a point or a vector, @(a, b, c)@ a point in space.
 pairOrGroup :: Parser Expr
 pairOrGroup = do
-  Located region (first, second) <- located (parens ((,) <$> expr <*> Parsec.optional (symbol "," *> expr)))
-  pure (maybe first (Located region . Pair first) second)
+  Located region es <- located (parens (expr `sepBy1` ","))
+  case NonEmpty.toList es of
+    [a] -> pure a
+    [a, b] -> pure (Located region (Pair a b))
+    [a, b, c] -> pure (Located region (Triple a b c))
+    _ -> Parsec.customFailure (ManyCoordinates region)

@@ -3,19 +3,35 @@ module Surface.Syntax
   ( Program (..),
     Statement,
     Statement_ (..),
+    Cutter,
+    Cutter_ (..),
+    Accuracy (..),
+    Motion (..),
+    Spin (..),
+    Switch (..),
     Expr,
     Expr_ (..),
+    Numeral (..),
     Operator (..),
+    Argument (..),
+    Choice (..),
+    Rank (..),
     Closure (..),
     Item,
     Item_ (..),
     Walk (..),
+    Modifier,
+    Modifier_ (..),
     Link,
     Link_ (..),
     Side (..),
     MachineRef (..),
     Setting,
     Setting_ (..),
+    Lead (..),
+    LeadForm (..),
+    Corners (..),
+    CutSense (..),
     Stop (..),
     Pace (..),
   )
@@ -25,7 +41,7 @@ import Base.Name (Name)
 import Base.Region (Located)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
-import Surface.Token (Unit)
+import Surface.Token (Numeral (..), Unit)
 
 -- | A whole text: its statements in order, and its comments.
 data Program = Program {statements :: [Statement], comments :: [Located Text]}
@@ -38,24 +54,50 @@ data Statement_
     Part (Located Name) (Maybe (Located Text))
   | -- | @machine lkp-01f@
     Machine (Located MachineRef)
+  | -- | @import "bolts.part"@
+    Import (Located Text)
   | -- | @tool mill(diameter 20 mm)@
-    Tool Expr
+    Tool Cutter
   | -- | @feed 60 mm/min@
     Feed Expr
   | -- | @tolerance 0.02 mm@
-    Tolerance Expr
+    Tolerance Accuracy
+  | -- | @clearance 5 mm@
+    Clearance Expr
   | -- | @from (0, 0)@
     From Expr
   | -- | @let r = 9@
     LetValue (Located Name) Expr
   | -- | @let lug(a) = …@
     LetFunction (Located Name) (NonEmpty (Located Name)) Expr
+  | -- | @param d = 25 mm@
+    Param (Located Name) Expr
   | -- | @contour outline closed { … }@
     Contour (Located Name) Closure [Item]
+  | -- | @assert distance(p, q) = 41 within 0.1@
+    Assert Expr (Maybe Expr)
   | -- | @mill outline outside { … }@
     Mill Expr (Located Side) [Setting]
+  | -- | @turn profile outside { … }@
+    Turn Expr (Located Side) [Setting]
+  | -- | @drill at holes depth 12 mm { … }@
+    Drill Expr Expr [Setting]
   | -- | @rapid p, q@ and @move p, q feed f@
-    Travel (NonEmpty Stop)
+    Travel Motion (NonEmpty Stop)
+  | -- | @change 2 drill(diameter 5 mm)@
+    Change Expr Cutter
+  | -- | @spindle cw 800 rpm@
+    Spindle Spin
+  | -- | @coolant on@
+    Coolant Switch
+  | -- | @aux 3@
+    Auxiliary Expr
+  | -- | @for p in holes { … }@
+    Repeat (Located Name) Expr [Statement]
+  | -- | @if with_slot { … } else { … }@
+    When Expr [Statement] [Statement]
+  | -- | @with rotated(60 deg) { … }@
+    With Expr [Statement]
   | -- | A statement that could not be read: its first word, and the name that it would have defined.
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
@@ -64,22 +106,76 @@ data Statement_
 data MachineRef = Named Text | Described Text
   deriving stock (Eq, Show)
 
+type Cutter = Located Cutter_
+
+data Cutter_
+  = -- | @mill(diameter d)@
+    MillCutter Expr
+  | -- | @drill(diameter d)@
+    DrillCutter Expr
+  | -- | @turn(nose r)@
+    TurningCutter Expr
+  deriving stock (Eq, Show)
+
+-- | How far chords may be off.
+data Accuracy
+  = -- | by so much to either side
+    Within Expr
+  | -- | by so much into the material, and by so much out of it
+    Between Expr Expr
+  deriving stock (Eq, Show)
+
+-- | How the stops of a motion are reached that do not say it.
+data Motion = RapidMotion | FeedMotion
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | What a spindle does: turn in a sense, at a speed if one is given.
+data Spin = Spinning Walk (Maybe Expr) | Still
+  deriving stock (Eq, Show)
+
+data Switch = SwitchOn | SwitchOff
+  deriving stock (Eq, Show, Enum, Bounded)
+
 type Expr = Located Expr_
 
 data Expr_
-  = Literal Double (Maybe Unit)
+  = Literal Numeral (Maybe Unit)
   | Variable Name
   | -- | the name and its arguments
-    Call (Located Name) (NonEmpty Expr)
+    Call (Located Name) (NonEmpty Argument)
   | Negate Expr
+  | Not Expr
   | Binary Operator Expr Expr
+  | -- | @a..b@ and @a..b by s@
+    Range Expr Expr (Maybe Expr)
+  | -- | @if c then a else b@
+    If Expr Expr Expr
   | -- | @(x, y)@: a point or a vector
     Pair Expr Expr
+  | -- | @(x, y, z)@: a point in space
+    Triple Expr Expr Expr
   | List [Expr]
+  | -- | @[e for x in list]@
+    Each Expr (Located Name) Expr
   deriving stock (Eq, Show)
 
-data Operator = Add | Subtract | Multiply | Divide
+data Operator = Add | Subtract | Multiply | Divide | Less | AtMost | Greater | AtLeast | Equal | Unequal | And | Or
   deriving stock (Eq, Show, Enum, Bounded)
+
+-- | An argument of a call. The words choose among the answers that geometry has.
+data Argument
+  = Given Expr
+  | -- | @near p@, @left l@, @inside c@ …
+    Chosen (Located Choice) Expr
+  | -- | @first@ and @last@
+    Ranked (Located Rank)
+  deriving stock (Eq, Show)
+
+data Choice = Near | ToLeft | ToRight | Within' | Beyond
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+data Rank = First | Last
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 data Closure = Open | Closed
   deriving stock (Eq, Show, Enum, Bounded)
@@ -88,17 +184,30 @@ type Item = Located Item_
 
 -- | What stands in the braces of a contour.
 data Item_
-  = -- | a walked element and the link to the one after it
-    Element (Maybe (Located Walk)) Expr (Maybe Link)
+  = -- | a walked element, what is asked on it, and the link to the one after it
+    Element (Maybe (Located Walk)) Expr [Modifier] (Maybe Link)
   | -- | @for a in list { … }@
     For (Located Name) Expr [Item]
+  | -- | @if c { … } else { … }@
+    Choose Expr [Item] [Item]
   | -- | an item that could not be read, and the name that it would have defined
     BrokenItem (Maybe (Located Name))
   deriving stock (Eq, Show)
 
--- | The sense in which a circle is walked.
+-- | The sense in which a circle is walked, or a spindle turns.
 data Walk = Clockwise | CounterClockwise
   deriving stock (Eq, Show, Enum, Bounded)
+
+type Modifier = Located Modifier_
+
+-- | What is asked on one element.
+data Modifier_
+  = AtElementFeed Expr
+  | -- | slow down at its end
+    Slow
+  | -- | what is left on it
+    ElementAllowance Expr
+  deriving stock (Eq, Show)
 
 type Link = Located Link_
 
@@ -122,9 +231,40 @@ type Setting = Located Setting_
 data Setting_
   = Approach (NonEmpty Stop)
   | Retract (NonEmpty Stop)
+  | -- | @depth 12 step 4@: how deep, and how much of it in one pass at most
+    Depth Expr (Maybe Expr)
+  | -- | @lead in arc 5@
+    LeadBy Lead LeadForm Expr
+  | -- | @allowance 1, 0.3, 0@: what each pass leaves standing
+    Allowances (NonEmpty Expr)
+  | -- | @corners sharp@
+    CornerStyle Corners
+  | -- | @climb@ and @conventional@
+    CutBy CutSense
+  | -- | @start near p@
+    StartNear Expr
+  | -- | @plunge 20 mm/min@: the feed downwards
+    Plunge Expr
+  | -- | @peck 3 mm@: how deep a drill goes before it is drawn out
+    Peck Expr
   | -- | a setting that could not be read
     BrokenSetting
   deriving stock (Eq, Show)
+
+-- | Onto the contour or away from it.
+data Lead = LeadIn | LeadOut
+  deriving stock (Eq, Show, Enum, Bounded)
+
+data LeadForm = LeadLine | LeadArc
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | How the path goes round an outer corner.
+data Corners = Round | Sharp
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | How the teeth of a mill meet the material.
+data CutSense = Climb | Conventional
+  deriving stock (Eq, Show, Enum, Bounded)
 
 -- | A point to go to, and how fast.
 data Stop = Stop {point :: Expr, pace :: Pace}
@@ -132,7 +272,7 @@ data Stop = Stop {point :: Expr, pace :: Pace}
 
 -- | The feed of a move.
 data Pace
-  = -- | the feed in force
+  = -- | as the motion or the feed in force say
     Cutting
   | Rapid
   | AtFeed Expr

@@ -2,6 +2,7 @@
 module Surface.Token
   ( Token (..),
     Token_ (..),
+    Numeral (..),
     Unit (..),
     unitName,
     describe,
@@ -28,7 +29,7 @@ data Token_
   = -- | a name or a keyword; which of them is for the parser to say
     Word Text
   | -- | a number as written, and the unit behind it
-    Number Double (Maybe Unit)
+    Number Numeral (Maybe Unit)
   | Text Text
   | Symbol Text
   | -- | a number that is none: @1.2.3@, or one too large to hold
@@ -39,8 +40,12 @@ data Token_
     Stray Char
   deriving stock (Eq, Ord, Show)
 
+-- | A number: its digits as they are written, and how much they are.
+data Numeral = Numeral {digits :: Text, amount :: Double}
+  deriving stock (Eq, Ord, Show)
+
 -- | The units of a drawing.
-data Unit = Millimetre | Centimetre | Metre | Inch | Degree | Radian | MmPerMin | MPerMin | InPerMin
+data Unit = Millimetre | Centimetre | Metre | Inch | Degree | Radian | MmPerMin | MPerMin | InPerMin | Rpm
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 -- | A unit as it is written.
@@ -55,20 +60,15 @@ unitName unit = case unit of
   MmPerMin -> "mm/min"
   MPerMin -> "m/min"
   InPerMin -> "in/min"
+  Rpm -> "rpm"
 
 -- | A token in the words of a report.
 describe :: Token_ -> Text
 describe token = case token of
   Word text -> "‘" <> text <> "’"
-  Number value _ -> "the number " <> plain value
+  Number value _ -> "the number " <> digits value
   Text _ -> "a text"
   Symbol text -> "‘" <> text <> "’"
   BadNumber text -> "‘" <> text <> "’"
   OpenText -> "a text without an end"
   Stray c -> "the character ‘" <> Text.singleton c <> "’"
-  where
-    plain value
-      | value == fromIntegral whole && abs value < 1e15 = Text.pack (show whole)
-      | otherwise = Text.pack (show value)
-      where
-        whole = truncate value :: Integer
