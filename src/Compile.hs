@@ -10,6 +10,9 @@
 -- mistakes; nothing is punched unless there are none.
 module Compile
   ( Analysis (..),
+    Loaded (..),
+    load,
+    alone,
     analyse,
     Punched (..),
     punch,
@@ -22,6 +25,8 @@ import Base.Result (Result (..), mapErrors)
 import Base.Result qualified as Result
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
+import Checked.Syntax (Mention)
+import Checked.Syntax qualified as Checked
 import Data.Text (Text)
 import Frame.Error qualified as Frame
 import Frame.Frame (Frame, Program)
@@ -35,8 +40,9 @@ import Path.Error qualified as Path
 import Path.FromPart qualified as Path
 import Path.Path (Path)
 import Report.Report (Report)
+import Surface.Assign qualified as Surface
 import Surface.Error qualified as Surface
-import Surface.Parser qualified as Surface
+import Surface.Import (Loaded (..), alone, load)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Verify.FromTape qualified as Verify
@@ -44,16 +50,28 @@ import Verify.Proof (Proof)
 import Verify.Proof qualified as Verify
 
 -- | What a program says, whatever the machine.
-data Analysis = Analysis {part :: Part, path :: Path}
+data Analysis = Analysis
+  { -- | the names of the text and what they mean
+    mentions :: [Mention],
+    part :: Part,
+    path :: Path
+  }
 
--- | From the text to the path.
-analyse :: Text -> Result Report Report Analysis
-analyse text = do
-  surface <- mapErrors id Surface.toReport (Surface.parse text)
-  checked <- mapErrors id Checked.toReport (Checked.check surface)
-  part <- mapErrors id Part.toReport (Part.evaluate checked)
+-- | From the texts to the path; the values are given to the program's parameters, by their names.
+analyse :: [(Text, Text)] -> Loaded -> Result Report Report Analysis
+analyse values loaded = do
+  (checked, part) <- evaluated values loaded
   path <- mapErrors id Path.toReport (Path.lay part)
-  pure Analysis {part, path}
+  pure Analysis {mentions = Checked.mentions checked, part, path}
+
+-- | From the texts to the exact geometry.
+evaluated :: [(Text, Text)] -> Loaded -> Result Report Report (Checked.Program, Part)
+evaluated values loaded = do
+  written <- mapErrors Surface.toReport Surface.toReport (surface loaded)
+  assigned <- mapErrors id Surface.toReport (Surface.assign values written)
+  checked <- mapErrors id Checked.toReport (Checked.check assigned)
+  part <- mapErrors id Part.toReport (Part.evaluate checked)
+  pure (checked, part)
 
 -- | The frames of a path on a machine, and the tape that holds them.
 data Punched = Punched {program :: Program, tape :: Tape}

@@ -1,28 +1,48 @@
 -- | The functions and constants that the language brings along, with their types.
+--
+-- A function may have several forms. Which one a call means is decided by the number of its
+-- arguments, by the words before them, and by their types.
 module Checked.Builtin
-  ( Signature (..),
+  ( Form (..),
+    Parameter (..),
+    Label (..),
+    Fresh (..),
     lookup,
+    forms,
+    isConstant,
     names,
     name,
+    written,
   )
 where
 
+import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
-import Checked.Syntax (Builtin (..))
+import Checked.Syntax (Builtin (..), Choice (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Prelude hiding (lookup)
 
--- | What a function takes, each argument with its name, and what it gives. The dimension is a
--- fresh unknown at every use.
-data Signature = Signature {parameters :: [(Text, Type)], result :: Type}
+-- | What a call takes, and what it gives.
+data Form = Form {parameters :: [Parameter], result :: Type}
 
--- | The builtin of a name, and its signature for a fresh unknown dimension.
-lookup :: Text -> Maybe (Builtin, Dimension.Dimension -> Signature)
-lookup word = (\b -> (b, signature b)) <$> Map.lookup word table
+-- | A parameter: the word before it, its name, its type. A rank has neither name nor type.
+data Parameter = Parameter {label :: Label, title :: Text, type' :: Type}
+
+-- | What stands before an argument.
+data Label = Bare | Word Choice | Rank
+  deriving stock (Eq, Show)
+
+-- | Unknowns that are new at every call.
+data Fresh = Fresh {dimension :: Dimension, anything :: Type}
+
+-- | The builtin of a name.
+lookup :: Text -> Maybe Builtin
+lookup word = Map.lookup word table
 
 -- | All names that are taken.
 names :: [Text]
@@ -35,10 +55,39 @@ table = Map.fromList [(name b, b) | b <- [minBound .. maxBound]]
 name :: Builtin -> Text
 name builtin = case builtin of
   Pi -> "pi"
+  Truth -> "true"
+  Falsehood -> "false"
   Polar -> "polar"
-  MakeCircle -> "circle"
+  Intersection -> "intersection"
+  CentreOf -> "centre_of"
+  Midpoint -> "midpoint"
+  Foot -> "foot"
+  Tangency -> "tangency"
+  PointOn -> "point_on"
   MakeLine -> "line"
+  Horizontal -> "horizontal"
+  Vertical -> "vertical"
+  Parallel -> "parallel"
+  Perpendicular -> "perpendicular"
+  MakeCircle -> "circle"
+  Concentric -> "concentric"
   Distance -> "distance"
+  DirectionOf -> "direction_of"
+  RadiusOf -> "radius_of"
+  LengthOf -> "length_of"
+  XOf -> "x_of"
+  YOf -> "y_of"
+  Moved -> "moved"
+  Rotated -> "rotated"
+  Mirrored -> "mirrored"
+  Scaled -> "scaled"
+  Reversed -> "reversed"
+  Row -> "row"
+  Grid -> "grid"
+  Around -> "around"
+  Count -> "count"
+  ItemOf -> "item"
+  Lift -> "lift"
   Sin -> "sin"
   Cos -> "cos"
   Tan -> "tan"
@@ -51,21 +100,115 @@ name builtin = case builtin of
   Max -> "max"
   Floor -> "floor"
 
-signature :: Builtin -> Dimension.Dimension -> Signature
-signature builtin d = case builtin of
-  Pi -> Signature [] Type.number
-  Polar -> Signature [("length", Type.len), ("angle", Type.angle)] (Spatial d)
-  MakeCircle -> Signature [("centre", Type.aPoint), ("radius", Type.len)] Circle
-  MakeLine -> Signature [("from", Type.aPoint), ("to", Type.aPoint)] Line
-  Distance -> Signature [("from", Type.aPoint), ("to", Type.aPoint)] Type.len
-  Sin -> Signature [("angle", Type.angle)] Type.number
-  Cos -> Signature [("angle", Type.angle)] Type.number
-  Tan -> Signature [("angle", Type.angle)] Type.number
-  Asin -> Signature [("sine", Type.number)] Type.angle
-  Acos -> Signature [("cosine", Type.number)] Type.angle
-  Atan2 -> Signature [("y", Quantity d), ("x", Quantity d)] Type.angle
-  Sqrt -> Signature [("value", Quantity (Dimension.power 2 d))] (Quantity d)
-  Abs -> Signature [("value", Quantity d)] (Quantity d)
-  Min -> Signature [("first", Quantity d), ("second", Quantity d)] (Quantity d)
-  Max -> Signature [("first", Quantity d), ("second", Quantity d)] (Quantity d)
-  Floor -> Signature [("value", Type.number)] Type.number
+-- | Whether it stands for itself, without arguments.
+isConstant :: Builtin -> Bool
+isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
+
+-- | The forms of a function. Where the types of a call leave several, the first of them is meant.
+forms :: Fresh -> Builtin -> [Form]
+forms Fresh {dimension = d, anything} builtin = case builtin of
+  Pi -> [Form [] Type.number]
+  Truth -> [Form [] Truth']
+  Falsehood -> [Form [] Truth']
+  Polar -> [Form [length', angle] (Spatial d)]
+  Intersection ->
+    [ Form ([given "first" a, given "second" b] <> selector) Type.aPoint
+      | a <- [Line, Circle],
+        b <- [Line, Circle],
+        selector <- [] : [[Parameter Rank "" Wrong] | a == Line || b == Line] <> map pure chosen
+    ]
+  CentreOf -> [Form [circle] Type.aPoint]
+  Midpoint -> [Form [given "first" Type.aPoint, given "second" Type.aPoint] Type.aPoint]
+  Foot -> [Form [point, line] Type.aPoint]
+  Tangency ->
+    [Form [given "first" a, given "second" b] Type.aPoint | (a, b) <- [(Line, Circle), (Circle, Line), (Circle, Circle)]]
+      <> [Form [given "from" Type.aPoint, c] Type.aPoint | c <- circle : sided "circle" Circle]
+  PointOn -> [Form [circle, angle] Type.aPoint]
+  MakeLine ->
+    [ Form [given "from" Type.aPoint, given "to" Type.aPoint] Line,
+      Form [given "from" Type.aPoint, angle] Line
+    ]
+      <> [Form [given "from" Type.aPoint, c] Line | c <- circle : sided "circle" Circle]
+      <> [Form [c, given "to" Type.aPoint] Line | c <- circle : sided "circle" Circle]
+      <> [Form [c, e] Line | c <- circle : sided "first" Circle, e <- circle : sided "second" Circle]
+  Horizontal -> [Form [given "y" Type.len] Line]
+  Vertical -> [Form [given "x" Type.len] Line]
+  Parallel -> [Form [line, by] Line | by <- sided "distance" Type.len] <> [Form [line, point] Line]
+  Perpendicular -> [Form [line, point] Line]
+  MakeCircle ->
+    [ Form [given "centre" Type.aPoint, radius] Circle,
+      Form [given "centre" Type.aPoint, line] Circle,
+      Form [given "first" Type.aPoint, given "second" Type.aPoint, given "third" Type.aPoint] Circle
+    ]
+      <> [Form ([radius, a, b] <> selector) Circle | a <- touched, b <- touched, selector <- [] : map pure chosen]
+  Concentric -> [Form [circle, given "distance" Type.len] Circle]
+  Distance ->
+    [ Form [given "from" a, given "to" b] Type.len
+      | (a, b) <- [(Type.aPoint, Type.aPoint), (Type.aPoint, Line), (Line, Type.aPoint), (Line, Line)]
+    ]
+  DirectionOf -> [Form [line] Type.angle, Form [given "vector" Type.aVector] Type.angle]
+  RadiusOf -> [Form [circle] Type.len]
+  LengthOf -> [Form [given "contour" Contour] Type.len, Form [line] Type.len, Form [given "vector" Type.aVector] Type.len]
+  XOf -> [Form [given "point" (Spatial d)] Type.len]
+  YOf -> [Form [given "point" (Spatial d)] Type.len]
+  Moved -> transforming [[given "by" Type.aVector]]
+  Rotated -> transforming [[angle], [angle, given "about" Type.aPoint]]
+  Mirrored -> transforming [[given "axis" Line]]
+  Scaled -> transforming [[given "factor" Type.number], [given "factor" Type.number, given "about" Type.aPoint]]
+  Reversed -> [Form [given "contour" t] t | t <- [Contour, Line]] <> [Form [given "list" (ListOf anything)] (ListOf anything)]
+  Row -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number] points]
+  Grid -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number, given "other_step" Type.aVector, given "rows" Type.number] points]
+  Around ->
+    [ Form [circle, given "count" Type.number] points,
+      Form [circle, given "count" Type.number, given "from" Type.angle] points,
+      Form [circle, given "count" Type.number, given "from" Type.angle, given "to" Type.angle] points
+    ]
+  Count -> [Form [given "list" (ListOf anything)] Type.number]
+  ItemOf -> [Form [given "list" (ListOf anything), given "number" Type.number] anything]
+  Lift -> [Form [point, given "z" Type.len] Space]
+  Sin -> [Form [angle] Type.number]
+  Cos -> [Form [angle] Type.number]
+  Tan -> [Form [angle] Type.number]
+  Asin -> [Form [given "sine" Type.number] Type.angle]
+  Acos -> [Form [given "cosine" Type.number] Type.angle]
+  Atan2 -> [Form [given "y" (Quantity d), given "x" (Quantity d)] Type.angle]
+  Sqrt -> [Form [given "value" (Quantity (Dimension.power 2 d))] (Quantity d)]
+  Abs -> [Form [given "value" (Quantity d)] (Quantity d)]
+  Min -> [Form [given "first" (Quantity d), given "second" (Quantity d)] (Quantity d)]
+  Max -> [Form [given "first" (Quantity d), given "second" (Quantity d)] (Quantity d)]
+  Floor -> [Form [given "value" Type.number] Type.number]
+  where
+    given = Parameter Bare
+    length' = given "length" Type.len
+    angle = given "angle" Type.angle
+    radius = given "radius" Type.len
+    point = given "point" Type.aPoint
+    line = given "line" Line
+    circle = given "circle" Circle
+    points = ListOf Type.aPoint
+    sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
+    -- How one of several answers is chosen.
+    chosen = [Parameter (Word Near) "point" Type.aPoint] <> sided "line" Line <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
+    -- What a circle of a given radius can touch or go through.
+    touched = [point, line, circle] <> sided "line" Line <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
+    -- Of a thing the thing moved; of nothing the motion itself.
+    transforming extra =
+      concat
+        [ Form more Placement : [Form (given "what" t : more) t | t <- [Type.aPoint, Circle, Line, Contour, ListOf Type.aPoint, ListOf Circle, ListOf Line, ListOf Contour]]
+          | more <- extra
+        ]
+
+-- | A form as a call.
+written :: Builtin -> Form -> Text
+written builtin form = name builtin <> "(" <> Text.intercalate ", " (map parameter (parameters form)) <> ")"
+  where
+    parameter p = case label p of
+      Bare -> title p
+      Rank -> "first"
+      Word choice -> word choice <> " " <> title p
+    word choice = case choice of
+      Near -> "near"
+      ToLeft -> "left"
+      ToRight -> "right"
+      Within' -> "inside"
+      Beyond -> "outside"

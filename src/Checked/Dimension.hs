@@ -17,6 +17,7 @@ module Checked.Dimension
     substitute,
     describe,
     unitWord,
+    defaultUnit,
     isKnown,
     isUnknownSquare,
   )
@@ -101,6 +102,7 @@ describe d@(Dimension m)
   | d == times (atom Length) (power (-1) (atom Time)) = "a feed"
   | d == power 2 (atom Length) = "an area"
   | d == atom Time = "a time"
+  | d == power (-1) (atom Time) = "a speed of rotation"
   | isUnknownSquare d = "an area or another square"
   | Map.null known = "a quantity"
   | otherwise = "a quantity in " <> unitWord d
@@ -125,3 +127,7 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       Time -> "min"
       Place -> "point"
       Unknown _ -> ""
+
+-- | The size of a bare number of a dimension: lengths in mm, times in minutes, angles in degrees.
+defaultUnit :: Dimension -> Double
+defaultUnit d = (pi / 180) ^^ exponent Angle d

@@ -10,6 +10,7 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Name qualified as Name
 import Base.Region (Region)
+import Checked.Syntax (Operator (..))
 import Checked.Type (Type)
 import Checked.Type qualified as Type
 import Data.List.NonEmpty (NonEmpty)
@@ -29,8 +30,8 @@ data Error
     NameTaken Region Name
   | -- | what was expected, what is there, and the places where one of them was settled before
     Mismatch Region Type Type [(Region, Type)]
-  | -- | the two operands of a sum, and the places where they were settled before
-    Disagree Region (Region, Type) (Region, Type) [(Region, Type)]
+  | -- | the two operands of a sum or a comparison, and the places where they were settled before
+    Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
   | -- | an operation on things that have none: the operation in words, the operands
     NoOperation Region Text [(Region, Type)]
   | -- | function, its parameters, how many arguments
@@ -49,10 +50,22 @@ data Error
     SettingsMissing Region (NonEmpty Setting)
   | -- | a function that uses itself
     Recursive Region Name
+  | -- | a call that has none of the forms of a function: the function, what is given, its forms
+    NoForm Region Text [(Region, Type)] [Text]
+  | -- | a call with a wrong number of arguments, or with words that do not belong: the function, its forms
+    NoSuchCall Region Text [Text]
+  | -- | a statement that does not belong in a block
+    NotInBlock Region Text
+  | -- | a setting that the statement in whose braces it stands does not take: the setting, the statement
+    ForeignSetting Region Text Text
+  | -- | a setting given twice: the setting, where it stands first
+    RepeatedSetting Region Text Region
+  | -- | a tolerance of an assertion that is no comparison
+    WithinNothing Region
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
-data Setting = PartSetting | MachineSetting | ToolSetting | FeedSetting | ToleranceSetting | FromSetting
+data Setting = PartSetting | MachineSetting | ToolSetting | FeedSetting | ToleranceSetting | FromSetting | ClearanceSetting
   deriving stock (Eq, Ord, Show)
 
 -- | The words for it.
@@ -86,8 +99,8 @@ toReport err = case err of
         others = settledHere settled,
         hints = mismatchHint expected found
       }
-  Disagree region (leftRegion, left) (rightRegion, right) settled ->
-    (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be added or subtracted"))
+  Disagree region operator (leftRegion, left) (rightRegion, right) settled ->
+    (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be " <> (if operator `elem` [Add, Subtract] then "added or subtracted" else "compared")))
       { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)] <> settledHere settled
       }
   NoOperation region what operands ->
@@ -105,7 +118,7 @@ toReport err = case err of
   FunctionAsValue region (Name name) parameters ->
     (at region "E0210" (quote name <> " is a function and needs its arguments"))
       { hints =
-          ["Write " <> name <> "(" <> Text.intercalate ", " parameters <> ")."]
+          parameters
             <> ["For a feed write mm/min without spaces." | name == "min"]
       }
   SenseMissing region ->
@@ -133,6 +146,29 @@ toReport err = case err of
     (at region "E0217" (listed (NonEmpty.toList (fmap settingWord missing)) <> (if length missing == 1 then " is" else " are") <> " not given"))
       { label = "needed here",
         hints = ["Say before it, for example: " <> Text.intercalate "; " (NonEmpty.toList (fmap example missing))]
+      }
+  NoForm region name given known ->
+    (at region "E0218" (quote name <> " does not take " <> listed (map (Type.describe . snd) given)))
+      { others = [Label r (Type.describe t) | (r, t) <- given],
+        hints = formsHint known
+      }
+  NoSuchCall region name known ->
+    (at region "E0219" (quote name <> " is not called like this"))
+      { hints = formsHint known
+      }
+  NotInBlock region word ->
+    (at region "E0220" (quote word <> " does not belong in a block"))
+      { hints = ["It holds for the whole program: move it above the block."]
+      }
+  ForeignSetting region setting statement ->
+    at region "E0221" (quote statement <> " has no setting " <> quote setting)
+  RepeatedSetting region setting before ->
+    (at region "E0222" (quote setting <> " is given twice"))
+      { others = [Label before "first given here"]
+      }
+  WithinNothing region ->
+    (at region "E0223" "‘within’ needs two values that are to be equal")
+      { hints = ["Write: assert a = b within d"]
       }
   Recursive region (Name name) ->
     (at region "E0214" (quote name <> " is used in its own definition"))
@@ -165,6 +201,7 @@ settingWord setting = case setting of
   FeedSetting -> "the feed"
   ToleranceSetting -> "the tolerance"
   FromSetting -> "the starting point"
+  ClearanceSetting -> "the clearance height"
 
 example :: Setting -> Text
 example setting = case setting of
@@ -174,6 +211,14 @@ example setting = case setting of
   FeedSetting -> "feed 60 mm/min"
   ToleranceSetting -> "tolerance 0.02 mm"
   FromSetting -> "from (0, 0)"
+  ClearanceSetting -> "clearance 5 mm"
+
+-- | At most a handful of the forms of a function.
+formsHint :: [Text] -> [Text]
+formsHint known = case known of
+  [] -> []
+  [one] -> ["Write " <> one <> "."]
+  _ -> ["Write one of: " <> Text.intercalate "; " (take 12 known) <> (if length known > 12 then "; …" else ".")]
 
 -- | Words in a row: a, b and c.
 listed :: [Text] -> Text

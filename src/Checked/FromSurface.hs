@@ -11,13 +11,15 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
-import Checked.Builtin (Signature (..))
+import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
-import Checked.Dimension (Atom (..), Dimension)
 import Checked.Dimension qualified as Dimension
-import Checked.Error (Error (..), Setting (..))
-import Checked.Infer (Arithmetic (..), Entry (..), Infer, Solution)
+import Checked.Error (Error (..))
+import Checked.Infer (Infer, Solution)
 import Checked.Infer qualified as Infer
+import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Pending (..))
+import Checked.Settings (settings)
+import Checked.Settings qualified as Settings
 import Checked.Syntax (Program (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
@@ -29,9 +31,10 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
-import Surface.Token (Unit (..))
+import Surface.Token (Numeral (..), Unit (..))
 
 -- | A term that is known when the whole program has been looked at.
 type Later a = Solution -> a
@@ -42,13 +45,14 @@ check Surface.Program {Surface.statements = written} =
   Result {warnings = [], errors = settings written <> found, output = Just program}
   where
     defined = Map.fromListWith (\_ first -> first) (concatMap definition written)
-    (found, solution, checked) = Infer.run (catMaybes <$> mapM (statement defined) written)
+    (found, solution, checked, mentions) = Infer.run (catMaybes <$> mapM (statement defined) written)
     program =
       Program
         { name = firstOf [value n | Located _ (Surface.Part n _) <- written],
           title = firstOf [value t | Located _ (Surface.Part _ (Just t)) <- written],
           machine = firstOf [m | Located _ (Surface.Machine m) <- written],
-          statements = map ($ solution) checked
+          statements = map ($ solution) checked,
+          mentions
         }
     firstOf xs = case xs of
       [] -> Nothing
@@ -59,63 +63,10 @@ definition :: Statement -> [(Name, Region)]
 definition (Located _ s) = case s of
   Surface.LetValue n _ -> [(value n, region n)]
   Surface.LetFunction n _ _ -> [(value n, region n)]
+  Surface.Param n _ -> [(value n, region n)]
   Surface.Contour n _ _ -> [(value n, region n)]
   Surface.Broken _ (Just n) -> [(value n, region n)]
-  Surface.Broken _ Nothing -> []
-  Surface.Part _ _ -> []
-  Surface.Machine _ -> []
-  Surface.Tool _ -> []
-  Surface.Feed _ -> []
-  Surface.Tolerance _ -> []
-  Surface.From _ -> []
-  Surface.Mill {} -> []
-  Surface.Travel _ -> []
-
--- Settings
-
--- | The statements that a program needs: the part's name first, the others once and before their use.
-settings :: [Statement] -> [Error]
-settings written = begins <> go Map.empty written
-  where
-    begins = case written of
-      Located _ (Surface.Part _ _) : _ -> []
-      Located _ (Surface.Broken (Just "part") _) : _ -> []
-      Located at _ : _ -> [NoPart at {end = start at}]
-      [] -> [NoPart (Region 0 0)]
-    go seen statements = case statements of
-      [] -> []
-      Located at s : rest ->
-        let (given, needed) = use s
-            missing = maybe [] (\some -> [SettingsMissing at {end = start at + length' s} some]) (NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed))
-            twice = [SettingTwice at one before | Just one <- [given], one /= FeedSetting, Just before <- [Map.lookup one seen]]
-            seen' = foldr (\one -> Map.insertWith (\_ old -> old) one at) seen (needed <> maybe [] pure given)
-         in missing <> twice <> go seen' rest
-    -- The keyword of the statement.
-    length' s = case s of
-      Surface.Travel _ -> 5
-      _ -> 4
-    use s = case s of
-      Surface.Part _ _ -> (Just PartSetting, [])
-      Surface.Machine _ -> (Just MachineSetting, [])
-      Surface.Tool _ -> (Just ToolSetting, [])
-      Surface.Feed _ -> (Just FeedSetting, [])
-      Surface.Tolerance _ -> (Just ToleranceSetting, [])
-      Surface.From _ -> (Just FromSetting, [])
-      Surface.Mill {} -> (Nothing, [ToolSetting, FeedSetting, ToleranceSetting, FromSetting])
-      Surface.Travel stops ->
-        (Nothing, FromSetting : [FeedSetting | any ((== Surface.Cutting) . Surface.pace) (NonEmpty.toList stops)])
-      Surface.LetValue _ _ -> (Nothing, [])
-      Surface.LetFunction {} -> (Nothing, [])
-      Surface.Contour {} -> (Nothing, [])
-      Surface.Broken word _ -> (word >>= (`lookup` words'), [])
-    words' =
-      [ ("part", PartSetting),
-        ("machine", MachineSetting),
-        ("tool", ToolSetting),
-        ("feed", FeedSetting),
-        ("tolerance", ToleranceSetting),
-        ("from", FromSetting)
-      ]
+  _ -> []
 
 -- Statements
 
@@ -124,17 +75,19 @@ type Defined = Map Name Region
 
 statement :: Defined -> Statement -> Infer (Maybe (Later Checked.Statement))
 statement defined (Located at s) = case s of
-  Surface.Part _ _ -> pure Nothing
+  Surface.Part n _ -> Nothing <$ Infer.mention (region n) (Just (region n)) (nameText n) (Infer.Said "the name of the part")
   Surface.Machine _ -> pure Nothing
+  Surface.Import _ -> pure Nothing
   Surface.Broken _ name -> Nothing <$ mapM_ (\n -> Infer.define (value n) (Poisoned (region n))) name
-  Surface.Tool e -> plain (\e' sol -> Checked.Tool (e' sol)) <$> Infer.separately (expect defined Type.len e)
-  Surface.Feed e -> plain (\e' sol -> Checked.Feed (e' sol)) <$> Infer.separately (expect defined Type.feed e)
-  Surface.Tolerance e -> plain (\e' sol -> Checked.Tolerance (e' sol)) <$> Infer.separately (expect defined Type.len e)
-  Surface.From e -> plain (\e' sol -> Checked.From (e' sol)) <$> Infer.separately (expect defined Type.aPoint e)
-  Surface.LetValue name e -> do
-    checked <- Infer.separately (unused name *> infer defined e)
-    defining name (\(t, _) -> Value (region name) t) checked
-    pure (plain (\(_, e') sol -> Checked.LetValue (value name) (e' sol)) checked)
+  Surface.Tool c -> one Checked.Tool (cutter defined c)
+  Surface.Feed e -> one Checked.Feed (expect defined Type.feed e)
+  Surface.Tolerance accuracy -> one Checked.Tolerance $ case accuracy of
+    Surface.Within e -> (Checked.Within .) <$> expect defined Type.len e
+    Surface.Between a b -> (\a' b' sol -> Checked.Between (a' sol) (b' sol)) <$> expect defined Type.len a <*> expect defined Type.len b
+  Surface.Clearance e -> one Checked.Clearance (expect defined Type.len e)
+  Surface.From e -> one Checked.From (spot defined e)
+  Surface.LetValue name e -> binding name e
+  Surface.Param name e -> binding name e
   Surface.LetFunction name parameters e -> do
     checked <- Infer.separately (unused name *> function defined name parameters e)
     defining name fst checked
@@ -143,21 +96,97 @@ statement defined (Located at s) = case s of
     checked <- Infer.separately (unused name *> mapM (item defined) items)
     defining name (const (Value (region name) Type.Contour)) checked
     pure (plain (\items' sol -> Checked.Contour name closure (map ($ sol) items')) checked)
-  Surface.Mill e side options -> do
-    checked <- Infer.separately $ do
-      e' <- expect defined Type.Contour e
-      options' <- mapM (setting defined) options
-      pure (e', concatMap fst options', concatMap snd options')
-    pure (plain (\(e', before, after) sol -> Checked.Mill (e' sol) side (map ($ sol) before) (map ($ sol) after)) checked)
-  Surface.Travel stops ->
-    plain (\stops' sol -> Checked.Travel (fmap ($ sol) stops')) <$> Infer.separately (mapM (stop defined) stops)
+  Surface.Assert e within -> one Checked.Assert (assertion defined e within)
+  Surface.Mill e side options -> machining Checked.Mill "mill" e side options
+  Surface.Turn e side options -> machining Checked.Turn "turn" e side options
+  Surface.Drill points depth options ->
+    one (\(p, d, o) -> Checked.Drill p d o) $ do
+      points' <- places defined points
+      depth' <- expect defined Type.len depth
+      options' <- Settings.check (expect defined) (stop defined) "drill" options
+      pure (\sol -> (points' sol, depth' sol, options' sol))
+  Surface.Travel motion stops -> one Checked.Travel ((\ps sol -> fmap ($ sol) ps) <$> mapM (stop defined . paced motion) stops)
+  Surface.Change e c -> one (uncurry Checked.Change) ((\n c' sol -> (n sol, c' sol)) <$> expect defined Type.number e <*> cutter defined c)
+  Surface.Spindle spin -> one Checked.Spindle $ case spin of
+    Surface.Still -> pure (const Checked.Still)
+    Surface.Spinning sense speed -> do
+      speed' <- traverse (expect defined Type.turns) speed
+      pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
+  Surface.Coolant switch -> one Checked.Coolant (pure (const switch))
+  Surface.Auxiliary e -> one Checked.Auxiliary (expect defined Type.number e)
+  Surface.Repeat counter list body -> do
+    checked <- Infer.separately (repetition defined counter list)
+    body' <- inBlock (maybe (Poisoned (region counter)) (Local (region counter) . fst) checked) (Just counter) body
+    pure (plain (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (map ($ sol) body')) checked)
+  Surface.When e body others -> do
+    checked <- Infer.separately (expect defined Type.Truth' e)
+    body' <- block' body
+    others' <- block' others
+    pure (plain (\e' sol -> Checked.When (e' sol) (map ($ sol) body') (map ($ sol) others')) checked)
+  Surface.With e body -> do
+    checked <- Infer.separately (expect defined Type.Placement e)
+    body' <- block' body
+    pure (plain (\e' sol -> Checked.With (e' sol) (map ($ sol) body')) checked)
   where
     plain f = fmap (\x sol -> Located at (f x sol))
+    one make inside = plain (\x sol -> make (x sol)) <$> Infer.separately inside
+    binding name e = do
+      checked <- Infer.separately (unused name *> infer defined e)
+      defining name (\(t, _) -> Value (region name) t) checked
+      d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Infer.known . fst) checked
+      pure (plain (\(_, e') sol -> Checked.LetValue name (sol d) (e' sol)) checked)
+    machining make word e side options =
+      one (\(c, o) -> make c side o) $ do
+        e' <- expect defined Type.Contour e
+        options' <- Settings.check (expect defined) (stop defined) word options
+        pure (\sol -> (e' sol, options' sol))
     defining name entry checked = do
       already <- Infer.find (value name)
       case already of
         Just _ -> pure ()
-        Nothing -> Infer.define (value name) (maybe (Poisoned (region name)) entry checked)
+        Nothing -> do
+          let entry' = maybe (Poisoned (region name)) entry checked
+          Infer.define (value name) entry'
+          mapM_ (Infer.mention (region name) (Just (region name)) (nameText name)) (meaningOf entry')
+    -- What is defined in a block is known only there.
+    block' body = catMaybes <$> Infer.scoped (mapM (statement (inner body)) body)
+    inBlock entry counter body = Infer.scoped $ do
+      mapM_ (\n -> Infer.define (value n) entry *> mapM_ (Infer.mention (region n) (Just (region n)) (nameText n)) (meaningOf entry)) counter
+      catMaybes <$> mapM (statement (inner body)) body
+    inner body = Map.union (Map.fromListWith (\_ first -> first) (concatMap definition body)) defined
+
+-- | What a reader is told of a name.
+meaningOf :: Entry -> Maybe Infer.Meaning
+meaningOf entry = case entry of
+  Value _ t -> Just (Infer.Valued t)
+  Local _ t -> Just (Infer.Valued t)
+  Function _ parameters scheme -> Just (Infer.Callable parameters scheme)
+  Poisoned _ -> Nothing
+
+-- | The stops of @rapid@ are reached in rapid unless they say otherwise.
+paced :: Surface.Motion -> Surface.Stop -> Surface.Stop
+paced motion s = case (motion, Surface.pace s) of
+  (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
+  _ -> s
+
+cutter :: Defined -> Surface.Cutter -> Infer (Later Checked.Cutter)
+cutter defined (Located at c) = fmap (Located at .) $ case c of
+  Surface.MillCutter e -> (Checked.MillCutter .) <$> expect defined Type.len e
+  Surface.DrillCutter e -> (Checked.DrillCutter .) <$> expect defined Type.len e
+  Surface.TurningCutter e -> (Checked.TurningCutter .) <$> expect defined Type.len e
+
+-- | Something that has to be true, or two quantities that have to be equal.
+assertion :: Defined -> Surface.Expr -> Maybe Surface.Expr -> Infer (Later Checked.Assertion)
+assertion defined e within = case (value e, within) of
+  (Surface.Binary Surface.Equal l r, _) -> do
+    (lt, l') <- infer defined l
+    (rt, r') <- infer defined r
+    _ <- operation (region e) Surface.Equal (region l, lt) (region r, rt)
+    within' <- traverse (expect defined lt) within
+    d <- Type.dimensionOf <$> Infer.known lt
+    pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
+  (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Infer.mistake (WithinNothing (region d)) *> expect defined Type.Truth' e)
+  (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
 
 -- | A name that can be given.
 unused :: Located Name -> Infer ()
@@ -167,7 +196,7 @@ unused (Located at name@(Name text)) = do
     Just (Value before _) -> Infer.mistake (DefinedTwice at name before)
     Just (Function before _ _) -> Infer.mistake (DefinedTwice at name before)
     Just (Poisoned before) -> Infer.mistake (DefinedTwice at name before)
-    Just (Local _) -> pure ()
+    Just (Local _ _) -> pure ()
     Nothing -> pure ()
   when (text `elem` Builtin.names) (Infer.mistake (NameTaken at name))
 
@@ -177,7 +206,7 @@ function defined name parameters body = do
   twice (NonEmpty.toList parameters)
   (scheme, body') <- Infer.generalising $ do
     ts <- mapM (const Infer.freshType) (NonEmpty.toList parameters)
-    (t, e) <- Infer.withLocals (zip (map value (NonEmpty.toList parameters)) ts) (infer defined body)
+    (t, e) <- Infer.withLocals (zip (NonEmpty.toList parameters) ts) (infer defined body)
     pure (ts, t, e)
   pure (Function (region name) [text | Located _ (Name text) <- NonEmpty.toList parameters] scheme, body')
   where
@@ -187,24 +216,43 @@ function defined name parameters body = do
         mapM_ (\again -> Infer.mistake (DefinedTwice (region again) (value n) (region n))) (take 1 (filter ((== value n) . value) rest))
         twice rest
 
--- | Approach and retract points.
-setting :: Defined -> Surface.Setting -> Infer ([Later Checked.Stop], [Later Checked.Stop])
-setting defined (Located _ s) = case s of
-  Surface.Approach stops -> (\ps -> (NonEmpty.toList ps, [])) <$> mapM (stop defined) stops
-  Surface.Retract stops -> (\ps -> ([], NonEmpty.toList ps)) <$> mapM (stop defined) stops
-  Surface.BrokenSetting -> ([], []) <$ Infer.taint
-
 nameText :: Located Name -> Text
 nameText (Located _ (Name text)) = text
 
 stop :: Defined -> Surface.Stop -> Infer (Later Checked.Stop)
 stop defined (Surface.Stop p pace) = do
-  p' <- expect defined Type.aPoint p
+  p' <- spot defined p
   pace' <- case pace of
     Surface.Cutting -> pure (const Checked.Cutting)
     Surface.Rapid -> pure (const Checked.Rapid)
     Surface.AtFeed f -> (Checked.AtFeed .) <$> expect defined Type.feed f
   pure (\sol -> Checked.Stop (p' sol) (pace' sol))
+
+-- | A point of the plane, or one with a height.
+spot :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
+spot defined e = do
+  (t, e') <- infer defined e
+  t' <- Infer.known t
+  unless (t' == Type.Space) (equal (region e) Type.aPoint t)
+  pure e'
+
+-- | A list of points, or one point.
+places :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
+places defined e = do
+  (t, e') <- infer defined e
+  t' <- Infer.known t
+  case t' of
+    Type.Spatial _ -> equal (region e) Type.aPoint t
+    _ -> equal (region e) (Type.ListOf Type.aPoint) t
+  pure e'
+
+-- | The variable and the list of a repetition.
+repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+repetition defined counter list = do
+  when (nameText counter `elem` Builtin.names) (Infer.mistake (NameTaken (region counter) (value counter)))
+  t <- Infer.freshType
+  list' <- expect defined (Type.ListOf t) list
+  pure (t, list')
 
 item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
 item defined (Located at i) = case i of
@@ -213,17 +261,27 @@ item defined (Located at i) = case i of
     Infer.taint
     pure (const (Located at (Checked.For (Name "") (Located at (Checked.List [])) [])))
   Surface.For counter list items -> do
-    when (nameText counter `elem` Builtin.names) (Infer.mistake (NameTaken (region counter) (value counter)))
-    t <- Infer.freshType
-    list' <- expect defined (Type.ListOf t) list
-    items' <- Infer.withLocals [(value counter, t)] (mapM (item defined) items)
+    (t, list') <- repetition defined counter list
+    items' <- Infer.withLocals [(counter, t)] (mapM (item defined) items)
     pure (\sol -> Located at (Checked.For (value counter) (list' sol) (map ($ sol) items')))
-  Surface.Element walk e link -> do
+  Surface.Choose e items others -> do
+    e' <- expect defined Type.Truth' e
+    items' <- mapM (item defined) items
+    others' <- mapM (item defined) others
+    pure (\sol -> Located at (Checked.Choose (e' sol) (map ($ sol) items') (map ($ sol) others')))
+  Surface.Element walk e modifiers link -> do
     e' <- walked defined walk e
+    modifiers' <- mapM (modified defined) modifiers
     link' <- traverse (linked defined) link
-    pure (\sol -> Located at (Checked.Element (value <$> walk) (e' sol) (($ sol) <$> link')))
+    pure (\sol -> Located at (Checked.Element (value <$> walk) (e' sol) (map ($ sol) modifiers') (($ sol) <$> link')))
 
--- | A circle with its sense, or a line or a point without one.
+modified :: Defined -> Surface.Modifier -> Infer (Later Checked.Modifier)
+modified defined (Located at m) = fmap (Located at .) $ case m of
+  Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect defined Type.feed e
+  Surface.Slow -> pure (const Checked.Slow)
+  Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect defined Type.len e
+
+-- | A circle with its sense, or a line, a point or a contour without one.
 walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Later Checked.Expr)
 walked defined walk e = do
   (t, e') <- infer defined e
@@ -232,8 +290,10 @@ walked defined walk e = do
     (Type.Circle, Nothing) -> Infer.mistake (SenseMissing (region e))
     (Type.Circle, Just _) -> pure ()
     (Type.Line, Nothing) -> pure ()
+    (Type.Contour, Nothing) -> pure ()
     (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
     (Type.Line, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+    (Type.Contour, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
     (Type.Spatial _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
     (Type.Variable _, Just _) -> equal (region e) Type.Circle t
     (Type.Wrong, _) -> pure ()
@@ -268,62 +328,111 @@ agrees :: Region -> Type -> Type -> Infer Bool
 agrees at wanted t = do
   found <- Infer.known t
   wanted' <- Infer.known wanted
-  places <- Infer.settledPlaces [(at, t, found), (at, wanted, wanted')]
+  settled <- Infer.settledPlaces [(at, t, found), (at, wanted, wanted')]
   same <- Infer.unify at wanted t
-  unless same (Infer.mistakeOnce (map fst places) (Mismatch at wanted' found places))
+  unless same (Infer.mistakeOnce (map fst settled) (Mismatch at wanted' found settled))
   pure same
 
 infer :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 infer defined (Located at e) = case e of
-  Surface.Literal x (Just unit) ->
+  Surface.Literal (Numeral _ x) (Just unit) ->
     let (t, factor) = unitType unit in pure (t, const (Located at (Checked.Number (x * factor))))
-  Surface.Literal x Nothing -> do
+  Surface.Literal (Numeral _ x) Nothing -> do
     d <- Infer.freshDimension
     -- A bare number means one thing everywhere; only nothing is nothing in every unit.
     unless (x == 0) (Infer.monomorphic d)
-    pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * defaultUnit (sol d))))
+    pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
   Surface.Variable name -> variable defined at name
   Surface.Call name arguments -> call defined at name arguments
   Surface.Negate inner -> do
     (t, inner') <- infer defined inner
-    result <- Infer.freshType
-    Infer.require Arithmetic {place = at, operator = Surface.Multiply, left = (at, Type.number), right = (region inner, t), outcome = result}
+    result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
     pure (result, \sol -> Located at (Checked.Negate (inner' sol)))
+  Surface.Not inner -> do
+    inner' <- expect defined Type.Truth' inner
+    pure (Type.Truth', \sol -> Located at (Checked.Not (inner' sol)))
+  Surface.Binary op l r | op `elem` [Surface.And, Surface.Or] -> do
+    l' <- expect defined Type.Truth' l
+    r' <- expect defined Type.Truth' r
+    pure (Type.Truth', \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
   Surface.Binary op l r -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
-    result <- Infer.freshType
-    Infer.require Arithmetic {place = at, operator = op, left = (region l, lt), right = (region r, rt), outcome = result}
+    result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
+  Surface.Range low high Nothing -> do
+    low' <- expect defined Type.number low
+    high' <- expect defined Type.number high
+    pure (Type.ListOf Type.number, \sol -> Located at (Checked.Range (low' sol) (high' sol) Nothing))
+  Surface.Range low high (Just step) -> do
+    d <- Infer.freshDimension
+    low' <- expect defined (Type.Quantity d) low
+    high' <- expect defined (Type.Quantity d) high
+    step' <- expect defined (Type.Quantity d) step
+    pure (Type.ListOf (Type.Quantity d), \sol -> Located at (Checked.Range (low' sol) (high' sol) (Just (step' sol))))
+  Surface.If c a b -> do
+    c' <- expect defined Type.Truth' c
+    (t, a') <- infer defined a
+    b' <- expect defined t b
+    pure (t, \sol -> Located at (Checked.If (c' sol) (a' sol) (b' sol)))
   Surface.Pair x y -> do
     x' <- expect defined Type.len x
     y' <- expect defined Type.len y
     d <- Infer.freshDimension
     pure (Type.Spatial d, \sol -> Located at (Checked.Pair (x' sol) (y' sol)))
+  Surface.Triple x y z -> do
+    x' <- expect defined Type.len x
+    y' <- expect defined Type.len y
+    z' <- expect defined Type.len z
+    pure (Type.Space, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
   Surface.List es -> do
     t <- Infer.freshType
     es' <- mapM (expect defined t) es
     pure (Type.ListOf t, \sol -> Located at (Checked.List (map ($ sol) es')))
+  Surface.Each inner counter list -> do
+    (t, list') <- repetition defined counter list
+    (result, inner') <- Infer.withLocals [(counter, t)] (infer defined inner)
+    pure (Type.ListOf result, \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol)))
+
+-- | The result of an operation.
+operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
+operation place operator left right = do
+  outcome <- Infer.freshType
+  Infer.require (Operation Arithmetic {place, operator, left, right, outcome})
+  pure outcome
 
 variable :: Defined -> Region -> Name -> Infer (Type, Later Checked.Expr)
 variable defined at name@(Name text) = do
   entry <- Infer.find name
   case entry of
-    Just (Value _ t) -> pure (t, here (Checked.Variable name))
-    Just (Local t) -> pure (t, here (Checked.Variable name))
-    Just (Function _ parameters _) -> wrong (FunctionAsValue at name parameters)
+    Just (Value there t) -> (t, here (Checked.Variable name)) <$ Infer.mention at (Just there) text (Infer.Valued t)
+    Just (Local there t) -> (t, here (Checked.Variable name)) <$ Infer.mention at (Just there) text (Infer.Valued t)
+    Just (Function there parameters scheme) -> do
+      Infer.mention at (Just there) text (Infer.Callable parameters scheme)
+      wrong (FunctionAsValue at name ["Write " <> text <> "(" <> Text.intercalate ", " parameters <> ")."])
     Just (Poisoned _) -> nothing <$ Infer.taint
-    Nothing -> do
-      d <- Infer.freshDimension
-      case Builtin.lookup text of
-        Just (builtin, make) -> case make d of
-          Signature [] t -> pure (t, here (Checked.Builtin builtin []))
-          Signature parameters _ -> wrong (FunctionAsValue at name (map fst parameters))
-        Nothing -> unknown defined at name >>= wrong
+    Nothing -> case Builtin.lookup text of
+      Just builtin -> do
+        Infer.mention at Nothing text (Infer.Said (builtinMeaning builtin))
+        forms <- fresh builtin
+        case forms of
+          [Form [] t] -> pure (t, here (Checked.Builtin builtin []))
+          _ -> wrong (FunctionAsValue at name (Infer.formsHint builtin))
+      Nothing -> unknown defined at name >>= wrong
   where
     here e _ = Located at e
     nothing = (Type.Wrong, here (Checked.Number 0))
     wrong e = nothing <$ Infer.mistake e
+
+-- | The forms of a builtin with unknowns of their own.
+fresh :: Checked.Builtin -> Infer [Form]
+fresh builtin = do
+  d <- Infer.freshDimension
+  t <- Infer.freshType
+  pure (Builtin.forms Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t} builtin)
+
+builtinMeaning :: Checked.Builtin -> Text
+builtinMeaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (Infer.formsOf builtin))
 
 -- | A name that means nothing here: it stands further down, it is being defined, or it is misspelt.
 unknown :: Defined -> Region -> Name -> Infer Error
@@ -335,38 +444,70 @@ unknown defined at name = do
       | otherwise -> Recursive at name
     Nothing -> UndefinedName at name ([text | Name text <- names] <> Builtin.names)
 
-call :: Defined -> Region -> Located Name -> NonEmpty Surface.Expr -> Infer (Type, Later Checked.Expr)
+call :: Defined -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer (Type, Later Checked.Expr)
 call defined at (Located place name@(Name text)) arguments = do
   entry <- Infer.find name
   case entry of
-    Just (Function _ parameters scheme) -> do
+    Just (Function there parameters scheme) -> do
+      Infer.mention place (Just there) text (Infer.Callable parameters scheme)
       (ts, t, operations) <- Infer.instantiate at scheme
-      applied parameters ts t (\es -> Checked.Apply name (NonEmpty.fromList es)) <* operations
+      case plain of
+        Just es
+          | length es == length ts -> do
+            checked <- zipWithM argument ts es
+            operations
+            pure (if all fst checked then t else Type.Wrong, \sol -> Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked))))
+        _ -> wrong (ArgumentCount at name parameters (length given))
     Just (Value before _) -> wrong (NotAFunction place name (Just before))
-    Just (Local _) -> wrong (NotAFunction place name Nothing)
+    Just (Local before _) -> wrong (NotAFunction place name (Just before))
     Just (Poisoned _) -> nothing <$ (otherArguments *> Infer.taint)
-    Nothing -> do
-      d <- Infer.freshDimension
-      case Builtin.lookup text of
-        Just (_, make) | null (parameters (make d)) -> wrong (NotAFunction place name Nothing)
-        Just (builtin, make) ->
-          let Signature ps t = make d in applied (map fst ps) (map snd ps) t (Checked.Builtin builtin)
-        Nothing -> unknown defined place name >>= wrong
+    Nothing -> case Builtin.lookup text of
+      Just builtin
+        | Builtin.isConstant builtin -> wrong (NotAFunction place name Nothing)
+        | otherwise -> Infer.mention place Nothing text (Infer.Said (builtinMeaning builtin)) *> builtinCall builtin
+      Nothing -> unknown defined place name >>= wrong
   where
     given = NonEmpty.toList arguments
     nothing = (Type.Wrong, const (Located at (Checked.Number 0)))
+    -- The arguments, if no words stand before them.
+    plain = sequence [case a of Surface.Given e -> Just e; Surface.Chosen _ _ -> Nothing; Surface.Ranked _ -> Nothing | a <- given]
     -- The arguments may contain mistakes of their own.
-    otherArguments = mapM_ (infer defined) given
+    otherArguments = mapM_ (infer defined) (concatMap valueOf given)
     wrong e = nothing <$ (otherArguments *> Infer.mistake e)
-    applied names ts t make
-      | length ts /= length given = wrong (ArgumentCount at name names (length given))
-      | otherwise = do
-        checked <- zipWithM argument ts given
-        pure (if all fst checked then t else Type.Wrong, \sol -> Located at (make (map (($ sol) . snd) checked)))
     argument wanted e = do
       (t, e') <- infer defined e
       fine <- agrees (region e) wanted t
       pure (fine, e')
+    builtinCall builtin = do
+      forms <- fresh builtin
+      case [f | f <- forms, map Builtin.label (Builtin.parameters f) == labels] of
+        []
+          | Just es <- plain, [form] <- forms -> wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
+          | otherwise -> wrong (NoSuchCall at text (Infer.formsOf builtin))
+        [form] -> do
+          checked <- zipWithM argument (map Builtin.type' (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))) (concatMap valueOf given)
+          pure (if all fst checked then Builtin.result form else Type.Wrong, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
+        _ -> do
+          checked <- mapM (infer defined) (concatMap valueOf given)
+          chosen <- Infer.freshType
+          Infer.require (Overloaded Choice {at, builtin, labels, given = zip (map region (concatMap valueOf given)) (map fst checked), chosen})
+          pure (chosen, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
+    labels = [case a of Surface.Given _ -> Builtin.Bare; Surface.Chosen word _ -> Builtin.Word (value word); Surface.Ranked _ -> Builtin.Rank | a <- given]
+    -- The checked values with the words before them.
+    rebuilt values = go given values
+      where
+        go as vs = case (as, vs) of
+          (Surface.Given _ : more, v : rest) -> Checked.Given v : go more rest
+          (Surface.Chosen word _ : more, v : rest) -> Checked.Chosen (value word) v : go more rest
+          (Surface.Ranked rank : more, _) -> Checked.Ranked (value rank) : go more vs
+          _ -> []
+
+-- | The value of an argument; a rank has none.
+valueOf :: Surface.Argument -> [Surface.Expr]
+valueOf argument = case argument of
+  Surface.Given e -> [e]
+  Surface.Chosen _ e -> [e]
+  Surface.Ranked _ -> []
 
 -- Units
 
@@ -382,7 +523,4 @@ unitType unit = case unit of
   MmPerMin -> (Type.feed, 1)
   MPerMin -> (Type.feed, 1000)
   InPerMin -> (Type.feed, 25.4)
-
--- | The size of a bare number of a dimension: lengths in mm, times in minutes, angles in degrees.
-defaultUnit :: Dimension -> Double
-defaultUnit d = (pi / 180) ^^ Dimension.exponent Angle d
+  Rpm -> (Type.turns, 1)

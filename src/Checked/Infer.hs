@@ -2,9 +2,8 @@
 -- and the equations between types.
 module Checked.Infer
   ( Infer,
-    Entry (..),
-    Scheme (..),
     Solution,
+    Meaning (..),
     run,
 
     -- * Mistakes
@@ -16,6 +15,7 @@ module Checked.Infer
     -- * Names
     find,
     define,
+    scoped,
     withLocals,
     entries,
 
@@ -34,22 +34,32 @@ module Checked.Infer
     generalising,
     instantiate,
 
-    -- * Arithmetic
-    Arithmetic (..),
+    -- * What is decided later
     require,
     settle,
+
+    -- * Names in the text
+    mention,
+    formsOf,
+    formsHint,
   )
 where
 
 import Base.Name (Name)
-import Base.Region (Region)
+import Base.Name qualified as Name
+import Base.Region (Located (..), Region)
+import Checked.Builtin (Form, Fresh (..), Label (..), label)
+import Checked.Builtin qualified as Builtin
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
+import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Meaning (..), Pending (..), Scheme (..))
+import Checked.Syntax (Builtin, Mention (Mention), Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Control.Monad (filterM, unless, when)
 import Control.Monad.State.Strict (State, get, gets, modify', put, runState)
+import Data.Containers.ListUtils (nubOrd)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet (IntSet)
@@ -61,7 +71,7 @@ import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
-import Surface.Syntax (Operator (..))
+import Data.Text qualified as Text
 
 type Infer = State Memory
 
@@ -78,7 +88,8 @@ data Memory = Memory
     outside :: Int,
     -- | younger unknowns that must not be generalised
     shared :: IntSet,
-    pending :: [Arithmetic],
+    pending :: [Pending],
+    mentioned :: [(Region, Maybe Region, Text, Meaning)],
     found :: [Error],
     tainted :: Bool,
     -- | places that decided an unknown wrongly used elsewhere; each is reported once
@@ -86,23 +97,19 @@ data Memory = Memory
     scope :: Map Name Entry
   }
 
--- | What a name stands for.
-data Entry
-  = Value Region Type
-  | Function Region [Text] Scheme
-  | -- | a parameter or the variable of a repetition
-    Local Type
-  | -- | a definition that is already reported as wrong
-    Poisoned Region
-
--- | The type of a function: the unknowns that are fresh at each use, and the operations of its body that
--- can be decided only when the arguments are known.
-data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type, open :: [Arithmetic]}
-
--- | Run a check from the beginning: the errors in order, the solution, the output.
-run :: Infer a -> ([Error], Solution, a)
-run infer = (reverse (found memory), resolveDimension (dimensions memory), a)
+-- | Run a check from the beginning: the errors in order, the solution, the output, and the names of the text.
+run :: Infer a -> ([Error], Solution, a, [Mention])
+run infer = (reverse (found memory), resolveDimension (dimensions memory), a, map said (mentioned memory))
   where
+    said (place', definition, word, meaning') = Mention place' definition word (inWords meaning')
+    inWords meaning' = case meaning' of
+      Valued t -> Type.describe (resolve memory t)
+      Callable names scheme ->
+        "a function of ("
+          <> Text.intercalate ", " (zipWith (\n t -> n <> ": " <> Type.describe (resolve memory t)) names (parameters scheme))
+          <> ") giving "
+          <> Type.describe (resolve memory (result scheme))
+      Said text -> text
     (a, memory) = runState infer start
     start =
       Memory
@@ -113,11 +120,16 @@ run infer = (reverse (found memory), resolveDimension (dimensions memory), a)
           outside = 0,
           shared = IntSet.empty,
           pending = [],
+          mentioned = [],
           found = [],
           tainted = False,
           blamed = Set.empty,
           scope = Map.empty
         }
+
+-- | A name stands at a place; where it is defined, and what it means.
+mention :: Region -> Maybe Region -> Text -> Meaning -> Infer ()
+mention place' definition word meaning' = modify' (\m -> m {mentioned = (place', definition, word, meaning') : mentioned m})
 
 -- Mistakes
 
@@ -140,10 +152,12 @@ taint = modify' (\m -> m {tainted = True})
 -- | Check a statement; Nothing when it contains a mistake.
 separately :: Infer a -> Infer (Maybe a)
 separately infer = do
+  before <- gets tainted
   modify' (\m -> m {tainted = False})
   a <- infer
   settle
   bad <- gets tainted
+  modify' (\m -> m {tainted = before})
   pure (if bad then Nothing else Just a)
 
 -- Names
@@ -157,14 +171,18 @@ entries = gets (Map.keys . scope)
 define :: Name -> Entry -> Infer ()
 define name entry = modify' (\m -> m {scope = Map.insert name entry (scope m)})
 
--- | With names that are known only here.
-withLocals :: [(Name, Type)] -> Infer a -> Infer a
-withLocals locals infer = do
+-- | What is defined inside is known only there.
+scoped :: Infer a -> Infer a
+scoped infer = do
   before <- gets scope
-  mapM_ (\(name, t) -> define name (Local t)) locals
   a <- infer
   modify' (\m -> m {scope = before})
   pure a
+
+-- | With names that are known only here.
+withLocals :: [(Located Name, Type)] -> Infer a -> Infer a
+withLocals locals infer =
+  scoped (mapM_ (\(Located at' name, t) -> define name (Local at' t) *> mention at' (Just at') (Name.text name) (Valued t)) locals *> infer)
 
 -- Unknowns
 
@@ -200,6 +218,9 @@ resolve m t = case t of
   Circle -> t
   Line -> t
   Contour -> t
+  Truth' -> t
+  Space -> t
+  Placement -> t
   Wrong -> t
 
 resolveDimension :: IntMap Dimension -> Dimension -> Dimension
@@ -219,6 +240,9 @@ decidedAt t = gets (\m -> listToMaybe (places m t))
       Circle -> []
       Line -> []
       Contour -> []
+      Truth' -> []
+      Space -> []
+      Placement -> []
       Wrong -> []
     ofDimension m d =
       concat
@@ -300,33 +324,50 @@ generalising infer = do
   put m {outside = before}
   pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r', open}, a)
   where
-    typesOf op = [snd (left op), snd (right op), outcome op]
+    typesOf op = case op of
+      Operation a -> [snd (left a), snd (right a), outcome a]
+      Overloaded c -> chosen c : map snd (given c)
     sharedNow m n =
       Type.variables (resolve m (Variable n))
         <> Dimension.unknowns (resolveDimension (dimensions m) (Dimension.atom (Dimension.Unknown n)))
 
--- | The operations that stay open, each once. When there are too many, what is unknown is a quantity after all.
-undecided :: Infer [Arithmetic]
+-- | What stays open, each once. When there is too much, what is unknown is a quantity after all.
+undecided :: Infer [Pending]
 undecided = do
-  waiting <- decide >>= mapM knownOperation
+  waiting <- decide >>= mapM asKnown
   once <- merged waiting
   if length once > mostOpen
     then [] <$ (modify' (\m -> m {pending = reverse once}) *> settle)
     else if length once < length waiting then modify' (\m -> m {pending = reverse once}) *> undecided else pure once
   where
-    knownOperation op = do
-      l <- known (snd (left op))
-      r <- known (snd (right op))
-      o <- known (outcome op)
-      pure op {left = (fst (left op), l), right = (fst (right op), r), outcome = o}
+    asKnown op = case op of
+      Operation a -> do
+        l <- traverse known (left a)
+        r <- traverse known (right a)
+        o <- known (outcome a)
+        pure (Operation a {left = l, right = r, outcome = o})
+      Overloaded c -> do
+        arguments <- traverse (traverse known) (given c)
+        o <- known (chosen c)
+        pure (Overloaded c {given = arguments, chosen = o})
     -- Equal operations on equal operands have equal outcomes.
     merged ops = case ops of
       [] -> pure []
       op : rest -> do
         let (same, different) = partition (alike op) rest
-        mapM_ (unify (place op) (outcome op) . outcome) same
+        mapM_ (unify (placeOf op) (outcomeOf op) . outcomeOf) same
         (op :) <$> merged different
-    alike a b = operator a == operator b && snd (left a) == snd (left b) && snd (right a) == snd (right b)
+    alike a b = case (a, b) of
+      (Operation o, Operation p) -> operator o == operator p && snd (left o) == snd (left p) && snd (right o) == snd (right p)
+      (Overloaded c, Overloaded d) -> builtin c == builtin d && labels c == labels d && map snd (given c) == map snd (given d)
+      (Operation _, Overloaded _) -> False
+      (Overloaded _, Operation _) -> False
+    placeOf op = case op of
+      Operation a -> place a
+      Overloaded c -> at c
+    outcomeOf op = case op of
+      Operation a -> outcome a
+      Overloaded c -> chosen c
 
 -- | A function leaves at most so many operations open.
 mostOpen :: Int
@@ -345,32 +386,27 @@ instantiate use scheme = do
         Circle -> t
         Line -> t
         Contour -> t
+        Truth' -> t
+        Space -> t
+        Placement -> t
         Wrong -> t
       dimension d = foldl (\d' n -> Dimension.substitute n (fresh n) d') d (Dimension.unknowns d)
       fresh n = Dimension.atom (Dimension.Unknown (IntMap.findWithDefault n n renamed))
-      operation op = op {place = use, left = type' <$> left op, right = type' <$> right op, outcome = type' (outcome op)}
+      operation op = case op of
+        Operation a -> Operation a {place = use, left = type' <$> left a, right = type' <$> right a, outcome = type' (outcome a)}
+        Overloaded c -> Overloaded c {at = use, given = map (fmap type') (given c), chosen = type' (chosen c)}
   pure (map type' (parameters scheme), type' (result scheme), mapM_ (require . operation) (open scheme))
 
--- Arithmetic
+-- What is decided later
 
--- | An operation whose operands may not be known yet.
-data Arithmetic = Arithmetic
-  { place :: Region,
-    operator :: Operator,
-    left :: (Region, Type),
-    right :: (Region, Type),
-    outcome :: Type
-  }
+-- | Something has to make sense, now or when more is known.
+require :: Pending -> Infer ()
+require p = do
+  done <- attempt p
+  unless done (modify' (\m -> m {pending = p : pending m}))
 
--- | An operation has to make sense, now or when its operands are known.
-require :: Arithmetic -> Infer ()
-require a = do
-  done <- attempt a
-  unless done (modify' (\m -> m {pending = a : pending m}))
-
--- | Decide the waiting operations as far as their operands are known by now; the others are returned, and
--- wait no longer.
-decide :: Infer [Arithmetic]
+-- | Decide what waits as far as enough is known by now; the rest is returned, and waits no longer.
+decide :: Infer [Pending]
 decide = do
   waiting <- gets pending
   modify' (\m -> m {pending = []})
@@ -379,16 +415,20 @@ decide = do
     then modify' (\m -> m {pending = reverse left'}) *> decide
     else pure left'
 
--- | Decide all waiting operations: what is still unknown is a quantity.
+-- | Decide all that waits: what is still unknown is a quantity, and of several forms the first is meant.
 settle :: Infer ()
 settle = do
   open <- decide
   case open of
     [] -> pure ()
-    first : _ -> do
+    Operation first : _ -> do
       quantity (left first)
       quantity (right first)
       modify' (\m -> m {pending = reverse open}) *> settle
+    Overloaded first : rest -> do
+      remaining <- fitting first
+      mapM_ (take' first) (take 1 remaining)
+      modify' (\m -> m {pending = reverse rest}) *> settle
   where
     quantity (region, t) = do
       t' <- known t
@@ -399,14 +439,80 @@ settle = do
           pure ()
         _ -> pure ()
 
+-- | Decide something if enough is known; False when it has to wait.
+attempt :: Pending -> Infer Bool
+attempt p = case p of
+  Operation a -> operate a
+  Overloaded c -> choose c
+
+-- Functions of several forms
+
+-- | Take the one form that fits a call.
+choose :: Choice -> Infer Bool
+choose c = do
+  remaining <- fitting c
+  arguments <- traverse (known . snd) (given c)
+  case remaining of
+    [] -> do
+      unless (Wrong `elem` arguments) (mistake (NoForm (at c) (Builtin.name (builtin c)) (zip (map fst (given c)) arguments) (map (Builtin.written (builtin c)) (alternatives c))))
+      taint
+      True <$ unify (at c) (chosen c) Wrong
+    [only] -> True <$ take' c only
+    _ -> pure False
+
+-- | Let a call mean a form.
+take' :: Choice -> Form -> Infer ()
+take' c form = do
+  mapM_ (\((region, t), p) -> unify region (Builtin.type' p) t) (zip (given c) (filter ((/= Rank) . label) (Builtin.parameters form)))
+  _ <- unify (at c) (chosen c) (Builtin.result form)
+  pure ()
+
+-- | The forms with the number and the words of a call's arguments. The unknowns of a form are its own.
+alternatives :: Choice -> [Form]
+alternatives c = [f | f <- Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} (builtin c), map label (Builtin.parameters f) == labels c]
+
+-- | The forms that the arguments fit as far as they are known.
+fitting :: Choice -> Infer [Form]
+fitting c = do
+  arguments <- traverse (known . snd) (given c)
+  d <- freshDimension
+  t <- freshType
+  let same = [f | f <- Builtin.forms Fresh {dimension = d, anything = t} (builtin c), map label (Builtin.parameters f) == labels c]
+  pure [f | f <- same, and (zipWith mayBe arguments (map Builtin.type' (filter ((/= Rank) . label) (Builtin.parameters f))))]
+
+-- | Whether a type, as far as it is known, may turn out to be another.
+mayBe :: Type -> Type -> Bool
+mayBe found' wanted = case (found', wanted) of
+  (Variable _, _) -> True
+  (_, Variable _) -> True
+  (Wrong, _) -> True
+  (_, Wrong) -> True
+  (Quantity d, Quantity e) -> dimensionMayBe d e
+  (Spatial d, Spatial e) -> dimensionMayBe d e
+  (ListOf a, ListOf b) -> mayBe a b
+  _ -> found' == wanted
+  where
+    dimensionMayBe d e = d == e || not (Dimension.isKnown d) || not (Dimension.isKnown e)
+
+-- | The forms of a function as calls, for a reader.
+formsOf :: Builtin -> [Text]
+formsOf builtin = nubOrd (map (Builtin.written builtin) (Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
+
+-- | What to write instead of a function's bare name.
+formsHint :: Builtin -> [Text]
+formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formsOf builtin)) <> "."]
+
+-- Arithmetic
+
 -- | Decide an operation if enough is known; False when it has to wait.
-attempt :: Arithmetic -> Infer Bool
-attempt a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcome') = do
+operate :: Arithmetic -> Infer Bool
+operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcome') = do
   l <- known left'
   r <- known right'
   case (op, l, r) of
     (_, Wrong, _) -> result' Wrong
     (_, _, Wrong) -> result' Wrong
+    _ | compares -> comparison l r
     (Add, Quantity d, Quantity e) -> sum' d e l r
     (Subtract, Quantity d, Quantity e) -> sum' d e l r
     (Add, Spatial d, Spatial e) -> result' (Spatial (Dimension.times d e))
@@ -431,28 +537,38 @@ attempt a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
       | leftRegion == region -> wrong (NoOperation region "a minus" [(rightRegion, r)])
       | otherwise -> wrong (NoOperation region "a product" [(leftRegion, l), (rightRegion, r)])
     (Divide, _, _) -> wrong (NoOperation region "a quotient" [(leftRegion, l), (rightRegion, r)])
+    -- Comparisons are dealt with above; and, or are typed where they stand.
+    _ -> result' Truth'
   where
+    compares = op `elem` [Less, AtMost, Greater, AtLeast, Equal, Unequal]
+    -- Only quantities of one kind can be compared.
+    comparison l r = case (l, r) of
+      (Variable _, Variable _) -> pure False
+      _ -> do
+        d <- freshDimension
+        fine <- (&&) <$> unify leftRegion (Quantity d) l <*> unify rightRegion (Quantity d) r
+        if fine then result' Truth' else disagree l r
     quotient d e = Dimension.times d (Dimension.power (-1) e)
     result' t = True <$ unify region outcome' t
     wrong e = mistake e *> result' Wrong
     disagree l r = do
       places <- settledPlaces [(leftRegion, left', l), (rightRegion, right', r)]
-      mistakeOnce (map fst places) (Disagree region (leftRegion, l) (rightRegion, r) places)
+      mistakeOnce (map fst places) (Disagree region op (leftRegion, l) (rightRegion, r) places)
       result' Wrong
     sum' d e l r = do
       same <- unifyDimensions region d e
       if same then result' (Quantity d) else disagree l r
     -- In a sum an unknown operand is of the other one's kind.
     alike l r = case (l, r) of
-      (Variable _, Quantity d) -> Just (unify leftRegion l (Quantity d) *> attempt a)
-      (Quantity d, Variable _) -> Just (unify rightRegion r (Quantity d) *> attempt a)
+      (Variable _, Quantity d) -> Just (unify leftRegion l (Quantity d) *> operate a)
+      (Quantity d, Variable _) -> Just (unify rightRegion r (Quantity d) *> operate a)
       (Variable _, Spatial _) -> Just (pair leftRegion l)
       (Spatial _, Variable _) -> Just (pair rightRegion r)
       _ -> Nothing
-    pair at t = do
+    pair at' t = do
       d <- freshDimension
-      _ <- unify at t (Spatial d)
-      attempt a
+      _ <- unify at' t (Spatial d)
+      operate a
     -- A vector is stretched by a plain number.
     scaled numberRegion factor vectorRegion vector = do
       plain <- unify numberRegion factor Type.number

@@ -1,13 +1,23 @@
 -- | The program after checking: every name known, every term of the right type, every number in
--- mm, radians and mm/min.
+-- mm, radians, minutes and turns.
 module Checked.Syntax
   ( Program (..),
+    Mention (..),
     Statement,
     Statement_ (..),
+    Cutter,
+    Cutter_ (..),
+    Accuracy (..),
+    Spin (..),
+    Assertion (..),
+    Settings (..),
     Expr,
     Expr_ (..),
+    Argument (..),
     Item,
     Item_ (..),
+    Modifier,
+    Modifier_ (..),
     Link,
     Link_ (..),
     Stop (..),
@@ -15,43 +25,106 @@ module Checked.Syntax
     Builtin (..),
 
     -- * As in the surface syntax
+    Choice (..),
     Closure (..),
+    Corners (..),
+    CutSense (..),
+    Lead (..),
+    LeadForm (..),
     MachineRef (..),
     Operator (..),
+    Rank (..),
     Side (..),
+    Switch (..),
     Walk (..),
   )
 where
 
 import Base.Name (Name)
-import Base.Region (Located)
+import Base.Region (Located, Region)
+import Checked.Dimension (Dimension)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
-import Surface.Syntax (Closure (..), MachineRef (..), Operator (..), Side (..), Walk (..))
+import Surface.Syntax (Choice (..), Closure (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Side (..), Switch (..), Walk (..))
 
 -- | A program. Statements that contain a mistake are left out.
 data Program = Program
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
-    statements :: [Statement]
+    statements :: [Statement],
+    -- | every place at which a name stands, in no order
+    mentions :: [Mention]
   }
+  deriving stock (Eq, Show)
+
+-- | A name where it is defined or used: its place, where it is defined unless the language brings it
+-- along, and what it means.
+data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Text, meaning :: Text}
   deriving stock (Eq, Show)
 
 type Statement = Located Statement_
 
 data Statement_
-  = -- | the diameter of a cutter
-    Tool Expr
+  = Tool Cutter
   | Feed Expr
-  | Tolerance Expr
+  | Tolerance Accuracy
+  | Clearance Expr
   | From Expr
-  | LetValue Name Expr
+  | -- | with the dimension of its quantities
+    LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
   | Contour (Located Name) Closure [Item]
-  | -- | the contour, the side, approach points, retract points
-    Mill Expr (Located Side) [Stop] [Stop]
+  | Assert Assertion
+  | Mill Expr (Located Side) Settings
+  | Turn Expr (Located Side) Settings
+  | -- | the points, the depth
+    Drill Expr Expr Settings
   | Travel (NonEmpty Stop)
+  | -- | the number of the tool
+    Change Expr Cutter
+  | Spindle Spin
+  | Coolant Switch
+  | Auxiliary Expr
+  | Repeat Name Expr [Statement]
+  | When Expr [Statement] [Statement]
+  | With Expr [Statement]
+  deriving stock (Eq, Show)
+
+type Cutter = Located Cutter_
+
+-- | A mill or a drill by its diameter, a turning tool by the radius of its nose.
+data Cutter_ = MillCutter Expr | DrillCutter Expr | TurningCutter Expr
+  deriving stock (Eq, Show)
+
+data Accuracy = Within Expr | Between Expr Expr
+  deriving stock (Eq, Show)
+
+data Spin = Spinning Walk (Maybe Expr) | Still
+  deriving stock (Eq, Show)
+
+-- | What has to hold.
+data Assertion
+  = Holds Expr
+  | -- | two quantities that have to be equal, within a third
+    Agrees Dimension Expr Expr (Maybe Expr)
+  deriving stock (Eq, Show)
+
+-- | What stands in the braces of a machining statement.
+data Settings = Settings
+  { approach :: [Stop],
+    retract :: [Stop],
+    -- | how deep, and the most of it in one pass
+    depth :: Maybe (Expr, Maybe Expr),
+    leadIn :: Maybe (LeadForm, Expr),
+    leadOut :: Maybe (LeadForm, Expr),
+    allowances :: Maybe (NonEmpty Expr),
+    corners :: Corners,
+    sense :: Maybe (Located CutSense),
+    startNear :: Maybe Expr,
+    plunge :: Maybe Expr,
+    peck :: Maybe Expr
+  }
   deriving stock (Eq, Show)
 
 type Expr = Located Expr_
@@ -61,20 +134,57 @@ data Expr_
   | Variable Name
   | -- | a function of the program
     Apply Name (NonEmpty Expr)
-  | Builtin Builtin [Expr]
+  | Builtin Builtin [Argument]
   | Negate Expr
+  | Not Expr
   | Binary Operator Expr Expr
+  | Range Expr Expr (Maybe Expr)
+  | If Expr Expr Expr
   | Pair Expr Expr
+  | Triple Expr Expr Expr
   | List [Expr]
+  | Each Expr Name Expr
+  deriving stock (Eq, Show)
+
+data Argument = Given Expr | Chosen Choice Expr | Ranked Rank
   deriving stock (Eq, Show)
 
 -- | What the language brings along.
 data Builtin
   = Pi
+  | Truth
+  | Falsehood
   | Polar
-  | MakeCircle
+  | Intersection
+  | CentreOf
+  | Midpoint
+  | Foot
+  | Tangency
+  | PointOn
   | MakeLine
+  | Horizontal
+  | Vertical
+  | Parallel
+  | Perpendicular
+  | MakeCircle
+  | Concentric
   | Distance
+  | DirectionOf
+  | RadiusOf
+  | LengthOf
+  | XOf
+  | YOf
+  | Moved
+  | Rotated
+  | Mirrored
+  | Scaled
+  | Reversed
+  | Row
+  | Grid
+  | Around
+  | Count
+  | ItemOf
+  | Lift
   | Sin
   | Cos
   | Tan
@@ -86,14 +196,21 @@ data Builtin
   | Min
   | Max
   | Floor
-  deriving stock (Eq, Show, Enum, Bounded)
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 type Item = Located Item_
 
+-- | What stands in the braces of a contour.
 data Item_
-  = -- | a circle in its sense, a line, or a point, and the link behind it
-    Element (Maybe Walk) Expr (Maybe Link)
+  = -- | a circle in its sense, a line, a point or a contour, what is asked on it, and the link behind it
+    Element (Maybe Walk) Expr [Modifier] (Maybe Link)
   | For Name Expr [Item]
+  | Choose Expr [Item] [Item]
+  deriving stock (Eq, Show)
+
+type Modifier = Located Modifier_
+
+data Modifier_ = AtElementFeed Expr | Slow | ElementAllowance Expr
   deriving stock (Eq, Show)
 
 type Link = Located Link_

@@ -5,11 +5,13 @@ module Checked.Type
     len,
     angle,
     feed,
+    turns,
     aPoint,
     aVector,
     describe,
     isSquare,
     dimensions,
+    dimensionOf,
     variables,
   )
 where
@@ -17,6 +19,7 @@ where
 import Checked.Dimension (Atom (..), Dimension)
 import Checked.Dimension qualified as Dimension
 import Data.Text (Text)
+import Data.Text qualified as Text
 
 -- | What a value is.
 data Type
@@ -27,6 +30,12 @@ data Type
   | Circle
   | Line
   | Contour
+  | -- | true or false
+    Truth'
+  | -- | a point with a height
+    Space
+  | -- | a motion of the plane
+    Placement
   | ListOf Type
   | -- | not yet known
     Variable Int
@@ -34,11 +43,12 @@ data Type
     Wrong
   deriving stock (Eq, Show)
 
-number, len, angle, feed, aPoint, aVector :: Type
+number, len, angle, feed, turns, aPoint, aVector :: Type
 number = Quantity Dimension.none
 len = Quantity (Dimension.atom Length)
 angle = Quantity (Dimension.atom Angle)
 feed = Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
+turns = Quantity (Dimension.power (-1) (Dimension.atom Time))
 aPoint = Spatial (Dimension.atom Place)
 aVector = Spatial Dimension.none
 
@@ -54,15 +64,39 @@ describe t = case t of
   Circle -> "a circle"
   Line -> "a line"
   Contour -> "a contour"
-  ListOf _ -> "a list"
+  Truth' -> "true or false"
+  Space -> "a point with a height"
+  Placement -> "a transformation"
+  ListOf inner -> case inner of
+    Quantity d | Dimension.isKnown d -> "a list of " <> plural inner
+    Spatial d | Dimension.isKnown d -> "a list of " <> plural inner
+    Circle -> "a list of circles"
+    Line -> "a list of lines"
+    Contour -> "a list of contours"
+    _ -> "a list"
   Variable _ -> "a value"
   Wrong -> "a value"
+
+-- | Several of a known kind.
+plural :: Type -> Text
+plural t = case Text.words (describe t) of
+  [_, word, "in", unit] -> word <> " in " <> unit
+  [_, "quantity"] -> "quantities"
+  article : words' | article `elem` ["a", "an"] -> Text.unwords words' <> "s"
+  words' -> Text.unwords words'
 
 -- | Whether it is known of a quantity only that it is a square.
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d
   _ -> False
+
+-- | The dimension of the quantities of a type; of others that of a number.
+dimensionOf :: Type -> Dimension
+dimensionOf t = case t of
+  Quantity d -> d
+  ListOf inner -> dimensionOf inner
+  _ -> Dimension.none
 
 -- | The unknown dimensions in a type.
 dimensions :: Type -> [Int]
@@ -73,6 +107,9 @@ dimensions t = case t of
   Circle -> []
   Line -> []
   Contour -> []
+  Truth' -> []
+  Space -> []
+  Placement -> []
   Variable _ -> []
   Wrong -> []
 
@@ -86,4 +123,7 @@ variables t = case t of
   Circle -> []
   Line -> []
   Contour -> []
+  Truth' -> []
+  Space -> []
+  Placement -> []
   Wrong -> []

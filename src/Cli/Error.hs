@@ -3,6 +3,7 @@ module Cli.Error
   ( Error (..),
     Warning (..),
     toReport,
+    whyNot,
     warningReport,
   )
 where
@@ -70,6 +71,12 @@ toReport err = case err of
       }
   where
     wrong = report Report.Error
+
+-- | Why a file can not be had, as the end of a sentence.
+whyNot :: Error -> Text
+whyNot err = case err of
+  CannotRead why -> why
+  _ -> "the file is not UTF-8 text"
 
 warningReport :: Warning -> Report
 warningReport warning = case warning of

@@ -7,7 +7,7 @@ module Cli.FrameTable
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Pulses (..))
+import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Position (..), Region (..), Source)
 import Base.Region qualified as Region
 import Cli.Table (Align (..))
@@ -30,13 +30,19 @@ import Machine.Machine qualified as Machine
 frames :: Machine -> Source -> Program -> Text
 frames machine source program =
   Table.columns
-    [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
-    (["frame", "for", "dx", "dy", "dz", "speed", "mm/min", "to x", "to y", "line"] : map row (numbered program))
+    ([ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight] <> [ToRight | rises] <> [ToRight | commands])
+    ((["frame", "for", "dx", "dy", "dz", "speed", "mm/min", "to x", "to y"] <> ["to z" | rises] <> ["line"] <> ["aux" | commands]) : map row (numbered program))
   where
+    -- Columns that say something.
+    rises = any (\p -> let Frame (V3 _ _ z) _ _ = frame p in z /= 0) (Frame.planned program)
+    commands = any ((/= 0) . auxiliary . frame) (Frame.planned program)
     row (n, planned, at) =
-      let Frame (V3 dx dy dz) (FeedCode s) _ = frame planned
+      let Frame (V3 dx dy dz) (FeedCode s) aux = frame planned
           p = Frame.position machine at
-       in [Decimal.whole n, roleWord (role planned), pulses dx, pulses dy, pulses dz, Decimal.whole s, feedWord machine (FeedCode s), coordinate (Vec.x p), coordinate (Vec.y p), Decimal.whole (lineOf source planned)]
+       in [Decimal.whole n, roleWord (role planned), pulses dx, pulses dy, pulses dz, Decimal.whole s, feedWord machine (FeedCode s), coordinate (Vec.x p), coordinate (Vec.y p)]
+            <> [let Mm z = Frame.height machine at in coordinate z | rises]
+            <> [Decimal.whole (lineOf source planned)]
+            <> [if aux == 0 then "" else Decimal.whole aux | commands]
     pulses (Pulses n) = Decimal.whole n
     coordinate = Decimal.fixed 3
 
@@ -54,7 +60,7 @@ framesJson machine source program = Text.concat (map row (numbered program))
               "speed" .= s,
               "feed" .= ((\(Feed f) -> f) <$> Machine.feedOf machine (FeedCode s)),
               "auxiliary" .= aux,
-              "to" .= [Vec.x p, Vec.y p],
+              "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine at in z],
               "line" .= lineOf source planned
             ]
     jsonLine pairs = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs)))) <> "\n"
@@ -72,6 +78,8 @@ roleWord r = case r of
   Cutting _ -> "cut"
   Retracting _ -> "retract"
   Travelling -> "travel"
+  Drilling -> "drill"
+  Commanding -> "command"
 
 feedWord :: Machine -> FeedCode -> Text
 feedWord machine code = maybe "" (\(Feed f) -> Decimal.short 2 f) (Machine.feedOf machine code)

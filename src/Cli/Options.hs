@@ -13,6 +13,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Options.Applicative (Parser, ParserInfo)
 import Options.Applicative qualified as Opt
 
@@ -97,7 +98,8 @@ data Overrides = Overrides
   { format' :: Maybe Format,
     colour' :: Maybe ColourChoice,
     quiet' :: Bool,
-    werror' :: Bool
+    werror' :: Bool,
+    values' :: [(Text, Text)]
   }
 
 overrides :: Parser Overrides
@@ -107,10 +109,17 @@ overrides =
     <*> optional (Opt.option (choice [("auto", Auto), ("always", Always), ("never", Never)]) (Opt.long "color" <> Opt.metavar "auto|always|never" <> Opt.help "Colours in reports" <> Opt.completeWith ["auto", "always", "never"]))
     <*> Opt.switch (Opt.long "quiet" <> Opt.short 'q' <> Opt.help "No warnings")
     <*> Opt.switch (Opt.long "werror" <> Opt.help "Warnings count as errors")
+    <*> many (Opt.option assignment (Opt.long "set" <> Opt.metavar "NAME=VALUE" <> Opt.help "Give a parameter of the program another value"))
 
 choice :: [(String, a)] -> Opt.ReadM a
 choice table = Opt.eitherReader $ \word ->
   maybe (Left ("‘" <> word <> "’ is none of: " <> unwords (map fst table))) Right (lookup word table)
+
+-- | @d=25 mm@
+assignment :: Opt.ReadM (Text, Text)
+assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) of
+  (name, rest) | not (Text.null name), not (Text.null rest) -> Right (Text.strip name, Text.drop 1 rest)
+  _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
 over :: Overrides -> Overrides -> Overrides
 over later earlier =
@@ -118,7 +127,8 @@ over later earlier =
     { format' = format' later <|> format' earlier,
       colour' = colour' later <|> colour' earlier,
       quiet' = quiet' later || quiet' earlier,
-      werror' = werror' later || werror' earlier
+      werror' = werror' later || werror' earlier,
+      values' = values' earlier <> values' later
     }
 
 settingsFrom :: Overrides -> Settings
@@ -127,5 +137,6 @@ settingsFrom o =
     { format = fromMaybe HumanFormat (format' o),
       colour = fromMaybe Auto (colour' o),
       quiet = quiet' o,
-      werror = werror' o
+      werror = werror' o,
+      values = values' o
     }

@@ -47,7 +47,9 @@ data Settings = Settings
     colour :: ColourChoice,
     quiet :: Bool,
     -- | warnings count as errors
-    werror :: Bool
+    werror :: Bool,
+    -- | values for the parameters of the program
+    values :: [(Text, Text)]
   }
   deriving stock (Eq, Show)
 

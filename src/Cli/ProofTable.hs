@@ -28,10 +28,10 @@ proof machine p =
     header = ["contour", "", "mm", "allowed", "frame"]
     passageRows c =
       let Name n = value (contour c)
-       in [[n, "gouge"] <> witness c (gouge c), ["", "excess"] <> witness c (excess c)]
-    witness c w = case w of
-      Nothing -> ["0.0000", fixed4 (allowed c), ""]
-      Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 (allowed c), Decimal.whole (Proof.frame x)]
+       in [[n, "gouge"] <> witness (allowedGouge c) (gouge c), ["", "excess"] <> witness (allowedExcess c) (excess c)]
+    witness allowed w = case w of
+      Nothing -> ["0.0000", fixed4 allowed, ""]
+      Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 allowed, Decimal.whole (Proof.frame x)]
     fixed4 (Mm x) = Decimal.fixed 4 x
     inOrder (V3 x y z) = [x, y, z]
     axes words' = Text.intercalate ", " (zipWith (\axis w -> axis <> " " <> w) ["x", "y", "z"] words') <> " pulses"

@@ -56,18 +56,32 @@ run (Invocation settings command) = case command of
 -- Reading
 
 -- | A program that could be read.
-data Loaded = Loaded {name :: Text, source :: Source}
+data Loaded = Loaded {name :: Text, texts :: Compile.Loaded}
 
--- | Read a program and go on with it.
+source :: Loaded -> Source
+source = Compile.source . texts
+
+-- | Read a program and what it imports, and go on with it.
 withProgram :: Settings -> FilePath -> (Loaded -> IO Exit) -> IO Exit
 withProgram settings file continue = do
-  bytes <- readBytes file
-  case bytes of
+  text <- readProgram file
+  case text of
     Left e -> complain settings (displayName file) e
-    Right b -> case Encoding.decodeUtf8' b of
-      Left _ -> complain settings (displayName file) NotUtf8
-      -- A mark of the byte order is not part of the text.
-      Right text -> continue Loaded {name = displayName file, source = Region.fromText (displayName file) (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)}
+    Right t -> do
+      texts <- Compile.load imported (Text.unpack (displayName file)) t
+      continue Loaded {name = displayName file, texts}
+  where
+    imported there = either (Left . Cli.whyNot) Right <$> readProgram there
+
+-- | The text of a program file.
+readProgram :: FilePath -> IO (Either Error Text)
+readProgram file = do
+  bytes <- readBytes file
+  pure $ case fmap Encoding.decodeUtf8' bytes of
+    Left e -> Left e
+    Right (Left _) -> Left NotUtf8
+    -- A mark of the byte order is not part of the text.
+    Right (Right text) -> Right (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)
 
 readBytes :: FilePath -> IO (Either Error ByteString)
 readBytes file = do
@@ -104,8 +118,8 @@ delivered settings written = case written of
   Left why -> complain settings "" (CannotWrite "to standard output" why)
   Right () -> pure Done
 
-analyse :: Loaded -> Result Report Report Analysis
-analyse loaded = Compile.analyse (Region.text (source loaded))
+analyse :: Settings -> Loaded -> Result Report Report Analysis
+analyse settings loaded = Compile.analyse (Output.values settings) (texts loaded)
 
 -- Machines
 
@@ -147,7 +161,7 @@ moving punched = if null (Frame.planned (program punched)) then Result.failed (C
 
 compile :: Settings -> CompileOptions -> IO Exit
 compile settings options = withProgram settings (file options) $ \loaded ->
-  settle settings loaded (analyse loaded `Result.thenSound` \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
+  settle settings loaded (analyse settings loaded `Result.thenSound` \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (file options) (map fst places)
     case clash of
@@ -190,7 +204,7 @@ writeAll settings files = case files of
 -- | Mistakes only: nothing past the path and the machine's limits.
 check :: Settings -> FilePath -> IO Exit
 check settings file' = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse loaded `Result.thenSound` limits) (const (pure Done))
+  settle settings loaded (analyse settings loaded `Result.thenSound` limits) (const (pure Done))
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
@@ -198,7 +212,7 @@ check settings file' = withProgram settings file' $ \loaded ->
 
 verify :: Settings -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
 verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
-  settle settings loaded (prepared target loaded) $ \(analysis, machine, punched) -> do
+  settle settings loaded (prepared settings target loaded) $ \(analysis, machine, punched) -> do
     given <- maybe (pure (Right (tape punched))) (fmap (fmap Tape) . readBytes) tapeFile
     case given of
       Left e -> complain settings (maybe "" displayName tapeFile) e
@@ -216,9 +230,9 @@ verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
           _ -> pure Failed
 
 -- | A program with its frames and tape for one machine.
-prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
-prepared target loaded =
-  analyse loaded `Result.thenSound` \a -> do
+prepared :: Settings -> Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
+prepared settings target loaded =
+  analyse settings loaded `Result.thenSound` \a -> do
     ms <- chosen (maybe [] pure target) a
     case ms of
       m : _ -> (a,m,) <$> (Compile.punch m (path a) >>= moving)
@@ -226,12 +240,12 @@ prepared target loaded =
 
 frames :: Settings -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames settings file' target json = withProgram settings file' $ \loaded ->
-  settle settings loaded (prepared target loaded) $ \(_, machine, punched) -> do
+  settle settings loaded (prepared settings target loaded) $ \(_, machine, punched) -> do
     printed settings ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
 
 report :: Settings -> FilePath -> Maybe Text -> IO Exit
 report settings file' target = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine a) $ \(a, punched) ->
+  settle settings loaded (analyse settings loaded `Result.thenSound` \a -> (a,) <$> onMachine a) $ \(a, punched) ->
     printed settings (NodeTable.nodes punched a)
   where
     onMachine a = case (target, Part.machine (part a)) of
@@ -257,7 +271,7 @@ decode settings target tapeFile = case maybe (Left (NoMachineForTape known)) mac
 
 plot :: Settings -> FilePath -> Maybe FilePath -> IO Exit
 plot settings file' place = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse loaded) $ \analysis -> do
+  settle settings loaded (analyse settings loaded) $ \analysis -> do
     let svg = Plot.plot (part analysis) (path analysis)
     case place of
       Just p | p /= "-" -> do

@@ -80,7 +80,7 @@ set part path =
       tools = nub (map radius millings)
     }
   where
-    begin = value (Path.start path)
+    begin = Part.plane (value (Path.start path))
     millings = concatMap millingOf (Part.operations part)
     contours = nub (Part.contours part <> map contour millings)
     between = concatMap movesBetween (Path.blocks path)
@@ -90,12 +90,16 @@ set part path =
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
+  Drill _ -> []
   Travel _ -> []
+  Command _ -> []
 
 movesBetween :: Block -> [Move]
 movesBetween block = case block of
-  Travelling moves -> moves
+  Travelling _ moves -> moves
   Cutting {approach, retract} -> approach <> retract
+  Holing _ moves -> moves
+  Commanding _ -> []
 
 -- | What has to be on the page.
 boxesOf :: [Part.Contour] -> Path -> [Box]
@@ -106,7 +110,9 @@ boxesOf contours path =
 
 cutterBox :: Block -> [Box]
 cutterBox block = case block of
-  Travelling _ -> []
+  Travelling _ _ -> []
+  Holing (Located _ d) _ -> [Box.inflate (Part.drillRadius d) (Box.ofPoints p []) | Located _ p <- NonEmpty.toList (Part.holes d)]
+  Commanding _ -> []
   Cutting {job = Located _ milling, cut} ->
     [Box.inflate (radius milling) (Box.ofPoints (Segment.start (Path.segment (NonEmpty.head cut))) [])]
 
@@ -126,7 +132,9 @@ sideOf milling = case Path.leadingSide milling of
 
 cutOf :: Sheet -> Block -> Maybe Cut
 cutOf sheet block = case block of
-  Travelling _ -> Nothing
+  Travelling _ _ -> Nothing
+  Holing _ _ -> Nothing
+  Commanding _ -> Nothing
   Cutting {job = Located _ milling, cut} ->
     Just
       Cut

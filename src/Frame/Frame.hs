@@ -5,6 +5,7 @@ module Frame.Frame
     Role (..),
     Program (..),
     position,
+    height,
     end,
     Broken (..),
     invariants,
@@ -25,11 +26,17 @@ data Frame = Frame {increment :: V3 Pulses, speed :: FeedCode, auxiliary :: Int}
   deriving stock (Eq, Show)
 
 -- | A frame with the reason for it.
-data Planned = Planned {frame :: Frame, role :: Role, origin :: Region}
+data Planned = Planned
+  { frame :: Frame,
+    role :: Role,
+    origin :: Region,
+    -- | the radius of the cutter in the spindle
+    tool :: Mm
+  }
   deriving stock (Eq, Show)
 
--- | What a frame does. The number counts the milling statements from 0.
-data Role = Approaching Int | Cutting Int | Retracting Int | Travelling
+-- | What a frame does. The number counts the passes along contours from 0.
+data Role = Approaching Int | Cutting Int | Retracting Int | Travelling | Drilling | Commanding
   deriving stock (Eq, Show)
 
 -- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of the part.
@@ -41,6 +48,10 @@ position :: Machine -> V3 Pulses -> Point
 position machine (V3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * p) (fromIntegral y * p)
   where
     Mm p = Machine.pulse machine
+
+-- | The height of a position in mm.
+height :: Machine -> V3 Pulses -> Mm
+height machine (V3 _ _ (Pulses z)) = let Mm p = Machine.pulse machine in Mm (fromIntegral z * p)
 
 -- | Where the cutter stands after the last frame.
 end :: Program -> V3 Pulses

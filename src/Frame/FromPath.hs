@@ -7,32 +7,41 @@ module Frame.FromPath
   )
 where
 
-import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..), plus)
+import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
-import Frame.Error (Error (..), Warning (..))
+import Frame.Error (CommandKind (..), Error (..), Warning (..))
 import Frame.Frame (Frame (..), Planned (Planned, frame), Program (Program), Role (..))
 import Frame.Frame qualified as Frame
 import Geometry.Box qualified as Box
+import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V3 (V3 (..))
-import Machine.Machine (Axis (..), FeedCode, Machine)
+import Machine.Machine (Axis (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Pace (..))
+import Part.Part (Command, Milling, Pace (..), Spot (..))
 import Part.Part qualified as Part
+import Path.FromPart qualified as Path
 import Path.Path (Move (..), Path)
 import Path.Path qualified as Path
 
--- | A move with its role and the chord error allowed on it.
-data Task = Task {role :: Role, sagitta :: Mm, move :: Move}
+-- | What becomes frames: a move with its role and the chord error allowed on it, or a command.
+data Task = Task {role :: Role, error' :: ChordError, tool :: Mm, move :: Move} | Order (Located Command)
+
+-- | How far chords may be off.
+data ChordError
+  = -- | between points of the path
+    Sagitta Mm
+  | -- | so far towards the centre of an arc, and so far away from it
+    BandOf Mm Mm
 
 -- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an increment is
 -- the difference of two of them, so rounding never adds up.
@@ -41,24 +50,32 @@ quantise machine path = case problems of
   [] -> Result warnings [] (Just (Program begin planned))
   _ -> Result warnings problems Nothing
   where
-    tasks = tasksOf path
-    from = Path.start path
-    begin = rounded machine (value from)
-    planned = concat (zipWith (framesOf machine) (begin : map (rounded machine . Segment.end . segment . move) tasks) tasks)
-    warnings = nubOrd (startWarning <> mapMaybe feedWarning tasks)
+    tasks = tasksOf machine path
+    moves = [t | t@Task {} <- tasks]
+    Located fromRegion (Spot fromPoint fromHeight) = Path.start path
+    begin = rounded machine (fromPoint, fromHeight)
+    planned = framesOf machine begin tasks
+    warnings = nubOrd (startWarning <> mapMaybe feedWarning moves <> take 1 (mapMaybe heightWarning moves) <> byHand)
     startWarning =
       let at = Frame.position machine begin
-       in [StartRounded (region from) (value from) at | not (Vec.near at (value from))]
+       in [StartRounded fromRegion fromPoint at | not (Vec.near at fromPoint)]
     feedWarning task = case pace (move task) of
       Rapid -> Nothing
       At (Located region asked@(Feed f)) -> case Machine.chooseFeed machine asked of
         Machine.Given _ given@(Feed g) | abs (g - f) > feedSlack * f -> Just (FeedDiffers region asked given)
         _ -> Nothing
-    problems = nubOrd (mapMaybe toleranceProblem (Path.blocks path) <> mapMaybe feedProblem tasks <> mapMaybe reachProblem tasks <> tooLong)
+    heightWarning task = if Z `notElem` Machine.driven machine && uncurry (/=) (heights (move task)) then Just (HeightUnsure (origin (move task))) else Nothing
+    byHand = [ByHand region (kindOf c) | Order (Located region c) <- tasks, not (onTape c)]
+    problems = nubOrd (mapMaybe toleranceProblem (Path.blocks path) <> mapMaybe feedProblem moves <> mapMaybe reachProblem moves <> mapMaybe commandProblem tasks <> tooLong)
     toleranceProblem block = case block of
       Path.Cutting {Path.job = Located _ job}
-        | value (Part.side job) /= Part.On && plus (Part.tolerance job) (Machine.pulse machine) >= Part.radius job ->
-          Just (ToleranceTooLarge (region (Part.side job)) (Part.tolerance job) (Part.radius job))
+        | Path.touchedRadius job > Mm 0 && plus allowed (Machine.pulse machine) >= Part.radius job ->
+          Just (ToleranceTooLarge (region (Part.side job)) allowed (Part.radius job))
+        where
+          allowed = uncurry max (Part.deepest (Part.tolerance job))
+      _ -> Nothing
+    commandProblem task = case task of
+      Order (Located region (Part.Auxiliary n)) | n > Machine.auxiliaries machine -> Just (NoSuchCommand region n (Machine.auxiliaries machine))
       _ -> Nothing
     feedProblem task = case pace (move task) of
       Rapid -> Nothing
@@ -67,14 +84,32 @@ quantise machine path = case problems of
         Machine.Given _ _ -> Nothing
     reachProblem task =
       let Box.Box l b r t = Box.ofSegment (segment (move task))
-       in beyond (origin (move task)) (Vec.point l b) <|> beyond (origin (move task)) (Vec.point r t) <|> beyond (region from) (value from)
+       in beyond (origin (move task)) (Vec.point l b) <|> beyond (origin (move task)) (Vec.point r t) <|> beyond fromRegion fromPoint
     beyond :: Region -> Point -> Maybe Error
     beyond region p = if max (abs (Vec.x p)) (abs (Vec.y p)) <= limit then Nothing else Just (OutOfReach region p Tolerance.reach)
     Mm limit = Tolerance.reach
-    tooLong = case dropWhile ((<= mostFrames) . fst) (scanl (\(n, _) t -> (n + count t, Just t)) (0, Nothing) tasks) of
+    tooLong = case dropWhile ((<= mostFrames) . fst) (scanl (\(n, _) t -> (n + count t, Just t)) (0, Nothing) moves) of
       (_, Just t) : _ -> [TooManyFrames (origin (move t)) mostFrames]
       _ -> []
-    count task = frameCount machine (sagitta task) (segment (move task))
+    count task = frameCount machine (error' task) (segment (move task))
+
+-- | Whether a machine is told a command by its tape.
+onTape :: Command -> Bool
+onTape c = case c of
+  Part.Auxiliary _ -> True
+  Part.SpindleOn _ _ -> False
+  Part.SpindleOff -> False
+  Part.CoolantTo _ -> False
+  Part.ChangeTool _ _ -> False
+
+-- | What a command is about.
+kindOf :: Command -> CommandKind
+kindOf c = case c of
+  Part.Auxiliary _ -> AuxiliaryCommand
+  Part.SpindleOn _ _ -> SpindleCommand
+  Part.SpindleOff -> SpindleCommand
+  Part.CoolantTo _ -> CoolantCommand
+  Part.ChangeTool _ _ -> ToolCommand
 
 -- | A feed obtained that differs from the one asked by more than this share is worth a warning.
 feedSlack :: Double
@@ -84,36 +119,87 @@ feedSlack = 0.1
 mostFrames :: Int
 mostFrames = 1000000
 
-tasksOf :: Path -> [Task]
-tasksOf path = concat (zipWith block numbers (Path.blocks path))
+tasksOf :: Machine -> Path -> [Task]
+tasksOf machine path = concatMap (braking machine) (concat (zipWith block numbers (Path.blocks path)))
   where
-    -- How many milling statements stand before each block.
-    numbers = scanl (\n b -> case b of Path.Cutting {} -> n + 1; Path.Travelling _ -> n) (0 :: Int) (Path.blocks path)
-    straight r = map (Task r (Mm 0))
+    -- How many passes along contours stand before each block.
+    numbers = scanl (\n b -> case b of Path.Cutting {} -> n + 1; _ -> n) (0 :: Int) (Path.blocks path)
+    straight r radius = map (Task r (Sagitta (Mm 0)) radius)
     block n b = case b of
-      Path.Travelling ms -> straight Travelling ms
-      Path.Cutting job before along after ->
-        straight (Approaching n) before
-          <> map (Task (Cutting n) (Part.tolerance (value job))) (NonEmpty.toList along)
-          <> straight (Retracting n) after
+      Path.Travelling radius ms -> straight Travelling radius ms
+      Path.Holing (Located _ d) ms -> straight Drilling (Part.drillRadius d) ms
+      Path.Commanding c -> [Order c]
+      Path.Cutting {Path.job = Located _ job, Path.approach = before, Path.cut = along, Path.retract = after} ->
+        concat [led (Approaching n) job before, led (Cutting n) job (NonEmpty.toList along), led (Retracting n) job after]
+    led r job = map (\m -> Task r (chordError job (segment m)) (Part.radius job) m)
+
+-- | The chord error of a segment: on the side of the material its own, and on the other one.
+chordError :: Milling -> Segment -> ChordError
+chordError job s = case (Part.tolerance job, s) of
+  (Part.OnPath d, _) -> Sagitta d
+  (Part.Band a b, Straight _ _) -> Sagitta (max a b)
+  (Part.Band a b, Arc {sweep = Rad angle}) -> case Path.leadingSide job of
+    -- The centre of an arc lies on the left when it is walked counter-clockwise; the material lies on the
+    -- side on which the cutter is not.
+    Right (Just side)
+      | (angle > 0) == (side == Offset.LeftOf) -> BandOf b a
+      | otherwise -> BandOf a b
+    _ -> Sagitta (if a > Mm 0 && b > Mm 0 then min a b else max a b)
+
+-- | A move that slows down at its end becomes two: the last stretch, @L = v² / 2a@, runs at the lowest feed.
+braking :: Machine -> Task -> [Task]
+braking machine task = case task of
+  Task {move = m}
+    | braked m,
+      At (Located region asked) <- pace m,
+      Machine.Given _ (Feed v) <- Machine.chooseFeed machine asked ->
+      let slow = At (Located region (snd (Machine.slowest machine)))
+          stretch = (v / 60) ** 2 / (2 * Machine.deceleration machine)
+          Mm l = Segment.length (segment m)
+          (front, tail') = Segment.cutAt (1 - stretch / l) (segment m)
+       in if stretch >= l
+            then [task {move = m {pace = slow}}]
+            else [task {move = m {segment = front}}, task {move = m {segment = tail', pace = slow}}]
+  _ -> [task]
 
 -- | The nearest whole number of pulses; half a pulse goes up.
-rounded :: Machine -> Point -> V3 Pulses
-rounded machine p = V3 (pulses (Vec.x p)) (pulses (Vec.y p)) 0
+rounded :: Machine -> (Point, Mm) -> V3 Pulses
+rounded machine (p, Mm z) = V3 (pulses (Vec.x p)) (pulses (Vec.y p)) (pulses z)
   where
     Mm step = Machine.pulse machine
     pulses x = Pulses (floor (x / step + 0.5))
 
--- | The frames of one move from where the last one ended.
-framesOf :: Machine -> V3 Pulses -> Task -> [Planned]
-framesOf machine begin task = filter ((/= 0) . increment . frame) (zipWith planned (begin : stops) stops)
+-- | The frames of all tasks from a position. A command stands in the frame of the next move; before another
+-- command, and behind the last move, in a frame of its own.
+framesOf :: Machine -> V3 Pulses -> [Task] -> [Planned]
+framesOf machine = go Nothing
   where
-    stops = concat (zipWith (split machine) (begin : map (rounded machine) points) points')
-    points = chords machine (sagitta task) (segment (move task))
-    points' = zip (Segment.start (segment (move task)) : points) points
-    planned a b =
-      let f = Frame {increment = b - a, speed = speedOf machine (pace (move task)), auxiliary = 0}
-       in Planned f (role task) (origin (move task))
+    go waiting begin tasks = case tasks of
+      [] -> maybe [] (pure . alone) waiting
+      Order c : rest -> case value c of
+        Part.Auxiliary n -> maybe [] (pure . alone) waiting <> go (Just (n, region c)) begin rest
+        _ -> go waiting begin rest
+      task@Task {} : rest ->
+        let mine = moveFrames machine begin task
+            finish = rounded machine (Segment.end (segment (move task)), snd (heights (move task)))
+         in case (waiting, mine) of
+              (Just (n, _), p : more) -> p {frame = (frame p) {auxiliary = n}} : more <> go Nothing finish rest
+              _ -> mine <> go waiting finish rest
+    alone (n, region) = Planned Frame {increment = 0, speed = FeedCode 0, auxiliary = n} Commanding region (Mm 0)
+
+-- | The frames of one move from where the last one ended.
+moveFrames :: Machine -> V3 Pulses -> Task -> [Planned]
+moveFrames machine begin task = case task of
+  Order _ -> []
+  Task {role, error', tool, move = m} -> filter ((/= 0) . increment . frame) (zipWith planned (begin : stops) stops)
+    where
+      stops = concat (zipWith (split machine) (begin : map (rounded machine) points) (zip ((Segment.start (segment m), fst (heights m)) : points) points))
+      points = zip chordEnds [height' (fromIntegral k / fromIntegral count) | k <- [1 .. count]]
+      chordEnds = chordsWithin machine error' (segment m)
+      count = length chordEnds
+      height' :: Double -> Mm
+      height' t = if t >= 1 then snd (heights m) else plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
+      planned a b = Planned Frame {increment = b - a, speed = speedOf machine (pace m), auxiliary = 0} role (origin m) tool
 
 speedOf :: Machine -> Pace -> FeedCode
 speedOf machine pace = case pace of
@@ -124,18 +210,24 @@ speedOf machine pace = case pace of
 
 -- | The stops of a straight move, given the position where it begins in pulses and its exact ends:
 -- equal parts, each rounded by itself, as few as fit into the fields.
-split :: Machine -> V3 Pulses -> (Point, Point) -> [V3 Pulses]
-split machine begin (a, b) = head' (filter fits (map parts [fewest ..]))
+split :: Machine -> V3 Pulses -> ((Point, Mm), (Point, Mm)) -> [V3 Pulses]
+split machine begin ((a, za), (b, zb)) = head' (filter fits (map parts [fewest ..]))
   where
-    finish = rounded machine b
+    finish = rounded machine (b, zb)
     fewest = maximum (1 : [needed axis d | (axis, d) <- axes (finish - begin)])
     needed axis (Pulses d) = let Pulses c = Machine.capacity machine axis in if d == 0 then 1 else (abs d + c - 1) `div` c
-    parts n = [rounded machine (Vec.between (fromIntegral k / fromIntegral n) a b) | k <- [1 .. n - 1]] <> [finish]
+    parts n = [rounded machine (Vec.between t a b, plus za (times t (minus zb za))) | k <- [1 .. n - 1], let { t = fromIntegral k / fromIntegral n }] <> [finish]
     fits stops = and [abs d <= Machine.capacity machine axis | step <- zipWith (-) stops (begin : stops), (axis, d) <- axes step]
     axes (V3 x y z) = [(axis, d) | (axis, d) <- [(X, x), (Y, y), (Z, z)], d /= 0]
     head' xs = case xs of
       x : _ -> x
       [] -> [finish]
+
+-- | The ends of the chords of a segment, the last one its end.
+chordsWithin :: Machine -> ChordError -> Segment -> [Point]
+chordsWithin machine allowed s = case allowed of
+  Sagitta y -> chords machine y s
+  BandOf toward away -> bandChords machine toward away s
 
 -- | The ends of the chords of a segment, the last one its end: equal steps that stay within
 -- the sagitta, @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@ (Ural paper; R is the radius of the path),
@@ -145,11 +237,34 @@ chords machine sagitta segment = [Segment.at (fromIntegral k / fromIntegral n) s
   where
     n = chordCount machine sagitta segment
 
+-- | The ends of the chords of a segment within a band: so far towards the centre of an arc, so far away from
+-- it. Between its ends, which lie on the arc, the corners lie on the outer edge of the band, @ρ = R + δ₂@, and
+-- the chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
+bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
+bandChords machine toward away s = case s of
+  Straight _ b -> [b]
+  Arc {start = p, centre, sweep = Rad angle}
+    | away <= Mm 0 -> chords machine toward s
+    | 2 * leave >= abs angle && abs angle <= pi / 2 -> [Segment.end s]
+    | otherwise -> [corner (first + fromIntegral k * step) | k <- [0 .. count]] <> [Segment.end s]
+    where
+      Mm r = Segment.radius centre p
+      inner = max 0 (let Mm d = toward in r - d)
+      outer = let Mm d = away in r + d
+      -- From an end of the arc to where its chord touches the inner edge, and on to the outer one.
+      leave = acos (inner / r)
+      first' = min (pi / 4) (leave + acos (inner / outer))
+      widest = max (2 * asin (min 1 (let Mm pulse = Machine.pulse machine in pulse / (2 * r)))) (min (pi / 2) (2 * acos (inner / outer)))
+      count = max 0 (ceiling ((abs angle - 2 * first') / widest - 1e-9)) :: Int
+      first = if count == 0 then abs angle / 2 else first'
+      step = if count == 0 then 0 else (abs angle - 2 * first) / fromIntegral count
+      corner a = Vec.shift (Vec.scale (outer / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p))) centre
+
 -- | How many frames a segment needs, or one less for each chord: its chords, each split to fit the fields of a frame.
-frameCount :: Machine -> Mm -> Segment -> Int
-frameCount machine sagitta segment = n * max 1 (ceiling (l / fromIntegral n / (fromIntegral field * pulse)))
+frameCount :: Machine -> ChordError -> Segment -> Int
+frameCount machine allowed segment = n * max 1 (ceiling (l / fromIntegral n / (fromIntegral field * pulse)))
   where
-    n = chordCount machine sagitta segment
+    n = chordCount machine (case allowed of Sagitta y -> y; BandOf a b -> max a b) segment
     Mm l = Segment.length segment
     Mm pulse = Machine.pulse machine
     Pulses field = max 1 (minimum [Machine.capacity machine axis | axis <- [X, Y]])

@@ -12,7 +12,9 @@ module Geometry.Offset
     Origin (..),
     Obstacle (..),
     Cause (..),
+    Style (..),
     equidistant,
+    styled,
   )
 where
 
@@ -58,23 +60,36 @@ data Cause
     Collision Int Int Point
   deriving stock (Eq, Show)
 
--- | The equidistant at a radius, in the order of the walk. The radius is not negative.
+-- | How the path goes round outer corners, and how much further than the radius it stays from each segment.
+data Style = Style
+  { -- | straight on to where the two ways meet, instead of on an arc about the corner; corners that turn by
+    -- more than 120° stay round
+    sharp :: Bool,
+    -- | by the number of the segment; not negative
+    extra :: Int -> Mm
+  }
+
+-- | The equidistant at a radius, in the order of the walk, on arcs round the corners. The radius is not negative.
 equidistant :: Side -> Mm -> Contour -> Either Obstacle (NonEmpty Piece)
-equidistant side radius contour = case attempt side radius contour of
+equidistant = styled Style {sharp = False, extra = const (Mm 0)}
+
+-- | The equidistant in a style.
+styled :: Style -> Side -> Mm -> Contour -> Either Obstacle (NonEmpty Piece)
+styled style side radius contour = case attempt style side radius contour of
   Right pieces -> Right pieces
-  Left cause -> Left Obstacle {cause, largest = largestFitting side radius contour}
+  Left cause -> Left Obstacle {cause, largest = largestFitting style side radius contour}
 
 -- | The equidistant, or the first reason against it.
-attempt :: Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
-attempt side radius contour = do
-  pieces <- raw side radius contour
-  maybe (Right pieces) Left (collision radius contour pieces)
+attempt :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
+attempt style side radius contour = do
+  pieces <- raw style side radius contour
+  maybe (Right pieces) Left (collision style radius contour pieces)
 
 -- | Segments and corners, each for itself.
-raw :: Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
-raw side radius contour = do
-  shifted <- traverse (uncurry (along side radius)) (NonEmpty.zip (0 :| [1 ..]) (segments contour))
-  corners <- traverse (corner side radius (NonEmpty.length shifted)) (Contour.joints contour)
+raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
+raw style side radius contour = do
+  shifted <- traverse (\(i, s) -> along side (plus radius (extra style i)) i s) (NonEmpty.zip (0 :| [1 ..]) (segments contour))
+  corners <- traverse (corner style side radius (NonEmpty.length shifted)) (Contour.joints contour)
   let pieces = concat (zipWith (:) (NonEmpty.toList shifted) (corners <> [[]]))
       real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) pieces
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
@@ -103,26 +118,37 @@ leftward side = case side of
   LeftOf -> 1
   RightOf -> -1
 
--- | The arc about the corner behind a segment, if there is a corner.
-corner :: Side -> Mm -> Int -> (Int, Segment, Segment) -> Either Cause [Piece]
-corner side radius@(Mm r) count (number, before, after)
-  | radius <= Mm 0 || abs turned <= smooth = Right []
-  | turned * leftward side > 0 && pi - abs turned > smooth = Left (InnerCorner number ((number + 1) `mod` count) vertex)
-  | otherwise = Right [Piece (Around number) (Segment.arc sense vertex (from before') (from after'))]
+-- | The way round the corner behind a segment, if there is one, and from one distance to another.
+corner :: Style -> Side -> Mm -> Int -> (Int, Segment, Segment) -> Either Cause [Piece]
+corner style side radius count (number, before, after)
+  | abs turned <= smooth || radius <= Mm 0 = Right [Piece (Around number) (Straight p q) | r1 /= r2]
+  | turned * leftward side > 0 && pi - abs turned > smooth = Left (InnerCorner number next vertex)
+  | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Right [Piece (Around number) (Straight p tip), Piece (Around number) (Straight tip q)]
+  | otherwise = Right (map (Piece (Around number)) ([Straight p wideP | r1 < wide] <> [Segment.arc sense vertex wideP wideQ] <> [Straight wideQ q | r2 < wide]))
   where
+    next = (number + 1) `mod` count
+    r1 = plus radius (extra style number)
+    r2 = plus radius (extra style next)
+    wide = max r1 r2
+    p = from r1 before'
+    q = from r2 after'
+    wideP = from wide before'
+    wideQ = from wide after'
     Rad smooth = Tolerance.smoothAngle
     before' = Segment.endDirection before
     after' = Segment.startDirection after
     Rad turned = Vec.turn before' after'
     vertex = Segment.end before
-    from direction = Vec.shift (Vec.scale (leftward side * r) (Vec.left direction)) vertex
+    from (Mm r) direction = Vec.shift (Vec.scale (leftward side * r) (Vec.left direction)) vertex
+    -- Where the ways before and behind the corner meet.
+    tip = let Mm r = wide in Vec.shift (Vec.scale (r * tan (abs turned / 2)) before') p
     sense = case side of
       LeftOf -> Clockwise
       RightOf -> CounterClockwise
 
 -- | The worst place at which the cutter, on the equidistant, would cut the contour.
-collision :: Mm -> Contour -> NonEmpty Piece -> Maybe Cause
-collision radius contour pieces
+collision :: Style -> Mm -> Contour -> NonEmpty Piece -> Maybe Cause
+collision style radius contour pieces
   | radius <= Mm 0 || null found = Nothing
   | otherwise = case minimumBy (comparing (\(d, _, _, _) -> d)) found of
     (_, i, j, p) -> Just (Collision i j p)
@@ -132,23 +158,24 @@ collision radius contour pieces
       [ (d, i, j, p)
         | Piece origin s <- NonEmpty.toList pieces,
           let i = numberOf origin,
-          (j, other) <- Box.within (Box.inflate radius (Box.ofSegment s)) index,
+          (j, other) <- Box.within (Box.inflate widest (Box.ofSegment s)) index,
           let Nearest d p = Distance.segments s other,
-          plus d Tolerance.clearance < radius
+          plus d Tolerance.clearance < plus radius (extra style j)
       ]
+    widest = plus radius (maximum (fmap (extra style) (NonEmpty.fromList [0 .. NonEmpty.length (segments contour) - 1])))
     numberOf origin = case origin of
       Along i -> i
       Around i -> i
 
 -- | The largest radius below the one asked that fits everywhere; a smaller cutter than one that fits
 -- fits too, so halving finds it.
-largestFitting :: Side -> Mm -> Contour -> Maybe Mm
-largestFitting side asked contour
+largestFitting :: Style -> Side -> Mm -> Contour -> Maybe Mm
+largestFitting style side asked contour
   | fits smallest = Just (search smallest asked)
   | otherwise = Nothing
   where
     smallest = times 10 Tolerance.clearance
-    fits r = case attempt side r contour of
+    fits r = case attempt style side r contour of
       Right _ -> True
       Left _ -> False
     search low high

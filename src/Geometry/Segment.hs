@@ -9,6 +9,7 @@ module Geometry.Segment
     endDirection,
     directionAt,
     reverse,
+    cutAt,
     spans,
     fraction,
     radius,
@@ -92,6 +93,15 @@ reverse :: Segment -> Segment
 reverse segment = case segment of
   Straight a b -> Straight b a
   Arc {start, end, centre, sweep = Rad s} -> Arc {start = end, end = start, centre, sweep = Rad (-s)}
+
+-- | The segment in two at a fraction of its length between 0 and 1.
+cutAt :: Double -> Segment -> (Segment, Segment)
+cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
+  where
+    p = at t segment
+    part a b share = case segment of
+      Straight _ _ -> Straight a b
+      Arc {centre, sweep = Rad s} -> Arc {start = a, end = b, centre, sweep = Rad (s * share)}
 
 -- | Whether the foot of a point falls on the segment rather than before or behind it: for an arc,
 -- whether the point lies in the sector of the arc.

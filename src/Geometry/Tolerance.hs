@@ -5,6 +5,8 @@ module Geometry.Tolerance
     parallel,
     clearance,
     sameLength,
+    smallestFillet,
+    equal,
     resolution,
     reach,
   )
@@ -33,6 +35,15 @@ clearance = Mm 1e-5
 -- | Two contours whose lengths differ by no more are equally long: the choice between them is a tie.
 sameLength :: Mm
 sameLength = Mm 1e-6
+
+-- | A fillet that has to be smaller than this does not fit.
+smallestFillet :: Mm
+smallestFillet = Mm 1e-3
+
+-- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm, radians,
+-- minutes, none).
+equal :: Double
+equal = 1e-9
 
 -- | Coordinates and radii up to 1 km; anything more is a slip of the pen, and beyond what the other
 -- tolerances are meant for.

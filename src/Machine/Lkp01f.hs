@@ -40,19 +40,22 @@ lkp01f =
                (FeedCode 8, Feed 160),
                (FeedCode 9, Feed 240)
              ],
+      driven = [X, Y],
+      deceleration = 5,
       leader = 25,
       pitch = Mm 2.54,
       facts =
         [ Fact Sourced "five-track paper tape, 19 mm wide",
           Fact Sourced "code 5121 for the digits 1 to 9; four digits of x, four of y, three of z, one of speed, in this order",
           Fact Sourced "the fifth track holds the sign at a number's first digit, the auxiliary command at others, and the frame marker at the speed",
-          Fact Sourced "straight moves in x and y only",
+          Fact Sourced "straight moves in x and y only, although the frame has z",
           Fact Sourced "even frames are shifted by two units",
           Fact Reconstructed "a unit of that shift is one row of the tape",
           Fact Reconstructed "the code word of 0 is 0000; the six other words are rejected",
           Fact Reconstructed "the auxiliary command has three bits, at the second to fourth digit of x",
           Fact Reconstructed "a pulse is 0.02 mm",
           Fact Reconstructed "the speeds 1 to 9 are 15, 20, 30, 40, 60, 80, 120, 160 and 240 mm/min; rapid is 9",
+          Fact Reconstructed "a cutter that slows down does so by 5 mm/s², at the lowest speed",
           Fact Reconstructed "a gap of three blank rows behind a frame; 25 blank rows of leader and trailer; 2.54 mm from row to row"
         ]
     }

@@ -17,6 +17,8 @@ module Machine.Machine
 
     -- * Feeds
     rapidCode,
+    slowest,
+    auxiliaries,
     feedOf,
     chooseFeed,
     Choice (..),
@@ -55,6 +57,10 @@ data Machine = Machine
     layout :: Layout,
     -- | codes in rising order of their feeds
     feeds :: NonEmpty (FeedCode, Feed),
+    -- | the axes that the controller moves, by its source; a frame may have fields for others
+    driven :: [Axis],
+    -- | how fast it slows down, in mm/s²
+    deceleration :: Double,
     -- | blank rows before the first and behind the last frame
     leader :: Int,
     -- | from row to row
@@ -121,6 +127,14 @@ capacity machine axis = case find ((== Increment axis) . content) (fields (layou
 -- | The code for rapid moves: the highest.
 rapidCode :: Machine -> FeedCode
 rapidCode = fst . NonEmpty.last . feeds
+
+-- | The code for the slowest moves.
+slowest :: Machine -> (FeedCode, Feed)
+slowest = NonEmpty.head . feeds
+
+-- | The highest auxiliary command that a frame holds; 0 when it holds none.
+auxiliaries :: Machine -> Int
+auxiliaries machine = sum [2 ^ k | f <- fields (layout machine), AuxiliaryBit k <- NonEmpty.toList (service f)]
 
 -- | The feed that a code means.
 feedOf :: Machine -> FeedCode -> Maybe Feed

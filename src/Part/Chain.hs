@@ -13,10 +13,11 @@ where
 
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Region)
+import Data.Containers.ListUtils (nubOrdOn)
 import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, mapMaybe)
+import Data.Maybe (catMaybes, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Contour (Ends (..))
 import Geometry.Contour qualified as Contour
@@ -31,15 +32,62 @@ import Part.Error (Fact (..), Joined (Joined))
 import Part.Error qualified as Error
 import Part.Joint (Joint (..), Link (..))
 import Part.Joint qualified as Joint
-import Part.Part (Element (..))
+import Part.Part (Element (Element, origin, segment), Finish, plainFinish)
 
--- | An element, its place, and the link behind it with its place.
-data Walk = Walk {place :: Region, shape :: Walked, link :: Maybe (Region, Link)}
+-- | An element, its place, the ends that it has of its own, what is asked on it, and the link behind it
+-- with its place.
+data Walk = Walk
+  { place :: Region,
+    shape :: Walked,
+    begins :: Maybe Point,
+    stops :: Maybe Point,
+    finish :: Finish,
+    link :: Maybe (Region, Link)
+  }
   deriving stock (Eq, Show)
 
--- | The elements of a contour that stands at a region.
-solve :: Region -> Ends -> NonEmpty Walk -> Either Fact (NonEmpty Element)
-solve region ends walks = do
+-- | The elements of a contour that stands at a region, or all that is wrong with it.
+solve :: Region -> Ends -> NonEmpty Walk -> Either (NonEmpty Fact) (NonEmpty Element)
+solve region ends walks = case (nonMeeting, attempt region ends walks) of
+  (f : rest, _) -> Left (fmap (withLargest region ends walks) (f :| rest))
+  ([], Left f) -> Left (withLargest region ends walks f :| [])
+  ([], Right elements) -> Right elements
+  where
+    -- Links that fail whatever the others do; in a repetition one of them is enough.
+    nonMeeting = case walks of
+      _ :| [] -> []
+      first :| rest -> map snd (nubOrdOn fst [(linkPlace a b, f) | (a, b) <- zip (first : rest) (rest <> [first | ends == Closed]), Left f <- [jointsOf a b]])
+
+-- | Say of a fillet that does not fit the largest that does.
+withLargest :: Region -> Ends -> NonEmpty Walk -> Fact -> Fact
+withLargest region ends walks fact = case fact of
+  NoFillet j r _ -> NoFillet j r (largestFillet region ends walks [Error.link j])
+  Overrun at w by links _ -> Overrun at w by links (largestFillet region ends walks links)
+  _ -> fact
+
+-- | The largest radius that one of some fillets may have, the others staying as they are.
+largestFillet :: Region -> Ends -> NonEmpty Walk -> [Region] -> Maybe Mm
+largestFillet region ends walks links =
+  listToMaybe [largest | Walk {link = Just (at, Fillet turn r)} <- NonEmpty.toList walks, at `elem` links, Just largest <- [search at turn r]]
+  where
+    search at turn (Mm r) = listToMaybe [grown at turn low (2 * low) | low <- takeWhile (> shortest') (drop 1 (iterate (/ 2) r)), fits at turn low]
+    Mm shortest' = Tolerance.smallestFillet
+    -- Between a radius that fits and one that does not.
+    grown at turn low high
+      | high - low <= low * 1e-9 = Mm low
+      | fits at turn middle = grown at turn middle high
+      | otherwise = grown at turn low middle
+      where
+        middle = (low + high) / 2
+    fits at turn r = case attempt region ends (fmap (with at turn r) walks) of
+      Right _ -> True
+      Left _ -> False
+    with at turn r w = case link w of
+      Just (at', Fillet _ _) | at' == at -> w {link = Just (at, Fillet turn (Mm r))}
+      _ -> w
+
+attempt :: Region -> Ends -> NonEmpty Walk -> Either Fact (NonEmpty Element)
+attempt region ends walks = do
   chosen <- case (ends, walks) of
     (Closed, only :| []) -> lone only
     (Closed, _) -> closed walks
@@ -58,58 +106,59 @@ solve region ends walks = do
 
 -- | A closed contour of one element: a circle, from its rightmost point.
 lone :: Walk -> Either Fact [Element]
-lone (Walk place shape link) = case (shape, link) of
+lone Walk {place, shape, finish, link} = case (shape, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
-    Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place]
+    Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place finish]
   (OnLine _, _) -> Left (LoneElement place shape)
   (AtPoint _, _) -> Left (LoneElement place shape)
 
 -- | An open contour runs from the first point of its first element to the last one of its last.
 open :: NonEmpty Walk -> Either Fact [Element]
 open walks = do
-  begin <- endOf Shape.from first
-  finish <- endOf Shape.to final
+  begin <- endOf begins first
+  end <- endOf stops final
   case link final of
     Just (at, _) -> Left (LinkAtEnd at (place first))
     Nothing -> Right ()
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
-  route <- decided =<< shortest list begin [Joint.through finish] joints
-  Right (elementsOf list begin route)
+  route <- decided =<< shortest list begin Nothing [Joint.through end] joints
+  Right (elementsOf list begin Nothing route)
   where
     list = NonEmpty.toList walks
     first = NonEmpty.head walks
     final = NonEmpty.last walks
-    endOf side walk = case shape walk of
-      OnLine l -> Right (side l)
-      AtPoint p -> Right p
-      OnCircle _ _ -> Left (NoEnd (place walk) (shape walk))
+    endOf side walk = maybe (Left (NoEnd (place walk) (shape walk))) Right (side walk)
 
 -- | A closed contour begins where its last link reaches its first element.
 closed :: NonEmpty Walk -> Either Fact [Element]
 closed walks = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
   closing <- jointsOf (NonEmpty.last walks) first
-  let attempts = [(c, shortest list (enter c) [c] joints) | c <- NonEmpty.toList (snd closing)]
+  let attempts = [(c, shortest list (enter c) (inserted c) [c] joints) | c <- NonEmpty.toList (snd closing)]
       routes = [(c, r) | (c, Right r) <- attempts]
   case sortOn (cost . snd) routes of
     [] -> Left (minimumBy (comparing gravity) [f | (_, Left f) <- attempts])
     (c, route) : others -> case [o | (o, r) <- others, cost r <= plus (cost route) Tolerance.sameLength] of
       o : _ | Just fact <- tie (fst closing) [c, o] -> Left fact
-      _ -> elementsOf list (enter c) <$> decided route
+      _ -> elementsOf list (enter c) (inserted c) <$> decided route
   where
     list = NonEmpty.toList walks
     first = NonEmpty.head walks
     -- Of several failures the smallest overrun is the most telling.
     gravity fact = case fact of
-      Overrun _ _ by _ -> by
+      Overrun _ _ by _ _ -> by
       _ -> Mm 0
 
 -- | The places where two neighbours can be joined.
 jointsOf :: Walk -> Walk -> Either Fact (Joined, NonEmpty Joint)
-jointsOf a b = (joined,) <$> Joint.candidates joined (maybe (Meet Nothing) snd (link a))
+jointsOf a b = (joined,) <$> Joint.candidates joined (catMaybes [stops a, begins b]) (maybe (Meet Nothing) snd (link a))
   where
-    joined = Joined (maybe (place b) fst (link a)) (place a, shape a) (place b, shape b)
+    joined = Joined (linkPlace a b) (place a, shape a) (place b, shape b)
+
+-- | Where the link between two neighbours stands.
+linkPlace :: Walk -> Walk -> Region
+linkPlace a b = maybe (place b) fst (link a)
 
 -- | A way through the links so far: its length, the joints with the last one first, and the choice between
 -- it and another of the same length, if there is one.
@@ -117,8 +166,8 @@ data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe Fact}
 
 -- | The shortest way from a point on the first element through all links; the last link is given
 -- by its candidates.
-shortest :: [Walk] -> Point -> [Joint] -> [(Joined, NonEmpty Joint)] -> Either Fact Route
-shortest walks begin final joints = go walks [(begin, Route (Mm 0) [] Nothing)] (map Just joints <> [Nothing])
+shortest :: [Walk] -> Point -> Maybe Segment -> [Joint] -> [(Joined, NonEmpty Joint)] -> Either Fact Route
+shortest walks begin before final joints = go walks [(begin, Route (Mm 0) [] Nothing)] (map Just joints <> [Nothing])
   where
     go ws states layers = case (ws, layers) of
       (w : rest, layer : more) -> do
@@ -127,7 +176,7 @@ shortest walks begin final joints = go walks [(begin, Route (Mm 0) [] Nothing)] 
       _ -> Right (minimumBy (comparing cost) (map snd states))
     advance w states layer = do
       let candidates = maybe final (NonEmpty.toList . snd) layer
-          ways joint = [extend w state joint | state <- states]
+          ways joint = [extend before w state joint | state <- states]
           reached = [(joint, sortOn cost [r | Right r <- ways joint]) | joint <- candidates]
       case [(joint, best, others) | (joint, best : others) <- reached] of
         [] -> Left (overrun w (minimum [by | joint <- candidates, Left by <- ways joint]) layer)
@@ -139,7 +188,8 @@ shortest walks begin final joints = go walks [(begin, Route (Mm 0) [] Nothing)] 
           Just fact <- tie j [a, b] ->
           best {ambiguous = Just fact}
       _ -> best
-    overrun w by layer = Overrun (place w) (shape w) by (catMaybes [fst <$> link w, jointRegion <$> layer])
+    overrun w by layer = Overrun (place w) (shape w) by (catMaybes [fst <$> link w, jointRegion <$> layer] <> linkBefore w) Nothing
+    linkBefore w = [at | (a, b) <- zip walks (drop 1 walks <> take 1 walks), place b == place w, Just (at, _) <- [link a]]
     jointRegion (j, _) = Error.link j
 
 -- | A way without another of the same length.
@@ -160,39 +210,53 @@ tie j choice = case mapMaybe inserted choice of
   _ -> Nothing
 
 -- | Walk an element from where a way has come to a joint, and along what the joint inserts; or how far
--- that would be backwards.
-extend :: Walk -> (Point, Route) -> Joint -> Either Mm Route
-extend w (at, Route c js choice) joint
+-- that would be backwards. What was walked before the first joint is given.
+extend :: Maybe Segment -> Walk -> (Point, Route) -> Joint -> Either Mm Route
+extend before w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm by = along in Mm (-by))
   | otherwise = Right (Route (plus c (plus along (maybe (Mm 0) Segment.length (inserted joint)))) (joint : js) choice)
   where
-    along = walked (shape w) at (leave joint)
+    along = walked (shape w) (arrival before js) (inserted joint) at (leave joint)
+
+-- | What was walked right before an element.
+arrival :: Maybe Segment -> [Joint] -> Maybe Segment
+arrival before js = case js of
+  [] -> before
+  j : _ -> inserted j
 
 -- | How far it is along an element from one of its points to another; negative when it would
 -- be backwards along a line.
-walked :: Walked -> Point -> Point -> Mm
-walked shape a b = case shape of
+walked :: Walked -> Maybe Segment -> Maybe Segment -> Point -> Point -> Mm
+walked shape before behind a b = case shape of
   OnLine l
     | Vec.near a b -> Mm 0
     | otherwise -> Mm (Vec.dot (Shape.direction l) (Vec.to a b))
-  OnCircle _ _ -> maybe (Mm 0) Segment.length (stretch shape a b)
+  OnCircle _ _ -> maybe (Mm 0) Segment.length (stretch shape before behind a b)
   AtPoint _ -> Mm 0
 
 -- | The segment along an element between two of its points. A circle that is entered where it is left is
--- walked once round: a contour that does not walk an element at all would be the shortest.
-stretch :: Walked -> Point -> Point -> Maybe Segment
-stretch shape a b = case shape of
+-- walked once round (a contour that does not walk an element at all would be the shortest), unless
+-- a straight line goes by it: circles in a row, joined by tangents.
+stretch :: Walked -> Maybe Segment -> Maybe Segment -> Point -> Point -> Maybe Segment
+stretch shape before behind a b = case shape of
   OnLine (Line _ _) -> if Vec.near a b then Nothing else Just (Straight a b)
-  OnCircle turn circle@(Circle c _) -> Just (if Vec.near a b then Segment.fullCircle turn circle a else Segment.arc turn c a b)
+  OnCircle turn circle@(Circle c _)
+    | Vec.near a b && goesBy -> Nothing
+    | Vec.near a b -> Just (Segment.fullCircle turn circle a)
+    | otherwise -> Just (Segment.arc turn c a b)
   AtPoint _ -> Nothing
+  where
+    goesBy = case (before, behind) of
+      (Just (Straight p q), Just (Straight s t)) -> Vec.dot (Vec.unit (Vec.to p q)) (Vec.unit (Vec.to s t)) > 0.5
+      _ -> False
 
 -- | The segments of a way.
-elementsOf :: [Walk] -> Point -> Route -> [Element]
-elementsOf walks begin route = go walks begin (reverse (taken route))
+elementsOf :: [Walk] -> Point -> Maybe Segment -> Route -> [Element]
+elementsOf walks begin before route = go walks begin before (reverse (taken route))
   where
-    go ws at js = case (ws, js) of
-      (Walk place shape link : rest, joint : more) ->
-        [Element s place | Just s <- [stretch shape at (leave joint)]]
-          <> [Element s (maybe place fst link) | Just s <- [inserted joint]]
-          <> go rest (enter joint) more
+    go ws at came js = case (ws, js) of
+      (Walk {place, shape, finish, link} : rest, joint : more) ->
+        [Element s place finish | Just s <- [stretch shape came (inserted joint) at (leave joint)]]
+          <> [Element s (maybe place fst link) plainFinish | Just s <- [inserted joint]]
+          <> go rest (enter joint) (inserted joint) more
       _ -> []

@@ -2,6 +2,7 @@
 module Part.Error
   ( Error (..),
     Fact (..),
+    Candidate (..),
     Joined (..),
     toReport,
     describe,
@@ -29,6 +30,10 @@ data Error = Error {fact :: Fact, calls :: [Region]}
 data Joined = Joined {link :: Region, before :: (Region, Walked), after :: (Region, Walked)}
   deriving stock (Eq, Show)
 
+-- | One of several answers.
+data Candidate = APoint Point | ALine Line | ACircle Circle
+  deriving stock (Eq, Show)
+
 data Fact
   = DivisionByZero Region
   | -- | function, its argument as written to the user, the range it takes
@@ -38,7 +43,7 @@ data Fact
   | -- | a length, radius or coordinate beyond what any machine reaches, and that limit
     OutOfReach Region Mm
   | -- | the evaluation would take more steps than this
-    TooMuchWork Region Integer
+    TooMuchWork Region Int
   | RadiusNotPositive Region Mm
   | -- | the two points of the line are one
     ZeroLine Region Point
@@ -72,11 +77,45 @@ data Fact
   | -- | how to walk the circles for there to be one
     NoTangent Joined [Text]
   | FilletAtPoint Joined
-  | NoFillet Joined Mm
+  | -- | the radius, and the largest that fits
+    NoFillet Joined Mm (Maybe Mm)
   | -- | centres of the arcs that make equally long contours
     AmbiguousFillet Joined [Point]
-  | -- | an element whose end lies before its beginning, by so much
-    Overrun Region Walked Mm [Region]
+  | -- | an element whose end lies before its beginning, by so much; the links at its ends; the largest radius of
+    -- a fillet among them that fits
+    Overrun Region Walked Mm [Region] (Maybe Mm)
+  | -- | a curve that two things do not have in common: they miss one another by so much
+    NothingCommon Region Walked Walked Mm
+  | -- | two things that are the same curve
+    SameThing Region
+  | -- | several answers and no choice among them: what is sought, the answers
+    Several Region Text [Candidate]
+  | -- | answers of which none is as asked
+    NoneFits Region Text [Candidate]
+  | -- | several answers that are all as asked
+    SeveralFit Region Text [Candidate]
+  | -- | there is no such line, circle or point at all: what, and why
+    NoAnswer Region Text Text
+  | -- | things that do not touch, by so much
+    NotTouching Region Mm
+  | -- | three points on one line
+    OnOneLine Region
+  | -- | what has to be a whole number within a range, as it is
+    NotWhole Region Text Text Double
+  | -- | the number of an item, and how many there are
+    NoSuchItem Region Int Int
+  | StepOfZero Region
+  | -- | what must not be negative, and what it is
+    Negative Region Text Text
+  | NothingToDrill Region
+  | -- | an assertion that does not hold
+    DoesNotHold Region
+  | -- | two values that should agree: as written, by how much they differ, how much is allowed
+    DoNotAgree Region (Region, Text) (Region, Text) Text Text
+  | -- | a closed contour as an element of another
+    ClosedElement Region Name
+  | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
+    WrongCutter Region Text Text Text
   | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
     CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
@@ -95,7 +134,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       { message = ["Coordinates and radii may be up to " <> Decimal.mm limit <> "."]
       }
   TooMuchWork region limit ->
-    (at region "E0327" ("this takes more than " <> Text.pack (show limit) <> " steps to compute"))
+    (at region "E0327" ("this takes more than " <> Decimal.whole limit <> " steps to compute"))
       { message = ["Functions that use one another several times, or repetitions in repetitions, multiply their steps."]
       }
   NoLength region ->
@@ -181,22 +220,84 @@ toReport (Error fact calls) = addCalls $ case fact of
     (joined "E0321" j "a fillet or chamfer needs a line or a circle on both sides, not a point")
       { hints = ["Write the edges as lines: line(p, q)."]
       }
-  NoFillet j r ->
+  NoFillet j r largest ->
     (joined "E0322" j ("no arc of radius " <> Decimal.mm r <> " touches both neighbours in the direction of the walk"))
       { message = [stop "17535"],
-        hints = ["+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses of the neighbours."]
+        hints =
+          ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
+            <> ["+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses of the neighbours."]
       }
   AmbiguousFillet j centres ->
     (joined "E0323" j "two fillets make contours of the same length")
       { message = ["Their centres are " <> Text.intercalate " and " (map (Vec.written 4) centres) <> "."],
         hints = ["Change the order or the senses of the elements so that one of them is the shorter way."]
       }
-  Overrun region walked overlap links ->
+  Overrun region walked overlap links largest ->
     (at region "E0324" ("the links do not fit: " <> describe walked <> " is too short for them by " <> Decimal.mm overlap))
       { label = "it would have to be walked backwards",
         others = [Label l "this link takes its share" | l <- nub links],
         message = [stop "17535"],
-        hints = ["Make the fillet or chamfer smaller, or check the directions of the neighbours."]
+        hints = [maybe "Make the fillet or chamfer smaller, or check the directions of the neighbours." (\m -> "The largest radius that fits here is " <> downTo m <> ".") largest]
+      }
+  NothingCommon region a b gap ->
+    (at region "E0330" (described a <> " and " <> described b <> " do not meet"))
+      { message = ["They miss one another by " <> Decimal.mm gap <> "."]
+      }
+  SameThing region ->
+    at region "E0331" "these are the same curve, so they have no one point in common"
+  Several region what candidates ->
+    (at region "E0332" ("there is more than one such " <> what))
+      { message = [listed candidates],
+        hints = ["Choose one that stays right when the part is turned: near P, left L or right L (of a directed line), inside C or outside C" <> (if what == "point" then ", first or last along a line." else ".")]
+      }
+  NoneFits region what candidates ->
+    (at region "E0333" ("no such " <> what <> " is where it is sought"))
+      { message = [listed candidates]
+      }
+  SeveralFit region what candidates ->
+    (at region "E0334" ("the choice leaves more than one " <> what))
+      { message = [listed candidates],
+        hints = ["Choose by something that only one of them has."]
+      }
+  NoAnswer region what why ->
+    (at region "E0335" ("there is no such " <> what))
+      { message = [why]
+      }
+  NotTouching region gap ->
+    (at region "E0336" ("these do not touch: they miss it by " <> Decimal.mm gap))
+      { hints = ["For the points in which they cross, write intersection."]
+      }
+  OnOneLine region ->
+    at region "E0337" "no circle goes through three points of one line"
+  NotWhole region what range x ->
+    (at region "E0338" (what <> " must be a whole number " <> range))
+      { label = Decimal.short 6 x
+      }
+  NoSuchItem region n count ->
+    (at region "E0339" ("the list has no item " <> Decimal.whole n))
+      { message = ["It has " <> Decimal.whole count <> (if count == 1 then " item" else " items") <> ", counted from 1."]
+      }
+  StepOfZero region ->
+    at region "E0340" "a range cannot go in steps of zero"
+  DoesNotHold region ->
+    at region "E0341" "this does not hold"
+  Negative region what value ->
+    at region "E0345" (what <> " must not be negative, this one is " <> value)
+  NothingToDrill region ->
+    at region "E0346" "there is no point to drill at"
+  DoNotAgree region (leftRegion, left) (rightRegion, right) difference allowed ->
+    (at region "E0342" ("this is " <> left <> ", not " <> right))
+      { others = [Label leftRegion left, Label rightRegion right],
+        message = ["They differ by " <> difference <> "; " <> allowed <> " is allowed."]
+      }
+  ClosedElement region (Name name) ->
+    (at region "E0343" ("the contour " <> quote name <> " is closed and cannot be a part of another"))
+      { hints = ["Only an open contour leads on to the next element."]
+      }
+  WrongCutter region statement needed there ->
+    (at region "E0344" (quote statement <> " needs " <> needed))
+      { message = ["The tool is " <> there <> "."],
+        hints = ["Change it first: change 2 " <> statement <> (if statement == "turn" then "(nose 0.4 mm)" else "(diameter 5 mm)")]
       }
   CrossesItself contour first second p fillets ->
     (at first "E0325" "the contour crosses or touches itself")
@@ -226,6 +327,26 @@ describe walked = case walked of
   OnLine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
   OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
   AtPoint p -> "the point " <> Vec.written 4 p
+
+-- | A curve in words, without where it is entered.
+described :: Walked -> Text
+described = describe
+
+-- | Answers with their coordinates.
+listed :: [Candidate] -> Text
+listed candidates = case candidates of
+  [] -> "There is none."
+  [one] -> "There is only " <> words' one <> "."
+  _ -> "There are " <> Text.intercalate " and " (map words' candidates) <> "."
+  where
+    words' c = case c of
+      APoint p -> Vec.written 4 p
+      ALine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
+      ACircle (Circle c' r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c'
+
+-- | A length that is not to be exceeded, with three decimals.
+downTo :: Mm -> Text
+downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
 
 stop :: Text -> Text
 stop number = "The Minsk-22 system stopped here with " <> number <> "."

@@ -6,39 +6,46 @@ where
 
 import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
-import Base.Name (Name)
-import Base.Quantity (Feed (..), Mm (..), times)
-import Base.Region (Located (..), Region)
+import Base.Quantity (Feed, Mm (..), over, times)
+import Base.Region (Located (..), Region (Region))
 import Base.Result (Result (..))
-import Checked.Syntax (Expr, Item, Item_ (..), Walk)
+import Checked.Dimension (Dimension)
+import Checked.Dimension qualified as Dimension
+import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
+import Control.Monad (when)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Geometry.Shape (Walked (..))
-import Geometry.Shape qualified as Shape
-import Geometry.Vec (Point)
-import Part.Chain (Link (..))
-import Part.Chain qualified as Chain
-import Part.Error (Error (..), Fact (..))
-import Part.Part (Contour (..), Ends (..), Milling (..), Operation (..), Pace (..), Part (..), Stop (..))
+import Data.Text qualified as Text
+import Geometry.Similarity (Similarity)
+import Geometry.Tolerance qualified as Tolerance
+import Part.Builtin qualified as Builtin
+import Part.Error (Error, Fact (..))
+import Part.Eval (Eval)
+import Part.Eval qualified as Eval
+import Part.Part
+import Part.Transform qualified as Transform
 import Part.Value (Environment (..), Value (..))
 import Part.Value qualified as Value
+import Part.Walks qualified as Walks
 
 -- | What is known between two statements. A setting without a value is missing because of a mistake.
 data State = State
   { environment :: Environment,
-    radius' :: Maybe Mm,
-    tolerance' :: Maybe Mm,
+    cutter' :: Maybe Cutter,
+    tolerance' :: Maybe Accuracy,
     feed' :: Maybe (Located Feed),
-    start' :: Maybe (Located Point),
+    clearance' :: Maybe Mm,
+    spin' :: Walk,
+    start' :: Maybe (Located Spot),
     contours' :: [Contour],
     operations' :: [Operation],
-    errors' :: [Error]
+    values' :: [(Region, Text)],
+    errors' :: [Error],
+    fuel :: Int
   }
-
--- | An evaluation that may find a mistake, or depend on one that is already reported.
-type Answer a = Either Error (Maybe a)
 
 -- | Evaluate a program. What depends on a mistake is left out.
 evaluate :: Checked.Program -> Result w Error Part
@@ -48,13 +55,17 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
     begin =
       State
         { environment = Value.empty,
-          radius' = Nothing,
+          cutter' = Nothing,
           tolerance' = Nothing,
           feed' = Nothing,
+          clearance' = Nothing,
+          spin' = Clockwise,
           start' = Nothing,
           contours' = [],
           operations' = [],
-          errors' = []
+          values' = [],
+          errors' = [],
+          fuel = mostSteps
         }
     part =
       Part
@@ -63,150 +74,239 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           machine = Checked.machine program,
           start = start' final,
           contours = reverse (contours' final),
-          operations = reverse (operations' final)
+          operations = reverse (operations' final),
+          readings = values' final
         }
 
-step :: State -> Checked.Statement -> State
-step state (Located region s) = case s of
-  Checked.Tool e -> keep (positive env "the cutter's diameter" Decimal.mm Mm e) (\d -> state {radius' = Just (times 0.5 d)})
-  Checked.Feed e -> keep (feedOf env e) (\f -> state {feed' = Just f})
-  Checked.Tolerance e -> keep (positive env "the tolerance" Decimal.mm Mm e) (\t -> state {tolerance' = Just t})
-  Checked.From e -> keep (pointOf env e) (\p -> state {start' = Just (Located region p)})
-  Checked.LetValue name e -> keep (affordable env 1 e *> Value.evaluate env e) (define name)
-  Checked.LetFunction name parameters body ->
-    state {environment = env {functions = Map.insert name (parameters, body) (functions env), costs = Map.insert name (1 + Value.steps env body) (costs env)}}
-  Checked.Contour name closure items ->
-    keep (contourOf env name closure items) $ \c -> (define (value name) (ContourValue c)) {contours' = c : contours' state}
-  Checked.Mill e side before after ->
-    keep (milling state e side before after) (\m -> state {operations' = Mill (Located region m) : operations' state})
-  Checked.Travel stops ->
-    keep (stopsOf state (NonEmpty.toList stops)) $ \ps -> case NonEmpty.nonEmpty ps of
-      Just some -> state {operations' = Travel some : operations' state}
-      Nothing -> state
-  where
-    env = environment state
-    define name v = state {environment = env {values = Map.insert name v (values env)}}
-    keep answer f = case answer of
-      Left e -> state {errors' = e : errors' state}
-      Right Nothing -> state
-      Right (Just a) -> f a
-
--- Steps
-
--- | Evaluations may not take more steps.
-mostSteps :: Integer
+-- | A program may take so many steps.
+mostSteps :: Int
 mostSteps = 10000000
 
--- | Whether an expression can be evaluated so often.
-affordable :: Environment -> Integer -> Expr -> Either Error ()
-affordable env times' e
-  | times' * Value.steps env e <= mostSteps = Right ()
-  | otherwise = Left (Error (TooMuchWork (region e) mostSteps) [])
+step :: State -> Checked.Statement -> State
+step state (Located at s) = case s of
+  Checked.Tool c -> keep (cutter env c) (\c' -> state {cutter' = Just c'})
+  Checked.Feed e -> keep (Walks.feedOf env e) (\f -> state {feed' = Just f})
+  Checked.Tolerance accuracy -> keep (accuracyOf env accuracy) (\t -> state {tolerance' = Just t})
+  Checked.Clearance e -> keep (Walks.lengthOf env "the clearance height" e) (\z -> state {clearance' = Just z})
+  Checked.From e -> keep (spot env e) (\p -> state {start' = Just (Located at p)})
+  Checked.LetValue name d e -> keep (Value.evaluate env e) (define name d)
+  Checked.LetFunction name parameters body ->
+    state {environment = env {functions = Map.insert name (locals env, parameters, body) (functions env), locals = Map.delete name (locals env)}}
+  Checked.Contour name closure items ->
+    keep (Walks.contour env name closure items) $ \c -> (define name Dimension.none (ContourValue c)) {contours' = c : contours' state}
+  Checked.Assert assertion -> keep (assert at env assertion) (const state)
+  Checked.Mill e side settings -> keep (milling state Milled at e side settings) (perform . maybe id ((:) . Mill . Located at))
+  Checked.Turn e side settings -> keep (milling state Turned at e side settings) (perform . maybe id ((:) . Mill . Located at))
+  Checked.Drill points depth settings -> keep (drilling state at points depth settings) (perform . maybe id ((:) . Drill . Located at))
+  Checked.Travel stops -> keep (stopsOf state (NonEmpty.toList stops)) $ \ps -> case NonEmpty.nonEmpty =<< ps of
+    Just some -> perform (Travel some :)
+    Nothing -> state
+  Checked.Change e c -> keep ((,) <$> whole env "the number of a tool" (1, 99) e <*> cutter env c) $ \(n, c') ->
+    (perform (Command (Located at (ChangeTool n c')) :)) {cutter' = Just c'}
+  Checked.Spindle Checked.Still -> perform (Command (Located at SpindleOff) :)
+  Checked.Spindle (Checked.Spinning walk speed) ->
+    keep (traverse (Walks.positive env "the speed of the spindle" (\x -> Decimal.short 4 x <> " rpm") id) speed) $ \speed' ->
+      (perform (Command (Located at (SpindleOn walk speed')) :)) {spin' = walk}
+  Checked.Coolant switch -> perform (Command (Located at (CoolantTo switch)) :)
+  Checked.Auxiliary e -> keep (whole env "an auxiliary command" (1, 99) e) (\n -> perform (Command (Located at (Auxiliary n)) :))
+  Checked.Repeat name list body ->
+    keep (Value.items <$> Value.evaluate env list) $ \vs ->
+      back (foldl (\before v -> foldl step before {environment = Value.bind name v env} body) state vs)
+  Checked.When e body others -> keep (Value.evaluate env e) (\v -> back (foldl step state (if Value.isTrue v then body else others)))
+  Checked.With e body -> keep (Value.evaluate env e) $ \v ->
+    let inside = foldl step state {operations' = []} body
+     in back inside {operations' = map (Transform.operation (placement v)) (operations' inside) <> operations' state}
+  where
+    env = environment state
+    define name d v =
+      state
+        { environment = (bound name v),
+          values' = (region name, Value.written d v) : values' state
+        }
+    bound name v = env {values = Map.insert (value name) v (values env), locals = Map.delete (value name) (locals env)}
+    perform f = state {operations' = f (operations' state)}
+    -- What was defined in a block is forgotten behind it.
+    back after = after {environment = env}
+    keep answer f = case Eval.run (fuel state) answer of
+      (Left found, left) -> state {errors' = reverse found <> errors' state, fuel = left}
+      (Right a, left) -> (f a) {fuel = left}
 
--- Settings
+-- Values
 
-pointOf :: Environment -> Expr -> Answer Point
-pointOf env e = affordable env 1 e *> (fmap Value.place <$> Value.evaluate env e)
+placement :: Value -> Similarity
+placement v = case v of
+  PlacementValue s -> s
+  _ -> bug "a value that is no transformation where one was checked"
 
--- | A quantity above zero; what it is and how it is written for the report.
-positive :: Environment -> Text -> (q -> Text) -> (Double -> q) -> Expr -> Answer q
-positive env what written make e = do
-  affordable env 1 e
-  v <- Value.evaluate env e
-  case Value.double <$> v of
-    Just x | x <= 0 -> Left (Error (NotPositive (region e) what (written (make x))) [])
-    Just x -> Just (make x) <$ Value.within (region e) x
-    Nothing -> Right Nothing
+spot :: Environment -> Expr -> Eval Spot
+spot env e = spotOf <$> Value.evaluate env e
 
-feedOf :: Environment -> Expr -> Answer (Located Feed)
-feedOf env e = fmap (Located (region e)) <$> positive env "the feed" (\(Feed f) -> Decimal.short 4 f <> " mm/min") Feed e
+spotOf :: Value -> Spot
+spotOf v = case v of
+  SpaceValue p z -> Spot p z
+  _ -> Spot (Value.point v) (Mm 0)
+
+-- | A whole number within limits.
+whole :: Environment -> Text -> (Int, Int) -> Expr -> Eval Int
+whole env what (low, high) e = do
+  x <- Value.number <$> Value.evaluate env e
+  let n = if abs x > 1e8 then -1 else round x :: Int
+  when (abs (x - fromIntegral n) > Tolerance.equal || n < low || n > high) $
+    Eval.mistake (NotWhole (region e) what ("from " <> Decimal.whole low <> " to " <> Decimal.whole high) x)
+  pure n
+
+accuracyOf :: Environment -> Checked.Accuracy -> Eval Accuracy
+accuracyOf env accuracy = case accuracy of
+  Checked.Within e -> OnPath <$> Walks.lengthOf env "the tolerance" e
+  Checked.Between a b -> do
+    inside <- notNegative a
+    outside <- notNegative b
+    if inside <= Mm 0 && outside <= Mm 0
+      then Eval.mistake (NotPositive (region b) "the tolerance on one side at least" "0 mm")
+      else pure (Band inside outside)
+  where
+    notNegative e = do
+      x <- Value.number <$> Value.evaluate env e
+      when (x < 0) (Eval.mistake (Negative (region e) "the tolerance" (Decimal.mm (Mm x))))
+      Mm x <$ Builtin.within (region e) x
+
+cutter :: Environment -> Checked.Cutter -> Eval Cutter
+cutter env (Located _ c) = case c of
+  Checked.MillCutter e -> Cutter MillingCutter . times 0.5 <$> Walks.lengthOf env "the cutter's diameter" e
+  Checked.DrillCutter e -> Cutter DrillingCutter . times 0.5 <$> Walks.lengthOf env "the drill's diameter" e
+  Checked.TurningCutter e -> do
+    x <- Value.number <$> Value.evaluate env e
+    when (x < 0) (Eval.mistake (Negative (region e) "the radius of the nose" (Decimal.mm (Mm x))))
+    pure (Cutter TurningCutter (Mm x))
+
+-- | Compare what the program says has to hold.
+assert :: Region -> Environment -> Checked.Assertion -> Eval ()
+assert at env assertion = case assertion of
+  Checked.Holds e -> do
+    v <- Value.evaluate env e
+    if Value.isTrue v then pure () else Eval.mistake (DoesNotHold (region e))
+  Checked.Agrees d l r within -> do
+    a <- Value.number <$> Value.evaluate env l
+    b <- Value.number <$> Value.evaluate env r
+    slack <- maybe (pure assertSlack) (fmap Value.number . Value.evaluate env) within
+    if abs (a - b) <= slack + Tolerance.equal
+      then pure ()
+      else Eval.mistake (DoNotAgree at (region l, written d a) (region r, written d b) (written d (abs (a - b))) (written d slack))
+  where
+    assertSlack = 1e-6
+    written :: Dimension -> Double -> Text
+    written d x = Value.written d (Quantity x)
 
 -- Machining
 
-milling :: State -> Expr -> Located Checked.Side -> [Checked.Stop] -> [Checked.Stop] -> Answer Milling
-milling state e side before after = do
-  c <- Value.evaluate (environment state) e
-  before' <- stopsOf state before
-  after' <- stopsOf state after
-  pure $ case (c, radius' state, tolerance' state, feed' state) of
-    (Just (ContourValue contour), Just radius, Just tolerance, Just feed) -> do
-      approach <- before'
-      retract <- after'
-      Just Milling {contour, side, radius, tolerance, feed, approach, retract}
-    _ -> Nothing
+-- | Nothing when a setting is missing because of a mistake that is reported already.
+milling :: State -> Work -> Region -> Expr -> Located Side -> Checked.Settings -> Eval (Maybe Milling)
+milling state work at e side settings = do
+  c <- Value.evaluate env e
+  mapM_ (rightCutter at (case work of Milled -> "mill"; Turned -> "turn") needed) (cutter' state)
+  before <- stopsOf state (Checked.approach settings)
+  after <- stopsOf state (Checked.retract settings)
+  near <- traverse (fmap Value.point . Value.evaluate env) (Checked.startNear settings)
+  levels <- maybe (pure []) (levelsOf env) (Checked.depth settings)
+  plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
+  leadIn <- traverse lead (Checked.leadIn settings)
+  leadOut <- traverse lead (Checked.leadOut settings)
+  allowances <- maybe (pure (Mm 0 :| [])) (Eval.gather . fmap allowance) (Checked.allowances settings)
+  pure $ do
+    tool <- cutter' state
+    tolerance <- tolerance' state
+    feed <- feed' state
+    approach <- before
+    retract <- after
+    case c of
+      ContourValue contour ->
+        Just
+          Milling
+            { contour = maybe contour (\p -> if ends contour == Closed then Walks.startingNear p contour else contour) near,
+              work,
+              side,
+              radius = cutterRadius tool,
+              tolerance,
+              feed,
+              approach,
+              retract,
+              levels,
+              clearance = clearance' state,
+              plunge,
+              leadIn,
+              leadOut,
+              allowances,
+              corners = Checked.corners settings,
+              sense = Checked.sense settings,
+              spin = spin' state
+            }
+      _ -> bug "a value that is no contour where one was checked"
+  where
+    env = environment state
+    needed = case work of
+      Milled -> [MillingCutter]
+      Turned -> [TurningCutter]
+    lead (form, x) = (form,) <$> Walks.lengthOf env "the lead" x
+    allowance x = do
+      v <- Value.number <$> Value.evaluate env x
+      when (v < 0) (Eval.mistake (Negative (region x) "the allowance" (Decimal.mm (Mm v))))
+      Mm v <$ Builtin.within (region x) v
 
-stopsOf :: State -> [Checked.Stop] -> Answer [Stop]
-stopsOf state stops = sequence <$> traverse stop stops
+-- | The heights of the passes: equal ones, none deeper than is asked.
+levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
+levelsOf env (depth, most) = do
+  d <- Walks.lengthOf env "the depth" depth
+  step' <- traverse (Walks.lengthOf env "the depth of a pass") most
+  let count = maybe 1 (\s -> max 1 (ceiling (over d s - Tolerance.equal))) step' :: Int
+  when (count > 10000) (Eval.mistake (NotWhole (region depth) "the number of passes" "up to 10000" (fromIntegral count)))
+  pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
+
+drilling :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Drilling)
+drilling state at points depth settings = do
+  v <- Value.evaluate env points
+  mapM_ (rightCutter at "drill" [DrillingCutter, MillingCutter]) (cutter' state)
+  Mm d <- Walks.lengthOf env "the depth" depth
+  pecked <- traverse (Walks.lengthOf env "the depth of a peck") (Checked.peck settings)
+  plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
+  let places = case v of
+        ListValue vs -> map Value.point vs
+        _ -> [Value.point v]
+  case NonEmpty.nonEmpty places of
+    Nothing -> Eval.mistake (NothingToDrill (region points))
+    Just some -> pure $ do
+      tool <- cutter' state
+      drillFeed <- maybe (feed' state) Just plunge
+      clear <- clearance' state
+      Just Drilling {holes = fmap (Located (region points)) some, drillRadius = cutterRadius tool, bottom = Mm (-d), clear, pecked, drillFeed}
+  where
+    env = environment state
+
+-- | A statement needs one of some cutters.
+rightCutter :: Region -> Text -> [CutterKind] -> Cutter -> Eval ()
+rightCutter at statement needed c
+  | kind c `elem` needed = pure ()
+  | otherwise = Eval.mistake (WrongCutter keyword statement (word (take 1 needed)) (word [kind c]))
+  where
+    Region begin _ = at
+    keyword = Region begin (begin + Text.length statement)
+    word kinds = case kinds of
+      MillingCutter : _ -> "a mill"
+      DrillingCutter : _ -> "a drill"
+      TurningCutter : _ -> "a turning tool"
+      [] -> "a cutter"
+
+stopsOf :: State -> [Checked.Stop] -> Eval (Maybe [Stop])
+stopsOf state stops = fmap sequence (Eval.gather (map stop stops))
   where
     env = environment state
     stop (Checked.Stop p pace') = do
-      p' <- pointOf env p
+      v <- Value.evaluate env p
       pace'' <- case pace' of
-        Checked.Cutting -> Right (At <$> feed' state)
-        Checked.Rapid -> Right (Just Rapid)
-        Checked.AtFeed e -> fmap At <$> feedOf env e
-      Right (Stop <$> (Located (region p) <$> p') <*> pace'')
-
--- Contours
-
-contourOf :: Environment -> Located Name -> Checked.Closure -> [Item] -> Answer Contour
-contourOf env name closure items = do
-  walks <- walksOf env 1 items
-  case walks of
-    Nothing -> Right Nothing
-    Just ws -> case NonEmpty.nonEmpty ws of
-      Nothing -> Left (Error (EmptyContour (region name) (value name)) [])
-      Just some -> case Chain.solve (region name) ends some of
-        Left fact -> Left (Error fact [])
-        Right elements -> Right (Just Contour {contourName = name, ends, elements})
-  where
-    ends = case closure of
-      Checked.Open -> Open
-      Checked.Closed -> Closed
-
--- | The elements of some items, which are evaluated so often in all.
-walksOf :: Environment -> Integer -> [Item] -> Answer [Chain.Walk]
-walksOf env times' items = fmap concat . sequence <$> traverse (itemOf env times') items
-
-itemOf :: Environment -> Integer -> Item -> Answer [Chain.Walk]
-itemOf env times' (Located _ i) = case i of
-  For name list body -> do
-    affordable env times' list
-    v <- Value.evaluate env list
-    case v of
-      Nothing -> Right Nothing
-      Just (ListValue vs) -> fmap concat . sequence <$> traverse (\x -> walksOf env {locals = Map.insert name x (locals env)} (times' * fromIntegral (length vs)) body) vs
-      Just _ -> bug "a repetition over a value that is no list"
-  Element walk e link -> do
-    affordable env times' e
-    shape <- fmap (walked walk) <$> Value.evaluate env e
-    link' <- maybe (Right (Just Nothing)) (linkOf env) link
-    Right ((\s l -> [Chain.Walk {Chain.place = region e, Chain.shape = s, Chain.link = l}]) <$> shape <*> link')
-
-walked :: Maybe Walk -> Value -> Walked
-walked walk v = case (v, walk) of
-  (CircleValue c, Just Checked.Clockwise) -> OnCircle Shape.Clockwise c
-  (CircleValue c, Just Checked.CounterClockwise) -> OnCircle Shape.CounterClockwise c
-  (LineValue l, Nothing) -> OnLine l
-  (Spatial _, Nothing) -> AtPoint (Value.place v)
-  _ -> bug "an element that can not be walked"
-
-linkOf :: Environment -> Checked.Link -> Answer (Maybe (Region, Link))
-linkOf env (Located at l) = case l of
-  Checked.Meet Nothing -> found (Right (Just (Meet Nothing)))
-  Checked.Meet (Just p) -> found (fmap (Meet . Just) <$> pointOf env p)
-  Checked.Smooth -> found (Right (Just Smooth))
-  Checked.Tangent -> found (Right (Just Tangent))
-  Checked.Fillet e -> found $ do
-    v <- fmap Value.double <$> Value.evaluate env e
-    case v of
-      Just 0 -> Left (Error (NotPositive (region e) "the radius of a fillet" "0 mm") [])
-      Just r -> Just (signed r) <$ Value.within (region e) r
-      Nothing -> Right Nothing
-  Checked.Chamfer e -> found (fmap Chamfer <$> positive env "the chamfer" Decimal.mm Mm e)
-  where
-    found answer = fmap (fmap (Just . (at,))) answer
-
--- | +R is walked clockwise, −R counter-clockwise (Kolsanova: links between pieces).
-signed :: Double -> Link
-signed r = Fillet (if r > 0 then Shape.Clockwise else Shape.CounterClockwise) (Mm (abs r))
+        Checked.Cutting -> pure (At <$> feed' state)
+        Checked.Rapid -> pure (Just Rapid)
+        Checked.AtFeed e -> Just . At <$> Walks.feedOf env e
+      let Spot place _ = spotOf v
+          level = case v of
+            SpaceValue _ z -> Just z
+            _ -> Nothing
+      pure (Stop (Located (region p) place) level <$> pace'')

@@ -27,6 +27,8 @@ import Part.Error (Fact (..), Joined (..))
 -- | A link with its values.
 data Link
   = Meet (Maybe Point)
+  | -- | at this point, where the elements of a contour follow one another
+    Fixed Point
   | Smooth
   | Tangent
   | Fillet Turn Mm
@@ -41,22 +43,24 @@ data Joint = Joint {leave :: Point, enter :: Point, inserted :: Maybe Segment}
 through :: Point -> Joint
 through p = Joint p p Nothing
 
--- | All joints that a link can make of its neighbours.
-candidates :: Joined -> Link -> Either Fact (NonEmpty Joint)
-candidates j link = case link of
-  Meet near -> (:| []) <$> meet j near
+-- | All joints that a link can make of its neighbours. The points are the ends that the neighbours have of
+-- their own: one of them decides where two curves meet in two points.
+candidates :: Joined -> [Point] -> Link -> Either Fact (NonEmpty Joint)
+candidates j own link = case link of
+  Meet near -> (:| []) <$> meet j own near
+  Fixed p -> Right (through p :| [])
   Smooth -> (:| []) <$> smooth j
   Tangent -> (:| []) <$> tangent j
   Fillet turn r -> fillet j turn r
-  Chamfer d -> (:| []) <$> chamfer j d
+  Chamfer d -> (:| []) <$> chamfer j own d
 
 shapes :: Joined -> (Walked, Walked)
 shapes j = (snd (before j), snd (after j))
 
 -- | The intersection. Of several the one nearest to the point given; without one, the one that is an
--- end of a line that was given by its ends.
-meet :: Joined -> Maybe Point -> Either Fact Joint
-meet j near = case shapes j of
+-- end of a neighbour.
+meet :: Joined -> [Point] -> Maybe Point -> Either Fact Joint
+meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
     | Vec.near p q -> Left (SameCurve j)
     | otherwise -> Right (Joint p q (Just (Straight p q)))
@@ -65,21 +69,21 @@ meet j near = case shapes j of
   (OnLine l, OnLine m) -> case Intersect.lines l m of
     Apart gap -> Left (ParallelLines j gap)
     Same | Vec.near (Shape.to l) (Shape.from m) -> Right (through (Shape.to l))
-    meeting -> points meeting []
-  (OnLine l, OnCircle _ c) -> points (Intersect.lineCircle l c) [Shape.to l]
-  (OnCircle _ c, OnLine l) -> points (Intersect.lineCircle l c) [Shape.from l]
-  (OnCircle _ c, OnCircle _ d) -> points (Intersect.circles c d) []
+    meeting -> points meeting
+  (OnLine l, OnCircle _ c) -> points (Intersect.lineCircle l c)
+  (OnCircle _ c, OnLine l) -> points (Intersect.lineCircle l c)
+  (OnCircle _ c, OnCircle _ d) -> points (Intersect.circles c d)
   where
     on p shape = let gap = distanceTo shape p in if gap <= Tolerance.coincident then Right (through p) else Left (NoMeeting j gap)
-    points meeting preferred = case meeting of
+    points meeting = case meeting of
       Apart gap -> Left (NoMeeting j gap)
       Same -> Left (SameCurve j)
       Touching p -> Right (through p)
       CrossingOnce p -> Right (through p)
-      Crossing p q -> through <$> choose p q preferred
-    choose p q preferred = case near of
+      Crossing p q -> through <$> choose p q
+    choose p q = case near of
       Just n | abs (distance n p - distance n q) > tolerance -> Right (if distance n p < distance n q then p else q)
-      Nothing | [one] <- [c | c <- [p, q], any (Vec.near c) preferred] -> Right one
+      Nothing | [one] <- [c | c <- [p, q], any (Vec.near c) own] -> Right one
       _ -> Left (AmbiguousMeeting j [p, q])
     distance a b = let Mm d = Vec.distance a b in d
     Mm tolerance = Tolerance.coincident
@@ -98,13 +102,13 @@ smooth j = case shapes j of
     | Vec.dot (Shape.direction l) (Shape.direction m) > 0 -> case Intersect.lines l m of
       Same -> Right (through (if Vec.near (Shape.to l) (Shape.from m) then Shape.to l else Shape.from m))
       Apart gap -> Left (NotSmooth j gap)
-      _ -> meet j Nothing
+      _ -> meet j [] Nothing
     | otherwise -> Left (TurnsBack j)
   (OnLine l, OnCircle turn c) -> lineCircle l turn c
   (OnCircle turn c, OnLine l) -> lineCircle l turn c
   (OnCircle t1 c1, OnCircle t2 c2) -> circles (t1, c1) (t2, c2)
-  (AtPoint _, _) -> meet j Nothing
-  (_, AtPoint _) -> meet j Nothing
+  (AtPoint _, _) -> meet j [] Nothing
+  (_, AtPoint _) -> meet j [] Nothing
   where
     Mm tolerance = Tolerance.coincident
     touching gap p
@@ -134,7 +138,7 @@ tangent j = case shapes j of
   (OnCircle t1 c1, OnCircle t2 c2) -> between (t1, c1) (t2, c2)
   (AtPoint p, OnCircle t c) -> between (t, Circle p (Mm 0)) (t, c)
   (OnCircle t c, AtPoint p) -> between (t, c) (t, Circle p (Mm 0))
-  (AtPoint _, AtPoint _) -> meet j Nothing
+  (AtPoint _, AtPoint _) -> meet j [] Nothing
   where
     between a@(_, c1@(Circle p1 _)) b@(_, c2@(Circle p2 _))
       | Vec.near p1 p2 = Left (if Intersect.circles c1 c2 == Same then CoincidentTangent j else ConcentricTangent j)
@@ -153,19 +157,19 @@ fillet j turn r = case shapes j of
   (AtPoint _, _) -> Left (FilletAtPoint j)
   (_, AtPoint _) -> Left (FilletAtPoint j)
   (a, b) -> case sortOn length' (map joint (Fillet.between r turn a b)) of
-    [] -> Left (NoFillet j r)
+    [] -> Left (NoFillet j r Nothing)
     first : rest -> Right (first :| rest)
   where
     joint f = Joint (Fillet.start f) (Fillet.end f) (Just (Segment.arc turn (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
     length' = fmap Segment.length . inserted
 
 -- | A straight line between the points at a distance along each neighbour from their intersection.
-chamfer :: Joined -> Mm -> Either Fact Joint
-chamfer j (Mm d) = case shapes j of
+chamfer :: Joined -> [Point] -> Mm -> Either Fact Joint
+chamfer j own (Mm d) = case shapes j of
   (AtPoint _, _) -> Left (FilletAtPoint j)
   (_, AtPoint _) -> Left (FilletAtPoint j)
   (a, b) -> do
-    Joint {leave = corner} <- meet j Nothing
+    Joint {leave = corner} <- meet j own Nothing
     let p = along a (-d) corner
         q = along b d corner
     Right (Joint p q (Just (Straight p q)))

@@ -3,21 +3,36 @@ module Part.Part
   ( Part (..),
     Contour (..),
     Element (..),
+    Finish (..),
+    plainFinish,
     outline,
+    Spot (..),
     Operation (..),
     Milling (..),
+    Work (..),
+    Accuracy (..),
+    deepest,
+    Drilling (..),
+    Command (..),
+    Cutter (..),
+    CutterKind (..),
     Stop (..),
     Pace (..),
     Ends (..),
+    Corners (..),
+    CutSense (..),
+    LeadForm (..),
     Side (..),
+    Switch (..),
+    Walk (..),
     MachineRef (..),
   )
 where
 
 import Base.Name (Name)
-import Base.Quantity (Feed, Mm)
+import Base.Quantity (Feed, Mm (..))
 import Base.Region (Located, Region)
-import Checked.Syntax (MachineRef (..), Side (..))
+import Checked.Syntax (Corners (..), CutSense (..), LeadForm (..), MachineRef (..), Side (..), Switch (..), Walk (..))
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
 import Geometry.Contour (Ends (..))
@@ -31,10 +46,12 @@ data Part = Part
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
     -- | where the cutter stands before the first frame
-    start :: Maybe (Located Point),
+    start :: Maybe (Located Spot),
     contours :: [Contour],
     -- | in the order of the tape
-    operations :: [Operation]
+    operations :: [Operation],
+    -- | the values of the definitions by the places of their names, for a reader
+    readings :: [(Region, Text)]
   }
   deriving stock (Eq, Show)
 
@@ -42,37 +59,118 @@ data Part = Part
 data Contour = Contour {contourName :: Located Name, ends :: Ends, elements :: NonEmpty Element}
   deriving stock (Eq, Show)
 
--- | A segment and the element or the link of the program that it came from.
-data Element = Element {segment :: Segment, origin :: Region}
+-- | A segment, the element or the link of the program that it came from, and what is asked on it.
+data Element = Element {segment :: Segment, origin :: Region, finish :: Finish}
   deriving stock (Eq, Show)
+
+-- | What is asked on one element.
+data Finish = Finish
+  { -- | instead of the feed of the statement
+    ownFeed :: Maybe (Located Feed),
+    -- | slow down at its end
+    slow :: Bool,
+    -- | what is left on it besides what the pass leaves
+    allowance :: Mm
+  }
+  deriving stock (Eq, Show)
+
+-- | Nothing out of the ordinary.
+plainFinish :: Finish
+plainFinish = Finish {ownFeed = Nothing, slow = False, allowance = Mm 0}
 
 -- | The bare geometry of a contour.
 outline :: Contour -> Geometry.Contour
 outline contour = Geometry.Contour (ends contour) (fmap segment (elements contour))
 
+-- | A place and the height above the top of the part; negative in the material.
+data Spot = Spot {plane :: Point, height :: Mm}
+  deriving stock (Eq, Show)
+
 -- | What the machine is to do.
 data Operation
   = Mill (Located Milling)
+  | Drill (Located Drilling)
   | -- | moves without cutting
     Travel (NonEmpty Stop)
+  | Command (Located Command)
   deriving stock (Eq, Show)
 
--- | A contour to be milled.
+-- | A contour to be milled or turned.
 data Milling = Milling
   { contour :: Contour,
+    work :: Work,
     side :: Located Side,
-    -- | of the cutter
+    -- | of the cutter, or of the nose of a turning tool
     radius :: Mm,
-    -- | the chord error allowed
-    tolerance :: Mm,
+    tolerance :: Accuracy,
     feed :: Located Feed,
     approach :: [Stop],
-    retract :: [Stop]
+    retract :: [Stop],
+    -- | the heights of the passes, downwards; none when the cutter stays at the height at which it stands
+    levels :: [Mm],
+    -- | the height at which nothing is in the way
+    clearance :: Maybe Mm,
+    plunge :: Maybe (Located Feed),
+    leadIn :: Maybe (LeadForm, Mm),
+    leadOut :: Maybe (LeadForm, Mm),
+    -- | what each pass leaves standing
+    allowances :: NonEmpty Mm,
+    corners :: Corners,
+    sense :: Maybe (Located CutSense),
+    -- | of the spindle
+    spin :: Walk
   }
   deriving stock (Eq, Show)
 
--- | A point to go to.
-data Stop = Stop {place :: Located Point, pace :: Pace}
+data Work = Milled | Turned
+  deriving stock (Eq, Show)
+
+-- | The chord error allowed.
+data Accuracy
+  = -- | chords between points of the path
+    OnPath Mm
+  | -- | chords within a band: so far into the material, so far out of it
+    Band Mm Mm
+  deriving stock (Eq, Show)
+
+-- | How far chords may go into the material, and how far out of it.
+deepest :: Accuracy -> (Mm, Mm)
+deepest accuracy = case accuracy of
+  OnPath d -> (d, d)
+  Band a b -> (a, b)
+
+-- | Holes, one after the other.
+data Drilling = Drilling
+  { holes :: NonEmpty (Located Point),
+    -- | of the drill
+    drillRadius :: Mm,
+    -- | the height of the bottom, below zero
+    bottom :: Mm,
+    clear :: Mm,
+    -- | the most of it before the drill is drawn out
+    pecked :: Maybe Mm,
+    drillFeed :: Located Feed
+  }
+  deriving stock (Eq, Show)
+
+data Command
+  = -- | in a sense, at a speed in turns a minute
+    SpindleOn Walk (Maybe Double)
+  | SpindleOff
+  | CoolantTo Switch
+  | Auxiliary Int
+  | -- | the number of the tool
+    ChangeTool Int Cutter
+  deriving stock (Eq, Show)
+
+data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
+  deriving stock (Eq, Show)
+
+data CutterKind = MillingCutter | DrillingCutter | TurningCutter
+  deriving stock (Eq, Show)
+
+-- | A point to go to; without a height it is that at which the cutter stands.
+data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 
 -- | How fast.

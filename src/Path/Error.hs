@@ -31,6 +31,12 @@ data Error
     CutsPart Region Segment Element Mm Bool Point
   | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
     MillsAnother Region Region Element Mm Point
+  | -- | milling without a depth while the cutter stands so high above the part
+    CutsAir Region Mm
+  | -- | climb or conventional where the cutter has no side
+    SenseOnContour Region Region
+  | -- | climb or conventional that the side does not allow
+    SenseAgainstSide Region Region
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -74,6 +80,21 @@ toReport err = case err of
         others = [Label milled "along this element", Label (origin element) ("it cuts " <> shape element)],
         message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
         hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
+      }
+  CutsAir region z ->
+    (at region "E0407" ("the cutter stands " <> Decimal.mm z <> " above the part here and cuts nothing"))
+      { hints = ["Say how deep to go: depth 5 mm. Or begin at height 0, if the height is set by hand."]
+      }
+  SenseOnContour region statement ->
+    (at region "E0408" "the cutter runs on the contour itself: it cuts on both sides, climb on one and conventional on the other")
+      { others = [Label statement "milled here"],
+        hints = ["Leave the word out, or mill the contour on one of its sides."]
+      }
+  SenseAgainstSide region side ->
+    (at region "E0409" "the cutter does not cut like this on this side of the walk")
+      { others = [Label side "the side is given here"],
+        message = ["With the spindle clockwise the cutter climbs on the left of the walk; with the spindle counter-clockwise, on the right."],
+        hints = ["Leave the word out, take the other side, or mill reversed(…)."]
       }
 
 at :: Region -> Code -> Text -> Report

@@ -1,8 +1,9 @@
--- | From the part to the cutter's path: the equidistant of every contour to be milled, the ways in
--- and out, and the moves between.
+-- | From the part to the cutter's path: the equidistant of every contour to be machined, pass by pass, the ways
+-- in and out, holes, and the moves between.
 module Path.FromPart
   ( lay,
     leadingSide,
+    touchedRadius,
   )
 where
 
@@ -10,9 +11,11 @@ import Base.Quantity (Mm (..), minus, plus)
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.Bifunctor (first)
-import Data.List (minimumBy)
+import Data.Function (on)
+import Data.List (groupBy, minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
@@ -22,125 +25,300 @@ import Geometry.Distance qualified as Distance
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour (..), Element, Milling (contour, feed, radius, side, tolerance), Operation (..), Part, Side (..), Stop)
+import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Stop, Work (..))
 import Part.Part qualified as Part
 import Path.Error (Error (..))
-import Path.Path (Block (..), Move (..), Path (Path, blocks))
+import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
 
 -- | Lay the path. No path when an operation has none, or when there are operations but the start is
 -- unknown, which is reported already; a part that is only drawn has a path without moves.
 lay :: Part -> Result w Error Path
 lay part = case (Part.start part, Part.operations part) of
-  (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Vec.point 0 0)) []))
+  (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Spot (Vec.point 0 0) (Mm 0))) []))
   (Nothing, _) -> Result [] [] Nothing
-  (Just begin, _) -> case collect (value begin) (Part.operations part) of
+  (Just begin, operations) -> case collect 0 (firstTool operations) (value begin) operations of
     ([], blocks) ->
       let path = Path begin blocks
        in Result [] (intrusions path) (Just path)
     (errors, _) -> Result [] errors Nothing
 
--- | The blocks one after the other; an operation without a path leaves the cutter where it was.
-collect :: Point -> [Operation] -> ([Error], [Block])
-collect at operations = case operations of
-  [] -> ([], [])
-  o : rest -> case block at o of
-    Left e -> first (e :) (collect at rest)
-    Right b -> (b :) <$> collect (foldl (\_ m -> Segment.end (segment m)) at (Path.moves b)) rest
+-- | The radius of the cutter with which a program begins.
+firstTool :: [Operation] -> Mm
+firstTool operations = fromMaybe (Mm 0) (listToMaybe (mapMaybe tool (takeWhile (not . changes) operations)))
+  where
+    tool o = case o of
+      Mill (Located _ m) -> Just (radius m)
+      Drill (Located _ d) -> Just (Part.drillRadius d)
+      Travel _ -> Nothing
+      Command _ -> Nothing
+    changes o = case o of
+      Command (Located _ (Part.ChangeTool _ _)) -> True
+      _ -> False
 
-block :: Point -> Operation -> Either Error Block
-block at operation = case operation of
-  Travel stops -> Right (Travelling (ways at (NonEmpty.toList stops)))
-  Mill job@(Located region milling) -> do
-    pieces <- along job
-    let entry = Segment.start (Offset.segment (NonEmpty.head pieces))
-        exit = Segment.end (Offset.segment (NonEmpty.last pieces))
-        pace = Part.At (feed milling)
-        before = ways at (Part.approach milling <> [Part.Stop (Located (keyword region) entry) pace])
-        origins = Vector.fromList (map Part.origin (NonEmpty.toList (elements (contour milling))))
-        number origin = case origin of
-          Offset.Along i -> i
-          Offset.Around i -> i
-        cut = fmap (\p -> Move (Offset.segment p) pace (origins Vector.! number (Offset.origin p))) pieces
-    Right Cutting {job, approach = before, cut, retract = ways exit (Part.retract milling)}
+-- | The blocks one after the other; an operation without a path leaves the cutter where it was.
+collect :: Int -> Mm -> Spot -> [Operation] -> ([Error], [Block])
+collect number tool at operations = case operations of
+  [] -> ([], [])
+  o : rest -> case blocksOf number tool at o of
+    Left e -> first (e :) (collect next tool' at rest)
+    Right bs -> (bs <>) <$> collect next tool' (foldl after at (concatMap Path.moves bs)) rest
+    where
+      next = case o of
+        Mill _ -> number + 1
+        _ -> number
+      tool' = case o of
+        Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
+        _ -> tool
+
+-- | Where a move ends.
+after :: Spot -> Move -> Spot
+after _ m = Spot (Segment.end (Path.segment m)) (snd (Path.heights m))
+
+blocksOf :: Int -> Mm -> Spot -> Operation -> Either Error [Block]
+blocksOf number tool at operation = case operation of
+  Travel stops -> Right [Travelling tool (ways at (NonEmpty.toList stops))]
+  Command c -> Right [Commanding c]
+  Drill d -> Right [Holing d (holing at d)]
+  Mill (Located region given) -> do
+    milling <- oriented region given
+    let job = Located region milling
+        passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [height at] else Part.levels milling]
+    if null (Part.levels milling) && height at > Mm 0
+      then Left (CutsAir (keyword region) (height at))
+      else reverse . snd <$> foldl (next job (length passes)) (Right (at, [])) (zip [1 ..] passes)
+  where
+    next job count before (k, (allowance, z)) = do
+      (spot, done) <- before
+      b <- passOf number job (k == 1) (k == count) spot allowance z
+      Right (foldl after spot (Path.moves b), b : done)
+
+-- Machining a contour
+
+-- | One pass from where the cutter stands: whether it is the first one and the last one, what it leaves, its height.
+passOf :: Int -> Located Milling -> Bool -> Bool -> Spot -> Mm -> Mm -> Either Error Block
+passOf number job@(Located region milling) isFirst isLast at allowance z = do
+  pieces <- along job allowance
+  let pace = Part.At (feed milling)
+      origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
+      cut = fmap (move pieces) (NonEmpty.zip (0 :| [1 ..]) pieces)
+      numberOf piece = case Offset.origin piece of
+        Offset.Along i -> i
+        Offset.Around i -> i
+      -- A feed of its own holds on the element, not round its corners; it slows down on its last piece.
+      move all' (k, piece) =
+        let e = origins Vector.! numberOf piece
+            own = case Offset.origin piece of
+              Offset.Along _ -> Part.ownFeed (Part.finish e)
+              Offset.Around _ -> Nothing
+            behind = [numberOf p | p <- take 1 (NonEmpty.drop (k + 1 :: Int) all')]
+         in Move (Offset.segment piece) (z, z) (maybe pace Part.At own) (Part.slow (Part.finish e) && behind /= [numberOf piece]) (Part.origin e)
+      entry = Segment.start (Offset.segment (NonEmpty.head pieces))
+      exit = Segment.end (Offset.segment (NonEmpty.last pieces))
+      leadIn = leading region milling LeadingIn (Segment.startDirection (Offset.segment (NonEmpty.head pieces))) entry
+      leadOut = leading region milling LeadingOut (Segment.endDirection (Offset.segment (NonEmpty.last pieces))) exit
+      begin = maybe entry (Segment.start . Path.segment) (listToMaybe leadIn)
+      finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
+      toBegin from = ways from [Part.Stop (Located (keyword region) begin) (Just z) pace]
+      level m = m {Path.heights = (z, z)}
+      (before, behind') = case (Part.levels milling, Part.clearance milling) of
+        (_ : _, Just clear) -> deep clear toBegin begin finish
+        _ -> flat toBegin finish
+  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> map level leadIn, cut, retract = map level leadOut <> behind'}
+  where
+    -- Without depth the ways keep the height at which the cutter stands.
+    flat toBegin finish =
+      let before = if isFirst || Part.ends (contour milling) == Part.Open then ways at (Part.approach milling) else []
+          from = foldl after at before
+          behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish z) (Part.retract milling) else []
+       in (before <> toBegin from, behind)
+    -- With depth the cutter goes over to the last approach point (or to the beginning) at the clearance
+    -- height, down there, and up again from the first retract point.
+    deep clear toBegin begin finish =
+      let up = rise at clear region
+          stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
+          over = ways (foldl after at up) (if null stops then [Part.Stop (Located (keyword region) begin) (Just clear) Part.Rapid] else stops)
+          above = foldl after (foldl after at up) over
+          down = [Move (Straight (plane above) (plane above)) (height above, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) | height above /= z]
+          leave = ways (Spot finish z) [s {Part.level = Just z} | s <- take 1 (Part.retract milling)]
+          out = foldl after (Spot finish z) leave
+          lift' = rise out clear region
+          rest = if isLast then ways (foldl after out lift') [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- drop 1 (Part.retract milling)] else []
+       in (up <> over <> down <> toBegin (Spot (plane above) z), leave <> lift' <> rest)
+    lastOf xs = take 1 (reverse xs)
+
+-- | Straight up to a height, if the cutter stands below it.
+rise :: Spot -> Mm -> Region -> [Move]
+rise (Spot p z) clear region = [Move (Straight p p) (z, clear) Part.Rapid False (keyword region) | z < clear]
+
+data Leading = LeadingIn | LeadingOut
+  deriving stock (Eq)
+
+-- | The way onto the path, or off it, from its end in a direction: straight on, or on a quarter of a circle that
+-- curves away from the material.
+leading :: Region -> Milling -> Leading -> Vec.Vec -> Point -> [Move]
+leading region milling which direction p = case if which == LeadingIn then Part.leadIn milling else Part.leadOut milling of
+  Nothing -> []
+  Just (Part.LeadLine, Mm l) -> let q = Vec.shift (Vec.scale (back * l) direction) p in [lead (pair (Straight q p) (Straight p q))]
+  Just (Part.LeadArc, Mm r) ->
+    let centre = Vec.shift (Vec.scale (free * r) (Vec.left direction)) p
+        q = Vec.shift (Vec.scale (back * r) direction) centre
+        turn = if free > 0 then CounterClockwise else Clockwise
+     in [lead (pair (Segment.arc turn centre q p) (Segment.arc turn centre p q))]
+  where
+    back = if which == LeadingIn then -1 else 1
+    pair onto off = if which == LeadingIn then onto else off
+    lead s = Move s (Mm 0, Mm 0) (Part.At (feed milling)) False (keyword region)
+    free = case leadingSide milling of
+      Right (Just Offset.RightOf) -> -1
+      _ -> 1 :: Double
 
 -- | Straight moves from stop to stop; a stop where the cutter already stands needs none.
-ways :: Point -> [Stop] -> [Move]
+ways :: Spot -> [Stop] -> [Move]
 ways at stops = case stops of
   [] -> []
-  Part.Stop (Located region p) pace : rest
-    | Vec.near at p -> ways at rest
-    | otherwise -> Move (Straight at p) pace region : ways p rest
+  Part.Stop (Located region p) level pace : rest
+    | Vec.near (plane at) p && z == height at -> ways at rest
+    | otherwise -> Move (Straight (plane at) p) (height at, z) pace False region : ways (Spot p z) rest
+    where
+      z = fromMaybe (height at) level
 
--- | The cutter's way along the contour itself.
-along :: Located Milling -> Either Error (NonEmpty Offset.Piece)
-along (Located region milling) = do
-  side <- leadingSide milling
-  case side of
+-- | The cutter's way along the contour itself, with so much left standing.
+along :: Located Milling -> Mm -> Either Error (NonEmpty Offset.Piece)
+along (Located region milling) allowance = do
+  side' <- leadingSide milling
+  case side' of
     Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)))
-    Just s -> first obstacle (Offset.equidistant s r (Part.outline (contour milling)))
+    Just s -> first obstacle (Offset.styled style s r (Part.outline (contour milling)))
   where
-    r = radius milling
+    r = plus (radius milling) allowance
+    finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
+    style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
     element i = elements (contour milling) NonEmpty.!! i
+    -- The cutter that fits is smaller than what fits by the allowance.
+    tool largest = [d | Just l <- [largest], let d = minus l allowance, d > Mm 0]
     obstacle (Offset.Obstacle cause largest) = case cause of
-      Offset.Concave i old -> ConcaveRadius region r (element i) old largest
-      Offset.InnerCorner i j p -> InnerCorner region r (element i) (element j) p largest
-      Offset.Collision i j p -> Collision region r (element i) (element j) p largest
+      Offset.Concave i old -> ConcaveRadius region r (element i) old (listToMaybe (tool largest))
+      Offset.InnerCorner i j p -> InnerCorner region r (element i) (element j) p (listToMaybe (tool largest))
+      Offset.Collision i j p -> Collision region r (element i) (element j) p (listToMaybe (tool largest))
 
--- | The side of the walk on which the cutter stands; none when it runs on the contour.
+-- | The distance of the cutter's centre from the contour when nothing is left standing.
+touchedRadius :: Milling -> Mm
+touchedRadius milling = case value (side milling) of
+  On -> Mm 0
+  Outside -> radius milling
+  Inside -> radius milling
+  LeftSide -> radius milling
+  RightSide -> radius milling
+
+-- | The side of the walk on which the cutter stands; none when it runs on the contour. A turned profile lies
+-- between the tool and the axis of the spindle, @y = 0@, when it is turned outside.
 leadingSide :: Milling -> Either Error (Maybe Offset.Side)
-leadingSide milling = case (value (side milling), ends (contour milling)) of
+leadingSide milling = case (value (side milling), Part.ends (contour milling)) of
   (LeftSide, _) -> Right (Just Offset.LeftOf)
   (RightSide, _) -> Right (Just Offset.RightOf)
   (On, _) -> Right Nothing
   (Outside, Part.Closed) -> Right (Just (if counterClockwise then Offset.RightOf else Offset.LeftOf))
   (Inside, Part.Closed) -> Right (Just (if counterClockwise then Offset.LeftOf else Offset.RightOf))
+  (Outside, Part.Open) | Part.work milling == Turned -> Right (Just (if toTheRight then Offset.LeftOf else Offset.RightOf))
+  (Inside, Part.Open) | Part.work milling == Turned -> Right (Just (if toTheRight then Offset.RightOf else Offset.LeftOf))
   (s, Part.Open) -> Left (SideOfOpen (region (side milling)) s (value name) (region name))
   where
     counterClockwise = Contour.signedArea (Part.outline (contour milling)) > 0
-    name = contourName (contour milling)
+    toTheRight = Vec.x (Segment.end (Part.segment (NonEmpty.last (elements (contour milling))))) >= Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
+    name = Part.contourName (contour milling)
 
--- | Moves that cut into a milled contour deeper than its tolerance: ways in and out and between, and
--- cuts along other contours. Cuts along the contour itself are the equidistant's concern.
+-- | The contour walked so that the teeth meet the material as is asked: a spindle that turns clockwise cuts
+-- climb with the material on the right of the walk.
+oriented :: Region -> Milling -> Either Error Milling
+oriented region milling = case Part.sense milling of
+  Nothing -> Right milling
+  Just (Located at sense) -> do
+    now <- leadingSide milling
+    let climbs = (sense == Part.Climb) == (Part.spin milling == Part.Clockwise)
+        wanted = if climbs then Offset.LeftOf else Offset.RightOf
+    case now of
+      Nothing -> Left (SenseOnContour at (keyword region))
+      Just side'
+        | side' == wanted -> Right milling
+        | value (side milling) `elem` [LeftSide, RightSide] -> Left (SenseAgainstSide at (region' (side milling)))
+        | otherwise -> Right milling {contour = backwards (contour milling)}
+  where
+    region' (Located r _) = r
+    backwards c = c {elements = NonEmpty.reverse (fmap (\e -> e {Part.segment = Segment.reverse (Part.segment e)}) (elements c))}
+
+-- Holes
+
+-- | Over each hole at the clearance height, down at the feed, up in rapid.
+holing :: Spot -> Located Drilling -> [Move]
+holing at (Located region d) = rise at clear region <> go (Spot (plane at) (max clear (height at))) (NonEmpty.toList (Part.holes d))
+  where
+    clear = Part.clear d
+    go from places = case places of
+      [] -> []
+      Located place p : rest ->
+        let over = ways from [Part.Stop (Located place p) (Just clear) Part.Rapid]
+         in over <> concat (zipWith (stroke place p) (Nothing : map Just depths) depths) <> go (Spot p clear) rest
+    stroke place p before z =
+      let start' = maybe clear (\b -> min clear (plus b peckGap)) before
+       in [vertical place p (clear, start') Part.Rapid | start' /= clear]
+            <> [vertical place p (start', z) (Part.At (Part.drillFeed d)), vertical place p (z, clear) Part.Rapid]
+    vertical place p heights pace = Move (Straight p p) heights pace False place
+    depths = depthsOf d
+
+-- | The depths to which a drill goes down, one after the other: equal pecks, none deeper than is asked.
+depthsOf :: Drilling -> [Mm]
+depthsOf d = case Part.pecked d of
+  Nothing -> [Part.bottom d]
+  Just (Mm most) ->
+    let Mm bottom = Part.bottom d
+        count = max 1 (min 10000 (ceiling (-bottom / most - Tolerance.equal))) :: Int
+     in [Mm (bottom * fromIntegral k / fromIntegral count) | k <- [1 .. count]]
+
+-- | How far above the last depth a drill stops its way down in rapid.
+peckGap :: Mm
+peckGap = Mm 0.5
+
+-- Ways that cut where they should not
+
+-- | Moves that cut into a machined contour deeper than its tolerance: ways in and out and between, and
+-- cuts along other contours. Cuts along the contour itself are the equidistant's concern. A move wholly above the
+-- top of the part cuts nothing.
 intrusions :: Path -> [Error]
-intrusions path = concat (zipWith against [0 :: Int ..] (blocks path))
+intrusions path = concatMap inBlock (Path.blocks path)
   where
-    against n b = case b of
-      Travelling _ -> []
-      Cutting {job = Located _ milling} -> case value (side milling) of
-        On -> []
-        _ ->
-          let index = Box.index (Box.ofSegment . Part.segment) (NonEmpty.toList (elements (contour milling)))
-           in concat (zipWith (foreign' milling index n) [0 ..] (blocks path))
-    foreign' milling index n k b = case b of
-      Travelling ms -> concatMap (intrusion milling index) ms
-      Cutting {job, approach, cut, retract} ->
-        concatMap (intrusion milling index) (approach <> retract)
-          <> take 1 (if n == k then [] else concatMap (map (another job) . intrusion milling index) (NonEmpty.toList cut))
+    jobs = map NonEmpty.head (NonEmpty.groupBy ((==) `on` fst) [(number pass, milling) | Cutting {job = Located _ milling, pass} <- Path.blocks path, value (side milling) /= On])
+    index = Box.index (Box.ofSegment . Part.segment . snd) [((n, milling), e) | (n, milling) <- jobs, e <- NonEmpty.toList (elements (contour milling))]
+    inBlock b = case b of
+      Commanding _ -> []
+      Travelling tool ms -> concatMap (intrusion tool Nothing) ms
+      Holing (Located _ d) ms -> concatMap (intrusion (Part.drillRadius d) Nothing) ms
+      Cutting {job = Located at milling, pass, approach, cut, retract} ->
+        concatMap (intrusion (radius milling) Nothing) (approach <> retract)
+          <> take 1 (concatMap (map (another at) . intrusion (radius milling) (Just (number pass))) (NonEmpty.toList cut))
     -- A cut along another contour is no way that could be chosen otherwise.
-    another (Located statement _) e = case e of
-      CutsPart milled _ element depth _ p -> MillsAnother (keyword statement) milled element depth p
+    another statement e = case e of
+      CutsPart milled _ element deep _ p -> MillsAnother (keyword statement) milled element deep p
       _ -> e
-
--- | The first word of a milling statement.
-keyword :: Region -> Region
-keyword r = r {end = start r + 4}
-
--- | Where a move cuts deepest into a contour, if it does.
-intrusion :: Milling -> Box.Index Element -> Move -> [Error]
-intrusion milling index move
-  | null deep = []
-  | otherwise = [minimumBy (comparing depth) deep]
-  where
+    intrusion tool own m
+      | fst (Path.heights m) > Mm 0 && snd (Path.heights m) > Mm 0 = []
+      | otherwise = map deepest (groupBy ((==) `on` fst) (sortOn fst (hits tool own m)))
+    hits tool own m =
+      [ (n, CutsPart (Path.origin m) (Path.segment m) element (minus tool d) (d <= Tolerance.coincident) p)
+        | ((n, milling), element) <- Box.within (Box.inflate tool (Box.ofSegment (Path.segment m))) index,
+          Just n /= own,
+          let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
+          plus d (fst (Part.deepest (Part.tolerance milling))) < tool
+      ]
+    deepest found = minimumBy (comparing depth) (map snd found)
     depth e = case e of
       CutsPart _ _ _ (Mm d) _ _ -> -d
       _ -> 0
-    deep =
-      [ CutsPart (Path.origin move) (Path.segment move) element (minus (radius milling) d) (d <= Tolerance.coincident) p
-        | element <- Box.within (Box.inflate (radius milling) (Box.ofSegment (Path.segment move))) index,
-          let Nearest d p = Distance.segments (Path.segment move) (Part.segment element),
-          plus d (tolerance milling) < radius milling
-      ]
+
+-- | The first word of a statement.
+keyword :: Region -> Region
+keyword r = r {end = start r + 4}

@@ -2,46 +2,75 @@
 module Path.Path
   ( Path (..),
     Block (..),
+    Pass (..),
     Move (..),
     moves,
+    isFlat,
     end,
   )
 where
 
+import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Vec (Point)
-import Part.Part (Milling, Pace)
+import Part.Part (Command, Drilling, Milling, Pace, Spot (..))
 
 -- | Where the cutter starts, and what it does then.
-data Path = Path {start :: Located Point, blocks :: [Block]}
+data Path = Path {start :: Located Spot, blocks :: [Block]}
   deriving stock (Eq, Show)
 
--- | The moves of one statement.
+-- | What one statement, or one pass of it, asks of the machine.
 data Block
-  = Travelling [Move]
+  = -- | with a cutter of this radius
+    Travelling Mm [Move]
   | Cutting
       { job :: Located Milling,
+        pass :: Pass,
         approach :: [Move],
         -- | along the contour
         cut :: NonEmpty Move,
         retract :: [Move]
       }
+  | Holing (Located Drilling) [Move]
+  | Commanding (Located Command)
   deriving stock (Eq, Show)
 
--- | One move, and the place in the program that asks for it.
-data Move = Move {segment :: Segment, pace :: Pace, origin :: Region}
+-- | One pass along a contour: the number of the milling statement as it is carried out, from 0; the distance of
+-- the cutter's centre from the contour; what of it is left to be cut; the height.
+data Pass = Pass {number :: Int, reach :: Mm, left :: Mm, atHeight :: Mm}
+  deriving stock (Eq, Show)
+
+-- | One move, in the plane and in height, and the place in the program that asks for it. A move straight up or
+-- down has a segment without length.
+data Move = Move
+  { segment :: Segment,
+    -- | at its beginning and at its end
+    heights :: (Mm, Mm),
+    pace :: Pace,
+    -- | slow down at its end
+    braked :: Bool,
+    origin :: Region
+  }
   deriving stock (Eq, Show)
 
 -- | The moves of a block in order.
 moves :: Block -> [Move]
 moves block = case block of
-  Travelling ms -> ms
+  Travelling _ ms -> ms
   Cutting {approach, cut, retract} -> approach <> NonEmpty.toList cut <> retract
+  Holing _ ms -> ms
+  Commanding _ -> []
+
+-- | Whether the cutter stays at the height at which it starts.
+isFlat :: Path -> Bool
+isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
+  where
+    z = height' (start path)
+    height' (Located _ (Spot _ h)) = h
 
 -- | Where the cutter stands at the end.
-end :: Path -> Point
-end path = foldl (\_ m -> Segment.end (segment m)) (value (start path)) (concatMap moves (blocks path))
+end :: Path -> Spot
+end path = foldl (\_ m -> Spot (Segment.end (segment m)) (snd (heights m))) (value (start path)) (concatMap moves (blocks path))

@@ -32,6 +32,14 @@ data Error
     TooDeep Region Int
   | -- | brackets with more than three values
     ManyCoordinates Region
+  | -- | a file that cannot be imported: its name as it is written, and why
+    ImportMissing Region Text Text
+  | -- | files that import one another, the first again at the end
+    ImportCycle Region [Text]
+  | -- | a value from outside for a name that is no parameter; the parameters
+    NoSuchParam Text [Text]
+  | -- | a value from outside that is none: the parameter, its name, the text
+    BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
 -- | The token before, and the token behind if it touches.
@@ -93,6 +101,26 @@ toReport err = case err of
   ManyCoordinates region ->
     (at region "E0111" "a point has two or three coordinates")
       { hints = ["A list stands in square brackets: [1, 2, 3, 4]."]
+      }
+  ImportMissing region name why ->
+    (at region "E0112" (quote name <> " cannot be imported: " <> why))
+      { hints = ["The name is looked for from the folder of the file that imports it."]
+      }
+  ImportCycle region files ->
+    (at region "E0113" "this file imports itself")
+      { message = [Text.intercalate " imports " files <> "."],
+        hints = ["Put what both need into a third file."]
+      }
+  NoSuchParam name known ->
+    (report Error "E0114" InFile ("the program has no parameter " <> quote name))
+      { hints =
+          ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.nearest name known)]
+            <> [if null known then "A parameter is defined by: param " <> name <> " = 25 mm" else "Its parameters are: " <> Text.intercalate ", " known <> "."]
+      }
+  BadAssignment region name text _ ->
+    (at region "E0115" (quote text <> " is no value for " <> quote name))
+      { label = "the parameter",
+        hints = ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
       }
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")

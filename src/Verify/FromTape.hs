@@ -14,15 +14,18 @@ module Verify.FromTape
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Quantity (Mm (..), Pulses, Rad (..), minus, plus, times)
 import Base.Region (Located (..))
 import Control.StraightLine (Stroke (..))
 import Control.StraightLine qualified as Control
+import Data.Containers.ListUtils (nubOrd)
 import Data.Either (fromRight)
+import Data.IntSet qualified as IntSet
 import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
+import Data.Vector qualified as Vector
 import Frame.Frame (Frame (..), Program)
 import Frame.Frame qualified as Frame
 import Geometry.Box qualified as Box
@@ -37,10 +40,10 @@ import Geometry.Vec qualified as Vec
 import Linear.V3 (V3 (..))
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Element, Milling, Side (..))
+import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
-import Path.Path (Block (..), Path)
+import Path.Path (Block, Path)
 import Path.Path qualified as Path
 import Verify.Passage (Job (..), Trace (..), elementsOf)
 import Verify.Passage qualified as Passage
@@ -55,13 +58,17 @@ prove machine path program frames =
     begin = Frame.start program
     own = map Frame.frame (Frame.planned program)
     strokes = Control.run begin frames
-    traces = [Trace s (Control.segment machine s) | s <- strokes]
+    traces = [Trace s (Control.segment machine s) (Frame.height machine (from s), Frame.height machine (to s)) | s <- strokes]
     sameCount = length own == length frames
-    (passages, found) = unzip (follow machine (not sameCount) (Frame.position machine begin) traces [b | b@Cutting {} <- Path.blocks path])
+    flat = Path.isFlat path
+    located = follow machine flat begin traces [b | b@Path.Cutting {} <- Path.blocks path]
+    toolOf = if sameCount then ownTool program else supposedTool located
+    (passages, found) = unzip (zipWith (\isFirst l -> examine (not sameCount) machine flat toolOf isFirst traces l) (firsts located) located)
     closure = begin + sum (map increment frames) - Frame.end program
     findings =
       concat found
-        <> take 1 [OffPlane (number s) | s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
+        <> take 1 [OffPlane (number s) | flat, s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
+        <> missingHoles machine path traces
         <> (if sameCount then wrongFeeds program frames else [])
         <> wrongCommands program frames
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found))]
@@ -74,6 +81,7 @@ prove machine path program frames =
       NeverBegun {} -> True
       NotFollowed {} -> True
       OffPlane {} -> False
+      HoleMissing {} -> False
       WrongFeed {} -> False
       WrongCommand {} -> False
       NotClosed {} -> False
@@ -85,64 +93,135 @@ prove machine path program frames =
       NeverBegun _ -> (0, 3)
       NotFollowed _ -> (0, 3)
       OffPlane n -> (n, 4)
+      HoleMissing _ _ -> (0, 4)
       WrongFeed n _ _ _ -> (n, 5)
       WrongCommand n _ _ -> (n, 6)
       NotClosed _ -> (maxBound, 7)
 
--- | The milled contours one after the other, from where the cutter stands; each begins on the tape behind the
--- end of the one before. The feeds along them are looked at here only when the frames can not be compared one by one.
-follow :: Machine -> Bool -> Point -> [Trace] -> [Block] -> [(Passage, [Finding])]
-follow machine feeds begin traces = go begin traces
+-- Where the passes are on the tape
+
+-- | A pass and what was found of it.
+data Pass = Pass {job :: Job, passNumber :: Int, level :: Mm, found :: Passage.Found}
+
+-- | The passes one after the other, from where the cutter stands; each begins on the tape behind the
+-- end of the one before. A flat path is looked for whatever the height.
+follow :: Machine -> Bool -> V3 Pulses -> [Trace] -> [Block] -> [Pass]
+follow machine flat begin = go begin
   where
     go at rest blocks = case blocks of
-      [] -> []
-      Travelling _ : more -> go at rest more
-      Cutting {job = Located region milling, cut} : more ->
+      Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut} : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = Segment.end (Path.segment (NonEmpty.last cut))
-            job = Job {milling, statement = region, entry, exit, reach = contactRadius milling, allowance = plus (Part.tolerance milling) (Machine.pulse machine)}
-            found = Passage.find job at rest
-            (within, behind) = case found of
-              Passage.Followed _ along after -> (along, after)
-              Passage.Lost _ along after -> (along, after)
-              Passage.NeverBegun -> ([], rest)
-            cuts = if feeds then wrongCuts machine job within else []
-            next = foldl (\_ t -> Segment.end (line t)) at (take (length rest - length behind) rest)
-         in ((<> cuts) <$> examine job traces found) : go next behind more
+            job = Job {milling, statement = region, entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Part.deepest (Part.tolerance milling))) (Machine.pulse machine)}
+            standsThere = flat || atLevel machine atHeight (Frame.height machine at)
+            found = Passage.find job (if standsThere then Just (Frame.position machine at) else Nothing) (filter (\t -> flat || isAt machine atHeight t) rest)
+            behind = case reverse (stretch found) of
+              final : _ -> drop 1 (dropWhile ((/= number (stroke final)) . number . stroke) rest)
+              [] -> rest
+            next = case reverse (stretch found) of
+              final : _ -> to (stroke final)
+              [] -> at
+         in Pass {job, passNumber = n, level = atHeight, found} : go next behind more
+      _ : more -> go at rest more
+      [] -> []
+    stretch found = case found of
+      Passage.Followed arrival along _ -> arrival <> along
+      Passage.Lost arrival along _ -> arrival <> along
+      Passage.NeverBegun -> []
 
-inPlane :: Trace -> Bool
-inPlane t = case (from (stroke t), to (stroke t)) of
-  (V3 _ _ a, V3 _ _ b) -> a == 0 && b == 0
+-- | How far the cutter's centre goes from a contour at most.
+furthestOut :: Milling -> Mm -> Mm
+furthestOut milling reach
+  | Part.corners milling == Part.Sharp = times 2 (plus reach most)
+  | otherwise = plus reach most
+  where
+    most = maximum (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling)))
 
--- | The distance of the cutter's centre from the contour.
-contactRadius :: Milling -> Mm
-contactRadius m = case value (Part.side m) of
-  On -> Mm 0
-  Outside -> Part.radius m
-  Inside -> Part.radius m
-  LeftSide -> Part.radius m
-  RightSide -> Part.radius m
+-- | Whether a stroke runs at a height, to a pulse.
+isAt :: Machine -> Mm -> Trace -> Bool
+isAt machine z t = atLevel machine z (fst (heights t)) && atLevel machine z (snd (heights t))
 
--- | How one contour came out. Only the strokes that follow it count as milling it.
-examine :: Job -> [Trace] -> Passage.Found -> (Passage, [Finding])
-examine job traces found = (passage, if null findings then order else findings)
+atLevel :: Machine -> Mm -> Mm -> Bool
+atLevel machine (Mm z) (Mm h) = let Mm pulse = Machine.pulse machine in abs (z - h) <= pulse
+
+-- | Whether each pass is the first one along its contour.
+firsts :: [Pass] -> [Bool]
+firsts passes = zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
+
+-- | The cutter in the spindle in each stroke of a tape with the program's own frames.
+ownTool :: Program -> Trace -> Mm
+ownTool program = \t -> fromMaybe (Mm 0) (tools Vector.!? (number (stroke t) - 1))
+  where
+    tools = Vector.fromList (map Frame.tool (Frame.planned program))
+
+-- | The cutter in the spindle as far as a foreign tape tells: that of the pass at hand; of two passes the smaller
+-- one between them.
+supposedTool :: [Pass] -> Trace -> Mm
+supposedTool passes = \t -> radiusAt (number (stroke t))
+  where
+    spans = [(number (stroke begin), number (stroke end), Part.radius (milling (job p))) | p <- passes, let s = strokesOf (found p), begin : _ <- [s], end : _ <- [reverse s]]
+    radiusAt n = case ([r | (_, e, r) <- reverse spans, e < n], [r | (b, _, r) <- spans, b > n], [r | (b, e, r) <- spans, b <= n, n <= e]) of
+      (_, _, r : _) -> r
+      (r : _, q : _, []) -> min r q
+      (r : _, [], []) -> r
+      ([], q : _, []) -> q
+      ([], [], []) -> Mm 0
+    strokesOf f = case f of
+      Passage.Followed arrival along _ -> arrival <> along
+      Passage.Lost arrival along _ -> arrival <> along
+      Passage.NeverBegun -> []
+
+-- | Holes of the part at which no stroke goes straight down to their bottom.
+missingHoles :: Machine -> Path -> [Trace] -> [Finding]
+missingHoles machine path traces =
+  [ HoleMissing at p
+    | Path.Holing (Located _ d) _ <- Path.blocks path,
+      Located at p <- NonEmpty.toList (Part.holes d),
+      not (any (reaches (Part.bottom d) p) (Box.within (Box.inflate (times 2 pulse) (Box.ofPoints p [])) index))
+  ]
+  where
+    pulse = Machine.pulse machine
+    index = Box.index (Box.ofSegment . line) [t | t <- traces, Segment.start (line t) == Segment.end (line t)]
+    reaches bottom p t =
+      Vec.distance (Segment.start (line t)) p <= pulse && minus (min (fst (heights t)) (snd (heights t))) bottom <= times 0.6 pulse
+
+-- How a pass came out
+
+-- | How one pass came out: the strokes of the tape are compared with its contour in its first pass, its own
+-- strokes in each.
+examine :: Bool -> Machine -> Bool -> (Trace -> Mm) -> Bool -> [Trace] -> Pass -> (Passage, [Finding])
+examine foreign' machine flat toolOf isFirst traces Pass {job, level, found} =
+  ((if null findings then order else findings) <>) <$> (passage, if foreign' then wrongCuts machine job within else [])
   where
     elements = elementsOf job
     elementIndex = Box.index (Box.ofSegment . Part.segment) elements
+    pulse = Machine.pulse machine
+    (inside, outside) = Part.deepest (Part.tolerance (milling job))
+    mayGouge = plus (if upon then allowance' else inside) pulse
+    mayLeave = plus (if upon then allowance' else outside) pulse
+    allowance' = max inside outside
+    upon = reach job <= Mm 0
     (milled, within) = case found of
       Passage.Followed arrival along _ -> (arrival <> along, along)
-      Passage.Lost _ along _ -> (traces, along)
-      Passage.NeverBegun -> (traces, [])
-    gouges = mapMaybe (gougeOf job elementIndex) (if reach job > Mm 0 then traces else [])
+      Passage.Lost _ along _ -> (atHeight traces, along)
+      Passage.NeverBegun -> (atHeight traces, [])
+    atHeight = filter (\t -> flat || isAt machine level t)
+    ownNumbers = IntSet.fromList (map (number . stroke) within)
+    -- Its own strokes stay away from the contour by what they leave; all others have to spare the contour.
+    looked = if upon then [] else filter belowTop (if isFirst then traces else within)
+    requirement t = if IntSet.member (number (stroke t)) ownNumbers then (\e -> plus (reach job) (Part.allowance (Part.finish e))) else const (toolOf t)
+    gouges = mapMaybe (\t -> gougeOf (max (outreach job) (toolOf t)) (requirement t) elementIndex t) looked
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
-    missed = uncut job (Box.index (Box.ofSegment . line) (filter inPlane milled)) elements
-    strayed = mapMaybe (strayOf job elementIndex) within
+    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex es | (more, es) <- byAllowance elements]
+    milledIndex = Box.index (Box.ofSegment . line) (filter (\t -> flat || isAt machine level t) milled)
+    strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave} elementIndex) within
     most = listToMaybe (sortOn (negated . amount) (missed <> strayed))
-    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowed = allowance job}
-    tooMuch w = amount w > allowance job
+    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowedGouge = mayGouge, allowedExcess = mayLeave}
+    tooDeep w = amount w > mayGouge
+    tooMuch w = amount w > mayLeave
     findings =
-      [Gouge first worst (allowance job) | Just worst <- [deepest], first : _ <- [filter tooMuch gouges]]
-        <> [Excess first (fromMaybe first most) (allowance job) | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
+      [Gouge first worst mayGouge | Just worst <- [deepest], first : _ <- [filter tooDeep gouges]]
+        <> [Excess first (fromMaybe first most) mayLeave | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
         <> take 1 (mapMaybe (wrongSide job elementIndex) within)
     -- Nothing else is wrong with the contour but the order in which it is walked.
     order = case found of
@@ -150,18 +229,24 @@ examine job traces found = (passage, if null findings then order else findings)
       Passage.Lost {} -> [NotFollowed (statement job) | Passage.measurable job]
       Passage.NeverBegun -> [NeverBegun (statement job)]
     negated (Mm x) = -x
+    -- Above the top of the part nothing is cut.
+    belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
 
--- | How deep a stroke cuts into the contour, if it does.
-gougeOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
-gougeOf job index t
+-- | Elements by what is left on them besides what the pass leaves.
+byAllowance :: [Element] -> [(Mm, [Element])]
+byAllowance elements = [(more, [e | e <- elements, Part.allowance (Part.finish e) == more]) | more <- nubOrd (map (Part.allowance . Part.finish) elements)]
+
+-- | How deep a stroke cuts into the contour, if it does: how much nearer it comes to an element than it may.
+gougeOf :: Mm -> (Element -> Mm) -> Box.Index Element -> Trace -> Maybe Witness
+gougeOf furthest' required index t
   | null near = Nothing
   | otherwise = Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) near)
   where
     near =
-      [ Witness {amount = minus (reach job) d, frame = number (stroke t), element = Part.origin e, place = p}
-        | e <- Box.within (Box.inflate (reach job) (Box.ofSegment (line t))) index,
+      [ Witness {amount = minus (required e) d, frame = number (stroke t), element = Part.origin e, place = p}
+        | e <- Box.within (Box.inflate furthest' (Box.ofSegment (line t))) index,
           let Nearest d p = Distance.segments (line t) (Part.segment e),
-          d < reach job
+          d < required e
       ]
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
@@ -252,7 +337,7 @@ wrongSide job index t = case (side, near) of
   where
     side = fromRight Nothing (Path.leadingSide (milling job))
     middle = Segment.at 0.5 (line t)
-    near = Box.within (Box.inflate (plus (reach job) (allowance job)) (Box.ofSegment (line t))) index
+    near = Box.within (Box.inflate (plus (outreach job) (allowance job)) (Box.ofSegment (line t))) index
     distanceTo e = Distance.toPoint middle (Part.segment e)
     sideOf s =
       let foot = Segment.at (Segment.fraction s middle) s
@@ -262,10 +347,15 @@ wrongSide job index t = case (side, near) of
 -- | Strokes along a contour that run at another feed than its statement asks.
 wrongCuts :: Machine -> Job -> [Trace] -> [Finding]
 wrongCuts machine job within = case Machine.chooseFeed machine (value asked) of
-  Machine.Given wanted _ -> [WrongFeed (number s) (code s) wanted (region asked) | s <- map stroke within, code s /= wanted]
+  Machine.Given wanted _ -> [WrongFeed (number s) (code s) wanted (region asked) | s <- map stroke within, code s `notElem` (wanted : others)]
   Machine.NoSuchFeed _ _ -> []
   where
     asked = Part.feed (milling job)
+    finishes = map Part.finish (elementsOf job)
+    -- Elements may have feeds of their own, or slow down.
+    others =
+      [c | f <- finishes, Just (Located _ own) <- [Part.ownFeed f], Machine.Given c _ <- [Machine.chooseFeed machine own]]
+        <> [fst (Machine.slowest machine) | any Part.slow finishes]
 
 -- | Frames with another auxiliary command than the program's own frame in the same place.
 wrongCommands :: Program -> [Frame] -> [Finding]

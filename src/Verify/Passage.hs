@@ -29,7 +29,13 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 
 -- | A stroke in mm.
-data Trace = Trace {stroke :: Stroke, line :: Segment}
+data Trace = Trace
+  { stroke :: Stroke,
+    -- | in the plane; without length when it goes straight up or down
+    line :: Segment,
+    -- | at its beginning and its end
+    heights :: (Mm, Mm)
+  }
 
 -- | A contour to be found on the tape.
 data Job = Job
@@ -39,7 +45,9 @@ data Job = Job
     exit :: Point,
     -- | from the contour to the cutter's centre
     reach :: Mm,
-    -- | tolerance and one pulse
+    -- | from the contour to the cutter's centre at most: round sharp corners, along elements with an allowance
+    outreach :: Mm,
+    -- | how far the chords may be off on one side or the other, and one pulse
     allowance :: Mm
   }
 
@@ -55,9 +63,9 @@ data Found
 elementsOf :: Job -> [Element]
 elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 
--- | Find a contour among strokes that begin at a point. Of several arrivals at its beginning the first counts
+-- | Find a contour among strokes that begin at a point of its height, if they do. Of several arrivals at its beginning the first counts
 -- from which it is followed.
-find :: Job -> Point -> [Trace] -> Found
+find :: Job -> Maybe Point -> [Trace] -> Found
 find job at traces = case if measurable job then mapMaybe followed starts else [] of
   found : _ -> found
   [] -> case starts of
@@ -66,11 +74,12 @@ find job at traces = case if measurable job then mapMaybe followed starts else [
   where
     ruler = measure job
     followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
-    -- The cutter may stand at the beginning already.
-    starts = [([], traces) | isNear job (entry job) at] <> arrivals traces
-    arrivals ts = case dropWhile (not . endsNear job (entry job)) ts of
-      [] -> []
-      arriving : rest -> ([arriving], rest) : arrivals rest
+    starts = begun Nothing traces
+    -- The strokes that set out from the beginning, with the one that arrived there: none when the cutter stood
+    -- there already, or came from another height.
+    begun before ts = case ts of
+      [] -> [([t], []) | Just t <- [before], endsNear job (entry job) t] <> [([], []) | Nothing <- [before], Just p <- [at], isNear job (entry job) p]
+      t : rest -> [([b | Just b <- [before], endsNear job (entry job) b], ts) | isNear job (entry job) (Segment.start (line t))] <> begun (Just t) rest
 
 isNear :: Job -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
@@ -150,7 +159,7 @@ follows job ruler = go 0 0 (entry job)
           Distance.toPoint p s <= near,
           let Mm len = Segment.length s
       ]
-    near = plus (reach job) (allowance job)
+    near = plus (outreach job) (allowance job)
     -- Beside an arc the nearer of its ends counts.
     footOf s p
       | Segment.spans s p = Segment.fraction s p

@@ -34,8 +34,9 @@ data Passage = Passage
     gouge :: Maybe Witness,
     -- | the most material left standing
     excess :: Maybe Witness,
-    -- | tolerance and one pulse
-    allowed :: Mm
+    -- | tolerance and one pulse, into the material and out of it
+    allowedGouge :: Mm,
+    allowedExcess :: Mm
   }
   deriving stock (Eq, Show)
 
@@ -67,6 +68,8 @@ data Finding
     NotFollowed Region
   | -- | a frame that leaves the plane of the part
     OffPlane Int
+  | -- | a hole that the tape does not drill to its depth
+    HoleMissing Region Point
   | -- | the frame, the code on the tape, the code that belongs there, what asks for it
     WrongFeed Int FeedCode FeedCode Region
   | -- | the frame, the auxiliary command on the tape, the one that belongs there
@@ -106,6 +109,7 @@ toReport machine finding = case finding of
   NeverBegun region -> wrong "E0704" (InSource region) "the tape never reaches the beginning of this contour"
   NotFollowed region -> wrong "E0709" (InSource region) "the tape does not follow this contour from its beginning to its end in the direction of the walk"
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " leaves the plane of the part (it moves z)")
+  HoleMissing region p -> wrong "E0710" (InSource region) ("the tape drills no hole of the right depth at " <> Vec.written 3 p)
   WrongFeed n found wanted region ->
     (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: speed " <> code found))
       { message = ["Here belongs speed " <> code wanted <> "."]

@@ -1,0 +1,58 @@
+-- | What a name stands for while types are inferred, and what of it is still open.
+module Checked.Scheme
+  ( Entry (..),
+    Scheme (..),
+    Meaning (..),
+    Pending (..),
+    Arithmetic (..),
+    Choice (..),
+  )
+where
+
+import Base.Region (Region)
+import Checked.Builtin (Label)
+import Checked.Syntax (Builtin, Operator)
+import Checked.Type (Type)
+import Data.IntSet (IntSet)
+import Data.Text (Text)
+
+-- | What a name stands for.
+data Entry
+  = Value Region Type
+  | Function Region [Text] Scheme
+  | -- | a parameter or the variable of a repetition
+    Local Region Type
+  | -- | a definition that is already reported as wrong
+    Poisoned Region
+
+-- | The type of a function: the unknowns that are fresh at each use, and the operations of its body that
+-- can be decided only when the arguments are known.
+data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type, open :: [Pending]}
+
+-- | What a name stands for at a place, for a reader.
+data Meaning
+  = Valued Type
+  | Callable [Text] Scheme
+  | -- | in words
+    Said Text
+
+-- | What can be decided only when more is known.
+data Pending = Operation Arithmetic | Overloaded Choice
+
+-- | An operation whose operands may not be known yet.
+data Arithmetic = Arithmetic
+  { place :: Region,
+    operator :: Operator,
+    left :: (Region, Type),
+    right :: (Region, Type),
+    outcome :: Type
+  }
+
+-- | A call of a function that has several forms.
+data Choice = Choice
+  { at :: Region,
+    builtin :: Builtin,
+    labels :: [Label],
+    given :: [(Region, Type)],
+    chosen :: Type
+  }

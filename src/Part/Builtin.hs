@@ -1,0 +1,393 @@
+-- | What the functions of the language compute.
+module Part.Builtin
+  ( Value (..),
+    Given (..),
+    apply,
+    binary,
+    spatial,
+    lifted,
+    within,
+    place,
+  )
+where
+
+import Base.Crash (bug)
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Mm (..), Rad (..), degrees, plus)
+import Base.Region (Region)
+import Checked.Syntax (Builtin (..), Choice (..), Operator (..), Rank (..))
+import Data.List (sortOn)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Geometry.Construct (Touched (..))
+import Geometry.Construct qualified as Construct
+import Geometry.Contour qualified as Contour
+import Geometry.Intersect (Meeting (..))
+import Geometry.Intersect qualified as Intersect
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Circle (..), Line (..), Turn (..), Walked (..))
+import Geometry.Shape qualified as Shape
+import Geometry.Similarity (Similarity)
+import Geometry.Similarity qualified as Similarity
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Part.Error (Candidate (..), Fact (..))
+import Part.Eval (Eval)
+import Part.Eval qualified as Eval
+import Part.Part (Contour (..), Element (..), outline)
+
+-- | What a name can stand for. Numbers are in mm, radians, minutes and turns.
+data Value
+  = Quantity Double
+  | -- | a point or a vector
+    Spatial Vec
+  | -- | a point with a height
+    SpaceValue Point Mm
+  | TruthValue Bool
+  | CircleValue Circle
+  | LineValue Line
+  | ContourValue Contour
+  | ListValue [Value]
+  | PlacementValue Similarity
+  deriving stock (Eq, Show)
+
+-- | An argument with the word before it.
+data Given = Plain Value | Choosing Choice Value | Ranking Rank
+  deriving stock (Eq, Show)
+
+-- Operators
+
+-- | An operation on two values; @and@ and @or@ are decided where they stand.
+binary :: Region -> Operator -> Value -> Value -> Eval Value
+binary region op l r = case (op, l, r) of
+  (Add, Spatial a, Spatial b) -> spatial region (Vec.add a b)
+  (Subtract, Spatial a, Spatial b) -> spatial region (Vec.add a (Vec.negate b))
+  (Multiply, Quantity k, Spatial a) -> spatial region (Vec.scale k a)
+  (Multiply, Spatial a, Quantity k) -> spatial region (Vec.scale k a)
+  (Divide, Spatial _, Quantity 0) -> Eval.mistake (DivisionByZero region)
+  (Divide, Spatial a, Quantity k) -> spatial region (Vec.scale (1 / k) a)
+  (Add, Quantity a, Quantity b) -> finite region (a + b)
+  (Subtract, Quantity a, Quantity b) -> finite region (a - b)
+  (Multiply, Quantity a, Quantity b) -> finite region (a * b)
+  (Divide, Quantity _, Quantity 0) -> Eval.mistake (DivisionByZero region)
+  (Divide, Quantity a, Quantity b) -> finite region (a / b)
+  (Less, Quantity a, Quantity b) -> truth (a < b && not (equal a b))
+  (AtMost, Quantity a, Quantity b) -> truth (a < b || equal a b)
+  (Greater, Quantity a, Quantity b) -> truth (a > b && not (equal a b))
+  (AtLeast, Quantity a, Quantity b) -> truth (a > b || equal a b)
+  (Equal, Quantity a, Quantity b) -> truth (equal a b)
+  (Unequal, Quantity a, Quantity b) -> truth (not (equal a b))
+  _ -> bug "an operation on values of other types"
+  where
+    truth = pure . TruthValue
+    equal a b = abs (a - b) <= Tolerance.equal
+
+-- | A point or vector that a machine reaches.
+spatial :: Region -> Vec -> Eval Value
+spatial region v = Spatial v <$ within region (Vec.norm v)
+
+-- | A point with a height that a machine reaches.
+lifted :: Region -> Point -> Mm -> Eval Value
+lifted region p z@(Mm h) = SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
+
+-- | A length that a machine reaches.
+within :: Region -> Double -> Eval ()
+within region x
+  | abs x <= limit = pure ()
+  | otherwise = Eval.mistake (OutOfReach region Tolerance.reach)
+  where
+    Mm limit = Tolerance.reach
+
+-- | A number that can be held.
+finite :: Region -> Double -> Eval Value
+finite region x
+  | isNaN x || isInfinite x = Eval.mistake (TooLarge region)
+  | otherwise = pure (Quantity x)
+
+-- | The place that a vector from (0, 0) reaches.
+place :: Vec -> Point
+place v = Vec.shift v (Vec.point 0 0)
+
+offset :: Point -> Vec
+offset = Vec.to (Vec.point 0 0)
+
+-- Functions
+
+-- | The value of a function for its arguments.
+apply :: Region -> Builtin -> [Given] -> Eval Value
+apply region builtin arguments = case (builtin, arguments) of
+  (Pi, []) -> pure (Quantity pi)
+  (Truth, []) -> pure (TruthValue True)
+  (Falsehood, []) -> pure (TruthValue False)
+  (Polar, [Plain (Quantity r), Plain (Quantity a)]) -> spatial region (Vec.polar (Mm r) (Rad a))
+  (Intersection, Plain a : Plain b : choice) -> intersection region (curve a) (curve b) choice
+  (CentreOf, [Plain (CircleValue c)]) -> at (centre c)
+  (Midpoint, [Plain (Spatial p), Plain (Spatial q)]) -> at (Vec.between 0.5 (place p) (place q))
+  (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Shape.foot l (place p))
+  (Tangency, [Plain (Spatial p), c]) -> at . to =<< tangentLine region (Plain (Spatial p)) c
+  (Tangency, [Plain a, Plain b]) -> tangency region (curve a) (curve b)
+  (PointOn, [Plain (CircleValue (Circle c r)), Plain (Quantity a)]) -> at (Vec.shift (Vec.polar r (Rad a)) c)
+  (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
+    | Vec.near (place p) (place q) -> Eval.mistake (ZeroLine region (place p))
+    | otherwise -> pure (LineValue (Line (place p) (place q)))
+  (MakeLine, [Plain (Spatial p), Plain (Quantity a)]) -> pure (LineValue (ray (place p) (Vec.polar (Mm 1) (Rad a))))
+  (MakeLine, [a, b]) -> LineValue <$> tangentLine region a b
+  (Horizontal, [Plain (Quantity h)]) -> LineValue (ray (Vec.point 0 h) (Vec.vec 1 0)) <$ within region h
+  (Vertical, [Plain (Quantity h)]) -> LineValue (ray (Vec.point h 0) (Vec.vec 0 1)) <$ within region h
+  (Parallel, [Plain (LineValue l), Choosing ToLeft (Quantity d)]) -> LineValue (Shape.parallelAt (Mm d) l) <$ within region d
+  (Parallel, [Plain (LineValue l), Choosing ToRight (Quantity d)]) -> LineValue (Shape.parallelAt (Mm (-d)) l) <$ within region d
+  (Parallel, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (Line (place p) (Vec.shift (Vec.to (from l) (to l)) (place p))))
+  (Perpendicular, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (ray (place p) (Vec.left (Shape.direction l))))
+  (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> circleOf (place c) r
+  (MakeCircle, [Plain (Spatial c), Plain (LineValue l)]) -> let Mm d = Shape.signedDistance l (place c) in circleOf (place c) (abs d)
+  (MakeCircle, [Plain (Spatial p), Plain (Spatial q), Plain (Spatial s)]) ->
+    maybe (Eval.mistake (OnOneLine region)) (\(Circle c (Mm r)) -> circleOf c r) (Construct.through (place p) (place q) (place s))
+  (MakeCircle, Plain (Quantity r) : a : b : choice)
+    | r <= 0 -> Eval.mistake (RadiusNotPositive region (Mm r))
+    | otherwise -> do
+      within region r
+      found <- picked region "circle" ACircle centre [] [c | ta <- touched a, tb <- touched b, c <- Construct.circles (Mm r) ta tb] choice
+      circleOf (centre found) r
+  (Concentric, [Plain (CircleValue (Circle c (Mm r))), Plain (Quantity d)]) -> circleOf c (r + d)
+  (Distance, [Plain (Spatial p), Plain (Spatial q)]) -> measured (Vec.distance (place p) (place q))
+  (Distance, [Plain (Spatial p), Plain (LineValue l)]) -> measured (apart l (place p))
+  (Distance, [Plain (LineValue l), Plain (Spatial p)]) -> measured (apart l (place p))
+  (Distance, [Plain (LineValue l), Plain (LineValue m)]) -> case Intersect.lines l m of
+    Apart d -> measured d
+    Same -> pure (Quantity 0)
+    _ -> Eval.mistake (NoAnswer region "distance" "These lines are not parallel.")
+  (DirectionOf, [Plain (LineValue l)]) -> angled (Vec.angle (Shape.direction l))
+  (DirectionOf, [Plain (Spatial v)])
+    | Vec.norm v <= 0 -> Eval.mistake (NoAnswer region "direction" "The vector has no length.")
+    | otherwise -> angled (Vec.angle v)
+  (RadiusOf, [Plain (CircleValue (Circle _ r))]) -> measured r
+  (LengthOf, [Plain (ContourValue c)]) -> measured (Contour.length (outline c))
+  (LengthOf, [Plain (LineValue l)]) -> measured (Vec.distance (from l) (to l))
+  (LengthOf, [Plain (Spatial v)]) -> measured (Mm (Vec.norm v))
+  (XOf, [Plain (Spatial v)]) -> pure (Quantity (Vec.x (place v)))
+  (YOf, [Plain (Spatial v)]) -> pure (Quantity (Vec.y (place v)))
+  (Reversed, [Plain (LineValue l)]) -> pure (LineValue (Line (to l) (from l)))
+  (Reversed, [Plain (ContourValue c)]) -> pure (ContourValue (reversed c))
+  (Reversed, [Plain (ListValue vs)]) -> pure (ListValue (reverse vs))
+  (Moved, ps) -> transformed region ps $ \case
+    [Spatial v] -> pure (Similarity.translation v)
+    _ -> wrong
+  (Rotated, ps) -> transformed region ps $ \case
+    [Quantity a] -> pure (Similarity.rotation (Rad a) (Vec.point 0 0))
+    [Quantity a, Spatial p] -> pure (Similarity.rotation (Rad a) (place p))
+    _ -> wrong
+  (Mirrored, ps) -> transformed region ps $ \case
+    [LineValue l] -> pure (Similarity.reflection l)
+    _ -> wrong
+  (Scaled, ps) -> transformed region ps $ \case
+    [Quantity k] -> scaling k (Vec.point 0 0)
+    [Quantity k, Spatial p] -> scaling k (place p)
+    _ -> wrong
+  (Row, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n)]) -> do
+    count <- whole region "the count of a row" n
+    points [Vec.shift (Vec.scale (fromIntegral k) v) (place p) | k <- [0 .. count - 1]]
+  (Grid, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n), Plain (Spatial w), Plain (Quantity m)]) -> do
+    count <- whole region "the count of a grid" n
+    rows <- whole region "the rows of a grid" m
+    Eval.spend region (min 100000000 (count * rows))
+    points [Vec.shift (Vec.add (Vec.scale (fromIntegral k) v) (Vec.scale (fromIntegral j) w)) (place p) | j <- [0 .. rows - 1], k <- [0 .. count - 1]]
+  (Around, [Plain (CircleValue c), Plain (Quantity n)]) -> around c n 0 Nothing
+  (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a)]) -> around c n a Nothing
+  (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a), Plain (Quantity b)]) -> around c n a (Just b)
+  (Count, [Plain (ListValue vs)]) -> pure (Quantity (fromIntegral (length vs)))
+  (ItemOf, [Plain (ListValue vs), Plain (Quantity n)]) -> do
+    k <- whole region "the number of an item" n
+    if k > length vs then Eval.mistake (NoSuchItem region k (length vs)) else pure (vs !! (k - 1))
+  (Lift, [Plain (Spatial p), Plain (Quantity z)]) -> lifted region (place p) (Mm z)
+  (Sin, [Plain (Quantity a)]) -> pure (Quantity (sin a))
+  (Cos, [Plain (Quantity a)]) -> pure (Quantity (cos a))
+  (Tan, [Plain (Quantity a)])
+    | abs (cos a) < 1e-15 -> Eval.mistake (OutOfRange region "tan" (Decimal.short 6 (degrees (Rad a)) <> " deg") "any angle but 90 deg, 270 deg, …")
+    | otherwise -> finite region (tan a)
+  (Asin, [Plain (Quantity x)]) -> inverse "asin" asin x
+  (Acos, [Plain (Quantity x)]) -> inverse "acos" acos x
+  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> Eval.mistake (OutOfRange region "atan2" "0 and 0" "two values that are not both 0")
+  (Atan2, [Plain (Quantity y), Plain (Quantity x)]) -> pure (Quantity (atan2 y x))
+  (Sqrt, [Plain (Quantity x)])
+    | x < 0 -> Eval.mistake (OutOfRange region "sqrt" (Decimal.short 6 x) "values from 0 upwards")
+    | otherwise -> pure (Quantity (sqrt x))
+  (Abs, [Plain (Quantity x)]) -> pure (Quantity (abs x))
+  (Min, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (min a b))
+  (Max, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (max a b))
+  (Floor, [Plain (Quantity x)]) -> pure (Quantity (fromInteger (floor (x + Tolerance.equal))))
+  _ -> wrong
+  where
+    wrong = bug "a function applied to values of other types"
+    at = spatial region . offset
+    points ps = ListValue <$> traverse at ps
+    measured (Mm d) = finite region d
+    apart l p = let Mm d = Shape.signedDistance l p in Mm (abs d)
+    angled (Rad a) = pure (Quantity a)
+    circleOf c r
+      | r <= 0 = Eval.mistake (RadiusNotPositive region (Mm r))
+      | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
+    scaling k p
+      | k <= 0 = Eval.mistake (NotPositive region "the factor of a scaling" (Decimal.short 6 k))
+      | otherwise = pure (Similarity.scaling k p)
+    inverse name f x
+      | abs x > 1 = Eval.mistake (OutOfRange region name (Decimal.short 6 x) "values from −1 to 1")
+      | otherwise = pure (Quantity (f x))
+    -- Points on a circle: all round, or from one angle to another, both included.
+    around (Circle c r) n a b = do
+      count <- whole region "the count of points" n
+      let step = case b of
+            Nothing -> 2 * pi / fromIntegral count
+            Just end -> if count == 1 then 0 else (end - a) / fromIntegral (count - 1)
+      points [Vec.shift (Vec.polar r (Rad (a + fromIntegral k * step))) c | k <- [0 .. count - 1]]
+
+-- | The line of a point and a direction.
+ray :: Point -> Vec -> Line
+ray p v = Line p (Vec.shift v p)
+
+-- | A whole number from 1 upwards.
+whole :: Region -> Text -> Double -> Eval Int
+whole region what x
+  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Eval.mistake (NotWhole region what "from 1 upwards" x)
+  | otherwise = n <$ Eval.spend region n
+  where
+    n = if abs x > 1e8 then 0 else round x :: Int
+
+-- Choices
+
+-- | A line or a circle as a curve.
+curve :: Value -> Walked
+curve v = case v of
+  LineValue l -> OnLine l
+  CircleValue c -> OnCircle CounterClockwise c
+  _ -> bug "a value that is no curve where one was checked"
+
+-- | The one answer that is meant. The function tells the point by which an answer is chosen; the lines
+-- are those along which there can be a first and a last.
+picked :: Region -> Text -> (a -> Candidate) -> (a -> Point) -> [Line] -> [a] -> [Given] -> Eval a
+picked region what candidate key lines' found choice = case (found, choice) of
+  ([], _) -> Eval.mistake (NoAnswer region what "The numbers leave no place for it.")
+  ([one], []) -> pure one
+  (_, []) -> Eval.mistake (Several region what all')
+  (_, Choosing Near (Spatial p) : _) -> case sortOn (Vec.distance (place p) . key) found of
+    a : b : _ | near (Vec.distance (place p) (key a)) (Vec.distance (place p) (key b)) -> Eval.mistake (SeveralFit region what all')
+    a : _ -> pure a
+    [] -> only []
+  (_, Choosing ToLeft (LineValue l) : _) -> only (filter (\a -> sideOf l a > tolerance) found)
+  (_, Choosing ToRight (LineValue l) : _) -> only (filter (\a -> sideOf l a < -tolerance) found)
+  (_, Choosing Within' (CircleValue c) : _) -> only (filter (\a -> depth c a > tolerance) found)
+  (_, Choosing Beyond (CircleValue c) : _) -> only (filter (\a -> depth c a < -tolerance) found)
+  (_, Ranking rank : _) | l : _ <- lines' -> pure (ranked rank (NonEmpty.fromList (sortOn (along l) found)))
+  _ -> bug "a choice of another kind"
+  where
+    all' = map candidate found
+    only fitting = case fitting of
+      [one] -> pure one
+      [] -> Eval.mistake (NoneFits region what all')
+      _ -> Eval.mistake (SeveralFit region what (map candidate fitting))
+    Mm tolerance = Tolerance.coincident
+    near (Mm a) (Mm b) = abs (a - b) <= tolerance
+    sideOf l a = let Mm d = Shape.signedDistance l (key a) in d
+    depth (Circle c (Mm r)) a = let Mm d = Vec.distance c (key a) in r - d
+    along l a = Vec.dot (Shape.direction l) (Vec.to (from l) (key a))
+    ranked rank as = case rank of
+      First -> NonEmpty.head as
+      Last -> NonEmpty.last as
+
+intersection :: Region -> Walked -> Walked -> [Given] -> Eval Value
+intersection region a b choice = case meeting of
+  Apart gap -> Eval.mistake (NothingCommon region a b gap)
+  Same -> Eval.mistake (SameThing region)
+  Touching p -> chosen [p]
+  CrossingOnce p -> chosen [p]
+  Crossing p q -> chosen [p, q]
+  where
+    chosen ps = picked region "point" APoint id [l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
+    meeting = case (a, b) of
+      (OnLine l, OnLine m) -> Intersect.lines l m
+      (OnLine l, OnCircle _ c) -> Intersect.lineCircle l c
+      (OnCircle _ c, OnLine l) -> Intersect.lineCircle l c
+      (OnCircle _ c, OnCircle _ d) -> Intersect.circles c d
+      _ -> bug "an intersection of points"
+
+-- | The point at which two curves touch.
+tangency :: Region -> Walked -> Walked -> Eval Value
+tangency region a b = case (a, b) of
+  (OnLine l, OnCircle _ c) -> lineAt l c
+  (OnCircle _ c, OnLine l) -> lineAt l c
+  (OnCircle _ c, OnCircle _ d) -> case Intersect.circles c d of
+    Touching p -> spatial region (offset p)
+    Same -> Eval.mistake (SameThing region)
+    _ -> Eval.mistake (NotTouching region (circleGap c d))
+  _ -> bug "a tangency of other things than lines and circles"
+  where
+    lineAt l c@(Circle o (Mm r)) = case Intersect.lineCircle l c of
+      Touching p -> spatial region (offset p)
+      _ -> let Mm h = Shape.signedDistance l o in Eval.mistake (NotTouching region (Mm (abs (abs h - r))))
+    circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
+      let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
+
+-- | The directed line that touches two circles, or goes through a point. The word before a circle says on
+-- which side of the line it lies.
+tangentLine :: Region -> Given -> Given -> Eval Line
+tangentLine region a b = case Construct.touchingLines (circleAt a) (circleAt b) of
+  [one] -> pure one
+  [] -> Eval.mistake (NoAnswer region "line" why)
+  several -> Eval.mistake (Several region "line" (map ALine several))
+  where
+    circleAt g = case g of
+      Plain (Spatial p) -> ([CounterClockwise, Clockwise], Circle (place p) (Mm 0))
+      Plain (CircleValue c) -> ([CounterClockwise, Clockwise], c)
+      Choosing ToLeft (CircleValue c) -> ([CounterClockwise], c)
+      Choosing ToRight (CircleValue c) -> ([Clockwise], c)
+      _ -> bug "a tangent to something else"
+    why =
+      let (_, Circle p r) = circleAt a
+          (_, Circle q s) = circleAt b
+          Mm d = Vec.distance p q
+          Mm reach = plus r s
+       in if r == Mm 0 || s == Mm 0
+            then "The point lies inside the circle, " <> Decimal.mm (Mm (reach - d)) <> " from its edge."
+            else
+              if d < reach
+                then "The circles overlap by " <> Decimal.mm (Mm (reach - d)) <> ", or one lies in the other."
+                else "The circles are the same."
+
+-- | What a circle is to touch, with the word before it.
+touched :: Given -> [Touched]
+touched g = case g of
+  Plain (Spatial p) -> [Through (place p)]
+  Plain (LineValue l) -> [LeftOf l, RightOf l]
+  Choosing ToLeft (LineValue l) -> [LeftOf l]
+  Choosing ToRight (LineValue l) -> [RightOf l]
+  Plain (CircleValue c) -> [OutsideOf c, InsideOf c]
+  Choosing Beyond (CircleValue c) -> [OutsideOf c]
+  Choosing Within' (CircleValue c) -> [InsideOf c]
+  _ -> bug "a circle that touches something else"
+
+-- Transformations
+
+-- | A transformation by itself, or of the thing that is the first argument.
+transformed :: Region -> [Given] -> ([Value] -> Eval Similarity) -> Eval Value
+transformed region arguments make = case [v | Plain v <- arguments] of
+  Quantity a : rest -> PlacementValue <$> make (Quantity a : rest)
+  [only] -> PlacementValue <$> make [only]
+  what : rest -> make rest >>= \s -> image region s what
+  [] -> bug "a transformation without arguments"
+
+-- | What becomes of a thing.
+image :: Region -> Similarity -> Value -> Eval Value
+image region s v = case v of
+  Spatial p -> spatial region (offset (Similarity.point s (place p)))
+  CircleValue c -> let d@(Circle o (Mm r)) = Similarity.circle s c in CircleValue d <$ (within region (Vec.norm (offset o)) *> within region r)
+  LineValue l -> let m = Similarity.line s l in LineValue m <$ within region (Vec.norm (offset (from m)))
+  ContourValue c -> do
+    let d = c {elements = fmap (\e -> e {segment = Similarity.segment s (segment e)}) (elements c)}
+    mapM_ (within region . Vec.norm . offset . Segment.end . segment) (elements d)
+    pure (ContourValue d)
+  ListValue vs -> ListValue <$> traverse (image region s) vs
+  _ -> bug "a transformation of something else"
+
+-- | A contour walked the other way.
+reversed :: Contour -> Contour
+reversed c = c {elements = NonEmpty.reverse (fmap (\e -> e {segment = Segment.reverse (segment e)}) (elements c))}

@@ -1,0 +1,158 @@
+-- | What stands in the braces of a contour, evaluated.
+module Part.Walks
+  ( contour,
+    feedOf,
+    lengthOf,
+    positive,
+    startingNear,
+  )
+where
+
+import Base.Crash (bug)
+import Base.Decimal qualified as Decimal
+import Base.Name (Name)
+import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Region (Located (..), Region)
+import Checked.Syntax (Expr, Item, Item_ (..), Modifier_ (..), Walk)
+import Checked.Syntax qualified as Checked
+import Data.List (minimumBy)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Data.Text (Text)
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Circle (Circle), Line (Line), Turn (..), Walked (..))
+import Geometry.Shape qualified as Shape
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Builtin qualified as Builtin
+import Part.Chain (Link (..))
+import Part.Chain qualified as Chain
+import Part.Error (Error (..), Fact (..))
+import Part.Eval (Eval)
+import Part.Eval qualified as Eval
+import Part.Part (Contour (..), Ends (..), Finish (..), plainFinish)
+import Part.Part qualified as Part
+import Part.Value (Environment, Value (..))
+import Part.Value qualified as Value
+
+-- | The contour of a name.
+contour :: Environment -> Located Name -> Checked.Closure -> [Item] -> Eval Contour
+contour env name closure items = do
+  walks <- concat <$> Eval.gather (map (item env) items)
+  case NonEmpty.nonEmpty walks of
+    Nothing -> Eval.mistake (EmptyContour (region name) (value name))
+    Just some -> case Chain.solve (region name) ends some of
+      Left facts -> Eval.mistakes (NonEmpty.toList (fmap (`Error` []) facts))
+      Right elements -> pure Contour {contourName = name, ends, elements}
+  where
+    ends = case closure of
+      Checked.Open -> Open
+      Checked.Closed -> Closed
+
+item :: Environment -> Item -> Eval [Chain.Walk]
+item env (Located _ i) = case i of
+  For name list body -> do
+    vs <- Value.items <$> Value.evaluate env list
+    concat . concat <$> Eval.gather (map (\v -> Eval.gather (map (item (Value.bind name v env)) body)) vs)
+  Choose condition body others -> do
+    v <- Value.evaluate env condition
+    concat <$> Eval.gather (map (item env) (if Value.isTrue v then body else others))
+  Element walk e modifiers link -> do
+    v <- Value.evaluate env e
+    finish <- foldl (\before m -> before >>= modified env m) (pure plainFinish) modifiers
+    link' <- traverse (linkOf env) link
+    walksOf (region e) walk v finish link'
+
+modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
+modified env (Located _ m) finish = case m of
+  AtElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
+  Slow -> pure finish {slow = True}
+  ElementAllowance e -> (\d -> finish {allowance = d}) <$> lengthOf env "the allowance" e
+
+-- | The walks of an element: one, or those of a whole contour.
+walksOf :: Region -> Maybe Walk -> Value -> Finish -> Maybe (Region, Link) -> Eval [Chain.Walk]
+walksOf at walk v finish link = case (v, walk) of
+  (CircleValue c, Just Checked.Clockwise) -> one (OnCircle Clockwise c) Nothing Nothing
+  (CircleValue c, Just Checked.CounterClockwise) -> one (OnCircle CounterClockwise c) Nothing Nothing
+  (LineValue l@(Line p q), Nothing) -> one (OnLine l) (Just p) (Just q)
+  (Spatial _, Nothing) -> let p = Value.point v in one (AtPoint p) (Just p) (Just p)
+  (ContourValue c, Nothing) -> case ends c of
+    Closed -> Eval.mistake (ClosedElement at (value (contourName c)))
+    Open -> pure (chained (NonEmpty.toList (elements c)))
+  _ -> bug "an element that can not be walked"
+  where
+    one shape begins stops = pure [Chain.Walk {Chain.place = at, Chain.shape, Chain.begins, Chain.stops, Chain.finish, Chain.link}]
+    chained es = case es of
+      [] -> []
+      [e] -> [walkOf e link]
+      e : rest -> walkOf e (Just (at, Fixed (Segment.end (Part.segment e)))) : chained rest
+    walkOf (Part.Element s origin own) link' =
+      Chain.Walk {Chain.place = origin, Chain.shape = shapeOf s, Chain.begins = Just (Segment.start s), Chain.stops = Just (Segment.end s), Chain.finish = merged own, Chain.link = link'}
+    -- What is asked on the whole counts where its elements ask nothing.
+    merged own =
+      Finish
+        { ownFeed = maybe (ownFeed finish) Just (ownFeed own),
+          slow = slow own || slow finish,
+          allowance = if allowance own == Mm 0 then allowance finish else allowance own
+        }
+    shapeOf s = case s of
+      Straight p q -> OnLine (Line p q)
+      Arc {start, centre, sweep = Rad a} -> OnCircle (if a > 0 then CounterClockwise else Clockwise) (Circle centre (Segment.radius centre start))
+
+linkOf :: Environment -> Checked.Link -> Eval (Region, Link)
+linkOf env (Located at l) =
+  (at,) <$> case l of
+    Checked.Meet Nothing -> pure (Meet Nothing)
+    Checked.Meet (Just p) -> Meet . Just . Value.point <$> Value.evaluate env p
+    Checked.Smooth -> pure Smooth
+    Checked.Tangent -> pure Tangent
+    Checked.Fillet e -> do
+      r <- Value.number <$> Value.evaluate env e
+      if r == 0
+        then Eval.mistake (NotPositive (region e) "the radius of a fillet" "0 mm")
+        else signed r <$ Builtin.within (region e) r
+    Checked.Chamfer e -> Chamfer <$> lengthOf env "the chamfer" e
+
+-- | +R is walked clockwise, −R counter-clockwise (Kolsanova: links between pieces).
+signed :: Double -> Link
+signed r = Fillet (if r > 0 then Shape.Clockwise else Shape.CounterClockwise) (Mm (abs r))
+
+-- | A quantity above zero; what it is and how it is written for the report.
+positive :: Environment -> Text -> (q -> Text) -> (Double -> q) -> Expr -> Eval q
+positive env what written make e = do
+  x <- Value.number <$> Value.evaluate env e
+  if x <= 0
+    then Eval.mistake (NotPositive (region e) what (written (make x)))
+    else make x <$ Builtin.within (region e) x
+
+lengthOf :: Environment -> Text -> Expr -> Eval Mm
+lengthOf env what = positive env what Decimal.mm Mm
+
+feedOf :: Environment -> Expr -> Eval (Located Feed)
+feedOf env e = Located (region e) <$> positive env "the feed" (\(Feed f) -> Decimal.short 4 f <> " mm/min") Feed e
+
+-- | A closed contour that begins where it comes nearest to a point.
+startingNear :: Point -> Contour -> Contour
+startingNear p c = case NonEmpty.nonEmpty turned of
+  Just es -> c {elements = es}
+  Nothing -> c
+  where
+    list = NonEmpty.toList (elements c)
+    nearest = fst (minimumBy (comparing snd) (zip [0 ..] [Distance.toPoint p (Part.segment e) | e <- list]))
+    (before, from) = splitAt nearest list
+    turned = case from of
+      [] -> list
+      e : rest -> case cut (Part.segment e) of
+        Nothing
+          | Vec.distance p (Segment.start (Part.segment e)) <= Vec.distance p (Segment.end (Part.segment e)) -> from <> before
+          | otherwise -> rest <> before <> [e]
+        Just (a, b) -> e {Part.segment = b} : rest <> before <> [e {Part.segment = a, Part.finish = (Part.finish e) {slow = False}}]
+    -- The segment in two, unless the point is at one of its ends.
+    cut s
+      | t <= 0 || t >= 1 || Vec.near foot (Segment.start s) || Vec.near foot (Segment.end s) = Nothing
+      | otherwise = Just (Segment.cutAt t s)
+      where
+        t = Segment.fraction s p
+        foot = Segment.at t s

@@ -1,0 +1,105 @@
+-- | A program together with what it imports.
+--
+-- An imported file gives its definitions (@let@, @param@, @contour@, and what it imports itself); its
+-- settings and motions stay behind. Each file is read once, however often it is imported.
+module Surface.Import
+  ( Reader,
+    Loaded (..),
+    load,
+    alone,
+  )
+where
+
+import Base.Region (Located (..), Source)
+import Base.Region qualified as Region
+import Base.Result (Result (..))
+import Control.Monad.State.Strict (StateT, get, gets, lift, modify', put, runStateT)
+import Data.Functor.Identity (runIdentity)
+import Data.Set (Set)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Surface.Error (Error (..))
+import Surface.Parser qualified as Parser
+import Surface.Syntax (Program (..), Statement, Statement_ (..))
+import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeDirectory, (</>))
+
+-- | Reads a file, or says why it cannot be read.
+type Reader m = FilePath -> m (Either Text Text)
+
+-- | All texts, and one program of them.
+data Loaded = Loaded {source :: Source, surface :: Result Error Error Program}
+
+-- | What is known between two files.
+data Progress = Progress {texts :: Source, seen :: Set FilePath, found :: [Error]}
+
+-- | Read a program and what it imports: the name of its file, for reports and for the places of the
+-- others; its text.
+load :: Monad m => Reader m -> FilePath -> Text -> m Loaded
+load reader path text = do
+  let Result {errors, output} = Parser.parse 0 text
+      begin = Progress {texts = Region.fromText (Text.pack path) text, seen = Set.singleton (simple path), found = []}
+  case output of
+    Nothing -> pure Loaded {source = texts begin, surface = Result [] errors Nothing}
+    Just whole -> do
+      (statements', progress) <- runStateT (imported reader [simple path] path (statements whole)) begin
+      pure
+        Loaded
+          { source = texts progress,
+            surface = Result [] (errors <> reverse (found progress)) (Just whole {statements = statements'})
+          }
+
+-- | A program of one text that can import nothing.
+alone :: Text -> Text -> Loaded
+alone path text = runIdentity (load (const (pure (Left "only one text is looked at"))) (Text.unpack path) text)
+
+-- | The statements of a file with its imports replaced by what they bring. The files that are being
+-- read stand on a stack.
+imported :: Monad m => Reader m -> [FilePath] -> FilePath -> [Statement] -> StateT Progress m [Statement]
+imported reader stack path = fmap concat . mapM one
+  where
+    one s = case s of
+      Located _ (Import (Located at name)) -> bring at (simple (takeDirectory path </> Text.unpack name)) name
+      _ -> pure [s]
+    bring at file name
+      | file `elem` stack = mistake (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))
+      | length stack > deepest = mistake (ImportCycle at [Text.pack file])
+      | otherwise = do
+        known <- gets (Set.member file . seen)
+        if known then pure [] else readIn at file name
+    readIn at file name = do
+      content <- lift (reader file)
+      case content of
+        Left why -> mistake (ImportMissing at name why)
+        Right text -> do
+          progress <- get
+          let Result {errors, output} = Parser.parse (Region.next (texts progress)) text
+          put progress {texts = Region.add (Text.pack file) text (texts progress), seen = Set.insert file (seen progress), found = reverse errors <> found progress}
+          filter defines <$> imported reader (file : stack) file (maybe [] statements output)
+
+mistake :: Monad m => Error -> StateT Progress m [Statement]
+mistake e = [] <$ modify' (\p -> p {found = e : found p})
+
+-- | Imports are not nested deeper.
+deepest :: Int
+deepest = 100
+
+-- | Whether a statement is something that an import brings.
+defines :: Statement -> Bool
+defines (Located _ s) = case s of
+  LetValue _ _ -> True
+  LetFunction {} -> True
+  Param _ _ -> True
+  Contour {} -> True
+  Broken _ (Just _) -> True
+  _ -> False
+
+-- | A path without detours, so that one file has one name.
+simple :: FilePath -> FilePath
+simple path = if null parts then "." else joinPath parts
+  where
+    parts = foldl step [] (splitDirectories (normalise path))
+    step before part = case (part, reverse before) of
+      (".", _) -> before
+      ("..", final : rest) | final /= ".." && not (isAbsolute final) -> reverse rest
+      _ -> before <> [part]
