@@ -21,7 +21,7 @@ spec = do
     text <- runIO (readText file)
     forM_ (zip [1 :: Int ..] (programs text)) $ \(n, program) ->
       it (file <> ": program " <> show n <> " compiles") $
-        map Report.title (Result.errors (Compile.analyse (whole program))) `shouldBe` []
+        map Report.title (Result.errors (Compile.analyse [] (Compile.alone "document" (whole program)))) `shouldBe` []
   it "docs/language.md lists every report code that there is, and no other" $ do
     sources <- filter ((== "Error.hs") . takeFileName) <$> walk "src"
     codes <- traverse readText (sources <> ["src/Tape/Punch.hs", "src/Verify/Proof.hs"])
