@@ -13,8 +13,11 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Options.Applicative (Parser, ParserInfo)
 import Options.Applicative qualified as Opt
+import Report.Explanation qualified as Explanation
+import Report.Report (Code (..))
 
 -- | What to do, and how to talk about it.
 data Invocation = Invocation {settings :: Settings, command :: Command}
@@ -31,6 +34,7 @@ data Command
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
   | Machines (Maybe Text)
+  | Explain (Maybe Text)
   deriving stock (Eq, Show)
 
 data CompileOptions = CompileOptions
@@ -66,9 +70,11 @@ commands =
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
-      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME")))
+      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
+      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes)))
     ]
   where
+    codes = [Text.unpack c | e <- Explanation.everything, let Code c = Explanation.code e]
     entry name description example p =
       Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
 

@@ -36,6 +36,7 @@ import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Part.Part (MachineRef (..))
 import Part.Part qualified as Part
+import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
@@ -52,6 +53,7 @@ run (Invocation settings command) = case command of
   Decode target tape -> decode settings target tape
   Plot file output -> plot settings file output
   Machines name -> machines settings name
+  Explain code -> explain settings code
 
 -- Reading
 
@@ -273,3 +275,10 @@ machines settings wanted = case wanted of
   Just n -> case machineNamed n of
     Left e -> complain settings "" e
     Right m -> printed settings (MachineSheet.machineSheet m)
+
+explain :: Settings -> Maybe Text -> IO Exit
+explain settings wanted = case wanted of
+  Nothing -> printed settings Explanation.list
+  Just word -> case Explanation.find word of
+    [] -> complain settings "" (UnknownCode word (Explanation.near word))
+    found -> printed settings (Text.intercalate "\n" (map Explanation.render found))
