@@ -2,16 +2,17 @@
 module DocumentsSpec (spec) where
 
 import Base.Result qualified as Result
+import Codes qualified
 import Compile qualified
 import Control.Monad (forM_)
 import Data.List (sort)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (readText)
 import Report.Report qualified as Report
 import System.Directory (listDirectory)
-import System.FilePath (takeExtension, takeFileName, (</>))
+import System.FilePath (takeExtension, (</>))
 import Test.Hspec
 
 spec :: Spec
@@ -23,11 +24,10 @@ spec = do
       it (file <> ": program " <> show n <> " compiles") $
         map Report.title (Result.errors (Compile.analyse [] (Compile.alone "document" (whole program)))) `shouldBe` []
   it "docs/language.md lists every report code that there is, and no other" $ do
-    sources <- filter ((== "Error.hs") . takeFileName) <$> walk "src"
-    codes <- traverse readText (sources <> ["src/Tape/Punch.hs", "src/Verify/Proof.hs"])
+    codes <- Codes.inSources
     manual <- readText "docs/language.md"
-    let listed = Set.fromList [c | line <- Text.lines manual, c <- take 1 (drop 1 (map Text.strip (Text.splitOn "|" line))), isCode c]
-    listed `shouldBe` Set.fromList (filter isCode (concatMap (Text.splitOn "\"") codes))
+    let listed = Set.fromList [c | line <- Text.lines manual, c <- take 1 (drop 1 (map Text.strip (Text.splitOn "|" line))), Codes.isCode c]
+    listed `shouldBe` codes
 
 -- | What stands between @```part@ and @```@.
 programs :: Text -> [Text]
@@ -38,6 +38,3 @@ whole :: Text -> Text
 whole program
   | "part " `elem` map (Text.take 5) (Text.lines program) = program
   | otherwise = "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60\ntolerance 0.02\nfrom (-200, -200)\n" <> program
-
-isCode :: Text -> Bool
-isCode t = Text.length t == 5 && Text.take 1 t `elem` ["E", "W"] && Text.all (`elem` ['0' .. '9']) (Text.drop 1 t)
