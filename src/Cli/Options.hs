@@ -31,6 +31,7 @@ data Command
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
   | Machines (Maybe Text)
+  | LanguageServer
   deriving stock (Eq, Show)
 
 data CompileOptions = CompileOptions
@@ -66,11 +67,19 @@ commands =
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
-      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME")))
+      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
+      entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors)
     ]
   where
     entry name description example p =
       Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
+
+-- | What editors pass to every language server. It changes nothing: there is no other way to talk to this one,
+-- and it ends when its input does.
+ofEditors :: Parser ()
+ofEditors =
+  () <$ Opt.switch (Opt.long "stdio" <> Opt.internal)
+    <* optional (Opt.strOption (Opt.long "clientProcessId" <> Opt.internal) :: Parser String)
 
 compileOptions :: Parser CompileOptions
 compileOptions =

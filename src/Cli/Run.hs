@@ -1,6 +1,7 @@
 -- | The commands.
 module Cli.Run
   ( run,
+    checked,
   )
 where
 
@@ -31,6 +32,9 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Frame.Frame qualified as Frame
+import Lsp.Server (Host (Host, load))
+import Lsp.Server qualified as Lsp
+import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -52,6 +56,7 @@ run (Invocation settings command) = case command of
   Decode target tape -> decode settings target tape
   Plot file output -> plot settings file output
   Machines name -> machines settings name
+  LanguageServer -> languageServer
 
 -- Reading
 
@@ -105,7 +110,10 @@ delivered settings written = case written of
   Right () -> pure Done
 
 analyse :: Loaded -> Result Report Report Analysis
-analyse loaded = Compile.analyse (Region.text (source loaded))
+analyse = analysed . source
+
+analysed :: Source -> Result Report Report Analysis
+analysed = Compile.analyse . Region.text
 
 -- Machines
 
@@ -190,11 +198,23 @@ writeAll settings files = case files of
 -- | Mistakes only: nothing past the path and the machine's limits.
 check :: Settings -> FilePath -> IO Exit
 check settings file' = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse loaded `Result.thenSound` limits) (const (pure Done))
+  settle settings loaded (checked (source loaded)) (const (pure Done))
+
+-- | All that can be said against a program without its tape: up to the limits of the machine that it names.
+checked :: Source -> Result Report Report Analysis
+checked source' = analysed source' `Result.thenSound` \a -> a <$ limits a
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
       Just _ -> chosen [] a >>= traverse (\m -> Compile.punch m (path a))
+
+-- | Answer an editor until it leaves.
+languageServer :: IO Exit
+languageServer = statusOf <$> Lsp.serve Host {load = \_ path' text -> pure (Region.fromText path' text), Lsp.check = checked}
+  where
+    statusOf ending = case ending of
+      Orderly -> Done
+      Abrupt -> Failed
 
 verify :: Settings -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
 verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
