@@ -14,7 +14,7 @@ import Files (readText, walk)
 import Lsp.Message (Failure (..), Incoming (..), Outgoing (..), Trouble (..))
 import Lsp.Session (Effect (..), Ending (..))
 import Lsp.Talk
-import Report.Report (Code (..), Place (..), Report)
+import Report.Report (Code (..), Place (..))
 import Report.Report qualified as Report
 import System.FilePath (takeExtension)
 import Test.Hspec
@@ -52,9 +52,9 @@ spec = do
           [(String "file:///tmp/%d1%84.part", Number 0, [Squiggle {code = "E0201"}])] -> True
           _ -> False
     it "wait until the text has rested" $ do
-      let edited = replace addressOf 2 right (opened wrong)
-      length (published (pause 199 edited)) `shouldBe` 1
-      length (published (pause 200 edited)) `shouldBe` 2
+      let touched = replace addressOf 2 right (opened wrong)
+      length (published (pause 199 touched)) `shouldBe` 1
+      length (published (pause 200 touched)) `shouldBe` 2
     it "of fast edits are those of the last text, once" $ do
       let fast = pause 500 (foldl (\t n -> pause 60 (replace addressOf n (if even n then right else wrong) t)) (opened wrong) [2 .. 40])
       map (\(_, v, found) -> (v, map code found)) (drop 1 (published fast)) `shouldBe` [(Number 40, [])]
