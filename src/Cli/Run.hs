@@ -32,7 +32,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Frame.Frame qualified as Frame
-import Lsp.Server (Host (Host, load))
+import Lsp.Server (Host (Host, input, load))
 import Lsp.Server qualified as Lsp
 import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
@@ -43,6 +43,7 @@ import Part.Part qualified as Part
 import Report.Report (Report)
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
+import System.IO (stdin, stdout)
 import Tape.Tape (Tape (..))
 
 -- | Run a command.
@@ -210,8 +211,9 @@ checked source' = analysed source' `Result.thenSound` \a -> a <$ limits a
 
 -- | Answer an editor until it leaves.
 languageServer :: IO Exit
-languageServer = statusOf <$> Lsp.serve Host {load = \_ path' text -> pure (Region.fromText path' text), Lsp.check = checked}
+languageServer = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output = stdout, load, Lsp.check = checked}
   where
+    load _ path' text = pure (Region.fromText path' text)
     statusOf ending = case ending of
       Orderly -> Done
       Abrupt -> Failed

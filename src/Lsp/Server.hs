@@ -1,4 +1,4 @@
--- | The language server on standard input and output: the loop round a 'Session'.
+-- | The language server on a pair of streams: the loop round a 'Session'.
 --
 -- One thread reads, handles and writes, so answers come in the order of the requests. While nothing arrives
 -- it waits for the next deadline of the session.
@@ -21,12 +21,15 @@ import Lsp.Session qualified as Session
 import Lsp.Wire qualified as Wire
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
-import System.IO (hFlush, hSetBinaryMode, hWaitForInput, stdin, stdout)
+import System.IO (Handle, hFlush, hSetBinaryMode, hWaitForInput)
 import System.IO.Error (isEOFError)
 
 -- | What the server is given by the command line.
 data Host = Host
-  { -- | a program with the files that it imports; open texts go before those on disk, then come the
+  { -- | where messages come from, and where they go; nothing else is written there
+    input :: Handle,
+    output :: Handle,
+    -- | a program with the files that it imports; open texts go before those on disk, then come the
     -- path and the text of the program itself
     load :: (Text -> Maybe Text) -> Text -> Text -> IO Source,
     -- | what looks for mistakes
@@ -36,8 +39,8 @@ data Host = Host
 -- | Talk to a client until it leaves or is gone.
 serve :: Host -> IO Ending
 serve host = do
-  hSetBinaryMode stdin True
-  hSetBinaryMode stdout True
+  hSetBinaryMode (input host) True
+  hSetBinaryMode (output host) True
   ended <- try (loop host "" Session.start) :: IO (Either IOException Ending)
   -- The other end is gone.
   pure (either (const Abrupt) id ended)
@@ -50,10 +53,10 @@ loop host received session = case Wire.next received of
   Wire.Incomplete missing -> do
     now <- clock
     arrived <- case Session.deadline session of
-      Nothing -> receive missing
+      Nothing -> receive host missing
       Just time -> do
-        ready <- inputWithin (time `after` now)
-        if ready then receive missing else pure (Just "")
+        ready <- inputWithin host (time `after` now)
+        if ready then receive host missing else pure (Just "")
     case arrived of
       Nothing -> pure Abrupt
       Just "" -> handle host Due session >>= continue host received
@@ -66,17 +69,17 @@ continue host received outcome = case outcome of
   Right session -> loop host received session
 
 -- | The next bytes; nothing at the end of input. A long message is read in one piece.
-receive :: Int -> IO (Maybe ByteString)
-receive missing = do
-  bytes <- if missing > chunk then ByteString.hGet stdin missing else ByteString.hGetSome stdin chunk
+receive :: Host -> Int -> IO (Maybe ByteString)
+receive host missing = do
+  bytes <- if missing > chunk then ByteString.hGet (input host) missing else ByteString.hGetSome (input host) chunk
   pure (if ByteString.null bytes then Nothing else Just bytes)
   where
     chunk = 65536
 
 -- | Whether something arrives within so many milliseconds. The end of input counts.
-inputWithin :: Int -> IO Bool
-inputWithin wait = do
-  ready <- try (hWaitForInput stdin wait)
+inputWithin :: Host -> Int -> IO Bool
+inputWithin host wait = do
+  ready <- try (hWaitForInput (input host) wait)
   case ready of
     Right answer -> pure answer
     Left e | isEOFError e -> pure True
@@ -99,8 +102,8 @@ handle host event session = do
       Just UserInterrupt -> throwIO UserInterrupt
       Just ThreadKilled -> throwIO ThreadKilled
       _ -> prepared (Session.failed now (firstLine e) event session)
-  mapM_ (ByteString.hPut stdout . Wire.framed) bytes
-  hFlush stdout
+  mapM_ (ByteString.hPut (output host) . Wire.framed) bytes
+  hFlush (output host)
   pure (maybe (Right session') Left ending)
   where
     firstLine :: SomeException -> Text

@@ -1,6 +1,10 @@
 -- | The server itself, as an editor starts it: streams, statuses, time.
 module Lsp.ServerSpec (spec) where
 
+import Base.Crash (bug)
+import Base.Region qualified as Region
+import Cli.Run qualified as Cli
+import Control.Concurrent (forkIO, newEmptyMVar, putMVar, takeMVar)
 import Control.Exception (bracket)
 import Control.Monad (forM_, void)
 import Data.Aeson (Value (..), object, (.=))
@@ -12,13 +16,17 @@ import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Lsp.Server (Host (..))
+import Lsp.Server qualified as Server
+import Lsp.Session (Ending (..))
 import Lsp.Talk (about, addressOf, field)
 import Lsp.Wire (Step (..))
 import Lsp.Wire qualified as Wire
+import Query.Snapshot (Check)
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
 import System.IO (Handle, hClose, hFlush, hSetBinaryMode)
-import System.Process (CreateProcess (..), ProcessHandle, StdStream (..), createProcess, proc, terminateProcess, waitForProcess)
+import System.Process (CreateProcess (..), ProcessHandle, StdStream (..), createPipe, createProcess, proc, terminateProcess, waitForProcess)
 import System.Timeout (timeout)
 import Test.Hspec
 
@@ -51,6 +59,25 @@ spec = do
       forM_ [2 .. 9] $ \n -> send to (notice "textDocument/didChange" (object ["textDocument" .= object ["uri" .= addressOf, "version" .= (n :: Int)], "contentChanges" .= [object ["text" .= Text.concat (replicate n "-- жёлтый 🙂\n")]]]))
       (_, second) <- diagnosticsFrom "" from
       version second `shouldBe` Number 9
+  it "a failure refuses its own request, shows itself, and the server lives on" $
+    inProcess (\source -> if "нет" `Text.isInfixOf` Region.text source then bug "a fault\nof ours" else Cli.checked source) $ \to from -> do
+      mapM_ (send to) opening
+      (a, welcome) <- nextFrom "" from
+      (b, shown) <- nextFrom a from
+      send to (question 1 "textDocument/hover" (about addressOf (6, 4)))
+      (c, refused) <- nextFrom b from
+      send to (notice "textDocument/didChange" (object ["textDocument" .= object ["uri" .= addressOf, "version" .= (2 :: Int)], "contentChanges" .= [object ["text" .= ("let ж = 1\n" :: Text)]]]))
+      send to (question 2 "textDocument/hover" (about addressOf (0, 4)))
+      -- While the server waits, nothing else runs in this process; so either may come first.
+      (d, one) <- nextFrom c from
+      (_, other) <- nextFrom d from
+      field "id" welcome `shouldBe` Number 0
+      [field "message" m | m <- diagnosticsOf shown] `shouldBe` [String "this is a bug in partc: please send us the program\na fault"]
+      (field "id" refused, field "code" (field "error" refused)) `shouldBe` (Number 1, Number (-32603))
+      [field "result" m | m <- [one, other], field "id" m == Number 2] `shouldSatisfy` \case
+        [Object _] -> True
+        _ -> False
+      [(version m, codes m) | m <- [one, other], field "id" m == Null] `shouldBe` [(Number 2, [String "E0215"])]
   it "takes a long text in one message" $ do
     flange <- readText "examples/flange.part"
     let long = flange <> Text.replicate 40000 "-- шестьдесят 🙂\n"
@@ -59,7 +86,7 @@ spec = do
     mapMaybe named (concat [foldMap pure a | r <- answers, Array a <- [field "result" r]]) `shouldBe` ["flange", "c", "lug", "boss", "outline", "mill outline outside"]
   where
     version = field "version" . field "params"
-    codes m = [field "code" d | Array ds <- [field "diagnostics" (field "params" m)], d <- foldMap pure ds]
+    codes = map (field "code") . diagnosticsOf
     named v = case field "name" v of
       String name -> Just name
       _ -> Nothing
@@ -105,14 +132,36 @@ unframed bytes = case Wire.next bytes of
 talking :: [String] -> (Handle -> Handle -> IO ()) -> IO ()
 talking arguments act = void . within . withServer arguments $ \to from _ -> act to from
 
--- | The next diagnostics that arrive.
-diagnosticsFrom :: ByteString -> Handle -> IO (ByteString, Value)
-diagnosticsFrom waiting from = case Wire.next waiting of
-  Complete body rest | Just value <- Aeson.decodeStrict body -> if field "method" value == String "textDocument/publishDiagnostics" then pure (rest, value) else diagnosticsFrom rest from
+-- | The next message that arrives, and what arrives behind it.
+nextFrom :: ByteString -> Handle -> IO (ByteString, Value)
+nextFrom waiting from = case Wire.next waiting of
+  Complete body rest | Just value <- Aeson.decodeStrict body -> pure (rest, value)
   Incomplete _ -> do
     bytes <- ByteString.hGetSome from 65536
-    if ByteString.null bytes then fail "the server is gone" else diagnosticsFrom (waiting <> bytes) from
+    if ByteString.null bytes then fail "the server is gone" else nextFrom (waiting <> bytes) from
   _ -> fail "this is not the protocol"
+
+-- | The next diagnostics that arrive.
+diagnosticsFrom :: ByteString -> Handle -> IO (ByteString, Value)
+diagnosticsFrom waiting from = do
+  (rest, value) <- nextFrom waiting from
+  if field "method" value == String "textDocument/publishDiagnostics" then pure (rest, value) else diagnosticsFrom rest from
+
+diagnosticsOf :: Value -> [Value]
+diagnosticsOf message = case field "diagnostics" (field "params" message) of
+  Array ds -> foldMap pure ds
+  _ -> []
+
+-- | Talk to a server in this process, with another check of the program.
+inProcess :: Check -> (Handle -> Handle -> IO ()) -> IO ()
+inProcess check act = within $ do
+  (input, to) <- createPipe
+  (from, output) <- createPipe
+  done <- newEmptyMVar
+  _ <- forkIO (Server.serve Host {input, output, load = \_ path text -> pure (Region.fromText path text), check} >>= putMVar done)
+  act to from
+  hClose to
+  takeMVar done `shouldReturn` Abrupt
 
 -- | Nothing here takes half a minute.
 within :: IO a -> IO a

@@ -15,9 +15,12 @@ end
 
 answer.filetype = vim.bo.filetype
 
-await(function()
+if not await(function()
   return #vim.diagnostic.get(0) > 0
-end)
+end) then
+  -- Nothing will come any more.
+  patience = 100
+end
 for _, d in ipairs(vim.diagnostic.get(0)) do
   local code = d.code or (d.user_data and d.user_data.lsp and d.user_data.lsp.code)
   table.insert(answer.diagnostics, {
