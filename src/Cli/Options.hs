@@ -9,6 +9,7 @@ where
 
 import Cli.Output (ColourChoice (..), Format (..), Settings (..))
 import Control.Applicative (many, optional, some, (<|>))
+import Control.Monad (void)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
@@ -78,7 +79,7 @@ commands =
 -- and it ends when its input does.
 ofEditors :: Parser ()
 ofEditors =
-  () <$ Opt.switch (Opt.long "stdio" <> Opt.internal)
+  void (Opt.switch (Opt.long "stdio" <> Opt.internal))
     <* optional (Opt.strOption (Opt.long "clientProcessId" <> Opt.internal) :: Parser String)
 
 compileOptions :: Parser CompileOptions

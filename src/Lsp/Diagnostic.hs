@@ -47,7 +47,7 @@ diagnostic client uri source r =
     -- The place's own label only where it says more than one word and is not said by the title.
     sentences =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
-        <> [besides l | l <- others r, not (related client)]
+        <> [besides l | not (related client), l <- others r]
         <> message r
         <> map ("hint: " <>) (hints r)
     besides (Label region said) = lineOf source region <> ": " <> said

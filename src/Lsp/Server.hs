@@ -12,6 +12,7 @@ import Base.Region (Source)
 import Control.Exception (AsyncException (..), IOException, SomeException, displayException, evaluate, fromException, throwIO, try)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
+import Data.Either qualified as Either
 import Data.Text (Text)
 import Data.Text qualified as Text
 import GHC.Clock (getMonotonicTimeNSec)
@@ -43,7 +44,7 @@ serve host = do
   hSetBinaryMode (output host) True
   ended <- try (loop host "" Session.start) :: IO (Either IOException Ending)
   -- The other end is gone.
-  pure (either (const Abrupt) id ended)
+  pure (Either.fromRight Abrupt ended)
 
 -- | The bytes that are received but not yet handled, and the state.
 loop :: Host -> ByteString -> Session -> IO Ending

@@ -10,6 +10,7 @@ where
 
 import Base.Region (Region (..))
 import Data.Char (isAlphaNum)
+import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 
@@ -29,9 +30,7 @@ between before after = Carry {same = Text.length prefix - length cutFront, old =
     kept = Text.length suffix - Text.length cutBack
 
 common :: Text -> Text -> (Text, Text, Text)
-common a b = case Text.commonPrefixes a b of
-  Just parts -> parts
-  Nothing -> ("", a, b)
+common a b = Maybe.fromMaybe ("", a, b) (Text.commonPrefixes a b)
 
 commonEnd :: Text -> Text -> (Text, Text, Text)
 commonEnd a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size b)

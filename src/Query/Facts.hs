@@ -64,10 +64,8 @@ statement scope s = case value s of
   Contour what _ items -> (define what "a contour" scope, definitionOf what "a contour" : concatMap (item scope) items)
   Mill what _ settings -> (scope, expr scope what <> concatMap (setting scope . value) settings)
   Travel stops -> (scope, concatMap (stop scope) stops)
-  Broken _ what -> (maybe scope (\n -> define n unread scope) what, [definitionOf n unread | Just n <- [what]])
-
-unread :: Text
-unread = "a definition that cannot be read"
+  -- Of what cannot be read nothing is said, so that the last sound text may answer.
+  Broken _ what -> (maybe scope (\(Located _ n) -> Map.delete n scope) what, [])
 
 define :: Located Name -> Text -> Scope -> Scope
 define (Located region name) kind = Map.insert name (Known region kind)
@@ -80,7 +78,7 @@ item scope i = case value i of
   Element _ e link -> expr scope e <> maybe [] (linked . value) link
   For variable list items ->
     definitionOf variable each : expr scope list <> concatMap (item (define variable each scope)) items
-  BrokenItem what -> [definitionOf n unread | Just n <- [what]]
+  BrokenItem _ -> []
   where
     each = "each of a list in turn"
     linked l = case l of

@@ -36,7 +36,11 @@ spec = do
       defined "contour k closed {\n  for a in [1] {\n    cw circle((^a, 0), 1)\n  }\n}\n" `shouldBe` Just "a@25"
     it "names of the language have none" $
       defined "let b = ^pi\n" `shouldBe` Nothing
-  describe "while the text is broken" $
+  describe "while the text is broken" $ do
+    it "a definition that cannot be read is what it was" $ do
+      let sound = header <> "let aa = 41 mm\nlet b = aa\n"
+          text = header <> "let aa = (41 mm\nlet b = aa\n"
+      (Name.hover (look text) (Just (look sound)) (offsetOf "= aa" text + 2) >>= value) `shouldBe` Just "41 mm"
     it "the last sound text answers for names that lie outside the change" $ do
       let sound = header <> "let aa = 1\nlet f(x) = x + aa\nlet c = 2\n"
           text = header <> "let aa = 1\nlet f(x = x + aa\nlet c = 2\n"
