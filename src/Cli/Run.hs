@@ -1,6 +1,7 @@
 -- | The commands.
 module Cli.Run
   ( run,
+    checked,
   )
 where
 
@@ -31,6 +32,9 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Frame.Frame qualified as Frame
+import Lsp.Server (Host (Host, input, load))
+import Lsp.Server qualified as Lsp
+import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -40,6 +44,7 @@ import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
+import System.IO (stdin, stdout)
 import Tape.Tape (Tape (..))
 
 -- | Run a command.
@@ -57,6 +62,7 @@ perform reporter command = case command of
   Plot file output -> plot reporter file output
   Machines name -> machines reporter name
   Explain code -> explain reporter code
+  LanguageServer -> languageServer reporter
 
 -- Reading
 
@@ -123,6 +129,7 @@ delivered reporter written = case written of
   Left why -> complain reporter "" (CannotWrite "to standard output" why)
   Right () -> pure Done
 
+analyse :: Loaded -> Result Report Report Analysis
 analyse :: Loaded -> Result Report Report Analysis
 analyse loaded = Compile.analyse (values loaded) (texts loaded)
 
@@ -209,11 +216,24 @@ writeAll reporter files = case files of
 -- | Mistakes only: nothing past the path and the machine's limits.
 check :: Reporter -> FilePath -> IO Exit
 check reporter file' = withProgram reporter file' $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` limits) (const (pure Done))
+  settle reporter loaded (checked (values loaded) (texts loaded)) (const (pure Done))
+
+-- | All that can be said against a program without its tape: up to the limits of the machine that it names.
+checked :: [(Text, Text)] -> Compile.Loaded -> Result Report Report Analysis
+checked values' texts' = Compile.analyse values' texts' `Result.thenSound` \a -> a <$ limits a
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
       Just _ -> chosen [] a >>= traverse (\m -> Compile.punch m (path a))
+
+-- | Answer an editor until it leaves. What is open in the editor is read there rather than from the disk.
+languageServer :: Reporter -> IO Exit
+languageServer reporter = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output = stdout, load, Lsp.check = checked (Output.values (Output.settings reporter))}
+  where
+    load open path' text = Compile.load (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open there)) (Text.unpack path') text
+    statusOf ending = case ending of
+      Orderly -> Done
+      Abrupt -> Failed
 
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
 verify reporter file' target tapeFile = withProgram reporter file' $ \loaded ->

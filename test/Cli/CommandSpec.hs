@@ -123,7 +123,7 @@ spec = do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
   it "every command explains itself with an example" $
-    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines", "explain"] $ \command -> do
+    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines", "explain", "lsp"] $ \command -> do
       (code, out, _) <- partc [command, "--help"]
       code `shouldBe` ExitSuccess
       out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
