@@ -24,11 +24,11 @@ import Surface.Error (Error)
 import Surface.Lexer qualified as Lexer
 import Surface.Parser qualified as Parser
 import Surface.Print qualified as Print
-import Surface.PrintExpr (Commented)
+import Surface.PrintExpr (Commented (..))
 import Surface.Row (Cells (..), Row (..))
 import Surface.Row qualified as Row
 import Surface.Syntax (Program (..))
-import Surface.Token (Token_ (Symbol))
+import Surface.Token (Token, Token_ (Symbol))
 import Surface.Token qualified as Token
 
 -- | The text in the canonical layout; nothing when it has mistakes. The meaning and the comments stay: should
@@ -58,9 +58,25 @@ laidOut text program = Text.unlines (written (tidy (entries source remarks rows)
   where
     source = Region.fromText "" text
     remarks = map (remark source) (comments program)
-    places = Set.fromList (map offset remarks)
-    between from to = maybe False (< to) (Set.lookupGE from places)
-    rows = concatMap (parted between) (Anchor.anchored (fst (Lexer.tokens 0 text)) (Print.rows between (statements program)))
+    tokens = fst (Lexer.tokens 0 text)
+    places = map offset remarks
+    between set from to = maybe False (< to) (Set.lookupGE from set)
+    marks = Commented {anywhere = between (Set.fromList places), atComma = between (Set.fromList (besideCommas tokens places))}
+    rows = concatMap (parted marks) (Anchor.anchored tokens (Print.rows marks (statements program)))
+
+-- | Those of some places, in order, that have a comma directly before or behind them.
+besideCommas :: [Token] -> [Int] -> [Int]
+besideCommas = go False
+  where
+    -- Whether the last token was a comma.
+    go after tokens places = case (tokens, places) of
+      (_, []) -> []
+      ([], _) -> if after then places else []
+      (t : rest, at : others)
+        | start (Token.place t) < at -> go (comma t) rest places
+        | after || comma t -> at : go after tokens others
+        | otherwise -> go after tokens others
+    comma t = Token.shape t == Symbol ","
 
 -- Comments
 
@@ -83,9 +99,9 @@ blankAbove source at = line > 1 && Text.null (Text.strip (Region.lineText source
 
 -- | A row that ends with an empty block is two when a comment stands in the block.
 parted :: Commented -> Anchored -> [Anchored]
-parted between anchor = case (reverse (shapes anchor), reverse (places anchor)) of
+parted marks anchor = case (reverse (shapes anchor), reverse (places anchor)) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
-    | between (start (Token.place open)) (start (Token.place close)) ->
+    | anywhere marks (start (Token.place open)) (start (Token.place close)) ->
       [ anchor {row = (row anchor) {cells = Whole (Text.dropEnd 2 (Row.plain (row anchor)))}, shapes = init (shapes anchor), places = init (places anchor)},
         Anchored {row = Row {indent = indent (row anchor), cells = Whole "}", continues = False}, shapes = [Symbol "}"], places = [Just close]}
       ]
@@ -133,6 +149,7 @@ entries source remarks rows = go (zip rows (starts rows)) remarks []
     found anchor = Maybe.listToMaybe (Maybe.catMaybes (take 1 (places anchor)))
 
 -- | Where each row begins and ends in the source; a row that is not there stands where the one before it ends.
+-- The comma at the end of a row does not count: a comment before it is one behind the row.
 starts :: [Anchored] -> [(Int, Int)]
 starts = go 0
   where
@@ -140,7 +157,10 @@ starts = go 0
       [] -> []
       anchor : rest -> case map Token.place (Maybe.catMaybes (places anchor)) of
         [] -> (end', end') : go end' rest
-        regions -> let finish = end (last regions) in (start (head regions), finish) : go finish rest
+        first : more ->
+          let finish = end (last (first : beforeComma anchor more))
+           in (start first, finish) : go (end (last (first : more))) rest
+    beforeComma anchor regions = if drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol ","] then take (length regions - 1) regions else regions
 
 -- | No blank line at the beginning of the text or of a block.
 tidy :: [Entry] -> [Entry]

@@ -24,10 +24,10 @@ import Surface.Syntax
 
 -- | The text of a program.
 program :: Program -> Text
-program = Text.unlines . Row.aligned . rows (\_ _ -> False) . statements
+program = Text.unlines . Row.aligned . rows PrintExpr.uncommented . statements
 
--- | The rows of statements. The first argument tells whether a comment stands between two offsets: there
--- a list is broken, so that the comment can stay.
+-- | The rows of statements. The first argument tells where comments stand: there
+-- a list is broken, so that they can stay.
 rows :: Commented -> [Statement] -> [Row]
 rows commented = concatMap (statement commented 0)
 

@@ -1,6 +1,7 @@
 -- | Expressions as documents, with brackets only where the tree would be read differently without them.
 module Surface.PrintExpr
-  ( Commented,
+  ( Commented (..),
+    uncommented,
     value,
     element,
     list,
@@ -22,8 +23,13 @@ import Surface.Doc qualified as Doc
 import Surface.Syntax
 import Surface.Token (unitName)
 
--- | Whether a comment stands between two offsets of the text that is laid out.
-type Commented = Int -> Int -> Bool
+-- | Where the text that is laid out has comments: whether there is any between two offsets, and whether there is
+-- one beside a comma.
+data Commented = Commented {anywhere :: Int -> Int -> Bool, atComma :: Int -> Int -> Bool}
+
+-- | No comments.
+uncommented :: Commented
+uncommented = Commented {anywhere = \_ _ -> False, atComma = \_ _ -> False}
 
 -- | How tightly an expression holds together. An operand is bracketed when it is looser than its place asks.
 data Tightness = Loose | Disjunction | Conjunction | Negation | Comparison | Ranged | Sum | Product | Factor | Primary
@@ -47,7 +53,7 @@ list commented things = NonEmpty.zipWith piece (NonEmpty.zip before things) comm
     before = Nothing :| map (Just . fst) (NonEmpty.toList things)
     commas = NonEmpty.fromList (replicate (length things - 1) "," <> [""])
     piece (previous, (region, doc)) comma =
-      Piece {fresh = maybe False (\p -> commented (end p) (start region)) previous, content = Beside [doc, Text comma]}
+      Piece {fresh = maybe False (\p -> atComma commented (end p) (start region)) previous, content = Beside [doc, Text comma]}
 
 -- | A piece that begins no line of itself.
 one :: Doc -> Piece
@@ -138,7 +144,7 @@ bare commented (Located region e) = case e of
     group "[" [one (sub item), one (words' [Text ("for " <> name <> " in"), sub from])] "]"
   where
     sub = value commented
-    group = Brackets (commented (start region) (end region))
+    group = Brackets (anywhere commented (start region) (end region))
     coordinates es = NonEmpty.toList (list commented (fmap (\x -> (Region.region x, sub x)) es))
 
 -- | A chain of operators of one rank: @a@, @+ b@, @- c@.
