@@ -31,6 +31,8 @@ data Command
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
   | Machines (Maybe Text)
+  | -- | only ask whether the programs are laid out; the programs
+    Fmt Bool (NonEmpty FilePath)
   deriving stock (Eq, Show)
 
 data CompileOptions = CompileOptions
@@ -66,7 +68,8 @@ commands =
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
-      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME")))
+      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
+      entry "fmt" "Bring programs into the canonical layout, in place" "partc fmt flange.part" (Fmt <$> Opt.switch (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out") <*> (NonEmpty.fromList <$> some program))
     ]
   where
     entry name description example p =

@@ -11,6 +11,7 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
+import Cli.Fmt qualified as Fmt
 import Cli.FrameTable qualified as FrameTable
 import Cli.MachineSheet qualified as MachineSheet
 import Cli.NodeTable qualified as NodeTable
@@ -21,10 +22,9 @@ import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
-import Control.Exception (evaluate, try)
+import Control.Exception (evaluate)
 import Control.Monad (void)
 import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -52,6 +52,7 @@ run (Invocation settings command) = case command of
   Decode target tape -> decode settings target tape
   Plot file output -> plot settings file output
   Machines name -> machines settings name
+  Fmt onlyAsked files -> maximum <$> traverse (Fmt.fmt settings onlyAsked) (NonEmpty.toList files)
 
 -- Reading
 
@@ -70,9 +71,7 @@ withProgram settings file continue = do
       Right text -> continue Loaded {name = displayName file, source = Region.fromText (displayName file) (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)}
 
 readBytes :: FilePath -> IO (Either Error ByteString)
-readBytes file = do
-  bytes <- try (if file == "-" then ByteString.getContents else ByteString.readFile file)
-  pure (either (Left . CannotRead . Output.ioProblem) Right bytes)
+readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
 
 displayName :: FilePath -> Text
 displayName file = if file == "-" then "<stdin>" else Text.pack file
