@@ -37,6 +37,8 @@ data Command
   | Machines (Maybe Text)
   | Explain (Maybe Text)
   | LanguageServer
+  | -- | only ask whether the programs are laid out; the programs
+    Fmt Bool (NonEmpty FilePath)
   deriving stock (Eq, Show)
 
 data CompileOptions = CompileOptions
@@ -73,8 +75,9 @@ commands =
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
       entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
-      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes)))
-      entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors)
+      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes))),
+      entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors),
+      entry "fmt" "Bring programs into the canonical layout, in place" "partc fmt flange.part" (Fmt <$> Opt.switch (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out") <*> (NonEmpty.fromList <$> some program))
     ]
   where
     codes = [Text.unpack c | e <- Explanation.everything, let Code c = Explanation.code e]

@@ -12,6 +12,7 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
+import Cli.Fmt qualified as Fmt
 import Cli.FrameTable qualified as FrameTable
 import Cli.MachineSheet qualified as MachineSheet
 import Cli.NodeTable qualified as NodeTable
@@ -20,12 +21,11 @@ import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
-import Compile (Analysis (..), Punched (..))
+import Compile (Analysis (part, path), Punched (..))
 import Compile qualified
-import Control.Exception (evaluate, try)
+import Control.Exception (evaluate)
 import Control.Monad (void)
 import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -63,6 +63,7 @@ perform reporter command = case command of
   Machines name -> machines reporter name
   Explain code -> explain reporter code
   LanguageServer -> languageServer reporter
+  Fmt onlyAsked files -> maximum <$> traverse (Fmt.fmt reporter onlyAsked) (NonEmpty.toList files)
 
 -- Reading
 
@@ -95,9 +96,7 @@ readProgram file = do
     Right (Right text) -> Right (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)
 
 readBytes :: FilePath -> IO (Either Error ByteString)
-readBytes file = do
-  bytes <- try (if file == "-" then ByteString.getContents else ByteString.readFile file)
-  pure (either (Left . CannotRead . Output.ioProblem) Right bytes)
+readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
 
 displayName :: FilePath -> Text
 displayName file = if file == "-" then "<stdin>" else Text.pack file
@@ -129,7 +128,6 @@ delivered reporter written = case written of
   Left why -> complain reporter "" (CannotWrite "to standard output" why)
   Right () -> pure Done
 
-analyse :: Loaded -> Result Report Report Analysis
 analyse :: Loaded -> Result Report Report Analysis
 analyse loaded = Compile.analyse (values loaded) (texts loaded)
 
@@ -230,7 +228,7 @@ checked values' texts' = Compile.analyse values' texts' `Result.thenSound` \a ->
 languageServer :: Reporter -> IO Exit
 languageServer reporter = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output = stdout, load, Lsp.check = checked (Output.values (Output.settings reporter))}
   where
-    load open path' text = Compile.load (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open there)) (Text.unpack path') text
+    load open path' text = Compile.load (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open (Text.pack there))) (Text.unpack path') text
     statusOf ending = case ending of
       Orderly -> Done
       Abrupt -> Failed

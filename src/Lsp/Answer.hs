@@ -22,6 +22,7 @@ import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (Kind (..))
 import Query.Symbol qualified as Symbol
+import Surface.Format qualified as Format
 
 -- | A document, what its text says, and what the last text without errors said.
 data Subject = Subject {document :: Document, now :: Snapshot, sound :: Maybe Snapshot}
@@ -80,7 +81,7 @@ symbols client subject _ = pure (toJSON (map shown (Symbol.symbols (now subject)
       | otherwise = ["location" .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)]
 
 formatting :: Method
-formatting _ subject _ = pure (toJSON (map edit (Maybe.maybeToList (Layout.format text >>= Layout.change text))))
+formatting _ subject _ = pure (toJSON (map edit (Maybe.maybeToList (Format.format text >>= Layout.change text))))
   where
     text = Region.text (source subject)
     edit change = object ["range" .= Position.range (source subject) (Layout.place change), "newText" .= Layout.put change]

@@ -4,6 +4,7 @@ module Lsp.ServerSpec (spec) where
 import Base.Crash (bug)
 import Base.Region qualified as Region
 import Cli.Run qualified as Cli
+import Compile qualified
 import Control.Concurrent (forkIO, newEmptyMVar, putMVar, takeMVar)
 import Control.Exception (bracket)
 import Control.Monad (forM_, void)
@@ -60,7 +61,7 @@ spec = do
       (_, second) <- diagnosticsFrom "" from
       version second `shouldBe` Number 9
   it "a failure refuses its own request, shows itself, and the server lives on" $
-    inProcess (\source -> if "нет" `Text.isInfixOf` Region.text source then bug "a fault\nof ours" else Cli.checked source) $ \to from -> do
+    inProcess (\loaded -> if "нет" `Text.isInfixOf` Region.text (Compile.source loaded) then bug "a fault\nof ours" else Cli.checked [] loaded) $ \to from -> do
       mapM_ (send to) opening
       (a, welcome) <- nextFrom "" from
       (b, shown) <- nextFrom a from

@@ -4,6 +4,7 @@ module Lsp.SessionSpec (spec) where
 import Base.Region qualified as Region
 import Base.Result qualified as Result
 import Cli.Run qualified as Cli
+import Compile qualified
 import Control.Monad (forM_)
 import Data.Aeson (Value (..), object, (.=))
 import Data.Either (lefts)
@@ -118,7 +119,7 @@ wrong = header <> "let a = 1\nlet b = c\n"
 reported :: Text -> [((Int, Int), (Int, Int), Text)]
 reported text = [(ends Region.start r, ends Region.end r, c) | r <- Report.sorted (Result.errors result <> Result.warnings result), let Code c = Report.code r]
   where
-    result = Cli.checked (Region.fromText "/tmp/a.part" text)
+    result = Cli.checked [] (Compile.alone "/tmp/a.part" text)
     ends end r = case Report.place r of
       InSource region -> placeIn text (end region)
       InTape _ -> (0, 0)

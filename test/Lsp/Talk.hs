@@ -24,8 +24,8 @@ module Lsp.Talk
   )
 where
 
-import Base.Region qualified as Region
 import Cli.Run qualified as Cli
+import Compile qualified
 import Data.Aeson (Value (..), object, (.=))
 import Data.Aeson.Key (Key)
 import Data.Aeson.KeyMap qualified as KeyMap

@@ -2,8 +2,8 @@
 module Query.NameSpec (spec) where
 
 import Base.Region (Region (..))
-import Base.Region qualified as Region
 import Cli.Run qualified as Cli
+import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Query.Name (Hover (..), Target (..))

@@ -2,10 +2,9 @@
 module Query.SymbolSpec (spec) where
 
 import Base.Region (Region (..))
-import Base.Region qualified as Region
 import Cli.Run qualified as Cli
+import Compile qualified
 import Data.Text (Text)
-import Data.Text qualified as Text
 import Files (readText)
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (Kind (..), Symbol (..))
