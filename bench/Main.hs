@@ -37,7 +37,7 @@ main :: IO ()
 main = do
   flange <- Text.readFile "examples/flange.part"
   putStrLn "milliseconds of processor time for each stage, best of several runs; growth is the exponent from the program before"
-  forM_ [("flange", [(18, flange)]), ("polygon", [(n, polygon n) | n <- [100, 1000, 10000]])] $ \(name, programs) -> do
+  forM_ [("flange", [(18, flange)]), ("polygon", [(n, polygon n) | n <- [100, 1000, 10000]]), ("statements", [(n, statements n) | n <- [1000, 5000, 20000]])] $ \(name, programs) -> do
     rows <- forM programs $ \(n, text) -> (n,) <$> forM stages (\(_, run) -> timed (if n > 1000 then 3 else 7) text run)
     Text.putStrLn ("\n" <> Text.justifyLeft 10 ' ' name <> Text.concat (map (Text.justifyRight 9 ' ' . fst) stages))
     forM_ (zip rows (Nothing : map Just rows)) $ \((n, times), before) -> do
@@ -51,27 +51,28 @@ main = do
 -- | Stages in order: each runs from the text and gives a number that needs its whole output.
 stages :: [(Text, Text -> Int)]
 stages =
-  [ ("parse", sum . map itemsOf . Surface.statements . sound . Surface.parse),
+  [ ("parse", sum . map itemsOf . Surface.statements . sound . Surface.parse 0),
     ("check", round . sum . map weight . Checked.statements . checked),
     ("part", \t -> sum [round (sumOf c) | c <- Part.contours (sound (Part.evaluate (checked t)))]),
-    ("path", \t -> round (lengthOf (path (sound (Compile.analyse t))))),
+    ("path", \t -> round (lengthOf (path (sound (analyse t))))),
     ("frames", \t -> sum (map (distance . increment . Frame.frame) (Frame.planned (framesOf t)))),
     ("tape", Tape.rowCount . tape . punched),
     ("verify", \t -> length (show (Proof.findings (proof t))))
   ]
   where
-    checked t = sound (Checked.check (sound (Surface.parse t)))
-    framesOf t = sound (Frame.quantise lkp01f (path (sound (Compile.analyse t))))
-    punched t = sound (Compile.punch lkp01f (path (sound (Compile.analyse t))))
+    checked t = sound (Checked.check (sound (Surface.parse 0 t)))
+    analyse t = Compile.analyse [] (Compile.alone "bench" t)
+    framesOf t = sound (Frame.quantise lkp01f (path (sound (analyse t))))
+    punched t = sound (Compile.punch lkp01f (path (sound (analyse t))))
     proof t =
-      let a = sound (Compile.analyse t)
+      let a = sound (analyse t)
           p = sound (Compile.punch lkp01f (path a))
        in sound (Compile.prove lkp01f (path a) (program p) (sound (Compile.readTape lkp01f (tape p))))
     itemsOf s = case Region.value s of
-      Surface.Contour _ _ items -> sum [1 | Region.Located _ (Surface.Element _ e _) <- items, Region.start (Region.region e) >= 0]
+      Surface.Contour _ _ items -> sum [1 | Region.Located _ (Surface.Element _ e _ _) <- items, Region.start (Region.region e) >= 0]
       _ -> 1
     weight s = case Region.value s of
-      Checked.Contour _ _ items -> sum [x + y | Region.Located _ (Checked.Element _ (Region.Located _ (Checked.Pair (Region.Located _ (Checked.Number x)) (Region.Located _ (Checked.Number y)))) _) <- items]
+      Checked.Contour _ _ items -> sum [x + y | Region.Located _ (Checked.Element _ (Region.Located _ (Checked.Pair (Region.Located _ (Checked.Number x)) (Region.Located _ (Checked.Number y)))) _ _) <- items]
       _ -> 1
     sumOf c = let Mm l = total (map (Segment.length . Part.segment) (NonEmpty.toList (Part.elements c))) in l :: Double
     lengthOf p = let Mm l = total (map (Segment.length . Path.segment) (concatMap Path.moves (Path.blocks p))) in l :: Double
@@ -92,6 +93,31 @@ timed count text run = minimum <$> forM [1 .. count] once
       _ <- evaluate (run fresh)
       end <- getCPUTime
       pure (fromIntegral (end - begin) / 1e9)
+
+-- | A program of so many statements of many kinds: points, circles, tangent lines, functions and their
+-- calls, assertions, contours, holes.
+statements :: Int -> Text
+statements n =
+  Text.unlines
+    ( ["part many", "machine lkp-01f", "tool mill(diameter 2 mm)", "feed 60 mm/min", "tolerance 0.02 mm", "clearance 5 mm", "from (-20, -20, 5)", "let twice(x) = 2 * x"]
+        <> take n (concatMap group [0 ..])
+    )
+  where
+    group :: Int -> [Text]
+    group k =
+      let i = Decimal.whole k
+          x = Decimal.whole (20 * (k `mod` 1000))
+          y = Decimal.whole (20 * (k `div` 1000))
+       in [ "let p" <> i <> " = (" <> x <> ", " <> y <> ") + polar(twice(1), 30)",
+            "let c" <> i <> " = circle(p" <> i <> ", twice(2 mm))",
+            "let t" <> i <> " = line((-50, -50), left c" <> i <> ")",
+            "let f" <> i <> "(a) = moved(c" <> i <> ", polar(twice(a), 90 deg))",
+            "assert distance(p" <> i <> ", centre_of(f" <> i <> "(1))) = 2 mm within 0.001",
+            "let q" <> i <> " = intersection(t" <> i <> ", f" <> i <> "(1), near p" <> i <> ")",
+            "contour k" <> i <> " closed { ccw c" <> i <> " }",
+            "mill k" <> i <> " inside { depth 2 }",
+            "drill at p" <> i <> " depth 3 mm"
+          ]
 
 -- | A part with a regular polygon of so many written corners.
 polygon :: Int -> Text

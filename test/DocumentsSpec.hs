@@ -3,14 +3,13 @@ module DocumentsSpec (spec) where
 
 import Base.Result qualified as Result
 import Blocks qualified
+import Codes qualified
 import Compile qualified
 import Control.Monad (forM_)
 import Data.Set qualified as Set
-import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (readText)
 import Report.Report qualified as Report
-import System.FilePath (takeFileName)
 import Test.Hspec
 
 spec :: Spec
@@ -23,11 +22,7 @@ spec = do
         texts <- Blocks.load file block
         map Report.title (Result.errors (Compile.analyse [] texts)) `shouldBe` []
   it "docs/language.md lists every report code that there is, and no other" $ do
-    sources <- filter ((== "Error.hs") . takeFileName) <$> walk "src"
-    codes <- traverse readText (sources <> ["src/Tape/Punch.hs", "src/Verify/Proof.hs"])
+    codes <- Codes.inSources
     manual <- readText "docs/language.md"
-    let listed = Set.fromList [c | line <- Text.lines manual, c <- take 1 (drop 1 (map Text.strip (Text.splitOn "|" line))), isCode c]
-    listed `shouldBe` Set.fromList (filter isCode (concatMap (Text.splitOn "\"") codes))
-
-isCode :: Text -> Bool
-isCode t = Text.length t == 5 && Text.take 1 t `elem` ["E", "W"] && Text.all (`elem` ['0' .. '9']) (Text.drop 1 t)
+    let listed = Set.fromList [c | line <- Text.lines manual, c <- take 1 (drop 1 (map Text.strip (Text.splitOn "|" line))), Codes.isCode c]
+    listed `shouldBe` codes

@@ -27,7 +27,7 @@ text = Encoding.decodeUtf8 (unsafePerformIO (ByteString.readFile "examples/flang
 {-# NOINLINE text #-}
 
 analysis :: Analysis
-analysis = expect (Compile.analyse text)
+analysis = expect (Compile.analyse [] (Compile.alone "flange.part" text))
 
 punched :: Punched
 punched = expect (Compile.punch lkp01f (Compile.path analysis))

@@ -146,32 +146,43 @@ milled tolerance c = Result.output (FromPart.lay part)
   where
     nowhere = Region 0 0
     here = Located nowhere
-    at p = Stop (here p) Part.Rapid
+    at p = Stop (here p) Nothing Part.Rapid
     begin = case NonEmpty.head (pieces c) of
       p -> Segment.start (Offset.segment p)
     job =
       Milling
-        { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (`Element` nowhere) (segments (contour c))),
+        { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s nowhere Part.plainFinish) (segments (contour c))),
           Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
           Part.radius = radius c,
-          Part.tolerance = tolerance,
+          Part.work = Part.Milled,
+          Part.tolerance = Part.OnPath tolerance,
           Part.feed = here (Feed 60),
           Part.approach = [at begin],
-          Part.retract = []
+          Part.retract = [],
+          Part.levels = [],
+          Part.clearance = Nothing,
+          Part.plunge = Nothing,
+          Part.leadIn = Nothing,
+          Part.leadOut = Nothing,
+          Part.allowances = Mm 0 :| [],
+          Part.corners = Part.Round,
+          Part.sense = Nothing,
+          Part.spin = Part.Clockwise
         }
     part =
       Part
         { Part.name = Nothing,
           Part.title = Nothing,
           Part.machine = Nothing,
-          Part.start = Just (here begin),
+          Part.start = Just (here (Part.Spot begin (Mm 0))),
           Part.contours = [Part.contour job],
-          Part.operations = [Mill (here job)]
+          Part.operations = [Mill (here job)],
+          Part.readings = []
         }
 
 -- | One move from the zero point.
 straightPath :: Double -> Double -> Path
-straightPath x y = Path.Path (Located nowhere (Vec.point 0 0)) [Path.Travelling [Path.Move (Straight (Vec.point 0 0) (Vec.point x y)) Part.Rapid nowhere]]
+straightPath x y = Path.Path (Located nowhere (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [Path.Move (Straight (Vec.point 0 0) (Vec.point x y)) (Mm 0, Mm 0) Part.Rapid False nowhere]]
   where
     nowhere = Region 0 0
 

@@ -23,7 +23,7 @@ import Report.Report (Report)
 import Report.Report qualified as Report
 import System.Directory (doesFileExist)
 import System.Environment (lookupEnv)
-import System.FilePath (takeExtension, takeFileName, (-<.>))
+import System.FilePath (takeDirectory, takeExtension, takeFileName, (-<.>), (</>))
 import Test.Hspec
 import Verify.Proof qualified as Proof
 
@@ -33,23 +33,23 @@ spec = do
   let kind k = filter (("/" <> k <> "/") `isInfixOf`) programs
   describe "good programs are proven and give their frames" $
     forM_ (kind "good") $ \file -> it file $ do
-      text <- readText file
-      let source = Region.fromText (Text.pack (takeFileName file)) text
-          outcome = Compile.analyse text `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
+      (values, loaded) <- loadedFrom file
+      let source = Compile.source loaded
+          outcome = Compile.analyse values loaded `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
       case Result.settled outcome of
-        Nothing -> expectationFailure (Text.unpack (rendered file text (errors outcome)))
+        Nothing -> expectationFailure (Text.unpack (rendered source (errors outcome)))
         Just (a, p) -> do
           fs <- maybe (fail "the tape cannot be read") pure (output (Compile.readTape lkp01f (tape p)))
           let proof = Compile.prove lkp01f (path a) (program p) fs
           fmap Proof.findings (output proof) `shouldBe` Just []
-          expected (file -<.> "frames") (FrameTable.frames lkp01f source (program p) <> rendered file text (warnings outcome))
+          expected (file -<.> "frames") (FrameTable.frames lkp01f source (program p) <> rendered source (warnings outcome))
   describe "bad programs give their reports, and no tape" $
     forM_ (kind "bad") $ \file -> it file $ do
-      text <- readText file
-      let outcome = reportsOf text
+      (values, loaded) <- loadedFrom file
+      let outcome = reportsOf values loaded
       errors outcome `shouldNotBe` []
       void (Result.settled outcome) `shouldBe` Nothing
-      expected (file -<.> "report") (rendered file text (errors outcome <> warnings outcome))
+      expected (file -<.> "report") (rendered (Compile.source loaded) (errors outcome <> warnings outcome))
   describe "report codes" $
     it "each code of the language has a bad program, each warning a good one" $ do
       sources <- filter ("Error.hs" `isInfixOf`) <$> walk "src"
@@ -58,13 +58,25 @@ spec = do
       [c | c <- codes, not (Text.isInfixOf ("[" <> c <> "]") expectations)] `shouldBe` []
 
 -- | All that the compiler says of a program, up to the machine's limits.
-reportsOf :: Text -> Result Report Report ()
-reportsOf text = Compile.analyse text `Result.thenSound` \a -> void (Compile.punch lkp01f (path a))
+reportsOf :: [(Text, Text)] -> Compile.Loaded -> Result Report Report ()
+reportsOf values loaded = Compile.analyse values loaded `Result.thenSound` \a -> void (Compile.punch lkp01f (path a))
 
-rendered :: FilePath -> Text -> [Report] -> Text
-rendered file text reports = Text.concat (map render (Report.sorted reports))
+rendered :: Region.Source -> [Report] -> Text
+rendered source reports = Text.concat (map render (Report.sorted reports))
   where
-    render r = Human.render Human.Plain (Text.pack (takeFileName file)) (Region.fromText (Text.pack (takeFileName file)) text) r <> "\n"
+    render r = Human.render Human.Plain (Region.mainFile source) source r <> "\n"
+
+-- | A program with what it imports, and the values that its lines @-- set: NAME=VALUE@ give to parameters.
+loadedFrom :: FilePath -> IO ([(Text, Text)], Compile.Loaded)
+loadedFrom file = do
+  text <- readText file
+  loaded <- Compile.load beside (takeFileName file) text
+  pure ([(Text.strip n, Text.drop 1 v) | line <- Text.lines text, Just rest <- [Text.stripPrefix "-- set: " line], let (n, v) = Text.breakOn "=" rest], loaded)
+  where
+    beside name = do
+      let there = takeDirectory file </> name
+      exists <- doesFileExist there
+      if exists then Right <$> readText there else pure (Left "there is no such file or folder")
 
 -- | Codes in a source text: quotation mark, letter, four digits.
 codesIn :: Text -> [Text]

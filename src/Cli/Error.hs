@@ -33,6 +33,8 @@ data Error
     OverwritesProgram Text
   | -- | the program punches nothing
     NothingToPunch
+  | -- | a code that no report has; the codes that may be meant
+    UnknownCode Text [Text]
   deriving stock (Eq, Show)
 
 data Warning
@@ -68,6 +70,10 @@ toReport err = case err of
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]
+      }
+  UnknownCode code close ->
+    (wrong "E0809" InFile ("no report has the code ‘" <> code <> "’"))
+      { hints = ["Did you mean " <> Text.intercalate " or " close <> "?" | not (null close)] <> ["partc explain alone lists all codes."]
       }
   where
     wrong = report Report.Error

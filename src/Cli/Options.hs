@@ -16,6 +16,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Options.Applicative (Parser, ParserInfo)
 import Options.Applicative qualified as Opt
+import Report.Explanation qualified as Explanation
+import Report.Report (Code (..))
 
 -- | What to do, and how to talk about it.
 data Invocation = Invocation {settings :: Settings, command :: Command}
@@ -32,6 +34,7 @@ data Command
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
   | Machines (Maybe Text)
+  | Explain (Maybe Text)
   deriving stock (Eq, Show)
 
 data CompileOptions = CompileOptions
@@ -67,9 +70,11 @@ commands =
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
-      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME")))
+      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
+      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes)))
     ]
   where
+    codes = [Text.unpack c | e <- Explanation.everything, let Code c = Explanation.code e]
     entry name description example p =
       Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
 
@@ -105,7 +110,7 @@ data Overrides = Overrides
 overrides :: Parser Overrides
 overrides =
   Overrides
-    <$> optional (Opt.option (choice [("human", HumanFormat), ("short", ShortFormat), ("json", JsonFormat)]) (Opt.long "format" <> Opt.metavar "human|short|json" <> Opt.help "How reports are written" <> Opt.completeWith ["human", "short", "json"]))
+    <$> optional (Opt.option (choice [("human", HumanFormat), ("short", ShortFormat), ("json", JsonFormat), ("sarif", SarifFormat)]) (Opt.long "format" <> Opt.metavar "human|short|json|sarif" <> Opt.help "How reports are written" <> Opt.completeWith ["human", "short", "json", "sarif"]))
     <*> optional (Opt.option (choice [("auto", Auto), ("always", Always), ("never", Never)]) (Opt.long "color" <> Opt.metavar "auto|always|never" <> Opt.help "Colours in reports" <> Opt.completeWith ["auto", "always", "never"]))
     <*> Opt.switch (Opt.long "quiet" <> Opt.short 'q' <> Opt.help "No warnings")
     <*> Opt.switch (Opt.long "werror" <> Opt.help "Warnings count as errors")

@@ -4,6 +4,8 @@ module Cli.Output
     ColourChoice (..),
     Settings (..),
     Exit (..),
+    Reporter (settings),
+    reporting,
     show',
     result,
     resultBytes,
@@ -17,16 +19,20 @@ import Base.Region (Source)
 import Control.Exception (onException, try)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
+import Data.IORef (IORef, modifyIORef, newIORef, readIORef)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Data.Text.IO qualified as Text
 import Foreign.C.Error (Errno (Errno), ePIPE)
 import GHC.IO.Exception (IOErrorType (..), IOException (ioe_errno, ioe_type))
+import Report.Explanation qualified as Explanation
 import Report.Human qualified as Human
 import Report.Machine qualified as Machine
 import Report.Report (Report)
 import Report.Report qualified as Report
+import Report.Sarif (Filed (..))
+import Report.Sarif qualified as Sarif
 import System.Directory (canonicalizePath, removeFile, renameFile)
 import System.Environment (lookupEnv)
 import System.FilePath (takeDirectory, takeFileName)
@@ -35,7 +41,7 @@ import System.IO.Error (ioeGetErrorString, isDoesNotExistError, isFullError, isP
 import System.Posix.Files (FileStatus, fileMode, getFileStatus, isDirectory, isRegularFile, setFileMode)
 
 -- | How reports are written.
-data Format = HumanFormat | ShortFormat | JsonFormat
+data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
   deriving stock (Eq, Show)
 
 data ColourChoice = Auto | Always | Never
@@ -73,20 +79,37 @@ ioProblem e
     InvalidArgument -> "this is not a possible file name"
     _ -> Text.pack (ioeGetErrorString e)
 
+-- | How a run reports. A format with one log for all is kept until the end, the latest first.
+data Reporter = Reporter {settings :: Settings, kept :: IORef [Filed]}
+
+-- | Run a command, and write in the end what it has kept.
+reporting :: Settings -> (Reporter -> IO a) -> IO a
+reporting settings work = do
+  kept <- newIORef []
+  a <- work Reporter {settings, kept}
+  case format settings of
+    SarifFormat -> readIORef kept >>= say . Sarif.log Explanation.everything . reverse
+    HumanFormat -> pure ()
+    ShortFormat -> pure ()
+    JsonFormat -> pure ()
+  pure a
+
 -- | Write the reports on one file. Says whether anything among them stops the work.
-show' :: Settings -> Text -> Source -> [Report] -> IO Bool
-show' settings path source reports = do
-  painted <- useColour settings stderr
-  let render r = case format settings of
-        HumanFormat -> Human.render painted path source r <> "\n"
-        ShortFormat -> Machine.short path source r
-        JsonFormat -> Machine.json path source r
-      visible = Report.sorted (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
-      (shown, more) = if format settings == HumanFormat then splitAt mostReports visible else (visible, [])
-  mapM_ (say . render) shown
-  say (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
-  say (if format settings == HumanFormat then Human.summary painted visible else "")
+show' :: Reporter -> Text -> Source -> [Report] -> IO Bool
+show' Reporter {settings, kept} path source reports = do
+  case format settings of
+    HumanFormat -> do
+      painted <- useColour settings stderr
+      let (shown, more) = splitAt mostReports visible
+      mapM_ (\r -> say (Human.render painted path source r <> "\n")) shown
+      say (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
+      say (Human.summary painted visible)
+    ShortFormat -> mapM_ (say . Machine.short path source) visible
+    JsonFormat -> mapM_ (say . Machine.json path source) visible
+    SarifFormat -> modifyIORef kept (reverse [Filed {path, source, report} | report <- visible] <>)
   pure (any Report.isError reports || werror settings && not (null reports))
+  where
+    visible = Report.sorted (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
 -- | A person reads no more reports at once.
 mostReports :: Int

@@ -15,7 +15,7 @@ import Cli.FrameTable qualified as FrameTable
 import Cli.MachineSheet qualified as MachineSheet
 import Cli.NodeTable qualified as NodeTable
 import Cli.Options (Command (..), CompileOptions (..), Invocation (..))
-import Cli.Output (Exit (..), Settings)
+import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
@@ -36,6 +36,7 @@ import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Part.Part (MachineRef (..))
 import Part.Part qualified as Part
+import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
@@ -43,33 +44,37 @@ import Tape.Tape (Tape (..))
 
 -- | Run a command.
 run :: Invocation -> IO Exit
-run (Invocation settings command) = case command of
-  Compile options -> compile settings options
-  Check files -> maximum <$> traverse (check settings) (NonEmpty.toList files)
-  Verify file target tape -> verify settings file target tape
-  Frames file target json -> frames settings file target json
-  Report file target -> report settings file target
-  Decode target tape -> decode settings target tape
-  Plot file output -> plot settings file output
-  Machines name -> machines settings name
+run (Invocation settings command) = Output.reporting settings (`perform` command)
+
+perform :: Reporter -> Command -> IO Exit
+perform reporter command = case command of
+  Compile options -> compile reporter options
+  Check files -> maximum <$> traverse (check reporter) (NonEmpty.toList files)
+  Verify file target tape -> verify reporter file target tape
+  Frames file target json -> frames reporter file target json
+  Report file target -> report reporter file target
+  Decode target tape -> decode reporter target tape
+  Plot file output -> plot reporter file output
+  Machines name -> machines reporter name
+  Explain code -> explain reporter code
 
 -- Reading
 
--- | A program that could be read.
-data Loaded = Loaded {name :: Text, texts :: Compile.Loaded}
+-- | A program that could be read, and the values for its parameters.
+data Loaded = Loaded {name :: Text, texts :: Compile.Loaded, values :: [(Text, Text)]}
 
 source :: Loaded -> Source
 source = Compile.source . texts
 
 -- | Read a program and what it imports, and go on with it.
-withProgram :: Settings -> FilePath -> (Loaded -> IO Exit) -> IO Exit
-withProgram settings file continue = do
+withProgram :: Reporter -> FilePath -> (Loaded -> IO Exit) -> IO Exit
+withProgram reporter file continue = do
   text <- readProgram file
   case text of
-    Left e -> complain settings (displayName file) e
+    Left e -> complain reporter (displayName file) e
     Right t -> do
       texts <- Compile.load imported (Text.unpack (displayName file)) t
-      continue Loaded {name = displayName file, texts}
+      continue Loaded {name = displayName file, texts, values = Output.values (Output.settings reporter)}
   where
     imported there = either (Left . Cli.whyNot) Right <$> readProgram there
 
@@ -92,14 +97,14 @@ displayName :: FilePath -> Text
 displayName file = if file == "-" then "<stdin>" else Text.pack file
 
 -- | A mistake that belongs to a file as a whole.
-complain :: Settings -> Text -> Error -> IO Exit
-complain settings path e = Failed <$ Output.show' settings path (Region.fromText path "") [Cli.toReport e]
+complain :: Reporter -> Text -> Error -> IO Exit
+complain reporter path e = Failed <$ Output.show' reporter path (Region.fromText path "") [Cli.toReport e]
 
 -- | Write what a stage says; go on with its output when there is nothing against it.
-settle :: Settings -> Loaded -> Result Report Report a -> (a -> IO Exit) -> IO Exit
-settle settings loaded result continue = do
+settle :: Reporter -> Loaded -> Result Report Report a -> (a -> IO Exit) -> IO Exit
+settle reporter loaded result continue = do
   Progress.during ("working on " <> name loaded) (computed result)
-  stopped <- Output.show' settings (name loaded) (source loaded) (errors result <> warnings result)
+  stopped <- Output.show' reporter (name loaded) (source loaded) (errors result <> warnings result)
   case output result of
     Just a | not stopped -> continue a
     Nothing | not stopped -> bug "a stage gave neither an output nor a report"
@@ -110,16 +115,16 @@ computed :: Result w e a -> IO ()
 computed result = void (evaluate (length (errors result) + length (warnings result)))
 
 -- | Print a result.
-printed :: Settings -> Text -> IO Exit
-printed settings text = delivered settings =<< Output.result text
+printed :: Reporter -> Text -> IO Exit
+printed reporter text = delivered reporter =<< Output.result text
 
-delivered :: Settings -> Either Text () -> IO Exit
-delivered settings written = case written of
-  Left why -> complain settings "" (CannotWrite "to standard output" why)
+delivered :: Reporter -> Either Text () -> IO Exit
+delivered reporter written = case written of
+  Left why -> complain reporter "" (CannotWrite "to standard output" why)
   Right () -> pure Done
 
-analyse :: Settings -> Loaded -> Result Report Report Analysis
-analyse settings loaded = Compile.analyse (Output.values settings) (texts loaded)
+analyse :: Loaded -> Result Report Report Analysis
+analyse loaded = Compile.analyse (values loaded) (texts loaded)
 
 -- Machines
 
@@ -159,14 +164,14 @@ proven unproven' analysis machine = do
 moving :: Punched -> Result w Report Punched
 moving punched = if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure punched
 
-compile :: Settings -> CompileOptions -> IO Exit
-compile settings options = withProgram settings (file options) $ \loaded ->
-  settle settings loaded (analyse settings loaded `Result.thenSound` \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
+compile :: Reporter -> CompileOptions -> IO Exit
+compile reporter options = withProgram reporter (file options) $ \loaded ->
+  settle reporter loaded (analyse loaded `Result.thenSound` \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (file options) (map fst places)
     case clash of
-      Just place -> complain settings (name loaded) (OverwritesProgram (Text.pack place))
-      Nothing -> writeAll settings [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+      Just place -> complain reporter (name loaded) (OverwritesProgram (Text.pack place))
+      Nothing -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
 
 -- | Where a tape goes: beside the program, into a folder, or to the file that is named.
 destination :: CompileOptions -> Int -> Machine -> IO FilePath
@@ -192,61 +197,61 @@ overwrites program' places = do
   others <- traverse canonicalizePath places
   pure (lookup self (zip others places))
 
-writeAll :: Settings -> [(FilePath, ByteString)] -> IO Exit
-writeAll settings files = case files of
+writeAll :: Reporter -> [(FilePath, ByteString)] -> IO Exit
+writeAll reporter files = case files of
   [] -> pure Done
   (place, bytes) : rest -> do
     written <- if place == "-" then Output.resultBytes bytes else Output.writeFileWhole place bytes
     case written of
-      Left why -> complain settings "" (CannotWrite (Text.pack place) why)
-      Right () -> writeAll settings rest
+      Left why -> complain reporter "" (CannotWrite (Text.pack place) why)
+      Right () -> writeAll reporter rest
 
 -- | Mistakes only: nothing past the path and the machine's limits.
-check :: Settings -> FilePath -> IO Exit
-check settings file' = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse settings loaded `Result.thenSound` limits) (const (pure Done))
+check :: Reporter -> FilePath -> IO Exit
+check reporter file' = withProgram reporter file' $ \loaded ->
+  settle reporter loaded (analyse loaded `Result.thenSound` limits) (const (pure Done))
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
       Just _ -> chosen [] a >>= traverse (\m -> Compile.punch m (path a))
 
-verify :: Settings -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
-verify settings file' target tapeFile = withProgram settings file' $ \loaded ->
-  settle settings loaded (prepared settings target loaded) $ \(analysis, machine, punched) -> do
+verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
+verify reporter file' target tapeFile = withProgram reporter file' $ \loaded ->
+  settle reporter loaded (prepared target loaded) $ \(analysis, machine, punched) -> do
     given <- maybe (pure (Right (tape punched))) (fmap (fmap Tape) . readBytes) tapeFile
     case given of
-      Left e -> complain settings (maybe "" displayName tapeFile) e
+      Left e -> complain reporter (maybe "" displayName tapeFile) e
       Right t -> do
         let read' = Compile.readTape machine t
             tapeName = maybe (name loaded) displayName tapeFile
-        broken <- Output.show' settings tapeName (source loaded) (errors read')
+        broken <- Output.show' reporter tapeName (source loaded) (errors read')
         case output read' of
           Just fs | not broken -> do
             let result = Compile.prove machine (path analysis) (program punched) fs
             Progress.during ("proving " <> tapeName) (computed result)
-            table <- maybe (pure Done) (printed settings . ProofTable.proof machine) (output result)
-            _ <- Output.show' settings (name loaded) (source loaded) (errors result)
+            table <- maybe (pure Done) (printed reporter . ProofTable.proof machine) (output result)
+            _ <- Output.show' reporter (name loaded) (source loaded) (errors result)
             pure (if null (errors result) then table else Disproven)
           _ -> pure Failed
 
 -- | A program with its frames and tape for one machine.
-prepared :: Settings -> Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
-prepared settings target loaded =
-  analyse settings loaded `Result.thenSound` \a -> do
+prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
+prepared target loaded =
+  analyse loaded `Result.thenSound` \a -> do
     ms <- chosen (maybe [] pure target) a
     case ms of
       m : _ -> (a,m,) <$> (Compile.punch m (path a) >>= moving)
       [] -> Result.failed (Cli.toReport (NoMachine known))
 
-frames :: Settings -> FilePath -> Maybe Text -> Bool -> IO Exit
-frames settings file' target json = withProgram settings file' $ \loaded ->
-  settle settings loaded (prepared settings target loaded) $ \(_, machine, punched) -> do
-    printed settings ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
+frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
+frames reporter file' target json = withProgram reporter file' $ \loaded ->
+  settle reporter loaded (prepared target loaded) $ \(_, machine, punched) -> do
+    printed reporter ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
 
-report :: Settings -> FilePath -> Maybe Text -> IO Exit
-report settings file' target = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse settings loaded `Result.thenSound` \a -> (a,) <$> onMachine a) $ \(a, punched) ->
-    printed settings (NodeTable.nodes punched a)
+report :: Reporter -> FilePath -> Maybe Text -> IO Exit
+report reporter file' target = withProgram reporter file' $ \loaded ->
+  settle reporter loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine a) $ \(a, punched) ->
+    printed reporter (NodeTable.nodes punched a)
   where
     onMachine a = case (target, Part.machine (part a)) of
       (Nothing, Nothing) -> pure Nothing
@@ -255,35 +260,42 @@ report settings file' target = withProgram settings file' $ \loaded ->
           m : _ -> (\p -> Just (m, p)) <$> Compile.punch m (path a)
           [] -> pure Nothing
 
-decode :: Settings -> Maybe Text -> FilePath -> IO Exit
-decode settings target tapeFile = case maybe (Left (NoMachineForTape known)) machineNamed target of
-  Left e -> complain settings (displayName tapeFile) e
+decode :: Reporter -> Maybe Text -> FilePath -> IO Exit
+decode reporter target tapeFile = case maybe (Left (NoMachineForTape known)) machineNamed target of
+  Left e -> complain reporter (displayName tapeFile) e
   Right machine -> do
     bytes <- readBytes tapeFile
     case bytes of
-      Left e -> complain settings (displayName tapeFile) e
+      Left e -> complain reporter (displayName tapeFile) e
       Right b -> do
         let result = Compile.readTape machine (Tape b)
-        _ <- Output.show' settings (displayName tapeFile) (Region.fromText (displayName tapeFile) "") (errors result)
+        _ <- Output.show' reporter (displayName tapeFile) (Region.fromText (displayName tapeFile) "") (errors result)
         case output result of
-          Just fs -> printed settings (FrameTable.decoded machine fs)
+          Just fs -> printed reporter (FrameTable.decoded machine fs)
           Nothing -> pure Failed
 
-plot :: Settings -> FilePath -> Maybe FilePath -> IO Exit
-plot settings file' place = withProgram settings file' $ \loaded ->
-  settle settings loaded (analyse settings loaded) $ \analysis -> do
+plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
+plot reporter file' place = withProgram reporter file' $ \loaded ->
+  settle reporter loaded (analyse loaded) $ \analysis -> do
     let svg = Plot.plot (part analysis) (path analysis)
     case place of
       Just p | p /= "-" -> do
         clash <- overwrites file' [p]
         case clash of
-          Just same -> complain settings (name loaded) (OverwritesProgram (Text.pack same))
-          Nothing -> writeAll settings [(p, Encoding.encodeUtf8 svg)]
-      _ -> printed settings svg
+          Just same -> complain reporter (name loaded) (OverwritesProgram (Text.pack same))
+          Nothing -> writeAll reporter [(p, Encoding.encodeUtf8 svg)]
+      _ -> printed reporter svg
 
-machines :: Settings -> Maybe Text -> IO Exit
-machines settings wanted = case wanted of
-  Nothing -> printed settings (MachineSheet.machineList BuiltIn.machines)
+machines :: Reporter -> Maybe Text -> IO Exit
+machines reporter wanted = case wanted of
+  Nothing -> printed reporter (MachineSheet.machineList BuiltIn.machines)
   Just n -> case machineNamed n of
-    Left e -> complain settings "" e
-    Right m -> printed settings (MachineSheet.machineSheet m)
+    Left e -> complain reporter "" e
+    Right m -> printed reporter (MachineSheet.machineSheet m)
+
+explain :: Reporter -> Maybe Text -> IO Exit
+explain reporter wanted = case wanted of
+  Nothing -> printed reporter Explanation.list
+  Just word -> case Explanation.find word of
+    [] -> complain reporter "" (UnknownCode word (Explanation.near word))
+    found -> printed reporter (Text.intercalate "\n" (map Explanation.render found))

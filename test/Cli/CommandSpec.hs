@@ -1,6 +1,7 @@
 -- | The command itself, run as a user runs it: exit status, streams, files.
 module Cli.CommandSpec (spec) where
 
+import Command (inFolder, partc)
 import Control.Monad (forM_)
 import Data.Aeson qualified as Aeson
 import Data.ByteString qualified as ByteString
@@ -8,11 +9,10 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Either (isRight)
 import Data.List (isInfixOf, isPrefixOf)
 import Flange qualified
-import System.Directory (doesFileExist, findExecutable, listDirectory)
+import System.Directory (doesFileExist, listDirectory)
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
-import System.IO.Temp (withSystemTempDirectory)
-import System.Process (readCreateProcessWithExitCode, readProcessWithExitCode, shell)
+import System.Process (readCreateProcessWithExitCode, shell)
 import Tape.Tape (Tape (..))
 import Test.Hspec
 
@@ -123,20 +123,10 @@ spec = do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
   it "every command explains itself with an example" $
-    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines"] $ \command -> do
+    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines", "explain"] $ \command -> do
       (code, out, _) <- partc [command, "--help"]
       code `shouldBe` ExitSuccess
       out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
-
-partc :: [String] -> IO (ExitCode, String, String)
-partc arguments = do
-  there <- findExecutable "partc"
-  case there of
-    Nothing -> fail "partc is not on the path"
-    Just program -> readProcessWithExitCode program arguments ""
-
-inFolder :: (FilePath -> IO a) -> IO a
-inFolder = withSystemTempDirectory "partc"
 
 copyFlange :: FilePath -> IO ()
 copyFlange folder = ByteString.readFile "examples/flange.part" >>= ByteString.writeFile (folder </> "flange.part")

@@ -64,7 +64,9 @@ spec = do
 -- | The moves along a contour.
 cutOf :: Block -> [Move]
 cutOf block = case block of
-  Travelling _ -> []
+  Travelling _ _ -> []
+  Holing _ _ -> []
+  Commanding _ -> []
   Cutting {cut} -> NonEmpty.toList cut
 
 chordsOf :: Double -> Segment -> [Segment]

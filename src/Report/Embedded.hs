@@ -1,0 +1,17 @@
+{-# LANGUAGE TemplateHaskell #-}
+
+-- | The files of the folder @explain/@, as they were when the program was built. This is the only
+-- module with Template Haskell; what the files mean is read in "Report.Explanation".
+module Report.Embedded
+  ( files,
+  )
+where
+
+import Data.ByteString (ByteString)
+import Data.FileEmbed (embedDir)
+import Language.Haskell.TH.Syntax (addDependentFile)
+
+-- | Names and contents. A changed file compiles this module anew by itself; a new one does through
+-- @partc.cabal@, which is generated with the list of them.
+files :: [(FilePath, ByteString)]
+files = $(addDependentFile "partc.cabal" *> embedDir "explain")

@@ -1,0 +1,111 @@
+-- | Reports as one log in SARIF 2.1.0, the format that code scanners exchange: for viewers in editors
+-- and on the pages of a repository. The log holds no time, path or version of its own.
+--
+-- <https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>; paragraphs below are its.
+module Report.Sarif
+  ( Filed (..),
+    log,
+    uri,
+  )
+where
+
+import Base.Region (Position (..), Region (..), Source)
+import Base.Region qualified as Region
+import Data.Aeson (Encoding, Series, (.=))
+import Data.Aeson.Encoding (encodingToLazyByteString, list, pair, pairs)
+import Data.ByteString qualified as ByteString
+import Data.ByteString.Lazy qualified as LazyByteString
+import Data.Char (chr, intToDigit, isAlphaNum, isAscii, toUpper)
+import Data.List (nub, sort)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (listToMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Report.Explanation (Explanation)
+import Report.Explanation qualified as Explanation
+import Report.Report (Code (..), Label (..), Place (..), Report (..))
+import Report.Report qualified as Report
+import Prelude hiding (log)
+
+-- | A report with the file that it is about, and the text that its regions point into.
+data Filed = Filed {path :: Text, source :: Source, report :: Report}
+
+-- | The log of one run: its rules are the codes that occur, with their explanations.
+log :: [Explanation] -> [Filed] -> Text
+log explanations filed = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
+  where
+    whole =
+      pairs $
+        "$schema" .= ("https://json.schemastore.org/sarif-2.1.0.json" :: Text)
+          <> "version" .= ("2.1.0" :: Text)
+          <> pair "runs" (list pairs [run])
+    run =
+      pair "tool" (pairs (pair "driver" (pairs driver)))
+        <> "columnKind" .= ("unicodeCodePoints" :: Text)
+        <> pair "results" (list (result indices) filed)
+    driver = "name" .= ("partc" :: Text) <> pair "rules" (list (rule explanations) codes)
+    codes = nub (sort (map (Report.code . report) filed))
+    indices = Map.fromList (zip codes [0 ..])
+
+-- | What a code means; its help is the text of @partc explain@.
+rule :: [Explanation] -> Code -> Encoding
+rule explanations code@(Code name) = pairs ("id" .= name <> maybe mempty explained found)
+  where
+    found = listToMaybe [e | e <- explanations, Explanation.code e == code]
+    explained e =
+      pair "shortDescription" (pairs ("text" .= Explanation.title e))
+        <> pair "help" (pairs ("text" .= Explanation.render e <> "markdown" .= Explanation.markdown e))
+
+result :: Map Code Int -> Filed -> Encoding
+result indices Filed {path, source, report = r} =
+  pairs $
+    "ruleId" .= code
+      <> foldMap ("ruleIndex" .=) (Map.lookup (Report.code r) indices)
+      <> "level" .= Report.severityWord (severity r)
+      <> pair "message" (message' sentences)
+      <> pair "locations" (list pairs located)
+      <> (if null (others r) then mempty else pair "relatedLocations" (list related places))
+  where
+    Code code = Report.code r
+    sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (hints r))
+    located = case place r of
+      InSource region -> [inSource source region <> (if label r == "" then mempty else pair "message" (message' (label r)))]
+      -- A tape is no text: a row is a byte of it (3.30.3).
+      InTape row -> [at path (pair "region" (pairs ("byteOffset" .= max 0 (row - 1) <> "byteLength" .= (1 :: Int))))]
+      InFile -> [at path mempty | path /= ""]
+    -- No two of them may be alike (3.27.22); repetitions of one element are.
+    places = nub (others r)
+    related (Label region words') = pairs (inSource source region <> (if words' == "" then mempty else pair "message" (message' words')))
+
+-- | A stretch of a text. Columns count characters from 1; the end is behind the last character (3.30.8).
+inSource :: Source -> Region -> Series
+inSource source region = at file (pair "region" (pairs stretch))
+  where
+    Position {file, line, column} = Region.position source (start region)
+    Position {line = endLine, column = endColumn} = Region.position source (end region)
+    stretch = "startLine" .= line <> "startColumn" .= column <> "endLine" .= endLine <> "endColumn" .= endColumn
+
+at :: Text -> Series -> Series
+at path region = pair "physicalLocation" (pairs (pair "artifactLocation" (pairs ("uri" .= uri path)) <> region))
+
+-- | Braces would be placeholders, so they are doubled (3.11.5).
+message' :: Text -> Encoding
+message' words' = pairs ("text" .= Text.replace "}" "}}" (Text.replace "{" "{{" words'))
+
+-- | The path of a file as a reference: relative if it is, each byte encoded that has a meaning there.
+uri :: Text -> Text
+uri path = case Text.stripPrefix "/" path of
+  Just rest -> "file:///" <> encoded rest
+  Nothing -> encoded (dropHere path)
+  where
+    encoded = Text.concat . map byte . ByteString.unpack . Encoding.encodeUtf8
+    byte w
+      | isAscii c && (isAlphaNum c || c `elem` ("-._~/" :: String)) = Text.singleton c
+      | otherwise = Text.pack ['%', digit (w `div` 16), digit (w `mod` 16)]
+      where
+        c = chr (fromIntegral w)
+    digit = toUpper . intToDigit . fromIntegral
+    -- Viewers compare with the paths of a repository, which have no dot in front.
+    dropHere p = maybe p dropHere (Text.stripPrefix "./" p)

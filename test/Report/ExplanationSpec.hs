@@ -1,0 +1,96 @@
+-- | Every code is explained, and the explanations are true: the wrong programs raise their codes,
+-- the right ones raise nothing.
+module Report.ExplanationSpec (spec) where
+
+import Base.Region qualified as Region
+import Codes qualified
+import Control.Monad (forM_)
+import Data.ByteString qualified as ByteString
+import Data.Either (lefts, rights)
+import Data.List (nub, sort)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Files (readText)
+import Report.Embedded qualified as Embedded
+import Report.Explanation (Example (..), Explanation (..), Language (..))
+import Report.Explanation qualified as Explanation
+import Report.Report (Code (..), Place (..))
+import Report.Report qualified as Report
+import Reports qualified
+import System.Directory (listDirectory)
+import System.FilePath (dropExtension, takeExtension, (</>))
+import Test.Hspec hiding (Example)
+
+-- | The codes that no text of a program can raise, by what raises them. Their wrong example shows
+-- how it comes about; all other codes are shown by a program.
+raisedElsewhere :: [(String, [Text])]
+raisedElsewhere =
+  [ ("a tape", ["E0601"]),
+    ("a tape and its program", ["E0701", "E0702", "E0703", "E0704", "E0705", "E0706", "E0707", "E0708", "E0709"]),
+    ("files and the command line", ["E0801", "E0802", "E0803", "E0804", "E0805", "E0806", "E0807", "E0808", "E0809", "W0801"])
+  ]
+
+-- | Where the Minsk-22 system stopped, an explanation says so just as the report does.
+controlStops :: [Text]
+controlStops = ["17533", "17535"]
+
+spec :: Spec
+spec = do
+  names <- runIO (sort . filter ((== ".md") . takeExtension) <$> listDirectory "explain")
+  found <- runIO (traverse readOne names)
+  describe "the folder explain/" $ do
+    it "explains every code that there is, and no other" $ do
+      codes <- Codes.inSources
+      let explained = Set.fromList (map (Text.pack . dropExtension) names)
+      ["the code " <> c <> " lacks an explanation: write explain/" <> c <> ".md" | c <- Set.toList (Set.difference codes explained)] `shouldBe` []
+      ["no report has the code " <> c <> ": explain/" <> c <> ".md explains nothing" | c <- Set.toList (Set.difference explained codes)] `shouldBe` []
+    it "has one form: # CODE: title, paragraphs, a block of ```part wrong or ```text wrong, and one with right" $
+      [file <> " is not of this form" | file <- lefts found] `shouldBe` []
+    it "is in the program as it is" $ do
+      contents <- traverse (ByteString.readFile . ("explain" </>)) names
+      sort (map fst Embedded.files) `shouldBe` names
+      [file | (file, content) <- zip names contents, lookup file Embedded.files /= Just content] `shouldBe` []
+    it "fits a terminal of 80 columns" $
+      [(code e, l) | e <- rights found, l <- Text.lines (Explanation.render e), Text.length l > 80] `shouldBe` []
+  describe "explanations" $
+    forM_ (rights found) $ \e -> do
+      let Code c = code e
+      it (Text.unpack (c <> " " <> title e)) $
+        if c `elem` concatMap snd raisedElsewhere
+          then languageOf (wrong e) `shouldBe` Session
+          else do
+            (languageOf (wrong e), languageOf (right e)) `shouldBe` (Part, Part)
+            let reports = reportsOn (wrong e)
+            nub (map Report.code reports) `shouldBe` [code e]
+            map Report.place reports `shouldSatisfy` all isInSource
+            [stop | stop <- controlStops, any (any (Text.isInfixOf stop) . Report.message) reports /= Text.isInfixOf stop (prose e)] `shouldBe` []
+            map Report.title (reportsOn (right e)) `shouldBe` []
+  describe "find" $ do
+    let codes = [c | e <- Explanation.everything, let Code c = code e]
+        asked word = [c | e <- Explanation.find word, let Code c = code e]
+    it "finds every code as a report writes it" $
+      [c | c <- codes, asked c /= [c] || asked ("error[" <> c <> "]") /= [c]] `shouldBe` []
+    it "does not mind small letters, missing zeros and spaces" $
+      map asked ["e0314", " E314 ", "314", "w501", "0314"] `shouldBe` [["E0314"], ["E0314"], ["E0314"], ["W0501"], ["E0314"]]
+    it "finds both when only the letter tells them apart" $
+      asked "501" `shouldBe` ["E0501", "W0501"]
+    it "finds nothing in other words" $
+      map asked ["", "E", "E9999", "EE314", "E03l4", "E31415", "E00000314 5"] `shouldBe` replicate 7 []
+  describe "near" $ do
+    it "exchanges digits" $
+      take 1 (Explanation.near "E0341") `shouldBe` ["E0314"]
+    it "exchanges the letter" $
+      Explanation.near "w0314" `shouldBe` ["E0314"]
+    it "finds the neighbours of a number that is not taken" $
+      Explanation.near "E0400" `shouldSatisfy` elem "E0401"
+    it "offers nothing for what is no code" $
+      map Explanation.near ["", "tangent", "E9999"] `shouldBe` [[], [], []]
+  where
+    readOne file = maybe (Left file) Right . Explanation.parse file <$> readText ("explain" </> file)
+    languageOf (Example language _) = language
+    reportsOn (Example _ text) = Reports.onProgram (Region.fromText "example" text)
+    isInSource place = case place of
+      InSource _ -> True
+      InTape _ -> False
+      InFile -> False

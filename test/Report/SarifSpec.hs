@@ -1,0 +1,142 @@
+-- | Logs in SARIF: what they say, and that the published schema of version 2.1.0 accepts them.
+module Report.SarifSpec (spec) where
+
+import Base.Region (Region (..))
+import Base.Region qualified as Region
+import Data.Aeson (Value, object, (.=))
+import Data.Aeson qualified as Aeson
+import Data.Aeson.Key qualified as Key
+import Data.Aeson.KeyMap qualified as KeyMap
+import Data.ByteString qualified as ByteString
+import Data.Foldable (toList)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Report.Explanation (Example (..))
+import Report.Explanation qualified as Explanation
+import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..), report)
+import Report.Sarif (Filed (Filed))
+import Report.Sarif qualified as Sarif
+import Reports qualified
+import System.Exit (ExitCode (..))
+import System.FilePath ((</>))
+import System.IO.Temp (withSystemTempDirectory)
+import System.Process (readProcessWithExitCode)
+import Test.Hspec hiding (Example)
+
+spec :: Spec
+spec = do
+  describe "the schema" $ do
+    it "accepts a log without results" $
+      validated (logged []) `shouldReturn` (ExitSuccess, "")
+    it "accepts every report that a program of the explanations raises" $ do
+      length everyReport `shouldSatisfy` (> 60)
+      validated (logged everyReport) `shouldReturn` (ExitSuccess, "")
+    it "accepts reports on a tape, on a file, on nothing, and without an explanation" $
+      validated (logged [onTape, onFile, onNothing, unexplained]) `shouldReturn` (ExitSuccess, "")
+    it "is really asked: a log without its version is refused" $ do
+      (code, _) <- validated "{\"runs\": []}"
+      code `shouldNotBe` ExitSuccess
+  describe "a log" $ do
+    it "is the same for the same reports, and says the program's name but no version" $ do
+      logged everyReport `shouldBe` logged everyReport
+      logged everyReport `shouldNotSatisfy` Text.isInfixOf "ersion\":\"0"
+    it "lists each code that occurs once as a rule, and points at it" $ do
+      let log' = decoded (logged (everyReport <> [onTape, onFile]))
+          rules = log' `at` "runs" `at` "tool" `at` "driver" `at` "rules"
+          ids = [i | r <- items rules, Just i <- [textAt r "id"]]
+          results = items (log' `at` "runs" `at` "results")
+      length ids `shouldSatisfy` (> 60)
+      [textAt r "ruleId" | r <- results] `shouldBe` [Just (ids !! i) | r <- results, Aeson.Success i <- [Aeson.fromJSON (r `at` "ruleIndex")]]
+    it "counts columns in characters, and ends behind the last one" $
+      let region = head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "locations" `at` "physicalLocation" `at` "region"
+       in region `shouldBe` object ["startLine" .= (2 :: Int), "startColumn" .= (5 :: Int), "endLine" .= (2 :: Int), "endColumn" .= (8 :: Int)]
+    it "has the row of a tape as a byte of it" $
+      head (items (decoded (logged [onTape]) `at` "runs" `at` "results")) `at` "locations" `at` "physicalLocation"
+        `shouldBe` object ["artifactLocation" .= object ["uri" .= ("x.tape" :: Text)], "region" .= object ["byteOffset" .= (299 :: Int), "byteLength" .= (1 :: Int)]]
+    it "has no place when there is no file" $
+      head (items (decoded (logged [onNothing]) `at` "runs" `at` "results")) `at` "locations" `shouldBe` Aeson.toJSON ([] :: [Value])
+    it "doubles braces, which would be placeholders" $
+      head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "message"
+        `shouldBe` object ["text" .= ("found ‘{{’\nOne sentence.\nhint: mill c outside {{ }}" :: Text)]
+    it "has the other places with their words" $
+      items (head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "relatedLocations")
+        `shouldSatisfy` \case
+          [one] -> one `at` "message" == object ["text" .= ("the part" :: Text)]
+          _ -> False
+  describe "uri" $ do
+    it "leaves plain relative paths" $
+      map Sarif.uri ["flange.part", "a/b-1_c~.part", "./x/y.part", "../x.part"] `shouldBe` ["flange.part", "a/b-1_c~.part", "x/y.part", "../x.part"]
+    it "encodes what has a meaning in a reference, and all that is not ASCII" $
+      map Sarif.uri ["my part.part", "50%.part", "a#b?.part", "c:d.part", "<stdin>", "фланец.part"]
+        `shouldBe` ["my%20part.part", "50%25.part", "a%23b%3F.part", "c%3Ad.part", "%3Cstdin%3E", "%D1%84%D0%BB%D0%B0%D0%BD%D0%B5%D1%86.part"]
+    it "makes absolute paths references to files" $
+      Sarif.uri "/tmp/my part.part" `shouldBe` "file:///tmp/my%20part.part"
+
+-- | The log of reports, as the command writes it.
+logged :: [Filed] -> Text
+logged = Sarif.log Explanation.everything
+
+-- | What the programs of all explanations raise.
+everyReport :: [Filed]
+everyReport =
+  [ Filed file source r
+    | e <- Explanation.everything,
+      let Code c = Explanation.code e
+          Example _ text = Explanation.wrong e
+          file = "explain/" <> c <> ".part"
+          source = Region.fromText file text,
+      r <- Reports.onProgram source
+  ]
+
+inProgram, onTape, onFile, onNothing, unexplained :: Filed
+inProgram =
+  Filed "x.part" (Region.fromText "x.part" "part p \"Фланец\"\n😀 é ‘x’ {") $
+    (report Error "E0101" (InSource (Region 20 23)) "found ‘{’")
+      { message = ["One sentence."],
+        hints = ["mill c outside { }"],
+        others = [Label (Region 0 4) "the part"]
+      }
+onTape = without "x.tape" (report Error "E0601" (InTape 300) "row 300")
+onFile = without "x.part" (report Warning "W0801" InFile "not proven")
+onNothing = without "" (report Error "E0802" InFile "cannot write")
+unexplained = without "x.part" (report Error "E9999" InFile "a code to come")
+
+-- | A report on a file without a text.
+without :: Text -> Report -> Filed
+without file = Filed file (Region.fromText file "")
+
+decoded :: Text -> Value
+decoded text = either error id (Aeson.eitherDecodeStrict (Encoding.encodeUtf8 text))
+
+-- | A field; of a list with one item, of that item.
+at :: Value -> Text -> Value
+at value key = case value of
+  Aeson.Object fields | Just v <- KeyMap.lookup (Key.fromText key) fields -> v
+  Aeson.Array vs | [one] <- toList vs -> one `at` key
+  _ -> error ("no field " <> Text.unpack key)
+
+textAt :: Value -> Text -> Maybe Text
+textAt value key = case value `at` key of
+  Aeson.String t -> Just t
+  _ -> Nothing
+
+items :: Value -> [Value]
+items value = case value of
+  Aeson.Array vs -> toList vs
+  _ -> []
+
+-- | What Python's jsonschema says of a log.
+validated :: Text -> IO (ExitCode, String)
+validated text = withSystemTempDirectory "partc" $ \folder -> do
+  ByteString.writeFile (folder </> "log.sarif") (Encoding.encodeUtf8 text)
+  (code, _, err) <- readProcessWithExitCode "python3" ["-c", program, "test/data/sarif-2.1.0-rtm.5.json", folder </> "log.sarif"] ""
+  pure (code, err)
+  where
+    program =
+      unlines
+        [ "import json, sys, jsonschema",
+          "schema, log = [json.load(open(f, encoding='utf-8')) for f in sys.argv[1:]]",
+          "jsonschema.Draft4Validator.check_schema(schema)",
+          "jsonschema.Draft4Validator(schema).validate(log)"
+        ]
