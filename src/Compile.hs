@@ -14,6 +14,7 @@ module Compile
     load,
     alone,
     analyse,
+    evaluated,
     Punched (..),
     punch,
     readTape,
@@ -25,7 +26,6 @@ import Base.Result (Result (..), mapErrors)
 import Base.Result qualified as Result
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
-import Checked.Syntax (Mention)
 import Checked.Syntax qualified as Checked
 import Data.Text (Text)
 import Frame.Error qualified as Frame
@@ -51,8 +51,7 @@ import Verify.Proof qualified as Verify
 
 -- | What a program says, whatever the machine.
 data Analysis = Analysis
-  { -- | the names of the text and what they mean
-    mentions :: [Mention],
+  { checked :: Checked.Program,
     part :: Part,
     path :: Path
   }
@@ -62,7 +61,7 @@ analyse :: [(Text, Text)] -> Loaded -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluated values loaded
   path <- mapErrors id Path.toReport (Path.lay part)
-  pure Analysis {mentions = Checked.mentions checked, part, path}
+  pure Analysis {checked, part, path}
 
 -- | From the texts to the exact geometry.
 evaluated :: [(Text, Text)] -> Loaded -> Result Report Report (Checked.Program, Part)

@@ -75,7 +75,7 @@ sanctioned :: Map Text [Text]
 sanctioned =
   Map.fromList
     [ ("Base.Crash", ["Control.Exception"]),
-      ("Lsp.Server", ["System.IO", "Control.Exception", "Data.IORef"])
+      ("Lsp.Server", ["System.IO", "System.IO.Error", "Control.Exception"])
     ]
 
 -- | Library modules that bring effects: these, and all below them.

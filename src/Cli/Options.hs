@@ -9,6 +9,7 @@ where
 
 import Cli.Output (ColourChoice (..), Format (..), Settings (..))
 import Control.Applicative (many, optional, some, (<|>))
+import Control.Monad (void)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
@@ -35,6 +36,9 @@ data Command
   | Plot FilePath (Maybe FilePath)
   | Machines (Maybe Text)
   | Explain (Maybe Text)
+  | LanguageServer
+  | -- | only ask whether the programs are laid out; the programs
+    Fmt Bool (NonEmpty FilePath)
   deriving stock (Eq, Show)
 
 data CompileOptions = CompileOptions
@@ -71,12 +75,21 @@ commands =
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
       entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
-      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes)))
+      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes))),
+      entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors),
+      entry "fmt" "Bring programs into the canonical layout, in place" "partc fmt flange.part" (Fmt <$> Opt.switch (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out") <*> (NonEmpty.fromList <$> some program))
     ]
   where
     codes = [Text.unpack c | e <- Explanation.everything, let Code c = Explanation.code e]
     entry name description example p =
       Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
+
+-- | What editors pass to every language server. It changes nothing: there is no other way to talk to this one,
+-- and it ends when its input does.
+ofEditors :: Parser ()
+ofEditors =
+  void (Opt.switch (Opt.long "stdio" <> Opt.internal))
+    <* optional (Opt.strOption (Opt.long "clientProcessId" <> Opt.internal) :: Parser String)
 
 compileOptions :: Parser CompileOptions
 compileOptions =

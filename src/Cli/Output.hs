@@ -9,6 +9,7 @@ module Cli.Output
     show',
     result,
     resultBytes,
+    readBytes,
     writeFileWhole,
     ioProblem,
   )
@@ -144,6 +145,10 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
       | ioe_errno e == Just pipe = Right ()
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
+
+-- | All of a file, or of standard input for @-@. The answer says what went wrong.
+readBytes :: FilePath -> IO (Either Text ByteString)
+readBytes file = either (Left . ioProblem) Right <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
 
 -- | Write a file under a temporary name and rename it: what was there before stays until the new one
 -- is complete. A device or a pipe is written to as it is. The answer says what went wrong.

@@ -1,6 +1,7 @@
 -- | The commands.
 module Cli.Run
   ( run,
+    checked,
   )
 where
 
@@ -11,6 +12,7 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
+import Cli.Fmt qualified as Fmt
 import Cli.FrameTable qualified as FrameTable
 import Cli.MachineSheet qualified as MachineSheet
 import Cli.NodeTable qualified as NodeTable
@@ -19,18 +21,20 @@ import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
-import Compile (Analysis (..), Punched (..))
+import Compile (Analysis (part, path), Punched (..))
 import Compile qualified
-import Control.Exception (evaluate, try)
+import Control.Exception (evaluate)
 import Control.Monad (void)
 import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Frame.Frame qualified as Frame
+import Lsp.Server (Host (Host, input, load))
+import Lsp.Server qualified as Lsp
+import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -40,6 +44,7 @@ import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
+import System.IO (stdin, stdout)
 import Tape.Tape (Tape (..))
 
 -- | Run a command.
@@ -57,6 +62,8 @@ perform reporter command = case command of
   Plot file output -> plot reporter file output
   Machines name -> machines reporter name
   Explain code -> explain reporter code
+  LanguageServer -> languageServer reporter
+  Fmt onlyAsked files -> maximum <$> traverse (Fmt.fmt reporter onlyAsked) (NonEmpty.toList files)
 
 -- Reading
 
@@ -89,9 +96,7 @@ readProgram file = do
     Right (Right text) -> Right (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)
 
 readBytes :: FilePath -> IO (Either Error ByteString)
-readBytes file = do
-  bytes <- try (if file == "-" then ByteString.getContents else ByteString.readFile file)
-  pure (either (Left . CannotRead . Output.ioProblem) Right bytes)
+readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
 
 displayName :: FilePath -> Text
 displayName file = if file == "-" then "<stdin>" else Text.pack file
@@ -209,11 +214,24 @@ writeAll reporter files = case files of
 -- | Mistakes only: nothing past the path and the machine's limits.
 check :: Reporter -> FilePath -> IO Exit
 check reporter file' = withProgram reporter file' $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` limits) (const (pure Done))
+  settle reporter loaded (checked (values loaded) (texts loaded)) (const (pure Done))
+
+-- | All that can be said against a program without its tape: up to the limits of the machine that it names.
+checked :: [(Text, Text)] -> Compile.Loaded -> Result Report Report Analysis
+checked values' texts' = Compile.analyse values' texts' `Result.thenSound` \a -> a <$ limits a
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
       Just _ -> chosen [] a >>= traverse (\m -> Compile.punch m (path a))
+
+-- | Answer an editor until it leaves. What is open in the editor is read there rather than from the disk.
+languageServer :: Reporter -> IO Exit
+languageServer reporter = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output = stdout, load, Lsp.check = checked (Output.values (Output.settings reporter))}
+  where
+    load open path' text = Compile.load (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open (Text.pack there))) (Text.unpack path') text
+    statusOf ending = case ending of
+      Orderly -> Done
+      Abrupt -> Failed
 
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
 verify reporter file' target tapeFile = withProgram reporter file' $ \loaded ->

@@ -283,16 +283,23 @@ brokenStatement taken = do
       Input rest <- Parsec.getInput
       case rest of
         t : others
-          | not (beginsStatement t || opensBlock open t || misspelt t others || inBlock && open <= 0 && shape t == Symbol "}") ->
+          | not (beginsStatement t && not (inItsBlock open rest) || opensBlock open t || misspelt open t others || inBlock && open <= 0 && shape t == Symbol "}") ->
             Parsec.anySingle *> ((t :) <$> skipped inBlock (open + braces t))
         _ -> pure []
+    -- The block that belongs to the mistake, if it is closed further down: its statements make no sense alone,
+    -- nor does its closing brace.
+    inItsBlock open rest = open > 0 && withBlock && closesBlock rest
+    withBlock = case map shape (take 1 taken) of
+      [Word word] -> word `elem` "with" : Keyword.blocks
+      _ -> False
     -- A block of statements, unless it stands in braces that belong to the mistake.
     opensBlock open t = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- Two words in a row on a new line are a misspelt statement rather than the rest of this one.
-    misspelt t others = case (shape t, others) of
-      (Word word, next : _) | Word _ <- shape next -> newLine t && not (newLine next) && not (Keyword.beginsItem word)
+    -- Two words in a row on a new line are a misspelt statement rather than the rest of this one, but not in braces
+    -- that belong to the mistake.
+    misspelt open t others = case (shape t, others) of
+      (Word word, next : _) | Word _ <- shape next -> open <= 0 && newLine t && not (newLine next) && not (Keyword.isReserved word || Keyword.beginsItem word)
       _ -> False
     braces t = case shape t of
       Symbol "{" -> 1 :: Int

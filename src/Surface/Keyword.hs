@@ -28,7 +28,9 @@ blocks = ["for", "if"]
 
 -- | Whether a word begins an item of a block.
 beginsItem :: Text -> Bool
-beginsItem word = word `elem` ["for", "if", "cw", "ccw", "approach", "retract"]
+beginsItem word = word `elem` (["for", "if", "cw", "ccw", "approach", "retract"] <> settings)
+  where
+    settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "start", "plunge", "peck"]
 
 -- | Whether a word can not be the name of a value.
 isReserved :: Text -> Bool

@@ -91,6 +91,25 @@ spec = do
       (_, table, _) <- partc ["verify", "examples/flange.part"]
       page <- readFile "README.md"
       page `shouldSatisfy` isInfixOf table
+  describe "fmt" $ do
+    it "lays out programs in their places, and has nothing to say of those that are" $
+      inFolder $ \folder -> do
+        text <- ByteString.readFile "examples/flange.part"
+        ByteString.writeFile (folder </> "good.part") text
+        ByteString.writeFile (folder </> "bad.part") ("\xEF\xBB\xBF" <> ByteString.intercalate "\r\n  " (ByteString.split 10 text))
+        partc ["fmt", "--check", folder </> "good.part", folder </> "bad.part"] `shouldReturn` (ExitFailure 1, folder </> "bad.part\n", "")
+        partc ["fmt", folder </> "good.part", folder </> "bad.part"] `shouldReturn` (ExitSuccess, "", "")
+        ByteString.readFile (folder </> "bad.part") `shouldReturn` text
+        partc ["fmt", "--check", folder </> "good.part", folder </> "bad.part"] `shouldReturn` (ExitSuccess, "", "")
+    it "works from standard input to standard output" $
+      readCreateProcessWithExitCode (shell "partc fmt -") "let  a=1\n" `shouldReturn` (ExitSuccess, "let a = 1\n", "")
+    it "leaves a program with mistakes as it is, and reports them" $
+      inFolder $ \folder -> do
+        writeFile (folder </> "x.part") "part  x\nlet a = (1,\n"
+        (code, out, err) <- partc ["fmt", folder </> "x.part"]
+        (code, out) `shouldBe` (ExitFailure 1, "")
+        err `shouldSatisfy` isInfixOf "error[E0105]"
+        readFile (folder </> "x.part") `shouldReturn` "part  x\nlet a = (1,\n"
   describe "formats" $ do
     it "short: one line a report, and nothing else" $ do
       (_, _, err) <- partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
@@ -123,7 +142,7 @@ spec = do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
   it "every command explains itself with an example" $
-    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines", "explain"] $ \command -> do
+    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines", "explain", "lsp", "fmt"] $ \command -> do
       (code, out, _) <- partc [command, "--help"]
       code `shouldBe` ExitSuccess
       out `shouldSatisfy` isInfixOf ("Example: partc " <> command)

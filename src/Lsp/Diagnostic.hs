@@ -1,0 +1,85 @@
+-- | Reports as the protocol's diagnostics.
+module Lsp.Diagnostic
+  ( publish,
+    bug,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Region (Region (..), Source)
+import Base.Region qualified as Region
+import Data.Aeson (Value, object, (.=))
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Lsp.Client (Client (..))
+import Lsp.Document (Document (..))
+import Lsp.Location qualified as Location
+import Lsp.Message (Outgoing (..))
+import Lsp.Position (Position (..), Range (..))
+import Lsp.Position qualified as Position
+import Lsp.Uri (Uri)
+import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..))
+
+-- | The notification that replaces all diagnostics of a document.
+publish :: Client -> Document -> Maybe Source -> [Report] -> Outgoing
+publish client document source reports =
+  notification document (maybe [] (\s -> map (diagnostic client (uri document) s) reports) source)
+
+-- | The notification when the program could not be looked at because of a fault of our own.
+bug :: Document -> Text -> Outgoing
+bug document what = notification document [object ["range" .= top, "severity" .= number Error, "source" .= name, "message" .= message]]
+  where
+    message = "this is a bug in partc: please send us the program\n" <> what
+
+notification :: Document -> [Value] -> Outgoing
+notification Document {uri, version} diagnostics =
+  Notify "textDocument/publishDiagnostics" . object $
+    ["uri" .= uri, "diagnostics" .= diagnostics] <> ["version" .= v | Just v <- [version]]
+
+diagnostic :: Client -> Uri -> Source -> Report -> Value
+diagnostic client uri source r =
+  object $
+    ["range" .= range, "severity" .= number (severity r), "code" .= words', "source" .= name, "message" .= Text.intercalate "\n" (prefix <> title r : sentences)]
+      <> ["relatedInformation" .= map relation (others r) | related client, not (null (others r))]
+  where
+    Code words' = code r
+    (range, prefix) = placed source (place r)
+    -- The place's own label only where it says more than one word and is not said by the title.
+    sentences =
+      [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
+        <> [besides l | not (related client), l <- others r]
+        <> message r
+        <> map ("hint: " <>) (hints r)
+    besides (Label region said) = lineOf source region <> ": " <> said
+    relation (Label region said) =
+      object ["location" .= Location.location uri source region, "message" .= said]
+
+-- | Where a report is shown: at its place, or at the top of the document when that place lies elsewhere, with the
+-- true place in words.
+placed :: Source -> Place -> (Range, Text)
+placed source place = case place of
+  InSource region
+    | Position.fileOf source region == Region.mainFile source -> (Position.range source region, "")
+    | otherwise -> (top, lineOf source region <> ": ")
+  InTape _ -> (top, "")
+  InFile -> (top, "")
+
+-- | The line of a region in words, with the file when it is another one.
+lineOf :: Source -> Region -> Text
+lineOf source region
+  | Region.file at == Region.mainFile source = "line " <> Decimal.whole (Region.line at)
+  | otherwise = Region.file at <> ":" <> Decimal.whole (Region.line at) <> ":" <> Decimal.whole (Region.column at)
+  where
+    at = Region.position source (start region)
+
+-- | The very beginning of a document.
+top :: Range
+top = Range (Position 0 0) (Position 0 0)
+
+name :: Text
+name = "partc"
+
+number :: Severity -> Int
+number severity = case severity of
+  Error -> 1
+  Warning -> 2

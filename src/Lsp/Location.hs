@@ -1,0 +1,19 @@
+-- | Places in files as the protocol writes them.
+module Lsp.Location
+  ( location,
+  )
+where
+
+import Base.Region (Region, Source)
+import Base.Region qualified as Region
+import Data.Aeson (Value, object, (.=))
+import Lsp.Position qualified as Position
+import Lsp.Uri (Uri)
+import Lsp.Uri qualified as Uri
+
+-- | Address and range of a region. The document itself keeps the client's spelling of its address.
+location :: Uri -> Source -> Region -> Value
+location own source region = object ["uri" .= uri, "range" .= Position.range source region]
+  where
+    file = Position.fileOf source region
+    uri = if file == Region.mainFile source then own else Uri.fromPath file

@@ -1,0 +1,127 @@
+-- | The language server on a pair of streams: the loop round a 'Session'.
+--
+-- One thread reads, handles and writes, so answers come in the order of the requests. While nothing arrives
+-- it waits for the next deadline of the session.
+module Lsp.Server
+  ( Host (..),
+    serve,
+  )
+where
+
+import Compile (Loaded)
+import Control.Exception (AsyncException (..), IOException, SomeException, displayException, evaluate, fromException, throwIO, try)
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.Either qualified as Either
+import Data.Text (Text)
+import Data.Text qualified as Text
+import GHC.Clock (getMonotonicTimeNSec)
+import Lsp.Message qualified as Message
+import Lsp.Session (Awaited (..), Effect (..), Ending (..), Event (..), Milliseconds (..), Session)
+import Lsp.Session qualified as Session
+import Lsp.Wire qualified as Wire
+import Query.Snapshot (Check)
+import Query.Snapshot qualified as Snapshot
+import System.IO (Handle, hFlush, hSetBinaryMode, hWaitForInput)
+import System.IO.Error (isEOFError)
+
+-- | What the server is given by the command line.
+data Host = Host
+  { -- | where messages come from, and where they go; nothing else is written there
+    input :: Handle,
+    output :: Handle,
+    -- | a program with the files that it imports; open texts go before those on disk, then come the
+    -- path and the text of the program itself
+    load :: (Text -> Maybe Text) -> Text -> Text -> IO Loaded,
+    -- | what looks for mistakes
+    check :: Check
+  }
+
+-- | Talk to a client until it leaves or is gone.
+serve :: Host -> IO Ending
+serve host = do
+  hSetBinaryMode (input host) True
+  hSetBinaryMode (output host) True
+  ended <- try (loop host "" Session.start) :: IO (Either IOException Ending)
+  -- The other end is gone.
+  pure (Either.fromRight Abrupt ended)
+
+-- | The bytes that are received but not yet handled, and the state.
+loop :: Host -> ByteString -> Session -> IO Ending
+loop host received session = case Wire.next received of
+  Wire.Complete body more -> handle host (Received (Message.decode body)) session >>= continue host more
+  Wire.Headless more -> loop host more session
+  Wire.Incomplete missing -> do
+    now <- clock
+    arrived <- case Session.deadline session of
+      Nothing -> receive host missing
+      Just time -> do
+        ready <- inputWithin host (time `after` now)
+        if ready then receive host missing else pure (Just "")
+    case arrived of
+      Nothing -> pure Abrupt
+      Just "" -> handle host Due session >>= continue host received
+      Just bytes -> loop host (received <> bytes) session
+
+-- | Go on, unless the conversation is over.
+continue :: Host -> ByteString -> Either Ending Session -> IO Ending
+continue host received outcome = case outcome of
+  Left ending -> pure ending
+  Right session -> loop host received session
+
+-- | The next bytes; nothing at the end of input. A long message is read in one piece.
+receive :: Host -> Int -> IO (Maybe ByteString)
+receive host missing = do
+  bytes <- if missing > chunk then ByteString.hGet (input host) missing else ByteString.hGetSome (input host) chunk
+  pure (if ByteString.null bytes then Nothing else Just bytes)
+  where
+    chunk = 65536
+
+-- | Whether something arrives within so many milliseconds. The end of input counts.
+inputWithin :: Host -> Int -> IO Bool
+inputWithin host wait = do
+  ready <- try (hWaitForInput (input host) wait)
+  case ready of
+    Right answer -> pure answer
+    Left e | isEOFError e -> pure True
+    Left e -> throwIO e
+
+after :: Milliseconds -> Milliseconds -> Int
+after (Milliseconds time) (Milliseconds now) = max 0 (time - now)
+
+clock :: IO Milliseconds
+clock = Milliseconds . fromIntegral . (`div` 1000000) <$> getMonotonicTimeNSec
+
+-- | Handle an event; a failure in it ends nothing but its own request.
+handle :: Host -> Event -> Session -> IO (Either Ending Session)
+handle host event session = do
+  now <- clock
+  outcome <- try (handled host now event session)
+  (session', ending, bytes) <- case outcome of
+    Right done -> pure done
+    Left e -> case fromException e of
+      Just UserInterrupt -> throwIO UserInterrupt
+      Just ThreadKilled -> throwIO ThreadKilled
+      _ -> prepared (Session.failed now (firstLine e) event session)
+  mapM_ (ByteString.hPut (output host) . Wire.framed) bytes
+  hFlush (output host)
+  pure (maybe (Right session') Left ending)
+  where
+    firstLine :: SomeException -> Text
+    firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
+
+-- | The state behind an event and the messages to send. All is computed here, so that failures show here.
+handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
+handled host now event session = do
+  supplied <- foldl (\before a -> before >>= look a) (pure session) (Session.awaited now event session)
+  prepared (Session.step now event supplied)
+  where
+    look Awaited {path, text} before = do
+      loaded <- load host (Session.openText before) path text
+      evaluate (Session.supply path (Snapshot.take (check host) loaded) before)
+
+prepared :: (Session, [Effect]) -> IO (Session, Maybe Ending, [ByteString])
+prepared (session, effects) = do
+  state <- evaluate session
+  bytes <- mapM evaluate [Message.encode m | Send m <- effects]
+  pure (state, lookup () [((), e) | Stop e <- effects], bytes)

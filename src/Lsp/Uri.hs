@@ -1,0 +1,57 @@
+-- | File addresses of the protocol. Clients percent-encode them differently, so they are compared decoded;
+-- what is sent back is the client's own spelling.
+module Lsp.Uri
+  ( Uri (..),
+    toPath,
+    fromPath,
+  )
+where
+
+import Data.Aeson (FromJSON, ToJSON)
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.Char (chr, digitToInt, intToDigit, isAlphaNum, isAscii, isHexDigit, ord)
+import Data.Maybe qualified as Maybe
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Data.Text.Encoding.Error qualified as Encoding
+import Data.Word (Word8)
+
+-- | An address as the client writes it.
+newtype Uri = Uri Text
+  deriving newtype (Eq, Ord, FromJSON, ToJSON)
+  deriving stock (Show)
+
+-- | The path of a file; what is no address of a file is kept as it is, decoded.
+toPath :: Uri -> Text
+toPath (Uri uri) = decoded (Maybe.fromMaybe uri local)
+  where
+    local = afterHost <$> Text.stripPrefix "file://" uri
+    -- Between the slashes may stand a host: file://localhost/part
+    afterHost rest = if "/" `Text.isPrefixOf` rest then rest else Text.dropWhile (/= '/') rest
+
+-- | The address of a file.
+fromPath :: Text -> Uri
+fromPath path = Uri ("file://" <> Text.concat (map escaped (ByteString.unpack (Encoding.encodeUtf8 path))))
+
+escaped :: Word8 -> Text
+escaped byte
+  | isAscii c && (isAlphaNum c || c `elem` ("/-._~" :: String)) = Text.singleton c
+  | otherwise = Text.pack ['%', digit (byte `div` 16), digit (byte `mod` 16)]
+  where
+    c = chr (fromIntegral byte)
+    digit = intToDigit' . fromIntegral
+    intToDigit' n = if n < 10 then intToDigit n else chr (ord 'A' + n - 10)
+
+decoded :: Text -> Text
+decoded = Encoding.decodeUtf8With Encoding.lenientDecode . bytes . Encoding.encodeUtf8
+
+bytes :: ByteString -> ByteString
+bytes encoded = case ByteString.uncons rest of
+  Nothing -> before
+  Just (sign, behind) -> case map (chr . fromIntegral) (ByteString.unpack (ByteString.take 2 behind)) of
+    [a, b] | isHexDigit a && isHexDigit b -> before <> ByteString.cons (fromIntegral (16 * digitToInt a + digitToInt b)) (bytes (ByteString.drop 2 behind))
+    _ -> before <> ByteString.cons sign (bytes behind)
+  where
+    (before, rest) = ByteString.break (== 0x25) encoded

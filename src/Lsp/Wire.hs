@@ -1,0 +1,50 @@
+-- | Messages on a stream of bytes: a header that counts the bytes, an empty line, the message.
+module Lsp.Wire
+  ( Step (..),
+    next,
+    framed,
+  )
+where
+
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.ByteString.Char8 qualified as Char8
+import Data.Char (toLower)
+import Data.Maybe (listToMaybe)
+
+-- | What the bytes received so far begin with.
+data Step
+  = -- | part of a message; at least so many bytes are missing
+    Incomplete Int
+  | -- | a message, and what follows it
+    Complete ByteString ByteString
+  | -- | a header that does not say how long its message is, and what follows it
+    Headless ByteString
+  deriving stock (Eq, Show)
+
+-- | Take the first message off.
+next :: ByteString -> Step
+next received = case ByteString.breakSubstring "\r\n\r\n" received of
+  (header, rest)
+    | ByteString.null rest -> Incomplete 1
+    | otherwise -> case contentLength header of
+      Nothing -> Headless (ByteString.drop 4 rest)
+      Just size
+        | ByteString.length body < size -> Incomplete (size - ByteString.length body)
+        | otherwise -> uncurry Complete (ByteString.splitAt size body)
+        where
+          body = ByteString.drop 4 rest
+
+-- | The number behind @Content-Length:@, if it can be one.
+contentLength :: ByteString -> Maybe Int
+contentLength header = listToMaybe [n | line <- Char8.lines header, (key, rest) <- [Char8.break (== ':') line], isKey key, Just (n, "") <- [Char8.readInt (Char8.strip (Char8.drop 1 rest))], n >= 0, n <= longest]
+  where
+    isKey key = map toLower (Char8.unpack (Char8.strip key)) == "content-length"
+
+-- | No client sends longer messages; a larger number is a damaged stream.
+longest :: Int
+longest = 256 * 1024 * 1024
+
+-- | A message with its header.
+framed :: ByteString -> ByteString
+framed body = "Content-Length: " <> Char8.pack (show (ByteString.length body)) <> "\r\n\r\n" <> body

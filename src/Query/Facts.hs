@@ -1,0 +1,29 @@
+-- | What is known of the names of a program: where each stands, what it means, what its value is.
+module Query.Facts
+  ( Facts (..),
+    Mention (..),
+    none,
+    facts,
+  )
+where
+
+import Base.Region (Region)
+import Checked.Syntax (Mention (..))
+import Checked.Syntax qualified as Checked
+import Data.Text (Text)
+import Part.Part (Part)
+import Part.Part qualified as Part
+
+-- | All names of a program, and the values of what it defines: the place of the name, the value in words.
+data Facts = Facts {mentions :: [Mention], values :: [(Region, Text)]}
+  deriving stock (Eq, Show)
+
+-- | Nothing is known.
+none :: Facts
+none = Facts [] []
+
+-- | The facts of a program, as far as it could be checked and computed.
+facts :: Maybe (Checked.Program, Part) -> Facts
+facts known = case known of
+  Nothing -> none
+  Just (program, part) -> Facts {mentions = Checked.mentions program, values = Part.readings part}

@@ -1,0 +1,46 @@
+-- | A program at one moment, with all that its text says: what editors are answered from.
+module Query.Snapshot
+  ( Snapshot (..),
+    Check,
+    take,
+    isGood,
+  )
+where
+
+import Base.Region (Source)
+import Base.Region qualified as Region
+import Base.Result (Result (..))
+import Compile (Analysis, Loaded)
+import Compile qualified
+import Data.Maybe qualified as Maybe
+import Data.Text qualified as Text
+import Query.Facts (Facts)
+import Query.Facts qualified as Facts
+import Report.Report (Report)
+import Report.Report qualified as Report
+import Surface.Syntax (Program (..))
+import Prelude hiding (take)
+
+-- | What looks for the mistakes of a program: the same for editors as for the command line.
+type Check = Loaded -> Result Report Report Analysis
+
+-- | The texts, what is wrong with them, the syntax tree, what is known of the names.
+data Snapshot = Snapshot {source :: Source, reports :: [Report], program :: Program, facts :: Facts}
+
+-- | Look at a program.
+take :: Check -> Loaded -> Snapshot
+take check loaded = Snapshot {source, reports, program, facts = Facts.facts known}
+  where
+    source = Compile.source loaded
+    result = check loaded
+    reports = Report.sorted (errors result <> warnings result)
+    whole = Maybe.fromMaybe (Program [] []) (output (Compile.surface loaded))
+    -- What the text itself says, without what it imports.
+    program = whole {statements = filter ((<= Text.length (Region.text source)) . Region.start . Region.region) (statements whole)}
+    known = case output result of
+      Just analysis -> Just (Compile.checked analysis, Compile.part analysis)
+      Nothing -> output (Compile.evaluated [] loaded)
+
+-- | Whether the program has no errors.
+isGood :: Snapshot -> Bool
+isGood = not . any Report.isError . reports

@@ -1,0 +1,239 @@
+-- | The syntax tree as text, in the canonical layout and without comments.
+--
+-- What could not be read ('Broken' and its kin) has no text.
+module Surface.Print
+  ( program,
+    rows,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Region (Located (Located))
+import Base.Region qualified as Region
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Surface.Doc (Doc (..), Piece)
+import Surface.Doc qualified as Doc
+import Surface.PrintExpr (Commented, words')
+import Surface.PrintExpr qualified as PrintExpr
+import Surface.Row (Cells (..), Column (..), Row (..))
+import Surface.Row qualified as Row
+import Surface.Syntax
+
+-- | The text of a program.
+program :: Program -> Text
+program = Text.unlines . Row.aligned . rows PrintExpr.uncommented . statements
+
+-- | The rows of statements. The first argument tells where comments stand: there
+-- a list is broken, so that they can stay.
+rows :: Commented -> [Statement] -> [Row]
+rows commented = concatMap (statement commented 0)
+
+-- Rows
+
+-- | The rows of one document.
+whole :: Int -> Doc -> [Row]
+whole indent doc = case Doc.lay indent doc of
+  [] -> []
+  first : more -> Row {indent = Doc.indent first, cells = Whole (Doc.text first), continues = False} : map continued more
+
+-- | Two cells, if the whole stands on one line.
+cells' :: Column -> Int -> Doc -> Doc -> [Row]
+cells' column indent first second = case (Doc.lay indent first, Doc.lay indent second, alone) of
+  ([a], [b], [_]) -> [Row {indent, cells = Cells column (Doc.text a) (Doc.text b), continues = False}]
+  _ -> alone
+  where
+    alone = whole indent (Beside [first, Text (Row.gap column), second])
+
+continued :: Doc.Line -> Row
+continued line = Row {indent = Doc.indent line, cells = Whole (Doc.text line), continues = True}
+
+-- | What stands before a brace, the rows in it, and the closing brace.
+braces :: Int -> Doc -> [Row] -> [Row]
+braces indent before inside
+  | null inside = whole indent (words' [before, Text "{ }"])
+  | otherwise = opened indent before <> inside <> whole indent (Text "}")
+
+opened :: Int -> Doc -> [Row]
+opened indent before = whole indent (words' [before, Text "{"])
+
+-- Statements
+
+statement :: Commented -> Int -> Statement -> [Row]
+statement commented indent (Located _ s) = case s of
+  Part (Located _ (Name name)) title -> plain (words' (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
+  Machine (Located _ ref) -> worded "machine" (Text (machineRef ref))
+  Import (Located _ file) -> worded "import" (Text (quoted file))
+  Tool c -> worded "tool" (cutter commented c)
+  Feed e -> worded "feed" (value e)
+  Tolerance a -> worded "tolerance" (accuracy commented a)
+  Clearance e -> worded "clearance" (value e)
+  From e -> worded "from" (value e)
+  LetValue (Located _ (Name name)) e -> defined ("let " <> name) e
+  LetFunction (Located _ (Name name)) parameters e -> defined ("let " <> name <> "(" <> names parameters <> ")") e
+  Param (Located _ (Name name)) e -> defined ("param " <> name) e
+  Contour (Located _ (Name name)) closure items -> braces indent (Text ("contour " <> name <> " " <> closureName closure)) (concatMap (item commented (indent + 2)) items)
+  Assert e within -> plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
+  Mill e side settings -> machining "mill" e side settings
+  Turn e side settings -> machining "turn" e side settings
+  Drill at depth settings ->
+    let before = words' [Text "drill at", value at, Text "depth", value depth]
+     in if null settings then plain before else braces indent before (concatMap (setting commented (indent + 2)) settings)
+  Travel RapidMotion to -> worded "rapid" (stops commented to)
+  Travel FeedMotion to -> worded "move" (stops commented to)
+  Change place c -> worded "change" (words' [value place, cutter commented c])
+  Spindle spin -> worded "spindle" (spinning spin)
+  Coolant SwitchOn -> worded "coolant" (Text "on")
+  Coolant SwitchOff -> worded "coolant" (Text "off")
+  Auxiliary e -> worded "aux" (value e)
+  Repeat (Located _ (Name name)) from inside -> braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
+  When condition yes no -> alternatives indent (Text "if") value block whenOnly condition yes no
+  With e inside -> braces indent (words' [Text "with", value e]) (block inside)
+  Broken _ _ -> []
+  where
+    plain = whole indent
+    value = PrintExpr.value commented
+    worded word = cells' Values indent (Text word)
+    defined what e = cells' Definitions indent (Text what) (words' [Text "=", value e])
+    block = concatMap (statement commented (indent + 2))
+    machining word e (Located _ side) settings =
+      braces indent (words' [Text word, value e, Text (sideName side)]) (concatMap (setting commented (indent + 2)) settings)
+    spinning spin = case spin of
+      Still -> Text "off"
+      Spinning sense speed -> words' (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
+    whenOnly inside = case inside of
+      [Located _ (When c yes no)] -> Just (c, yes, no)
+      _ -> Nothing
+
+-- | @if c { … } else if d { … } else { … }@: what stands before the condition, how conditions and blocks are
+-- laid out, and whether a block is nothing but another choice.
+alternatives :: Int -> Doc -> (Expr -> Doc) -> ([a] -> [Row]) -> ([a] -> Maybe (Expr, [a], [a])) -> Expr -> [a] -> [a] -> [Row]
+alternatives indent before value block only condition yes no = case (no, only no) of
+  ([], _) -> braces indent begin (block yes)
+  (_, Just (c, yes', no')) -> opened indent begin <> block yes <> alternatives indent (Text "} else if") value block only c yes' no'
+  (_, Nothing) -> opened indent begin <> block yes <> braces indent (Text "} else") (block no)
+  where
+    begin = words' [before, value condition]
+
+quoted :: Text -> Text
+quoted text = "\"" <> text <> "\""
+
+names :: NonEmpty (Located Name) -> Text
+names = Text.intercalate ", " . map (\(Located _ (Name name)) -> name) . NonEmpty.toList
+
+machineRef :: MachineRef -> Text
+machineRef ref = case ref of
+  Named name -> name
+  Described file -> quoted file
+
+cutter :: Commented -> Cutter -> Doc
+cutter commented (Located _ c) = case c of
+  MillCutter e -> made "mill(diameter " e
+  DrillCutter e -> made "drill(diameter " e
+  TurningCutter e -> made "turn(nose " e
+  where
+    made before e = Beside [Text before, PrintExpr.value commented e, Text ")"]
+
+accuracy :: Commented -> Accuracy -> Doc
+accuracy commented a = case a of
+  Within e -> PrintExpr.value commented e
+  Between inside outside -> words' [Text "inside", PrintExpr.value commented inside, Text "outside", PrintExpr.value commented outside]
+
+-- | Points with commas between them; the pace stays on the line of its point.
+stops :: Commented -> NonEmpty Stop -> Doc
+stops commented = Series . NonEmpty.toList . PrintExpr.list commented . fmap stop
+  where
+    stop Stop {point, pace} = case pace of
+      Cutting -> (Region.region point, value point)
+      Rapid -> (Region.region point, words' [value point, Text "rapid"])
+      AtFeed e -> (Region.span (Region.region point) (Region.region e), words' [value point, Text "feed", value e])
+    value = PrintExpr.value commented
+
+closureName :: Closure -> Text
+closureName closure = case closure of
+  Open -> "open"
+  Closed -> "closed"
+
+sideName :: Side -> Text
+sideName side = case side of
+  Outside -> "outside"
+  Inside -> "inside"
+  LeftSide -> "left"
+  RightSide -> "right"
+  On -> "on"
+
+senseName :: Walk -> Text
+senseName sense = case sense of
+  Clockwise -> "cw"
+  CounterClockwise -> "ccw"
+
+-- Items of a contour
+
+item :: Commented -> Int -> Item -> [Row]
+item commented indent (Located _ i) = case i of
+  Element sense e modifiers link ->
+    let walked = case sense of
+          Nothing -> PrintExpr.element commented e
+          Just (Located _ s) -> words' [Text (senseName s), value e]
+        first = words' (walked : map (modifier commented) modifiers)
+     in maybe (whole indent first) (cells' Links indent first . linked commented) link
+  For (Located _ (Name name)) from inside -> braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
+  Choose condition yes no -> alternatives indent (Text "if") value block chooseOnly condition yes no
+  BrokenItem _ -> []
+  where
+    value = PrintExpr.value commented
+    block = concatMap (item commented (indent + 2))
+    chooseOnly inside = case inside of
+      [Located _ (Choose c yes no)] -> Just (c, yes, no)
+      _ -> Nothing
+
+modifier :: Commented -> Modifier -> Doc
+modifier commented (Located _ m) = case m of
+  AtElementFeed e -> words' [Text "feed", PrintExpr.value commented e]
+  Slow -> Text "slow"
+  ElementAllowance e -> words' [Text "allowance", PrintExpr.value commented e]
+
+linked :: Commented -> Link -> Doc
+linked commented (Located _ l) = case l of
+  Meet near -> words' (Text "meet" : maybe [] (\p -> [Text "near", value p]) near)
+  Smooth -> Text "smooth"
+  Tangent -> Text "tangent"
+  Fillet e -> words' [Text "fillet", value e]
+  Chamfer e -> words' [Text "chamfer", value e]
+  where
+    value = PrintExpr.value commented
+
+-- Settings
+
+setting :: Commented -> Int -> Setting -> [Row]
+setting commented indent (Located _ s) = case s of
+  Approach to -> worded "approach" (stops commented to)
+  Retract to -> worded "retract" (stops commented to)
+  Depth e step -> worded "depth" (words' (value e : maybe [] (\x -> [Text "step", value x]) step))
+  LeadBy lead form e -> worded "lead" (words' [Text (leadName lead), Text (formName form), value e])
+  Allowances es -> worded "allowance" (Series (pieces es))
+  CornerStyle Round -> worded "corners" (Text "round")
+  CornerStyle Sharp -> worded "corners" (Text "sharp")
+  CutBy Climb -> whole indent (Text "climb")
+  CutBy Conventional -> whole indent (Text "conventional")
+  StartNear p -> worded "start" (words' [Text "near", value p])
+  Plunge e -> worded "plunge" (value e)
+  Peck e -> worded "peck" (value e)
+  BrokenSetting -> []
+  where
+    value = PrintExpr.value commented
+    worded word = cells' SettingValues indent (Text word)
+    pieces :: NonEmpty Expr -> [Piece]
+    pieces = NonEmpty.toList . PrintExpr.list commented . fmap (\e -> (Region.region e, value e))
+
+leadName :: Lead -> Text
+leadName lead = case lead of
+  LeadIn -> "in"
+  LeadOut -> "out"
+
+formName :: LeadForm -> Text
+formName form = case form of
+  LeadLine -> "line"
+  LeadArc -> "arc"

@@ -1,0 +1,229 @@
+-- | Grammars as the manual writes them: read, tried forwards as sentences, and backwards as a recogniser.
+module Generate.Grammar
+  ( Grammar,
+    fromText,
+    loose,
+    literals,
+    sentence,
+    recognises,
+  )
+where
+
+import Data.Char (isAlpha, isSpace)
+import Data.List (sort, (\\))
+import Data.Map (Map)
+import Data.Map qualified as Map
+import Data.Set (Set)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
+import Surface.Token (Token (..), Token_ (..), unitName)
+import Test.QuickCheck
+
+-- | Rules by their names; the first one written is @program@.
+newtype Grammar = Grammar (Map Text Rule)
+  deriving stock (Show)
+
+data Rule
+  = -- | a word or sign in quotation marks
+    Literal Text
+  | -- | another rule, or what the lexer knows
+    Named Text
+  | Sequence [Rule]
+  | Choice [Rule]
+  | Many Rule
+  | Optional Rule
+  deriving stock (Show)
+
+-- | What the lexer knows.
+terminals :: [Text]
+terminals = ["name", "number", "text", "machine-name"]
+
+-- Reading
+
+-- | The grammar in a text of rules @name = … ;@.
+fromText :: Text -> Grammar
+fromText = Grammar . Map.fromList . rules . marks
+
+-- | A grammar's own words.
+marks :: Text -> [Text]
+marks text = case Text.uncons (Text.stripStart text) of
+  Nothing -> []
+  Just ('"', rest) -> let (inside, after) = Text.breakOn "\"" rest in ("\"" <> inside) : marks (Text.drop 1 after)
+  Just (c, rest)
+    | isAlpha c -> let (word, after) = Text.span (\x -> isAlpha x || x == '-') (Text.stripStart text) in word : marks after
+    | isSpace c -> marks rest
+    | otherwise -> Text.singleton c : marks rest
+
+rules :: [Text] -> [(Text, Rule)]
+rules ms = case ms of
+  name : "=" : rest -> let (rule, after) = alternatives rest in (name, rule) : rules (drop 1 after)
+  _ -> []
+
+alternatives :: [Text] -> (Rule, [Text])
+alternatives ms = case rest of
+  "|" : more -> let (others, after) = alternatives more in (joined one others, after)
+  _ -> (one, rest)
+  where
+    (one, rest) = inOrder ms
+    joined a b = case b of
+      Choice bs -> Choice (a : bs)
+      _ -> Choice [a, b]
+
+inOrder :: [Text] -> (Rule, [Text])
+inOrder = go []
+  where
+    go before ms = case ms of
+      "{" : rest -> bracket Many rest
+      "[" : rest -> bracket Optional rest
+      "(" : rest -> bracket id rest
+      word : rest
+        | "\"" `Text.isPrefixOf` word -> go (Literal (Text.drop 1 word) : before) rest
+        | Text.any isAlpha (Text.take 1 word) -> go (Named word : before) rest
+      _ -> (sequence' (reverse before), ms)
+      where
+        bracket make rest = let (inside, after) = alternatives rest in go (make inside : before) (drop 1 after)
+
+sequence' :: [Rule] -> Rule
+sequence' rs = case rs of
+  [r] -> r
+  _ -> Sequence rs
+
+-- | Names that stand for nothing, and rules that nothing uses.
+loose :: Grammar -> [Text]
+loose (Grammar known) = (used \\ (Map.keys known <> terminals)) <> ((Map.keys known <> terminals) \\ ("program" : used))
+  where
+    used = Set.toList (Set.fromList (concatMap names (Map.elems known)))
+    names rule = case rule of
+      Literal _ -> []
+      Named name -> [name]
+      Sequence rs -> concatMap names rs
+      Choice rs -> concatMap names rs
+      Many r -> names r
+      Optional r -> names r
+
+-- | The words and signs in quotation marks.
+literals :: Grammar -> [Text]
+literals (Grammar known) = sort (Set.toList (Set.fromList (concatMap inside (Map.elems known))))
+  where
+    inside rule = case rule of
+      Literal text -> [text]
+      Named _ -> []
+      Sequence rs -> concatMap inside rs
+      Choice rs -> concatMap inside rs
+      Many r -> inside r
+      Optional r -> inside r
+
+-- Sentences
+
+-- | What a sentence is written with.
+data Mark = Written Text | LineEnd | Touching
+  deriving stock (Eq, Show)
+
+-- | A random sentence. Statements begin on lines of their own, and the parenthesis of a call touches its name.
+sentence :: Grammar -> Gen Text
+sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (Named "program")
+  where
+    derive :: Int -> Rule -> Gen [Mark]
+    derive fuel rule = case rule of
+      Literal text -> pure [Written text]
+      Sequence rs -> concat <$> traverse (derive fuel) rs
+      Choice rs -> elements (affordable fuel rs) >>= derive fuel
+      Many r
+        | height r > fuel -> pure []
+        | otherwise -> times r >>= \k -> concat <$> vectorOf k (derive fuel r)
+      Optional r
+        | height r > fuel -> pure []
+        | otherwise -> frequency [(3, pure []), (1, derive fuel r)]
+      Named "name" -> word ["a", "lug", "радиус", "depth", "within", "step", "at", "line"]
+      Named "number" -> word ["0", "41", "59.3", "007"]
+      Named "text" -> word ["\"\"", "\"Фланец, фиг. 2\""]
+      Named "machine-name" -> word ["lkp-01f", "2.5-ax"]
+      Named name -> around name (derive (below name fuel) (Map.findWithDefault (Sequence []) name known))
+    -- Blocks and values are not nested deeply: sentences would have no end.
+    below name fuel
+      | name `elem` ["items", "statements"] = fuel - 9
+      | name == "expr" = min 32 fuel - 6
+      | otherwise = fuel - 1
+    word texts = (\text -> [Written text]) <$> elements texts
+    -- Statements and items come in numbers; operators seldom, or sentences would have no end.
+    times r = case r of
+      Named name | name `elem` ["statement", "item", "setting"] -> choose (0, 3 :: Int)
+      _ -> frequency [(10, pure 0), (2, pure 1), (1, pure 2)]
+    around name marked = case name of
+      "statement" -> (LineEnd :) <$> marked
+      "arguments" -> (Touching :) <$> marked
+      "parameters" -> (Touching :) <$> marked
+      -- The manual asks for brackets here.
+      "item" -> marked `suchThat` ((/= [Written "-"]) . take 1)
+      _ -> marked
+    -- The alternatives that can be finished; those that can be finished soonest when none can.
+    affordable fuel rs = case filter ((<= fuel) . height) rs of
+      [] -> [r | r <- rs, height r == minimum (map height rs)]
+      some -> some
+    height = heightIn heights
+    heights = settle (fmap (const 1000) known)
+    settle now = let new = fmap (heightIn now) known in if new == now then now else settle new
+
+-- | How many rules deep the smallest sentence of a rule is.
+heightIn :: Map Text Int -> Rule -> Int
+heightIn heights rule = case rule of
+  Literal _ -> 0
+  Named name -> maybe 0 (+ 1) (Map.lookup name heights)
+  Sequence rs -> maximum (0 : map (heightIn heights) rs)
+  Choice rs -> minimum (map (heightIn heights) rs)
+  Many _ -> 0
+  Optional _ -> 0
+
+spaced :: [Mark] -> Text
+spaced written = case written of
+  [] -> "\n"
+  Written text : rest -> " " <> text <> spaced rest
+  LineEnd : rest -> "\n" <> spaced rest
+  Touching : Written text : rest -> text <> spaced rest
+  Touching : rest -> spaced rest
+
+-- Recognition
+
+-- | Whether tokens are a sentence. Where lines end does not matter here.
+recognises :: Grammar -> [Token] -> Bool
+recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
+  where
+    words' = Map.fromAscList (zip [0 ..] (concatMap (parts . shape) tokens))
+    finish = Map.size words'
+    -- The ends of every rule from every place, computed when asked for.
+    table = Map.map (\rule -> Map.fromAscList [(at, ends at rule) | at <- [0 .. finish]]) known
+    ends :: Int -> Rule -> Set Int
+    ends at rule = case rule of
+      Literal text -> one at (`elem` [Word text, Symbol text])
+      Named name -> case Map.lookup name table of
+        Just row -> Map.findWithDefault Set.empty at row
+        Nothing -> one at (terminal name)
+      Sequence rs -> foldl (\from r -> unions [ends x r | x <- Set.toList from]) (Set.singleton at) rs
+      Choice rs -> unions (map (ends at) rs)
+      Many r -> closure r (Set.singleton at) (Set.singleton at)
+      Optional r -> Set.insert at (ends at r)
+    one at fits = case Map.lookup at words' of
+      Just word | fits word -> Set.singleton (at + 1)
+      _ -> Set.empty
+    closure r seen fresh
+      | Set.null fresh = seen
+      | otherwise =
+        let new = unions [ends x r | x <- Set.toList fresh] `Set.difference` seen
+         in closure r (Set.union seen new) new
+    unions = Set.unions :: [Set Int] -> Set Int
+
+-- | A token as the grammar counts: a number and its unit are two.
+parts :: Token_ -> [Token_]
+parts token = case token of
+  Number n (Just unit) -> [Number n Nothing, Word (unitName unit)]
+  _ -> [token]
+
+terminal :: Text -> Token_ -> Bool
+terminal name token = case (name, token) of
+  ("name", Word word) -> not (Keyword.isReserved word)
+  ("machine-name", Word _) -> True
+  ("number", Number _ Nothing) -> True
+  ("text", Text _) -> True
+  _ -> False

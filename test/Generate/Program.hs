@@ -1,0 +1,220 @@
+-- | Random programs as trees, and random ways to write one down.
+module Generate.Program
+  ( program,
+    respaced,
+    constructors,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Region (Located (..), Region (..))
+import Data.Char (isAlphaNum)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.Set (Set)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Read qualified as Read
+import Surface.Keyword qualified as Keyword
+import Surface.Lexer qualified as Lexer
+import Surface.Syntax hiding (statements)
+import Surface.Token (Token (..), Token_ (..))
+import Test.QuickCheck
+
+-- | A program that the parser can give: all of it at one place, and nothing broken in it.
+program :: Gen Program
+program = sized $ \n -> (`Program` []) <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
+
+here :: a -> Located a
+here = Located (Region 0 0)
+
+at :: Functor f => f a -> f (Located a)
+at = fmap here
+
+some' :: Int -> Gen a -> Gen [a]
+some' most one = choose (0, most) >>= \k -> vectorOf k one
+
+nonEmpty :: Int -> Gen a -> Gen (NonEmpty a)
+nonEmpty most one = (:|) <$> one <*> some' most one
+
+maybe' :: Gen a -> Gen (Maybe a)
+maybe' one = oneof [pure Nothing, Just <$> one]
+
+every :: (Enum a, Bounded a) => Gen a
+every = elements [minBound .. maxBound]
+
+-- | Names, those included that are words of the language in other places.
+name :: Gen Name
+name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
+  where
+    plain = ["a", "b", "p", "lug", "радиус", "Ёж", "x1", "_", "half_turn", "a_rather_long_name_for_a_thing"]
+    words' = ["by", "at", "depth", "step", "within", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "lead", "rpm1", "min", "byte"]
+    made = (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019"))) `suchThat` (not . Keyword.isReserved)
+
+number :: Gen Numeral
+number = numeral <$> frequency [(3, whole), (2, (\a b -> a <> "." <> b) <$> whole <*> whole), (1, Text.pack <$> vectorOf 18 (choose ('0', '9')))]
+  where
+    whole = Text.pack <$> (choose (1, 4) >>= \k -> vectorOf k (choose ('0', '9')))
+    numeral digits = Numeral digits (either (const 0) fst (Read.double digits))
+
+title :: Gen Text
+title = Text.pack <$> listOf (elements "ab Фл-.,(){}'\t%0")
+
+-- Statements
+
+statement :: Int -> Gen Statement
+statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- deep]))
+  where
+    simple =
+      [ Part <$> at name <*> maybe' (at title),
+        Machine <$> at (oneof [Named <$> machine, Described <$> title]),
+        Import <$> at title,
+        Tool <$> cutter n,
+        Feed <$> expr n,
+        Tolerance <$> oneof [Within <$> expr n, Between <$> expr n <*> expr n],
+        Clearance <$> expr n,
+        From <$> expr n,
+        LetValue <$> at name <*> expr (n + 1),
+        LetFunction <$> at name <*> nonEmpty 2 (at name) <*> expr (n + 1),
+        Param <$> at name <*> expr n,
+        Assert <$> expr (n + 1) <*> maybe' (expr n),
+        Drill <$> expr n <*> expr n <*> some' 3 (setting n),
+        Travel <$> every <*> nonEmpty 3 (stop n),
+        Change <$> expr n <*> cutter n,
+        Spindle <$> oneof [pure Still, Spinning <$> every <*> maybe' (expr n)],
+        Coolant <$> every,
+        Auxiliary <$> expr n
+      ]
+    deep =
+      [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
+        Mill <$> expr n <*> at every <*> some' 4 (setting n),
+        Turn <$> expr n <*> at every <*> some' 4 (setting n),
+        Repeat <$> at name <*> expr n <*> inside,
+        When <$> expr n <*> inside <*> inside,
+        With <$> expr n <*> inside
+      ]
+    inside = some' 3 (statement (n - 1))
+
+machine :: Gen Text
+machine = oneof [pure "lkp-01f", (Text.pack <$> listOf1 (elements "abж.-079")) `suchThat` (not . Text.isInfixOf "--")]
+
+cutter :: Int -> Gen Cutter
+cutter n = at (oneof [MillCutter <$> expr n, DrillCutter <$> expr n, TurningCutter <$> expr n])
+
+stop :: Int -> Gen Stop
+stop n = Stop <$> expr n <*> oneof [pure Cutting, pure Rapid, AtFeed <$> expr n]
+
+item :: Int -> Gen Item
+item n = at (frequency ((6, element) : [(1, i) | n > 0, i <- deep]))
+  where
+    element = Element <$> maybe' (at every) <*> expr (n + 1) <*> some' 2 (at modifier) <*> maybe' (at link)
+    modifier = oneof [AtElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n]
+    link = oneof [Meet <$> maybe' (expr n), pure Smooth, pure Tangent, Fillet <$> expr n, Chamfer <$> expr n]
+    deep = [For <$> at name <*> expr n <*> inside, Choose <$> expr n <*> inside <*> inside]
+    inside = some' 3 (item (n - 1))
+
+setting :: Int -> Gen Setting
+setting n =
+  at . oneof $
+    [ Approach <$> nonEmpty 3 (stop n),
+      Retract <$> nonEmpty 3 (stop n),
+      Depth <$> expr n <*> maybe' (expr n),
+      LeadBy <$> every <*> every <*> expr n,
+      Allowances <$> nonEmpty 3 (expr n),
+      CornerStyle <$> every,
+      CutBy <$> every,
+      StartNear <$> expr n,
+      Plunge <$> expr n,
+      Peck <$> expr n
+    ]
+
+-- Expressions
+
+expr :: Int -> Gen Expr
+expr n = at (frequency ([(if n > 0 then 1 else 4, leaf) | leaf <- leaves] <> [(1, e) | n > 0, e <- deep] <> [(4, e) | n > 0, e <- binary]))
+  where
+    leaves = [Literal <$> number <*> maybe' every, Variable <$> name]
+    less = expr (n - 1)
+    binary = [Binary <$> every <*> less <*> less]
+    deep =
+      [ Call <$> at name <*> nonEmpty 3 argument,
+        Negate <$> less,
+        Not <$> less,
+        Range <$> less <*> less <*> maybe' less,
+        If <$> less <*> less <*> less,
+        Pair <$> less <*> less,
+        Triple <$> less <*> less <*> less,
+        List <$> some' 12 less,
+        Each <$> less <*> at name <*> less
+      ]
+    argument = frequency [(3, Given <$> less), (1, Chosen <$> at every <*> less), (1, Ranked <$> at every)]
+
+-- Ways to write
+
+-- | The text of a program with comments, blank lines, indentation, line breaks and ends of lines put in at
+-- random, as far as they mean nothing.
+respaced :: Text -> Gen Text
+respaced text = do
+  end' <- elements ["\n", "\r\n", "\r"]
+  mark <- elements ["", "\xFEFF"]
+  before <- Text.concat <$> ownLines
+  pieces <- traverse piece (zip tokens (map Just (drop 1 tokens) <> [Nothing]))
+  pure (mark <> Text.replace "\n" end' (before <> Text.concat pieces))
+  where
+    tokens = fst (Lexer.tokens 0 text)
+    piece (t, next) = (written text t <>) <$> maybe newLines (between t) next
+
+-- | What may stand between two tokens.
+between :: Token -> Token -> Gen Text
+between t u
+  | newLine u && begins u = (<>) <$> newLines <*> indentation
+  | newLine u = oneof [(<>) <$> newLines <*> indentation, pure " "]
+  | glued t u = pure (if attached u then "" else " ")
+  | attached u && shape t /= Symbol "-" = frequency [(8, pure ""), (1, pure " "), (1, (<>) <$> newLines <*> indentation)]
+  | any (\x -> shape x `elem` map Symbol [",", "+", "*", "=", "<="]) [t, u] && shape u `notElem` [Symbol "-", Symbol "("] = frequency [(6, pure " "), (2, pure ""), (1, (<>) <$> newLines <*> indentation)]
+  | otherwise = frequency [(8, pure " "), (1, (<>) <$> newLines <*> indentation)]
+  where
+    indentation = elements ["", "  ", "\t", "        "]
+
+-- | The end of a line, and more lines of blanks and comments.
+newLines :: Gen Text
+newLines = do
+  behind <- frequency [(3, pure ""), (2, elements ["  ", " -- behind", " --", "\t-- ещё один  "])]
+  more <- frequency [(3, pure []), (1, ownLines)]
+  pure (behind <> "\n" <> Text.concat more)
+
+ownLines :: Gen [Text]
+ownLines = some' 4 (elements ["\n", "   \n", "-- own line\n", "    -- own, set in\n", "--x\n"])
+
+written :: Text -> Token -> Text
+written text t = Text.take (end (place t) - start (place t)) (Text.drop (start (place t)) text)
+
+-- | Whether a token begins what has to begin a line.
+begins :: Token -> Bool
+begins t = case shape t of
+  Word word -> word `elem` Keyword.statements <> Keyword.blocks
+  _ -> False
+
+-- | Whether two tokens have to stay as they are: on one line, and touching or not.
+glued :: Token -> Token -> Bool
+glued t u = case (shape t, shape u) of
+  (Word _, Symbol "(") -> True
+  (Word word, _) | word `elem` ["machine", "cw", "ccw"] -> True
+  (_, Text _) -> True
+  (_, Word word) -> word `elem` ["rapid", "feed"]
+  (_, Symbol "{") -> True
+  _ -> False
+
+-- What a program is made of
+
+-- | The names of the constructors in a program.
+constructors :: Program -> Set Text
+constructors = Set.fromList . filter capital . Text.split (\c -> not (isAlphaNum c || c == '\'' || c == '_')) . unquoted . Text.pack . show
+  where
+    capital word = Text.any (`elem` ['A' .. 'Z']) (Text.take 1 word)
+    -- What stands in quotation marks is no constructor.
+    unquoted text = Text.concat (evens (Text.splitOn "\"" text))
+    evens ts = case ts of
+      a : _ : rest -> a : evens rest
+      [a] -> [a]
+      [] -> []

@@ -1,0 +1,42 @@
+-- | Reports as diagnostics, where a program has several files.
+module Lsp.DiagnosticSpec (spec) where
+
+import Base.Region (Region (..), Source)
+import Base.Region qualified as Region
+import Data.Aeson (Value (..), object)
+import Data.Text (Text)
+import Lsp.Client qualified as Client
+import Lsp.Diagnostic qualified as Diagnostic
+import Lsp.Document (Document (..))
+import Lsp.Location qualified as Location
+import Lsp.Message (Outgoing (..))
+import Lsp.Talk (at, field)
+import Lsp.Uri (Uri (..))
+import Report.Report (Place (..), Report, Severity (..), report)
+import Test.Hspec
+
+spec :: Spec
+spec = do
+  it "a report on an imported file stands at the top of the document and names the true place" $
+    shown (report Error "E0101" (InSource (Region 9 10)) "wrong") `shouldBe` [(at (0, 0), String "/tmp/ж.part:2:3: wrong")]
+  it "a report on the file as a whole stands at its top" $
+    shown (report Error "E0804" InFile "wrong") `shouldBe` [(at (0, 0), String "wrong")]
+  it "a report on the document stands at its place" $
+    shown (report Error "E0101" (InSource (Region 3 4)) "wrong") `shouldBe` [(at (1, 0), String "wrong")]
+  it "a place in the document keeps the client's address; one in another file has that file's" $
+    map (field "uri" . Location.location uri' source) [Region 3 4, Region 9 10] `shouldBe` [String "file:///tmp/%61.part", String "file:///tmp/%D0%B6.part"]
+
+uri' :: Uri
+uri' = Uri "file:///tmp/%61.part"
+
+text' :: Text
+text' = "🙂\r\nx"
+
+-- | The document, and behind it a file that it imports.
+source :: Source
+source = Region.add "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
+
+shown :: Report -> [(Value, Value)]
+shown r = case Diagnostic.publish (Client.fromInitialize (object [])) (Document uri' Nothing text') (Just source) [r] of
+  Notify _ params | Array ds <- field "diagnostics" params -> [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
+  other -> error (show other)

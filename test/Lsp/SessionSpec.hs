@@ -1,0 +1,152 @@
+-- | The conversation with an editor: its order, its texts, its diagnostics.
+module Lsp.SessionSpec (spec) where
+
+import Base.Region qualified as Region
+import Base.Result qualified as Result
+import Cli.Run qualified as Cli
+import Compile qualified
+import Control.Monad (forM_)
+import Data.Aeson (Value (..), object, (.=))
+import Data.Either (lefts)
+import Data.List (sort)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Files (readText, walk)
+import Lsp.Message (Failure (..), Incoming (..), Outgoing (..), Trouble (..))
+import Lsp.Session (Effect (..), Ending (..))
+import Lsp.Talk
+import Report.Report (Code (..), Place (..))
+import Report.Report qualified as Report
+import System.FilePath (takeExtension)
+import Test.Hspec
+import Test.Hspec.QuickCheck (prop)
+import Test.QuickCheck hiding (Failure)
+
+spec :: Spec
+spec = do
+  describe "the order of a conversation" $ do
+    it "nothing is answered before initialize" $
+      refusals (say (Request (Number 1) "textDocument/hover" Null) begin) `shouldBe` [(Number 1, NotInitialized)]
+    it "notifications before initialize are dropped" $
+      heard (pause 900 (open addressOf 1 "x" begin)) `shouldBe` []
+    it "initialize is answered once" $
+      refusals (say (Request (String "two") "initialize" Null) (running (object []))) `shouldBe` [(String "two", InvalidRequest)]
+    it "unknown requests are refused, unknown notifications ignored" $ do
+      refusals (say (Request (Number 7) "textDocument/frobnicate" Null) ready) `shouldBe` [(Number 7, MethodNotFound)]
+      heard (say (Notification "$/setTrace" Null) ready) `shouldBe` []
+      heard (say (Notification "workspace/didChangeConfiguration" (object ["settings" .= Null])) ready) `shouldBe` []
+    it "parameters that are none are refused" $
+      refusals (say (Request (Number 7) "textDocument/hover" (String "no")) ready) `shouldBe` [(Number 7, InvalidParams)]
+    it "a document that is not open has no answers" $
+      ask "textDocument/hover" (about "file:///tmp/other.part" (0, 0)) ready `shouldBe` Right Null
+    it "after shutdown nothing is answered, and exit is orderly" $ do
+      let gone = say (Request (Number 1) "shutdown" Null) ready
+      heard gone `shouldBe` [Send (Result (Number 1) Null)]
+      refusals (say (Request (Number 2) "textDocument/hover" Null) gone) `shouldBe` [(Number 2, InvalidRequest)]
+      last (heard (say (Notification "exit" Null) gone)) `shouldBe` Stop Orderly
+    it "exit without shutdown is abrupt" $
+      heard (say (Notification "exit" Null) ready) `shouldBe` [Stop Abrupt]
+  describe "diagnostics" $ do
+    it "are published on opening, with the version and the client's own address" $
+      published (pause 0 (open "file:///tmp/%d1%84.part" 0 wrong ready))
+        `shouldSatisfy` \case
+          [(String "file:///tmp/%d1%84.part", Number 0, [Squiggle {code = "E0201"}])] -> True
+          _ -> False
+    it "wait until the text has rested" $ do
+      let touched = replace addressOf 2 right (opened wrong)
+      length (published (pause 199 touched)) `shouldBe` 1
+      length (published (pause 200 touched)) `shouldBe` 2
+    it "of fast edits are those of the last text, once" $ do
+      let fast = pause 500 (foldl (\t n -> pause 60 (replace addressOf n (if even n then right else wrong) t)) (opened wrong) [2 .. 40])
+      map (\(_, v, found) -> (v, map code found)) (drop 1 (published fast)) `shouldBe` [(Number 40, [])]
+    it "are gone after the fix" $
+      map (\(_, _, found) -> map code found) (published (pause 200 (replace addressOf 2 right (opened wrong)))) `shouldBe` [["E0201"], []]
+    it "are gone after closing" $
+      map (\(u, _, found) -> (u, map code found)) (published (close addressOf (opened wrong))) `shouldBe` [(String addressOf, ["E0201"]), (String addressOf, [])]
+    it "do not come after closing" $
+      length (published (pause 900 (close addressOf (replace addressOf 2 wrong (opened wrong))))) `shouldBe` 2
+    it "stand beside an answer that came first" $
+      length (published (pause 500 (say (Request (Number 1) "textDocument/documentSymbol" (about addressOf (0, 0))) (open addressOf 0 wrong ready)))) `shouldBe` 1
+    it "have the hint and the other places in the message, for clients that show nothing else" $
+      map message (squiggles (header <> "let a = 1\nlet a = 2\n")) `shouldBe` ["‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: Give one of them another name."]
+    it "name the other places apart when the client can show them" $ do
+      let talk = pause 0 (open addressOf 0 (header <> "let a = 1\nlet a = 2\n") (running (object ["publishDiagnostics" .= object ["relatedInformation" .= True]])))
+      [field "relatedInformation" d | Send (Notify _ p) <- heard talk, Array ds <- [field "diagnostics" p], d <- foldMap pure ds]
+        `shouldBe` [Array (pure (object ["message" .= ("first defined here" :: Text), "location" .= object ["uri" .= addressOf, "range" .= object ["start" .= at (6, 4), "end" .= at (6, 5)]]]))]
+    it "of a text with a mark of the byte order stand where the client sees them" $
+      map from (squiggles ("\xFEFFpart p junk\n" <> Text.drop 7 header)) `shouldBe` [(0, 8)]
+    prop "a text with Cyrillic and emoji before the place shifts its columns by its UTF-16 length" . forAll (listOf (elements "aж€🙂𝔸 -")) $ \put ->
+      let title = Text.pack put
+       in map (\s -> (from s, to s)) (squiggles ("part p \"" <> title <> "\" junk\n" <> Text.drop 7 header)) === [((0, 10 + units title), (0, 14 + units title))]
+    prop "lines that end with LF, CR and CR LF have the same places" . forAll broken $ \text ->
+      let ended end = squiggles (Text.intercalate end (Text.splitOn "\n" text))
+       in conjoin [ended "\r\n" === ended "\n", ended "\r" === ended "\n"]
+    prop "after any edits are those of the final text in a fresh session" . forAll edits $ \(first, steps) ->
+      let (final, talk) = foldl edited (first, opened first) (zip [2 ..] steps)
+          (_, version, found) = last (published (pause 200 talk))
+       in conjoin [textOf "/tmp/a.part" talk === Just final, found === squiggles final, version === Number (fromIntegral (1 + length steps))]
+    programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
+    it "have the places and codes of the command line's reports, for all programs of the tests" $
+      forM_ programs $ \file -> do
+        text <- readText file
+        map (\s -> (from s, to s, code s)) (squiggles text) `shouldBe` reported text
+    it "nothing kills the server: every question at every place of every program" $
+      forM_ programs $ \file -> do
+        text <- readText file
+        let talk = opened text
+            places = [(line, character) | (line, content) <- zip [0 ..] (Text.lines text <> ["", ""]), character <- [0 .. Text.length content + 1]]
+        lefts [ask method (about addressOf place) talk | place <- places, method <- ["textDocument/hover", "textDocument/definition"]] `shouldBe` []
+        lefts [ask method (about addressOf (0, 0)) talk | method <- ["textDocument/documentSymbol", "textDocument/formatting"]] `shouldBe` []
+
+ready :: Talk
+ready = running (object [])
+
+opened :: Text -> Talk
+opened text = pause 0 (open addressOf 1 text ready)
+
+refusals :: Talk -> [(Value, Trouble)]
+refusals talk = [(ident, trouble) | Send (Refusal ident (Failure trouble _)) <- heard talk]
+
+-- | A sound beginning of six lines.
+header :: Text
+header = "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, 0)\n"
+
+right, wrong :: Text
+right = header <> "let a = 1\nlet b = a\n"
+wrong = header <> "let a = 1\nlet b = c\n"
+
+-- | What the command line says: the ends of the places, in the units of the protocol, and the codes.
+reported :: Text -> [((Int, Int), (Int, Int), Text)]
+reported text = [(ends Region.start r, ends Region.end r, c) | r <- Report.sorted (Result.errors result <> Result.warnings result), let Code c = Report.code r]
+  where
+    result = Cli.checked [] (Compile.alone "/tmp/a.part" text)
+    ends end r = case Report.place r of
+      InSource region -> placeIn text (end region)
+      InTape _ -> (0, 0)
+      InFile -> (0, 0)
+
+-- | Texts in which most lines are wrong.
+broken :: Gen Text
+broken = (header <>) . Text.unlines <$> listOf (elements ["let ж = 1 + (1, 2)", "let b = nothing -- 🙂", "🙂", "contour k closed {", "}", "", "part q \"€\" x", "let f(x) = x"])
+
+-- | A text and edits: where they begin and end in the text that is there then, and what they put.
+edits :: Gen (Text, [[(Double, Double, Text)]])
+edits = (,) <$> oneof [pure right, pure wrong, broken] <*> listOf (listOf1 ((,,) <$> choose (0, 1) <*> choose (0, 1) <*> piece))
+  where
+    piece = elements ["", "a", "ж", "🙂", "\n", "\r\n", "\r", "let z = a\n", "(", "\"", "-- 🙂 ж", "1"]
+
+-- | The same edits on a text and in a session.
+edited :: (Text, Talk) -> (Int, [(Double, Double, Text)]) -> (Text, Talk)
+edited (text, talk) (version, steps) = (final, change addressOf version (map snd changes) (pause 30 talk))
+  where
+    changes = drop 1 (scanl next (text, Null) steps)
+    final = fst (last changes)
+    next (old, _) (a, b, put) =
+      let (begin', end') = (offsetAt old (min a b), offsetAt old (max a b))
+       in ( Text.take begin' old <> put <> Text.drop end' old,
+            object ["range" .= object ["start" .= at (placeIn old begin'), "end" .= at (placeIn old end')], "text" .= put]
+          )
+    -- No position lies between CR and LF.
+    offsetAt old share =
+      let offset = round (share * fromIntegral (Text.length old))
+       in if offset > 0 && Text.take 2 (Text.drop (offset - 1) old) == "\r\n" then offset - 1 else offset

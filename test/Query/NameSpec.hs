@@ -1,0 +1,68 @@
+-- | Hover and definition.
+module Query.NameSpec (spec) where
+
+import Base.Region (Region (..))
+import Cli.Run qualified as Cli
+import Compile qualified
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Query.Name (Hover (..), Target (..))
+import Query.Name qualified as Name
+import Query.Snapshot (Snapshot)
+import Query.Snapshot qualified as Snapshot
+import Test.Hspec
+
+spec :: Spec
+spec = do
+  describe "hover" $ do
+    it "shows the value of a name, at its use and at its definition" $ do
+      hovered "let длина = 41 mm\nlet b = ^длина\n" `shouldBe` Just ("длина", Just "41 mm")
+      hovered "let ^длина = 41 mm\n" `shouldBe` Just ("длина", Just "41 mm")
+    it "takes the cursor behind a name for one on it" $
+      hovered "let a = 1\nlet b = (a^, 2)\n" `shouldBe` Just ("a", Just "1")
+    it "knows functions, their parameters and the names of the language" $ do
+      hovered "let f(x) = x\nlet b = ^f(1)\n" `shouldBe` Just ("f", Nothing)
+      hovered "let f(x) = ^x\n" `shouldBe` Just ("x", Nothing)
+      hovered "let b = ^sqrt(4)\n" `shouldBe` Just ("sqrt", Nothing)
+    it "says nothing of numbers, words of the language and unknown names" $
+      map hovered ["let b = ^4\n", "^let b = 4\n", "let b = ^c\n"] `shouldBe` [Nothing, Nothing, Nothing]
+  describe "definition" $ do
+    it "leads from a use to the name that is defined" $
+      defined "let a = 1\nlet b = ^a\n" `shouldBe` Just "a@4"
+    it "leads to the parameter within a function, and to the definition above outside" $ do
+      defined "let a = 1\nlet f(a) = ^a\n" `shouldBe` Just "a@16"
+      defined "let f(a) = a\nlet a = 1\nlet b = ^a\n" `shouldBe` Just "a@17"
+    it "leads into the list of a repetition" $
+      defined "contour k closed {\n  for a in [1] {\n    cw circle((^a, 0), 1)\n  }\n}\n" `shouldBe` Just "a@25"
+    it "names of the language have none" $
+      defined "let b = ^pi\n" `shouldBe` Nothing
+  describe "while the text is broken" $ do
+    it "a definition that cannot be read is what it was" $ do
+      let sound = header <> "let aa = 41 mm\nlet b = aa\n"
+          text = header <> "let aa = (41 mm\nlet b = aa\n"
+      (Name.hover (look text) (Just (look sound)) (offsetOf "= aa" text + 2) >>= value) `shouldBe` Just "41 mm"
+    it "the last sound text answers for names that lie outside the change" $ do
+      let sound = header <> "let aa = 1\nlet f(x) = x + aa\nlet c = 2\n"
+          text = header <> "let aa = 1\nlet f(x = x + aa\nlet c = 2\n"
+          asked = Name.definition (look text) (Just (look sound)) (offsetOf "+ aa" text + 2)
+      fmap region asked `shouldBe` Just (Region (offsetOf "aa" text) (offsetOf "aa" text + 2))
+
+header :: Text
+header = "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, 0)\n"
+
+look :: Text -> Snapshot
+look = Snapshot.take (Cli.checked []) . Compile.alone "a.part"
+
+offsetOf :: Text -> Text -> Int
+offsetOf word = Text.length . fst . Text.breakOn word
+
+-- | The name and the value at the place that is marked.
+hovered :: Text -> Maybe (Text, Maybe Text)
+hovered marked = (\h -> (name h, value h)) <$> Name.hover (look (Text.replace "^" "" marked)) Nothing (offsetOf "^" marked)
+
+-- | The definition of the name at the place that is marked: its text and its offset.
+defined :: Text -> Maybe Text
+defined marked = said . region <$> Name.definition (look text) Nothing (offsetOf "^" marked)
+  where
+    text = Text.replace "^" "" marked
+    said (Region from to) = Text.take (to - from) (Text.drop from text) <> "@" <> Text.pack (show from)

@@ -1,0 +1,33 @@
+-- | The outline of a program.
+module Query.SymbolSpec (spec) where
+
+import Base.Region (Region (..))
+import Cli.Run qualified as Cli
+import Compile qualified
+import Data.Text (Text)
+import Files (readText)
+import Query.Snapshot qualified as Snapshot
+import Query.Symbol (Kind (..), Symbol (..))
+import Query.Symbol qualified as Symbol
+import Test.Hspec
+
+spec :: Spec
+spec = do
+  it "lists what a program names and machines" $ do
+    text <- readText "examples/flange.part"
+    [(kind s, name s, detail s) | s <- outline text]
+      `shouldBe` [ (Part', "flange", "Фланец, Урал-1, фиг. 2"),
+                   (Value, "c", ""),
+                   (Function, "lug", "(a)"),
+                   (Function, "boss", "(a)"),
+                   (Contour', "outline", ""),
+                   (Machining, "mill outline outside", "")
+                 ]
+  it "lists a definition whose other half is missing" $
+    map name (outline "part p\nlet a = (1,\nlet b = 2\n") `shouldBe` ["p", "a", "b"]
+  it "every name lies within its statement" $ do
+    text <- readText "examples/flange.part"
+    [s | s <- outline text, let { Region from to = selection s }, from < start (whole s) || to > end (whole s)] `shouldBe` []
+
+outline :: Text -> [Symbol]
+outline text = Symbol.symbols (Snapshot.take (Cli.checked []) (Compile.alone "a.part" text))

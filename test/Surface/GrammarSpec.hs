@@ -1,0 +1,50 @@
+-- | The grammar in the manual and the parser tell the same story.
+module Surface.GrammarSpec (spec) where
+
+import Base.Result qualified as Result
+import Data.Text qualified as Text
+import Files (readText)
+import Generate.Grammar qualified as Grammar
+import Generate.Program qualified as Generate
+import Report.Report qualified as Report
+import Surface.Error (Error)
+import Surface.Error qualified as Error
+import Surface.Keyword qualified as Keyword
+import Surface.Lexer qualified as Lexer
+import Surface.Parser qualified as Parser
+import Surface.Print qualified as Print
+import Surface.Syntax (Program)
+import Test.Hspec
+import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  manual <- runIO (readText "docs/language.md")
+  let grammar = Grammar.fromText (Text.unlines (block "```ebnf" (Text.lines manual)))
+  -- The bug: a rule that is used but nowhere given, or given but not used; a grammar that is not read to its end.
+  it "is whole" $
+    Grammar.loose grammar `shouldBe` []
+  describe "in the manual" . modifyMaxSuccess (const 300) $ do
+    -- The bug: a rule of the manual that the parser does not know, or knows otherwise.
+    prop "every sentence of it is read without a mistake" $
+      forAllShow (Grammar.sentence grammar) Text.unpack $ \text ->
+        map (Report.title . Error.toReport) (Result.errors (Parser.parse 0 text :: Result.Result () Error Program)) === []
+    -- The bug: a rule that no sentence ever uses.
+    it "every word of it stands in some sentence" $ do
+      texts <- generate (vectorOf 600 (Grammar.sentence grammar))
+      let used = concatMap Text.words texts
+      filter (`notElem` used) (Grammar.literals grammar) `shouldBe` []
+    -- The bug: a construct that the parser knows and the manual does not.
+    prop "every program is a sentence of it" $
+      forAllShow Generate.program (Text.unpack . Print.program) $ \p ->
+        Grammar.recognises grammar (fst (Lexer.tokens 0 (Print.program p)))
+    -- The bug: a recogniser that says yes to everything.
+    it "tells what is no sentence" $
+      map (Grammar.recognises grammar . fst . Lexer.tokens 0) ["let a = 1", "let a 1", "part", "coolant on off", "let in = 3", "aux (1, 2, 3)", "aux (1, 2, 3, 4)"]
+        `shouldBe` [True, False, False, False, False, True, False]
+  it "the manual lists the words that cannot be names" $
+    concatMap Text.words (takeWhile ("    " `Text.isPrefixOf`) (drop 2 (dropWhile (/= "These words cannot be names:") (Text.lines manual))))
+      `shouldBe` Keyword.reservedWords
+  where
+    block fence = takeWhile (/= "```") . drop 1 . dropWhile (/= fence)

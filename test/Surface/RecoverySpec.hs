@@ -1,0 +1,44 @@
+-- | One mistake, one report: what stands around it is read or skipped, and not blamed.
+module Surface.RecoverySpec (spec) where
+
+import Base.Result qualified as Result
+import Control.Monad (forM_)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Report qualified as Report
+import Surface.Error (Error)
+import Surface.Error qualified as Error
+import Surface.Parser qualified as Parser
+import Surface.Syntax (Program)
+import Test.Hspec
+
+spec :: Spec
+spec =
+  describe "one mistake gives one report" $
+    forM_ cases $ \(what, text, title) ->
+      it what $
+        map (Report.title . Error.toReport) (Result.errors (Parser.parse 0 (Text.unlines text) :: Result.Result () Error Program)) `shouldBe` [title]
+
+cases :: [(String, [Text], Text)]
+cases =
+  [ ( "before settings of two words",
+      ["mill f(1 2) right {", "  start near p", "  lead in arc 5", "  plunge slowly", "}", "aux 3"],
+      "found the number 2, expected ‘)’ or ‘,’"
+    ),
+    ( "before settings whose brace is missing",
+      ["mill a outside", "  lead in arc 5", "  plunge slowly", "}", "aux 3"],
+      "found ‘lead’, expected ‘{’"
+    ),
+    ( "before elements of two words",
+      ["contour c clsed {", "  a tangent", "  b tangent", "}", "aux 3"],
+      "found ‘clsed’, expected ‘closed’ or ‘open’"
+    ),
+    ( "before a block of statements",
+      ["if f(a, ) {", "  aux 1", "} else {", "  aux 2", "}", "aux 3"],
+      "found ‘)’, expected a value or ‘if’"
+    ),
+    ( "before a line that goes on with a word of the language",
+      ["assert (1 2) and", "  not a", "aux 3"],
+      "found the number 2, expected ‘)’ or ‘,’"
+    )
+  ]
