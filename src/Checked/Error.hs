@@ -218,7 +218,7 @@ formsHint :: [Text] -> [Text]
 formsHint known = case known of
   [] -> []
   [one] -> ["Write " <> one <> "."]
-  _ -> ["Write one of: " <> Text.intercalate "; " (take 12 known) <> (if length known > 12 then "; …" else ".")]
+  _ -> ["Write one of: " <> Text.intercalate "; " (take 6 known) <> (if length known > 6 then "; …" else ".")]
 
 -- | Words in a row: a, b and c.
 listed :: [Text] -> Text

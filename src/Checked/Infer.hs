@@ -57,7 +57,7 @@ import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Meaning (..), P
 import Checked.Syntax (Builtin, Mention (Mention), Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
-import Control.Monad (filterM, unless, when)
+import Control.Monad (filterM, unless, void, when)
 import Control.Monad.State.Strict (State, get, gets, modify', put, runState)
 import Data.Containers.ListUtils (nubOrd)
 import Data.IntMap.Strict (IntMap)
@@ -435,8 +435,7 @@ settle = do
       case t' of
         Variable _ -> do
           d <- freshDimension
-          _ <- unify region t' (Quantity d)
-          pure ()
+          void (unify region t' (Quantity d))
         _ -> pure ()
 
 -- | Decide something if enough is known; False when it has to wait.
@@ -454,18 +453,40 @@ choose c = do
   arguments <- traverse (known . snd) (given c)
   case remaining of
     [] -> do
-      unless (Wrong `elem` arguments) (mistake (NoForm (at c) (Builtin.name (builtin c)) (zip (map fst (given c)) arguments) (map (Builtin.written (builtin c)) (alternatives c))))
+      unless (Wrong `elem` arguments) (misfit c arguments)
       taint
       True <$ unify (at c) (chosen c) Wrong
     [only] -> True <$ take' c only
     _ -> pure False
 
+-- | Report a call that fits no form: the one argument that is wrong when there is a form with a
+-- quantity for it where another quantity is given, else the whole call.
+misfit :: Choice -> [Type] -> Infer ()
+misfit c arguments = case mapMaybe near (alternatives c) of
+  (region, wanted, written', found') : _ -> do
+    places <- settledPlaces [(region, written', found')]
+    mistakeOnce (map fst places) (Mismatch region wanted found' places)
+  [] -> mistake (NoForm (at c) (Builtin.name (builtin c)) (zip (map fst (given c)) arguments) (map (Builtin.written (builtin c)) (alternatives c)))
+  where
+    near form =
+      let wanted = wantedBy form
+       in case [(region, w, t, found') | ((region, t), found', w) <- zip3 (given c) arguments wanted, not (mayBe found' w)] of
+            [one@(_, w, _, found')] | alike found' w -> Just one
+            _ -> Nothing
+    alike a b = case (a, b) of
+      (Quantity _, Quantity _) -> True
+      (Spatial _, Spatial _) -> True
+      _ -> False
+
+-- | The types that a form wants, without its ranks.
+wantedBy :: Form -> [Type]
+wantedBy form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.parameters form))
+
 -- | Let a call mean a form.
 take' :: Choice -> Form -> Infer ()
 take' c form = do
-  mapM_ (\((region, t), p) -> unify region (Builtin.type' p) t) (zip (given c) (filter ((/= Rank) . label) (Builtin.parameters form)))
-  _ <- unify (at c) (chosen c) (Builtin.result form)
-  pure ()
+  mapM_ (\((region, t), p) -> unify region p t) (zip (given c) (wantedBy form))
+  void (unify (at c) (chosen c) (Builtin.result form))
 
 -- | The forms with the number and the words of a call's arguments. The unknowns of a form are its own.
 alternatives :: Choice -> [Form]
@@ -478,19 +499,18 @@ fitting c = do
   d <- freshDimension
   t <- freshType
   let same = [f | f <- Builtin.forms Fresh {dimension = d, anything = t} (builtin c), map label (Builtin.parameters f) == labels c]
-  pure [f | f <- same, and (zipWith mayBe arguments (map Builtin.type' (filter ((/= Rank) . label) (Builtin.parameters f))))]
+  pure [f | f <- same, and (zipWith mayBe arguments (wantedBy f))]
 
 -- | Whether a type, as far as it is known, may turn out to be another.
 mayBe :: Type -> Type -> Bool
 mayBe found' wanted = case (found', wanted) of
+  _ | found' `elem` [Wrong, wanted] || wanted == Wrong -> True
   (Variable _, _) -> True
   (_, Variable _) -> True
-  (Wrong, _) -> True
-  (_, Wrong) -> True
   (Quantity d, Quantity e) -> dimensionMayBe d e
   (Spatial d, Spatial e) -> dimensionMayBe d e
   (ListOf a, ListOf b) -> mayBe a b
-  _ -> found' == wanted
+  _ -> False
   where
     dimensionMayBe d e = d == e || not (Dimension.isKnown d) || not (Dimension.isKnown e)
 

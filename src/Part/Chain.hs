@@ -53,10 +53,14 @@ solve region ends walks = case (nonMeeting, attempt region ends walks) of
   ([], Left f) -> Left (withLargest region ends walks f :| [])
   ([], Right elements) -> Right elements
   where
-    -- Links that fail whatever the others do; in a repetition one of them is enough.
+    -- Links that fail whatever the others do; in a repetition, and there and back between two elements, one of
+    -- them is enough.
+    pairOf (at, f) = case Error.joined' f of
+      Just (Joined _ (a, _) (b, _)) -> (min a b, max a b)
+      Nothing -> (at, at)
     nonMeeting = case walks of
       _ :| [] -> []
-      first :| rest -> map snd (nubOrdOn fst [(linkPlace a b, f) | (a, b) <- zip (first : rest) (rest <> [first | ends == Closed]), Left f <- [jointsOf a b]])
+      first :| rest -> map snd (nubOrdOn pairOf (nubOrdOn fst [(linkPlace a b, f) | (a, b) <- zip (first : rest) (rest <> [first | ends == Closed]), Left f <- [jointsOf a b]]))
 
 -- | Say of a fillet that does not fit the largest that does.
 withLargest :: Region -> Ends -> NonEmpty Walk -> Fact -> Fact

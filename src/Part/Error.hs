@@ -3,6 +3,7 @@ module Part.Error
   ( Error (..),
     Fact (..),
     Candidate (..),
+    joined',
     Joined (..),
     toReport,
     describe,
@@ -119,6 +120,24 @@ data Fact
   | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
     CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
+
+-- | The neighbours that a link could not join.
+joined' :: Fact -> Maybe Joined
+joined' fact = case fact of
+  NoMeeting j _ -> Just j
+  ParallelLines j _ -> Just j
+  SameCurve j -> Just j
+  AmbiguousMeeting j _ -> Just j
+  NotSmooth j _ -> Just j
+  TurnsBack j -> Just j
+  TangentNeedsCircles j -> Just j
+  ConcentricTangent j -> Just j
+  CoincidentTangent j -> Just j
+  NoTangent j _ -> Just j
+  FilletAtPoint j -> Just j
+  NoFillet j _ _ -> Just j
+  AmbiguousFillet j _ -> Just j
+  _ -> Nothing
 
 -- | The words for it.
 toReport :: Error -> Report

@@ -8,6 +8,7 @@ module Part.Eval
     absent,
     gather,
     spend,
+    mostSteps,
     inCall,
   )
 where
@@ -43,16 +44,18 @@ gather evals = do
     [] -> either (const absent) pure (sequence results)
     errors -> throwError errors
 
--- | Take steps. When there are none left, that is reported once.
+-- | Take steps. When there are none left, that is reported once; below zero it is reported already.
 spend :: Region -> Int -> Eval ()
 spend region steps = do
   left <- lift get
-  when (left <= 0) absent
+  when (left < 0) absent
   if steps > left
-    then lift (put 0) *> mistake (TooMuchWork region most)
+    then lift (put (-1)) *> mistake (TooMuchWork region mostSteps)
     else lift (put (left - steps))
-  where
-    most = 10000000
+
+-- | A program may take so many steps.
+mostSteps :: Int
+mostSteps = 5000000
 
 -- | Note through which call of a function a mistake came.
 inCall :: Region -> Eval a -> Eval a

@@ -65,7 +65,7 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           operations' = [],
           values' = [],
           errors' = [],
-          fuel = mostSteps
+          fuel = Eval.mostSteps
         }
     part =
       Part
@@ -77,10 +77,6 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           operations = reverse (operations' final),
           readings = values' final
         }
-
--- | A program may take so many steps.
-mostSteps :: Int
-mostSteps = 10000000
 
 step :: State -> Checked.Statement -> State
 step state (Located at s) = case s of

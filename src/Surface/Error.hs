@@ -100,7 +100,7 @@ toReport err = case err of
       }
   ManyCoordinates region ->
     (at region "E0111" "a point has two or three coordinates")
-      { hints = ["A list stands in square brackets: [1, 2, 3, 4]."]
+      { hints = ["A decimal point is a point: 59.3. A comma separates values.", "A list stands in square brackets: [1, 2, 3, 4]."]
       }
   ImportMissing region name why ->
     (at region "E0112" (quote name <> " cannot be imported: " <> why))

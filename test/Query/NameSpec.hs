@@ -19,7 +19,7 @@ spec = do
       hovered "let длина = 41 mm\nlet b = ^длина\n" `shouldBe` Just ("длина", Just "41 mm")
       hovered "let ^длина = 41 mm\n" `shouldBe` Just ("длина", Just "41 mm")
     it "takes the cursor behind a name for one on it" $
-      hovered "let a = 1\nlet b = (a^, 2)\n" `shouldBe` Just ("a", Just "1")
+      hovered "let a = 1\nlet b = (a^, 2)\n" `shouldBe` Just ("a", Just "1 mm")
     it "knows functions, their parameters and the names of the language" $ do
       hovered "let f(x) = x\nlet b = ^f(1)\n" `shouldBe` Just ("f", Nothing)
       hovered "let f(x) = ^x\n" `shouldBe` Just ("x", Nothing)
