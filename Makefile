@@ -29,7 +29,7 @@ PARTC = $$($(STACK) path --local-install-root 2>/dev/null)/bin/partc
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants help setup build test check format format-check lint bench demo install clean
+.PHONY: mutants pictures help setup build test check format format-check lint bench demo install clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -71,6 +71,12 @@ bench: setup ## time every stage
 	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
 	$(call banner,bench)
 	@$(BENCH) --verbosity info bench --flag partc:bench
+
+pictures: setup ## draw the pictures of the documents anew from their programs
+	$(call banner,build with tests)
+	$(quietly) $(STACK) build --test --no-run-tests
+	$(call banner,pictures)
+	@PARTC_RECORD=1 $(STACK) --verbosity warn test --test-arguments "--match pictures"
 
 mutants: setup ## break the code once for every law and see the law fail
 	$(call banner,mutants)

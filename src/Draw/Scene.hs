@@ -8,7 +8,7 @@ module Draw.Scene
   )
 where
 
-import Base.Quantity (Mm)
+import Base.Quantity (Mm, Rad (..))
 import Base.Region (Located (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
@@ -23,7 +23,9 @@ import Geometry.Contour qualified as Contour
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
 import Part.Part (Milling (contour, radius), Operation (..), Pace (..), Part)
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
@@ -43,7 +45,7 @@ data Scene = Scene
     tools :: [Mm]
   }
 
--- | A contour of the part.
+-- | A contour of the part, or a hole in it.
 data Shape = Shape {ends :: Ends, matter :: Matter, outline :: [Segment]}
 
 -- | Where the material is.
@@ -72,7 +74,7 @@ set :: Part -> Path -> Scene
 set part path =
   Scene
     { sheet,
-      shapes = map (shapeOf sheet millings) contours,
+      shapes = map (shapeOf sheet millings) contours <> map (holeOf sheet) (nub (concatMap holesOf (Part.operations part))),
       cuts = mapMaybe (cutOf sheet) (Path.blocks path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
@@ -91,6 +93,14 @@ millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
   Drill _ -> []
+  Travel _ -> []
+  Command _ -> []
+
+-- | The holes that are drilled.
+holesOf :: Operation -> [Circle]
+holesOf operation = case operation of
+  Mill _ -> []
+  Drill (Located _ d) -> [Circle p (Part.drillRadius d) | Located _ p <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
   Command _ -> []
 
@@ -123,6 +133,11 @@ shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (She
     matter = case mapMaybe sideOf (filter (\m -> contour m == c) millings) of
       side : _ | Part.ends c == Closed -> if (side == Offset.LeftOf) == (Contour.signedArea bare > 0) then Beyond else Within
       _ -> Unknown
+
+holeOf :: Sheet -> Circle -> Shape
+holeOf sheet circle@(Circle c r) = Shape {ends = Closed, matter = Beyond, outline = [Sheet.segment sheet whole]}
+  where
+    whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
 -- | The side of the walk on which the cutter stands, if it stands on one.
 sideOf :: Milling -> Maybe Offset.Side

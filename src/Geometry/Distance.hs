@@ -2,6 +2,7 @@
 -- segments is covered by the neighbourhood of another.
 module Geometry.Distance
   ( toPoint,
+    nearest,
     Nearest (..),
     segments,
     crossings,

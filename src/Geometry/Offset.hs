@@ -160,9 +160,13 @@ collision style radius contour pieces
           let i = numberOf origin,
           (j, other) <- Box.within (Box.inflate widest (Box.ofSegment s)) index,
           let Nearest d p = Distance.segments s other,
-          plus d Tolerance.clearance < plus radius (extra style j)
+          let tooNear more = plus d Tolerance.clearance < plus radius more,
+          tooNear (extra style j) && tooNear (shared (snd (Distance.nearest p other)))
       ]
-    widest = plus radius (maximum (fmap (extra style) (NonEmpty.fromList [0 .. NonEmpty.length (segments contour) - 1])))
+    -- What is left where segments join: no more than on any of them.
+    shared foot = minimum (mostExtra : [extra style k | (k, s) <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot s <= Tolerance.coincident])
+    mostExtra = maximum (fmap (extra style) (NonEmpty.fromList [0 .. NonEmpty.length (segments contour) - 1]))
+    widest = plus radius mostExtra
     numberOf origin = case origin of
       Along i -> i
       Around i -> i

@@ -267,7 +267,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   Several region what candidates ->
     (at region "E0332" ("there is more than one such " <> what))
       { message = [listed candidates],
-        hints = ["Choose one that stays right when the part is turned: near P, left L or right L (of a directed line), inside C or outside C" <> (if what == "point" then ", first or last along a line." else ".")]
+        hints = [if what == "line" then "Say for each circle on which side of the directed line it lies: left C or right C." else "Choose one that stays right when the part is turned: near P, left L or right L (of a directed line), inside C or outside C" <> (if what == "point" then ", first or last along a line." else ".")]
       }
   NoneFits region what candidates ->
     (at region "E0333" ("no such " <> what <> " is where it is sought"))

@@ -209,7 +209,7 @@ examine foreign' machine flat toolOf isFirst traces Pass {job, level, found} =
     ownNumbers = IntSet.fromList (map (number . stroke) within)
     -- Its own strokes stay away from the contour by what they leave; all others have to spare the contour.
     looked = if upon then [] else filter belowTop (if isFirst then traces else within)
-    requirement t = if IntSet.member (number (stroke t)) ownNumbers then (\e -> plus (reach job) (Part.allowance (Part.finish e))) else const (toolOf t)
+    requirement t = if IntSet.member (number (stroke t)) ownNumbers then (\e p -> plus (reach job) (leftAt elementIndex e p)) else (\_ _ -> toolOf t)
     gouges = mapMaybe (\t -> gougeOf (max (outreach job) (toolOf t)) (requirement t) elementIndex t) looked
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
     missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex es | (more, es) <- byAllowance elements]
@@ -237,17 +237,27 @@ byAllowance :: [Element] -> [(Mm, [Element])]
 byAllowance elements = [(more, [e | e <- elements, Part.allowance (Part.finish e) == more]) | more <- nubOrd (map (Part.allowance . Part.finish) elements)]
 
 -- | How deep a stroke cuts into the contour, if it does: how much nearer it comes to an element than it may.
-gougeOf :: Mm -> (Element -> Mm) -> Box.Index Element -> Trace -> Maybe Witness
+gougeOf :: Mm -> (Element -> Point -> Mm) -> Box.Index Element -> Trace -> Maybe Witness
 gougeOf furthest' required index t
   | null near = Nothing
   | otherwise = Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) near)
   where
     near =
-      [ Witness {amount = minus (required e) d, frame = number (stroke t), element = Part.origin e, place = p}
+      [ Witness {amount = minus (required e p) d, frame = number (stroke t), element = Part.origin e, place = p}
         | e <- Box.within (Box.inflate furthest' (Box.ofSegment (line t))) index,
           let Nearest d p = Distance.segments (line t) (Part.segment e),
-          d < required e
+          d < required e p
       ]
+
+-- | What is left on an element where it is nearest to a point; where elements join, no more than on any of them.
+leftAt :: Box.Index Element -> Element -> Point -> Mm
+leftAt index e p
+  | own <= Mm 0 = own
+  | otherwise = minimum (own : [left' other | other <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot (Part.segment other) <= Tolerance.coincident])
+  where
+    own = left' e
+    left' = Part.allowance . Part.finish
+    (_, foot) = Distance.nearest p (Part.segment e)
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
 -- or more than is allowed.

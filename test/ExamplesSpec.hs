@@ -1,0 +1,71 @@
+-- | The programs of examples/: each is proven and gives the frames that are kept beside it.
+--
+-- The name of an expectation tells the values of the parameters: @spacer,bolt=12,holes=6.frames@. With PARTC_RECORD
+-- set, expectations are written anew; without it a missing one is a failure.
+module ExamplesSpec (spec) where
+
+import Base.Result (Result (..))
+import Base.Result qualified as Result
+import Cli.FrameTable qualified as FrameTable
+import Compile (Analysis (..), Punched (..))
+import Compile qualified
+import Control.Exception (IOException, try)
+import Control.Monad (forM_)
+import Data.Bifunctor (first)
+import Data.ByteString qualified as ByteString
+import Data.List (nub, sort)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Files (readText)
+import Machine.Lkp01f (lkp01f)
+import Report.Human qualified as Human
+import Report.Report (Report)
+import Report.Report qualified as Report
+import System.Directory (doesFileExist, listDirectory)
+import System.Environment (lookupEnv)
+import System.FilePath (dropExtension, takeExtension, (<.>), (</>))
+import Test.Hspec
+
+spec :: Spec
+spec = describe "examples are proven and give their frames" $ do
+  programs <- runIO (named ".part" "examples")
+  kept <- runIO (named ".frames" expectations)
+  forM_ (nub (programs <> kept)) $ \run -> it run $ do
+    let (file, values) = case Text.splitOn "," (Text.pack run) of
+          [] -> (run, [])
+          name : assigned -> ("examples" </> Text.unpack name <.> "part", map (fmap (Text.drop 1) . Text.breakOn "=") assigned)
+    texts <- Compile.load reader file =<< readText file
+    let outcome = Compile.analyse values texts `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
+        rendered reports = Text.concat [render r <> "\n" | r <- Report.sorted reports]
+        render = Human.render Human.Plain (Text.pack file) (Compile.source texts) :: Report -> Text
+    case Result.settled outcome of
+      Nothing -> expectationFailure (Text.unpack (rendered (errors outcome)))
+      Just (a, p) -> do
+        fs <- maybe (fail "the tape cannot be read") pure (output (Compile.readTape lkp01f (tape p)))
+        map Report.title (errors (Compile.prove lkp01f (path a) (program p) fs)) `shouldBe` []
+        expected (expectations </> run <.> "frames") (FrameTable.frames lkp01f (Compile.source texts) (program p) <> rendered (warnings outcome))
+  where
+    expectations = "examples/expected"
+
+-- | The names of the files of a kind in a folder, without their endings.
+named :: String -> FilePath -> IO [FilePath]
+named ending folder = sort . map dropExtension . filter ((== ending) . takeExtension) <$> listDirectory folder
+
+-- | Imported files are read as they stand.
+reader :: FilePath -> IO (Either Text Text)
+reader file = first why <$> try (readText file)
+  where
+    why :: IOException -> Text
+    why = Text.pack . show
+
+-- | Compare with the file, or write it when recording.
+expected :: FilePath -> Text -> Expectation
+expected file actual = do
+  recording <- lookupEnv "PARTC_RECORD"
+  there <- doesFileExist file
+  case recording of
+    Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 actual)
+    Nothing
+      | there -> readText file >>= (actual `shouldBe`)
+      | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")

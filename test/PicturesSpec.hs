@@ -1,0 +1,48 @@
+-- | The pictures of the documents are those that the programs above them give.
+--
+-- With PARTC_RECORD set, they are drawn anew (@make pictures@); without it a missing one is a failure.
+module PicturesSpec (spec) where
+
+import Base.Result qualified as Result
+import Blocks (Block (..))
+import Blocks qualified
+import Compile (Analysis (..))
+import Compile qualified
+import Control.Monad (forM_)
+import Data.ByteString qualified as ByteString
+import Data.List (sort)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Draw.Plot qualified as Plot
+import Files (readText)
+import Report.Report qualified as Report
+import System.Directory (createDirectoryIfMissing, listDirectory)
+import System.Environment (lookupEnv)
+import System.FilePath ((<.>), (</>))
+import Test.Hspec
+
+spec :: Spec
+spec = describe "pictures are what partc plot draws" $ do
+  files <- runIO Blocks.documents
+  shown <- runIO (concat <$> traverse withPictures files)
+  recording <- runIO (lookupEnv "PARTC_RECORD")
+  runIO (createDirectoryIfMissing True folder)
+  forM_ shown $ \(file, block, name) -> it (file <> ": " <> Text.unpack name) $ do
+    texts <- Blocks.load file block
+    let result = Compile.analyse [] texts
+        target = folder </> Text.unpack name <.> "svg"
+    map Report.title (Result.errors result) `shouldBe` []
+    forM_ (Result.output result) $ \a -> do
+      let svg = Plot.plot (part a) (path a)
+      case recording of
+        Just _ -> ByteString.writeFile target (Encoding.encodeUtf8 svg)
+        -- The text itself would fill pages.
+        Nothing -> readText target >>= \old -> (old == svg) `shouldBe` True
+  it "no picture is left over" $ do
+    there <- listDirectory folder
+    sort there `shouldBe` sort [Text.unpack name <.> "svg" | (_, _, name) <- shown]
+  where
+    folder = "docs/pictures"
+    withPictures file = do
+      text <- readText file
+      pure [(file, b, name) | b <- Blocks.blocks text, Just name <- [picture b]]
