@@ -30,6 +30,8 @@ data Error
     Misplaced Region Text
   | -- | brackets nested deeper than so many
     TooDeep Region Int
+  | -- | more words and signs than so many
+    TooLong Region Int
   | -- | brackets with more than three values
     ManyCoordinates Region
   | -- | a file that cannot be imported: its name as it is written, and why
@@ -97,6 +99,10 @@ toReport err = case err of
           if word `elem` ["rapid", "feed"]
             then ["Behind a point, " <> quote word <> " stands on the line of that point."]
             else ["Move it above the statement in whose braces it stands."]
+      }
+  TooLong region limit ->
+    (at region "E0116" ("the program has more than " <> Decimal.whole limit <> " words and signs"))
+      { hints = ["Repeat with for and functions what repeats."]
       }
   ManyCoordinates region ->
     (at region "E0111" "a point has two or three coordinates")
