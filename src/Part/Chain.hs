@@ -69,25 +69,28 @@ withLargest region ends walks fact = case fact of
   Overrun at w by links _ -> Overrun at w by links (largestFillet region ends walks links)
   _ -> fact
 
--- | The largest radius that one of some fillets may have, the others staying as they are.
+-- | The largest radius that one of some fillets may have, the others staying as they are; or else all that have
+-- its radius together.
 largestFillet :: Region -> Ends -> NonEmpty Walk -> [Region] -> Maybe Mm
-largestFillet region ends walks links =
-  listToMaybe [largest | Walk {link = Just (at, Fillet turn r)} <- NonEmpty.toList walks, at `elem` links, Just largest <- [search at turn r]]
+largestFillet region ends walks links = listToMaybe (mapMaybe (uncurry search) (map alone given <> map together given))
   where
-    search at turn (Mm r) = listToMaybe [grown at turn low (2 * low) | low <- takeWhile (> shortest') (drop 1 (iterate (/ 2) r)), fits at turn low]
-    Mm shortest' = Tolerance.smallestFillet
+    given = [(at, r) | Walk {link = Just (at, Fillet _ r)} <- NonEmpty.toList walks, at `elem` links]
+    alone (at, r) = (r, \at' _ -> at' == at)
+    together (_, r) = (r, \_ r' -> r' == r)
+    search (Mm r) chosen = listToMaybe [grown chosen low (2 * low) | low <- takeWhile (> smallest) (drop 1 (iterate (/ 2) r)), fits chosen low]
+    Mm smallest = Tolerance.smallestFillet
     -- Between a radius that fits and one that does not.
-    grown at turn low high
+    grown chosen low high
       | high - low <= low * 1e-9 = Mm low
-      | fits at turn middle = grown at turn middle high
-      | otherwise = grown at turn low middle
+      | fits chosen middle = grown chosen middle high
+      | otherwise = grown chosen low middle
       where
         middle = (low + high) / 2
-    fits at turn r = case attempt region ends (fmap (with at turn r) walks) of
+    fits chosen r = case attempt region ends (fmap (with chosen r) walks) of
       Right _ -> True
       Left _ -> False
-    with at turn r w = case link w of
-      Just (at', Fillet _ _) | at' == at -> w {link = Just (at, Fillet turn (Mm r))}
+    with chosen r w = case link w of
+      Just (at, Fillet turn r') | chosen at r' -> w {link = Just (at, Fillet turn (Mm r))}
       _ -> w
 
 attempt :: Region -> Ends -> NonEmpty Walk -> Either Fact (NonEmpty Element)
