@@ -171,6 +171,7 @@ strayHint :: Char -> [Text]
 strayHint c
   | c `elem` ("−–—" :: String) = ["Write the minus sign as -."]
   | c `elem` ("“”„«»'" :: String) = ["A text stands between \" and \"."]
+  | c == '#' = ["A comment begins with --."]
   | c == ';' = ["Statements need no separator; a comment begins with --."]
   | c == '.' = ["Write a number with digits on both sides of its point: 0.5, 5.0 or 5."]
   | c == '°' = ["Write degrees as deg: 45 deg."]
