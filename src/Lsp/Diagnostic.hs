@@ -18,12 +18,14 @@ import Lsp.Message (Outgoing (..))
 import Lsp.Position (Position (..), Range (..))
 import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
+import Query.Snapshot (Snapshot)
+import Query.Snapshot qualified as Snapshot
 import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..))
 
 -- | The notification that replaces all diagnostics of a document.
-publish :: Client -> Document -> Maybe Source -> [Report] -> Outgoing
-publish client document source reports =
-  notification document (maybe [] (\s -> map (diagnostic client (uri document) s) reports) source)
+publish :: Client -> Document -> Maybe Snapshot -> Outgoing
+publish client document snapshot =
+  notification document (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
 
 -- | The notification when the program could not be looked at because of a fault of our own.
 bug :: Document -> Text -> Outgoing
@@ -36,14 +38,15 @@ notification Document {uri, version} diagnostics =
   Notify "textDocument/publishDiagnostics" . object $
     ["uri" .= uri, "diagnostics" .= diagnostics] <> ["version" .= v | Just v <- [version]]
 
-diagnostic :: Client -> Uri -> Source -> Report -> Value
-diagnostic client uri source r =
+diagnostic :: Client -> Uri -> Snapshot -> Report -> Value
+diagnostic client uri snapshot r =
   object $
     ["range" .= range, "severity" .= number (severity r), "code" .= words', "source" .= name, "message" .= Text.intercalate "\n" (prefix <> title r : sentences)]
       <> ["relatedInformation" .= map relation (others r) | related client, not (null (others r))]
   where
     Code words' = code r
-    (range, prefix) = placed source (place r)
+    source = Snapshot.source snapshot
+    (range, prefix) = placed snapshot (place r)
     -- The place's own label only where it says more than one word and is not said by the title.
     sentences =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
@@ -54,15 +57,17 @@ diagnostic client uri source r =
     relation (Label region said) =
       object ["location" .= Location.location uri source region, "message" .= said]
 
--- | Where a report is shown: at its place, or at the top of the document when that place lies elsewhere, with the
--- true place in words.
-placed :: Source -> Place -> (Range, Text)
-placed source place = case place of
+-- | Where a report is shown: at its place, or at the import that brings the file in which that lies, with the true
+-- place in words.
+placed :: Snapshot -> Place -> (Range, Text)
+placed snapshot place = case place of
   InSource region
     | Position.fileOf source region == Region.mainFile source -> (Position.range source region, "")
-    | otherwise -> (top, lineOf source region <> ": ")
+    | otherwise -> (maybe top (Position.range source) (Snapshot.broughtBy snapshot region), lineOf source region <> ": ")
   InTape _ -> (top, "")
   InFile -> (top, "")
+  where
+    source = Snapshot.source snapshot
 
 -- | The line of a region in words, with the file when it is another one.
 lineOf :: Source -> Region -> Text

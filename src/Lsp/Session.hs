@@ -19,7 +19,6 @@ module Lsp.Session
   )
 where
 
-import Base.Region qualified as Region
 import Data.Aeson (FromJSON, Value (..), withObject, (.:), (.:?), (.=))
 import Data.Aeson qualified as Aeson
 import Data.Aeson.Types (Parser)
@@ -243,7 +242,7 @@ closed now session path = case phase session of
   Waiting -> Nothing
   Closing -> Nothing
   where
-    leave client o = (outside now session {documents = Map.delete path (documents session)}, [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing [])])
+    leave client o = (outside now session {documents = Map.delete path (documents session)}, [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing)])
 
 -- | Files may have changed: programs that import some are looked at again.
 outside :: Milliseconds -> Session -> Session
@@ -252,9 +251,7 @@ outside now session = session {documents = Map.map again (documents session)}
     again o
       | any hasImports (present o) = o {present = Nothing, due = Just (maybe (rest now) (min (rest now)) (due o))}
       | otherwise = o
-    hasImports snapshot =
-      let source = Snapshot.source snapshot
-       in Region.next source > Text.length (Region.text source) + 1
+    hasImports snapshot = not (null (Snapshot.imports snapshot))
 
 -- | Publish what is due. The text that was looked at is always the present one.
 published :: Milliseconds -> Session -> (Session, [Effect])
@@ -265,7 +262,7 @@ published now session = case phase session of
   where
     settled o = if isDue now o then o {due = Nothing} else o
     said client o =
-      [ Send (Diagnostic.publish client (document o) (Just (Snapshot.source snapshot)) (Snapshot.reports snapshot))
+      [ Send (Diagnostic.publish client (document o) (Just snapshot))
         | isDue now o,
           Just snapshot <- [present o]
       ]

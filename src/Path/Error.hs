@@ -100,7 +100,6 @@ toReport err = case err of
         message = ["With the spindle clockwise the cutter climbs on the left of the walk; with the spindle counter-clockwise, on the right."],
         hints = ["Leave the word out, take the other side, or mill reversed(…)."]
       }
-
   BelowAxis region element ->
     (at (origin element) "E0410" "a turned profile cannot go below the axis of the spindle, y = 0")
       { label = shape element,

@@ -236,7 +236,7 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
 -- | What a statement asks has to make sense on its contour.
 possible :: Region -> Milling -> Either Error ()
 possible region milling
-  | e : _ <- [e | Part.work milling == Turned, e <- list, let { Box.Box _ bottom _ _ = Box.ofSegment (Part.segment e); Mm slack = Tolerance.coincident }, bottom < -slack] = Left (BelowAxis (keyword region) e)
+  | e : _ <- [e | Part.work milling == Turned, e <- list, let Box.Box _ bottom _ _ = Box.ofSegment (Part.segment e); Mm slack = Tolerance.coincident, bottom < -slack] = Left (BelowAxis (keyword region) e)
   | value (side milling) == On && (any (> Mm 0) (Part.allowances milling) || any ((> Mm 0) . Part.allowance . Part.finish) list) = Left (AllowanceOnContour (keyword region))
   | otherwise = Right ()
   where

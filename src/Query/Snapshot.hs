@@ -4,15 +4,17 @@ module Query.Snapshot
     Check,
     take,
     isGood,
+    broughtBy,
   )
 where
 
-import Base.Region (Source)
+import Base.Region (Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Compile (Analysis, Loaded)
 import Compile qualified
 import Data.Maybe qualified as Maybe
+import Data.Text (Text)
 import Data.Text qualified as Text
 import Query.Facts (Facts)
 import Query.Facts qualified as Facts
@@ -24,12 +26,13 @@ import Prelude hiding (take)
 -- | What looks for the mistakes of a program: the same for editors as for the command line.
 type Check = Loaded -> Result Report Report Analysis
 
--- | The texts, what is wrong with them, the syntax tree, what is known of the names.
-data Snapshot = Snapshot {source :: Source, reports :: [Report], program :: Program, facts :: Facts}
+-- | The texts, what is wrong with them, the syntax tree, what is known of the names, where each import stands
+-- and the file that it names.
+data Snapshot = Snapshot {source :: Source, reports :: [Report], program :: Program, facts :: Facts, imports :: [(Region, Text)]}
 
 -- | Look at a program.
 take :: Check -> Loaded -> Snapshot
-take check loaded = Snapshot {source, reports, program, facts = Facts.facts known}
+take check loaded = Snapshot {source, reports, program, facts = Facts.facts known, imports = Compile.imports loaded}
   where
     source = Compile.source loaded
     result = check loaded
@@ -44,3 +47,15 @@ take check loaded = Snapshot {source, reports, program, facts = Facts.facts know
 -- | Whether the program has no errors.
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
+
+-- | Where a program shows what lies in a file that it imports: at the import that brings it, directly or by
+-- way of others. Nothing for a place in the program itself.
+broughtBy :: Snapshot -> Region -> Maybe Region
+broughtBy Snapshot {source, imports} = go (length imports)
+  where
+    go steps region = case Region.file (Region.position source (Region.start region)) of
+      file
+        | file == Region.mainFile source || steps < 0 -> Nothing
+        | otherwise -> case [at | (at, named) <- imports, named == file] of
+          at : _ -> Just (Maybe.fromMaybe at (go (steps - 1) at))
+          [] -> Nothing

@@ -10,7 +10,7 @@ module Surface.Import
   )
 where
 
-import Base.Region (Located (..), Source)
+import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Control.Monad.State.Strict (StateT, get, gets, lift, modify', put, runStateT)
@@ -27,26 +27,27 @@ import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeD
 -- | Reads a file, or says why it cannot be read.
 type Reader m = FilePath -> m (Either Text Text)
 
--- | All texts, and one program of them.
-data Loaded = Loaded {source :: Source, surface :: Result Error Error Program}
+-- | All texts, and one program of them; where each import stands, and the file that it names.
+data Loaded = Loaded {source :: Source, surface :: Result Error Error Program, imports :: [(Region, Text)]}
 
 -- | What is known between two files.
-data Progress = Progress {texts :: Source, seen :: Set FilePath, found :: [Error]}
+data Progress = Progress {texts :: Source, seen :: Set FilePath, found :: [Error], named :: [(Region, Text)]}
 
 -- | Read a program and what it imports: the name of its file, for reports and for the places of the
 -- others; its text.
 load :: Monad m => Reader m -> FilePath -> Text -> m Loaded
 load reader path text = do
   let Result {errors, output} = Parser.parse 0 text
-      begin = Progress {texts = Region.fromText (Text.pack path) text, seen = Set.singleton (simple path), found = []}
+      begin = Progress {texts = Region.fromText (Text.pack path) text, seen = Set.singleton (simple path), found = [], named = []}
   case output of
-    Nothing -> pure Loaded {source = texts begin, surface = Result [] errors Nothing}
+    Nothing -> pure Loaded {source = texts begin, surface = Result [] errors Nothing, imports = []}
     Just whole -> do
       (statements', progress) <- runStateT (imported reader [simple path] path (statements whole)) begin
       pure
         Loaded
           { source = texts progress,
-            surface = Result [] (errors <> reverse (found progress)) (Just whole {statements = statements'})
+            surface = Result [] (errors <> reverse (found progress)) (Just whole {statements = statements'}),
+            imports = reverse (named progress)
           }
 
 -- | A program of one text that can import nothing.
@@ -59,7 +60,10 @@ imported :: Monad m => Reader m -> [FilePath] -> FilePath -> [Statement] -> Stat
 imported reader stack path = fmap concat . mapM one
   where
     one s = case s of
-      Located _ (Import (Located at name)) -> bring at (simple (takeDirectory path </> Text.unpack name)) name
+      Located _ (Import (Located at name)) -> do
+        let file = simple (takeDirectory path </> Text.unpack name)
+        modify' (\p -> p {named = (at, Text.pack file) : named p})
+        bring at file name
       _ -> pure [s]
     bring at file name
       | file `elem` stack = mistake (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))

@@ -67,6 +67,22 @@ spec = do
       length (published (pause 900 (close addressOf (replace addressOf 2 wrong (opened wrong))))) `shouldBe` 2
     it "stand beside an answer that came first" $
       length (published (pause 500 (say (Request (Number 1) "textDocument/documentSymbol" (about addressOf (0, 0))) (open addressOf 0 wrong ready)))) `shouldBe` 1
+    it "follow what is imported, while it is edited in another window" $ do
+      let both = pause 500 (open addressOf 1 importing (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" ready))
+          spoilt = pause 500 (replace "file:///tmp/pins.part" 2 "part pins\nlet pen = 3 mm\n" both)
+          mended = pause 500 (replace "file:///tmp/pins.part" 3 "part pins\n-- wider\nlet pin = 3 mm\n" spoilt)
+          latest talk = [map code found | (String u, _, found) <- reverse (published talk), u == addressOf]
+      map (take 1 . latest) [both, spoilt, mended] `shouldBe` [[[]], [["E0201"]], [[]]]
+      fmap (field "uri") (ask "textDocument/definition" (about addressOf (2, 9)) mended) `shouldBe` Right (String "file:///tmp/pins.part")
+      fmap (field "line" . field "start" . field "range") (ask "textDocument/definition" (about addressOf (2, 9)) mended) `shouldBe` Right (Number 2)
+    it "come when a missing import is opened" $ do
+      let alone = pause 500 (open addressOf 1 importing ready)
+          found = pause 500 (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" alone)
+          latest talk = [map code there | (String u, _, there) <- reverse (published talk), u == addressOf]
+      map (take 1 . latest) [alone, found] `shouldBe` [[["E0112", "E0201"]], [[]]]
+    it "of an imported file stand at the import, and name the file" $ do
+      let talk = pause 500 (open addressOf 1 importing (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm + 1 deg\n" ready))
+      [map (\f -> (from f, code f, "pins.part:2" `Text.isInfixOf` message f)) found | (String u, _, found) <- published talk, u == addressOf] `shouldBe` [[((1, 7), "E0206", True)]]
     it "have the hint and the other places in the message, for clients that show nothing else" $
       map message (squiggles (header <> "let a = 1\nlet a = 2\n")) `shouldBe` ["‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: Give one of them another name."]
     it "name the other places apart when the client can show them" $ do
@@ -150,3 +166,7 @@ edited (text, talk) (version, steps) = (final, change addressOf version (map snd
     offsetAt old share =
       let offset = round (share * fromIntegral (Text.length old))
        in if offset > 0 && Text.take 2 (Text.drop (offset - 1) old) == "\r\n" then offset - 1 else offset
+
+-- | A program that imports another.
+importing :: Text
+importing = "part a\nimport \"pins.part\"\nlet b = pin + 1 mm\n"

@@ -31,6 +31,7 @@ import Data.Aeson.Key (Key)
 import Data.Aeson.KeyMap qualified as KeyMap
 import Data.ByteString qualified as ByteString
 import Data.Foldable (toList)
+import Data.Functor.Identity (Identity (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
@@ -61,7 +62,9 @@ happen event (Talk session now sent) = Talk session' now (reverse effects <> sen
   where
     time = Milliseconds now
     (session', effects) = Session.step time event (foldl look session (Session.awaited time event session))
-    look s Awaited {path, text} = Session.supply path (Snapshot.take (Cli.checked []) (Compile.alone path text)) s
+    look s Awaited {path, text} = Session.supply path (Snapshot.take (Cli.checked []) (runIdentity (Compile.load (opened s) (Text.unpack path) text))) s
+    -- What is imported is what is open.
+    opened s there = Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
 
 -- | Time passes.
 pause :: Int -> Talk -> Talk
