@@ -7,6 +7,11 @@ module Generate
     smoothCase,
     radiusOf,
     milled,
+    job,
+    begin,
+    outside,
+    settings,
+    partOf,
     straightPath,
     Motion (..),
     motion,
@@ -40,6 +45,7 @@ import Machine.Machine (FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element (..), Milling (Milling), Operation (..), Part (Part), Stop (Stop))
 import Part.Part qualified as Part
+import Part.Walks qualified as Walks
 import Path.FromPart qualified as FromPart
 import Path.Path (Path)
 import Path.Path qualified as Path
@@ -142,43 +148,71 @@ vertices = do
 
 -- | The path of a cutter around a contour that it fits, from a point well away, with a tolerance.
 milled :: Mm -> Case -> Maybe Path
-milled tolerance c = Result.output (FromPart.lay part)
+milled tolerance c = Result.output (FromPart.lay (partOf (begin c) (Mill (Located (Region 0 0) (job c) {Part.tolerance = Part.OnPath tolerance}))))
+
+-- | Where the equidistant of a case begins.
+begin :: Case -> Point
+begin c = Segment.start (Offset.segment (NonEmpty.head (pieces c)))
+
+-- | Whether the cutter stands outside of a closed contour.
+outside :: Case -> Bool
+outside c = (Contour.signedArea (contour c) > 0) == (side c == RightOf)
+
+-- | The milling of a case, straight to its beginning.
+job :: Case -> Milling
+job c =
+  Milling
+    { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s (Region 0 0) Part.plainFinish) (segments (contour c))),
+      Part.work = Part.Milled,
+      Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
+      Part.radius = radius c,
+      Part.tolerance = Part.OnPath (Mm 0.02),
+      Part.feed = here (Feed 60),
+      Part.approach = [Stop (here (begin c)) Nothing Part.Rapid],
+      Part.retract = [],
+      Part.levels = [],
+      Part.clearance = Nothing,
+      Part.plunge = Nothing,
+      Part.leadIn = Nothing,
+      Part.leadOut = Nothing,
+      Part.allowances = Mm 0 :| [],
+      Part.corners = Part.Round,
+      Part.sense = Nothing,
+      Part.spin = Part.Clockwise
+    }
   where
-    nowhere = Region 0 0
-    here = Located nowhere
-    at p = Stop (here p) Nothing Part.Rapid
-    begin = case NonEmpty.head (pieces c) of
-      p -> Segment.start (Offset.segment p)
-    job =
-      Milling
-        { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s nowhere Part.plainFinish) (segments (contour c))),
-          Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
-          Part.radius = radius c,
-          Part.work = Part.Milled,
-          Part.tolerance = Part.OnPath tolerance,
-          Part.feed = here (Feed 60),
-          Part.approach = [at begin],
-          Part.retract = [],
-          Part.levels = [],
-          Part.clearance = Nothing,
-          Part.plunge = Nothing,
-          Part.leadIn = Nothing,
-          Part.leadOut = Nothing,
-          Part.allowances = Mm 0 :| [],
-          Part.corners = Part.Round,
-          Part.sense = Nothing,
-          Part.spin = Part.Clockwise
-        }
-    part =
-      Part
-        { Part.name = Nothing,
-          Part.title = Nothing,
-          Part.machine = Nothing,
-          Part.start = Just (here (Part.Spot begin (Mm 0))),
-          Part.contours = [Part.contour job],
-          Part.operations = [Mill (here job)],
-          Part.readings = []
-        }
+    here = Located (Region 0 0)
+
+-- | Leads, corners, passes and another beginning.
+settings :: Gen (Milling -> Milling)
+settings = do
+  arc <- elements [Nothing, Just (Part.LeadLine, Mm 3), Just (Part.LeadArc, Mm 2)]
+  out <- elements [Nothing, Just (Part.LeadLine, Mm 1), Just (Part.LeadArc, Mm 4)]
+  style <- elements [Part.Round, Part.Sharp]
+  several <- elements [Mm 0 :| [], Mm 0.2 :| [Mm 0]]
+  near <- oneof [pure Nothing, Just <$> (Vec.point <$> choose (-200, 200) <*> choose (-200, 200))]
+  pure $ \m ->
+    m
+      { Part.leadIn = arc,
+        Part.leadOut = out,
+        Part.corners = style,
+        Part.allowances = several,
+        Part.approach = [],
+        Part.contour = maybe (Part.contour m) (`Walks.startingNear` Part.contour m) near
+      }
+
+-- | A part of one operation, the cutter beginning at a point.
+partOf :: Point -> Operation -> Part
+partOf at operation =
+  Part
+    { Part.name = Nothing,
+      Part.title = Nothing,
+      Part.machine = Nothing,
+      Part.start = Just (Located (Region 0 0) (Part.Spot at (Mm 0))),
+      Part.contours = [],
+      Part.operations = [operation],
+      Part.readings = []
+    }
 
 -- | One move from the zero point.
 straightPath :: Double -> Double -> Path

@@ -3,6 +3,7 @@
 module Frame.FromPath
   ( quantise,
     chords,
+    bandChords,
     chordCount,
   )
 where

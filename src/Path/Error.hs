@@ -37,6 +37,10 @@ data Error
     SenseOnContour Region Region
   | -- | climb or conventional that the side does not allow
     SenseAgainstSide Region Region
+  | -- | a turned profile that goes below the axis of the spindle: the statement, the element
+    BelowAxis Region Element
+  | -- | an allowance where the cutter has no side: the statement, the contour's element if it asks it
+    AllowanceOnContour Region
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -95,6 +99,17 @@ toReport err = case err of
       { others = [Label side "the side is given here"],
         message = ["With the spindle clockwise the cutter climbs on the left of the walk; with the spindle counter-clockwise, on the right."],
         hints = ["Leave the word out, take the other side, or mill reversed(…)."]
+      }
+
+  BelowAxis region element ->
+    (at (origin element) "E0410" "a turned profile cannot go below the axis of the spindle, y = 0")
+      { label = shape element,
+        others = [Label region "turned here"],
+        hints = ["x runs along the spindle, y is the radius: half the diameter."]
+      }
+  AllowanceOnContour region ->
+    (at region "E0411" "nothing can be left standing where the cutter runs on the contour itself")
+      { hints = ["Leave the allowance out, or take a side."]
       }
 
 at :: Region -> Code -> Text -> Report

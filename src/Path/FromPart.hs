@@ -85,6 +85,7 @@ blocksOf number tool at operation = case operation of
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (holing at d)]
   Mill (Located region given) -> do
+    possible region given
     milling <- oriented region given
     let job = Located region milling
         passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [height at] else Part.levels milling]
@@ -231,6 +232,15 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
     counterClockwise = Contour.signedArea (Part.outline (contour milling)) > 0
     toTheRight = Vec.x (Segment.end (Part.segment (NonEmpty.last (elements (contour milling))))) >= Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
     name = Part.contourName (contour milling)
+
+-- | What a statement asks has to make sense on its contour.
+possible :: Region -> Milling -> Either Error ()
+possible region milling
+  | e : _ <- [e | Part.work milling == Turned, e <- list, let { Box.Box _ bottom _ _ = Box.ofSegment (Part.segment e); Mm slack = Tolerance.coincident }, bottom < -slack] = Left (BelowAxis (keyword region) e)
+  | value (side milling) == On && (any (> Mm 0) (Part.allowances milling) || any ((> Mm 0) . Part.allowance . Part.finish) list) = Left (AllowanceOnContour (keyword region))
+  | otherwise = Right ()
+  where
+    list = NonEmpty.toList (elements (contour milling))
 
 -- | The contour walked so that the teeth meet the material as is asked: a spindle that turns clockwise cuts
 -- climb with the material on the right of the walk.

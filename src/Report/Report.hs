@@ -19,6 +19,7 @@ import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.String (IsString)
 import Data.Text (Text)
+import Data.Text qualified as Text
 
 -- | Errors stop the tape, warnings do not.
 data Severity = Error | Warning
@@ -66,9 +67,9 @@ report :: Severity -> Code -> Place -> Text -> Report
 report severity code place title =
   Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
 
--- | A word of the program in a sentence.
+-- | A word of the program in a sentence, the beginning of a very long one.
 quote :: Text -> Text
-quote text = "‘" <> text <> "’"
+quote text = "‘" <> (if Text.length text > 60 then Text.take 57 text <> "…" else text) <> "’"
 
 severityWord :: Severity -> Text
 severityWord severity = case severity of

@@ -71,8 +71,9 @@ data Problem
   deriving stock (Eq, Ord, Show)
 
 -- | What the parser remembers: the failures that it recovered from, where the last token ended, and how
--- many brackets are open; how many blocks of statements the statement at hand stands in.
-data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int, within :: Int}
+-- many brackets are open; how many blocks of statements the statement at hand stands in; whether the
+-- rest is not read.
+data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int, within :: Int, gaveUp :: Bool}
 
 type Parser = ParsecT Problem Input (State Memory)
 
@@ -80,8 +81,8 @@ type Parser = ParsecT Problem Input (State Memory)
 run :: Parser a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
-    (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0}
-    inOrder = sortOn Parsec.errorOffset (final <> failures memory)
+    (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
+    inOrder = sortOn Parsec.errorOffset ([f | f <- final, not (gaveUp memory)] <> failures memory)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
@@ -263,11 +264,19 @@ recovering repair p = do
   Parsec.withRecovery (again before begin input) p
   where
     again before begin input failure = do
-      lift (modify' (\m -> m {failures = failure : failures m, depth = depth before, within = within before}))
+      lift (modify' (\m -> if gaveUp m then m else m {failures = failure : failures m, depth = depth before, within = within before, gaveUp = isTooDeep failure}))
+      -- What is nested too deep says nothing of what follows.
+      enough <- lift (gets gaveUp)
+      when enough (void (Parsec.takeWhileP Nothing (const True)))
       now <- Parsec.getOffset
       when (now == begin) (void Parsec.anySingle)
       after <- Parsec.getOffset
       repair (take (after - begin) input)
+
+isTooDeep :: Failure -> Bool
+isTooDeep failure = case failure of
+  FancyError _ problems -> any (== Parsec.ErrorCustom TooDeep) (Set.toList problems)
+  TrivialError {} -> False
 
 -- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt like one,
 -- and the name that was to be defined.

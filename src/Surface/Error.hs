@@ -30,6 +30,8 @@ data Error
     Misplaced Region Text
   | -- | brackets nested deeper than so many
     TooDeep Region Int
+  | -- | more words and signs than so many
+    TooLong Region Int
   | -- | brackets with more than three values
     ManyCoordinates Region
   | -- | a file that cannot be imported: its name as it is written, and why
@@ -98,6 +100,10 @@ toReport err = case err of
             then ["Behind a point, " <> quote word <> " stands on the line of that point."]
             else ["Move it above the statement in whose braces it stands."]
       }
+  TooLong region limit ->
+    (at region "E0116" ("the program has more than " <> Decimal.whole limit <> " words and signs"))
+      { hints = ["Repeat with for and functions what repeats."]
+      }
   ManyCoordinates region ->
     (at region "E0111" "a point has two or three coordinates")
       { hints = ["A decimal point is a point: 59.3. A comma separates values.", "A list stands in square brackets: [1, 2, 3, 4]."]
@@ -165,6 +171,7 @@ strayHint :: Char -> [Text]
 strayHint c
   | c `elem` ("−–—" :: String) = ["Write the minus sign as -."]
   | c `elem` ("“”„«»'" :: String) = ["A text stands between \" and \"."]
+  | c == '#' = ["A comment begins with --."]
   | c == ';' = ["Statements need no separator; a comment begins with --."]
   | c == '.' = ["Write a number with digits on both sides of its point: 0.5, 5.0 or 5."]
   | c == '°' = ["Write degrees as deg: 45 deg."]

@@ -20,19 +20,28 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Combinator
 import Surface.Error (Error)
+import Surface.Error qualified as Error
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax
 import Surface.Token (Token (..), Token_ (..))
+import Surface.Token qualified as Token
 import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
 
--- | Read a program whose text begins at an offset. The output holds all that could be read.
+-- | Read a program whose text begins at an offset. The output holds all that could be read; there is none when the
+-- text is too long.
 parse :: Int -> Text -> Result w Error Program
-parse begin text = Result {warnings = [], errors, output = Just Program {statements = Maybe.fromMaybe [] read', comments}}
+parse begin text = case drop mostTokens tokens of
+  t : _ -> Result {warnings = [], errors = [Error.TooLong (Token.place t) mostTokens], output = Nothing}
+  [] -> Result {warnings = [], errors, output = Just Program {statements = Maybe.fromMaybe [] read', comments}}
   where
     (tokens, comments) = Lexer.tokens begin text
     (errors, read') = run program (begin + Text.length text) tokens
+
+-- | A program may have so many words and signs.
+mostTokens :: Int
+mostTokens = 1000000
 
 -- | Read one expression, which is the whole text; its offsets count from 0.
 parseExpr :: Text -> Result w Error Expr

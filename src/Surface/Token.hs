@@ -65,10 +65,12 @@ unitName unit = case unit of
 -- | A token in the words of a report.
 describe :: Token_ -> Text
 describe token = case token of
-  Word text -> "‘" <> text <> "’"
-  Number value _ -> "the number " <> digits value
+  Word text -> "‘" <> short text <> "’"
+  Number value _ -> "the number " <> short (digits value)
   Text _ -> "a text"
   Symbol text -> "‘" <> text <> "’"
-  BadNumber text -> "‘" <> text <> "’"
+  BadNumber text -> "‘" <> short text <> "’"
   OpenText -> "a text without an end"
   Stray c -> "the character ‘" <> Text.singleton c <> "’"
+  where
+    short text = if Text.length text > 60 then Text.take 57 text <> "…" else text

@@ -136,7 +136,7 @@ follows :: Job -> Ruler -> [Trace] -> Maybe ([Trace], [Trace])
 follows job ruler = go 0 0 (entry job)
   where
     go gone mark at traces
-      | gone >= whole ruler - slack ruler && isNear job (exit job) at = Just (span (endsNear job (exit job)) traces)
+      | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler = Just (span (endsNear job (exit job)) traces)
       | otherwise = case traces of
         [] -> Nothing
         t : rest -> do
@@ -144,6 +144,8 @@ follows job ruler = go 0 0 (entry job)
           (gone'', mark'') <- step gone' mark' (Segment.end (line t))
           (along, behind) <- go gone'' mark'' (Segment.end (line t)) rest
           Just (t : along, behind)
+    -- How far on the furthest place is that the cutter touches.
+    ahead mark p = maximum (0 : map (difference mark) (places p))
     -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
     step gone mark p = do
       delta <- listToMaybe' (filter (>= negate (slack ruler)) (map (difference mark) (places p)))
@@ -153,12 +155,17 @@ follows job ruler = go 0 0 (entry job)
       | closed ruler = let d = s - mark - whole ruler * fromIntegral (round' ((s - mark) / whole ruler)) in d
       | otherwise = s - mark
     round' x = floor (x + 0.5) :: Int
-    places p =
-      [ before + max 0 (min 1 (footOf s p)) * len
-        | (before, s) <- Box.within (Box.inflate near (Box.ofPoints p [])) (marks ruler),
-          Distance.toPoint p s <= near,
-          let Mm len = Segment.length s
-      ]
+    -- What the cutter touches is nearest to it.
+    places p = [before + max 0 (min 1 (footOf s p)) * len | (d, before, s, len) <- around, d <= nearest]
+      where
+        around =
+          [ (d, before, s, len)
+            | (before, s) <- Box.within (Box.inflate near (Box.ofPoints p [])) (marks ruler),
+              let d = Distance.toPoint p s,
+              d <= near,
+              let Mm len = Segment.length s
+          ]
+        nearest = plus (minimum (near : [d | (d, _, _, _) <- around])) (plus (allowance job) (allowance job))
     near = plus (outreach job) (allowance job)
     -- Beside an arc the nearer of its ends counts.
     footOf s p

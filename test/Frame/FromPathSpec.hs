@@ -36,6 +36,18 @@ spec = do
               Rad s = sweep a
               sag k = r * (1 - cos (abs s / fromIntegral k / 2))
            in n > 1 ==> counterexample (show n) (sag (n - 1) > y - 1e-9 || abs s / fromIntegral (n - 1) > pi / 2 - 1e-9)
+    it "in a band stay within it, and end where the arc ends (catches the edges of the band exchanged)" $
+      property $
+        forAll ((,,) <$> arc <*> sagitta <*> sagitta) $ \(a, toward, away) -> forAll (elements [(toward, away), (0, away), (toward, 0)]) $ \(i, o) ->
+          let ends = FromPath.bandChords lkp01f (Mm i) (Mm o) a
+              Mm r = Segment.radius (centre a) (start a)
+              radii = [d | (p, q) <- zip (start a : ends) ends, k <- [0 .. 40 :: Int], let Mm d = Vec.distance (centre a) (Vec.between (fromIntegral k / 40) p q)]
+           in counterexample (show (r, minimum radii, maximum radii)) (minimum radii >= r - i - 1e-9 && maximum radii <= r + o + 1e-9 && last ends == end a)
+    it "in a band are fewer than on the arc alone (catches corners that stay on the arc)" $
+      property $
+        forAll ((,) <$> arc <*> choose (0.02, 0.1)) $ \(a, y) ->
+          let n = FromPath.chordCount lkp01f (Mm y) a
+           in n >= 4 && y < 0.05 * (let Mm r = Segment.radius (centre a) (start a) in r) ==> length (FromPath.bandChords lkp01f (Mm y) (Mm y) a) < n
     it "of arc 1–2 of the Ural paper are nine" $
       FromPath.chordCount lkp01f (Mm 0.02) (Segment.Arc (Vec.point 18 0) (Vec.point (18 * cos 0.7982) (18 * sin 0.7982)) (Vec.point 0 0) (Rad 0.7982)) `shouldBe` 9
   describe "increments" $ do

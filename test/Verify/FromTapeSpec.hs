@@ -2,6 +2,7 @@
 module Verify.FromTapeSpec (spec) where
 
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -12,9 +13,12 @@ import Frame.FromPath qualified as FromPath
 import Generate qualified
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
 import Linear.V3 (V3 (..))
 import Machine.Lkp01f (lkp01f)
 import Machine.Machine (FeedCode (..))
+import Part.Part qualified as Part
+import Path.FromPart qualified as Path
 import Path.Path (Path)
 import Path.Path qualified as Path
 import Test.Hspec
@@ -63,6 +67,32 @@ spec = do
                     .&&. (null (findings (Verify.prove lkp01f fine program fs)) === not coarse .||. property (not coarse))
           Nothing -> counterexample "no frames" False
         _ -> counterexample "no path" False
+
+  it "leads, corners, several passes and depths are proven (catches a pass that is looked for at another height or distance)" $
+    property $
+      forAll ((,,) <$> (Generate.settings <*> (Generate.job <$> Generate.closedCase)) <*> elements [[], [Mm (-1)], [Mm (-1.5), Mm (-3)]] <*> elements [Part.OnPath (Mm 0.05), Part.Band (Mm 0.02) (Mm 0.06)]) $ \(settled, levels, tolerance) ->
+        let job = settled {Part.levels = levels, Part.clearance = Just (Mm 5), Part.tolerance = tolerance, Part.approach = []}
+            pieces = maybe [] ways (Result.output (Path.lay (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))))
+         in case pieces of
+              [] -> discard
+              entry : _ -> case Path.lay (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
+                Result.Result _ [] (Just laid) -> case Result.output (FromPath.quantise lkp01f laid) of
+                  Nothing -> discard
+                  Just program -> counterexample (show (Part.corners job, Part.leadIn job, Part.leadOut job, Part.allowances job, Part.radius job, levels, tolerance)) $ Proof.toReports lkp01f (Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))) === []
+                _ -> discard
+  it "with a tolerance of 0 inside no chord gouges but by a pulse (catches chords that cut the corner of the band)" $
+    property $
+      forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
+        case Result.output (Path.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = Part.Band (Mm 0) (Mm 0.1)})))) of
+          Nothing -> discard
+          Just laid -> case Result.output (FromPath.quantise lkp01f laid) of
+            Nothing -> discard
+            Just program ->
+              let p = Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))
+               in findings p === [] .&&. conjoin [counterexample (show w) (Proof.amount w <= Mm 0.0201) | Just w <- map Proof.gouge (Proof.passages p)]
+  where
+    -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
+    ways laid = [Segment.end (Path.segment m) | b <- take 1 (Path.blocks laid), m <- Path.moves b, Segment.length (Path.segment m) > Mm 0]
 
 proofOf :: [Frame] -> Proof
 proofOf = Verify.prove lkp01f (path Flange.analysis) Flange.program
