@@ -12,6 +12,7 @@ import Compile qualified
 import Control.Exception (IOException, try)
 import Data.Bifunctor (first)
 import Data.List (sort)
+import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
@@ -42,7 +43,7 @@ load file block = do
   manual <- readText "docs/language.md"
   let head' = Text.concat [program b <> "\n" | b <- take 1 (blocks manual)]
       isWhole = "part " `elem` map (Text.take 5) (Text.lines (program block))
-      title = maybe "example" id (picture block)
+      title = Maybe.fromMaybe "example" (picture block)
       named = Text.replace "part example \"One head for the examples\"" ("part " <> Text.replace "-" "_" title) head'
   Compile.load reader file (if isWhole then program block else named <> program block)
   where
