@@ -185,7 +185,7 @@ assertion defined e within = case (value e, within) of
     within' <- traverse (expect defined lt) within
     d <- Type.dimensionOf <$> Infer.known lt
     pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
-  (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Infer.mistake (WithinNothing (region d)) *> expect defined Type.Truth' e)
+  (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Infer.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
   (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
 
 -- | A name that can be given.

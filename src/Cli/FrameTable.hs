@@ -41,7 +41,7 @@ frames machine source program =
           p = Frame.position machine at
        in [Decimal.whole n, roleWord (role planned), pulses dx, pulses dy, pulses dz, Decimal.whole s, feedWord machine (FeedCode s), coordinate (Vec.x p), coordinate (Vec.y p)]
             <> [let Mm z = Frame.height machine at in coordinate z | rises]
-            <> [Decimal.whole (lineOf source planned)]
+            <> [lineWord source planned]
             <> [if aux == 0 then "" else Decimal.whole aux | commands]
     pulses (Pulses n) = Decimal.whole n
     coordinate = Decimal.fixed 3
@@ -61,6 +61,7 @@ framesJson machine source program = Text.concat (map row (numbered program))
               "feed" .= ((\(Feed f) -> f) <$> Machine.feedOf machine (FeedCode s)),
               "auxiliary" .= aux,
               "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine at in z],
+              "file" .= (let Position {file} = Region.position source (start (origin planned)) in file),
               "line" .= lineOf source planned
             ]
     jsonLine pairs = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs)))) <> "\n"
@@ -68,6 +69,12 @@ framesJson machine source program = Text.concat (map row (numbered program))
 -- | The frames with their numbers and the positions where they end.
 numbered :: Program -> [(Int, Planned, V3 Pulses)]
 numbered program = zip3 [1 ..] (Frame.planned program) (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) (Frame.planned program))))
+
+-- | The line, with the file when it is not the program's own.
+lineWord :: Source -> Planned -> Text
+lineWord source planned = (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source planned)
+  where
+    Position {file} = Region.position source (start (origin planned))
 
 lineOf :: Source -> Planned -> Int
 lineOf source planned = line (Region.position source (start (origin planned)))

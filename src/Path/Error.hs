@@ -1,20 +1,21 @@
 -- | What can be wrong with the way of a cutter around a part.
 module Path.Error
   ( Error (..),
+    Tooling (..),
     toReport,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), times)
+import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Element (..), Side (..))
+import Part.Part (Element (..), Side (..), Work (..))
 import Report.Report (Code, Label (..), Place (..), Report (..), report)
 import Report.Report qualified as Report
 
@@ -22,11 +23,11 @@ data Error
   = -- | @outside@ or @inside@ of an open contour
     SideOfOpen Region Side Name Region
   | -- | the statement, the cutter's radius, the arc and its radius, the largest radius that fits
-    ConcaveRadius Region Mm Element Mm (Maybe Mm)
+    ConcaveRadius Region Tooling Element Mm (Maybe Mm)
   | -- | a corner towards the cutter, and where it is
-    InnerCorner Region Mm Element Element Point (Maybe Mm)
+    InnerCorner Region Tooling Element Element Point (Maybe Mm)
   | -- | on its way along the first element the cutter cuts the second
-    Collision Region Mm Element Element Point (Maybe Mm)
+    Collision Region Tooling Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element, how deep, and whether it even crosses it
     CutsPart Region Segment Element Mm Bool Point
   | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
@@ -43,6 +44,10 @@ data Error
     AllowanceOnContour Region
   deriving stock (Eq, Show)
 
+-- | What cuts: the radius of the cutter or of the nose, and what it leaves standing.
+data Tooling = Tooling {work :: Work, radius :: Mm, left :: Mm}
+  deriving stock (Eq, Show)
+
 -- | The words for it.
 toReport :: Error -> Report
 toReport err = case err of
@@ -52,24 +57,24 @@ toReport err = case err of
         hints = ["Say left or right of the walk, or on."]
       }
   ConcaveRadius region r element old largest ->
-    (at (origin element) "E0402" ("a cutter of diameter " <> diameter r <> " does not fit into a concave radius of " <> Decimal.mm old))
+    (at (origin element) "E0402" (toolWord r <> " does not fit into a concave radius of " <> Decimal.mm old))
       { label = shape element,
-        others = [Label region "milled here" | region /= origin element],
-        hints = [fits largest]
+        others = [Label region (doneWord r <> " here") | region /= origin element],
+        hints = [fits r largest]
       }
   InnerCorner region r first second p largest ->
     (at (origin first) "E0403" "no round cutter reaches into this inner corner")
       { label = shape first,
-        others = second' first second <> [Label region ("milled here with a diameter of " <> diameter r)],
+        others = second' first second <> [Label region (doneWord r <> " here with " <> toolWord r)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
-        hints = "Round the corner with a fillet of at least the cutter's radius, " <> Decimal.mm r <> "." : [fits largest | Just _ <- [largest]]
+        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius r) (left r)) <> ", the " <> radiusWord r <> ".") : [fits r largest | Just _ <- [largest]]
       }
   Collision region r first second p largest ->
-    (at (origin first) "E0404" ("a cutter of diameter " <> diameter r <> " cannot follow this element without cutting another one"))
+    (at (origin first) "E0404" (toolWord r <> " cannot follow this element without cutting another one"))
       { label = shape first,
-        others = second' first second <> [Label region "milled here" | region /= origin first],
+        others = second' first second <> [Label region (doneWord r <> " here") | region /= origin first],
         message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
-        hints = [fits largest]
+        hints = [fits r largest]
       }
   CutsPart region way element depth crosses p ->
     (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
@@ -98,7 +103,7 @@ toReport err = case err of
     (at region "E0409" "the cutter does not cut like this on this side of the walk")
       { others = [Label side "the side is given here"],
         message = ["With the spindle clockwise the cutter climbs on the left of the walk; with the spindle counter-clockwise, on the right."],
-        hints = ["Leave the word out, take the other side, or mill reversed(…)."]
+        hints = ["Leave the word out, take the other side, or mill reversed(…). In a mirrored block left becomes right; outside and inside stay what they are."]
       }
   BelowAxis region element ->
     (at (origin element) "E0410" "a turned profile cannot go below the axis of the spindle, y = 0")
@@ -125,13 +130,30 @@ sideWord side = case side of
   RightSide -> "right"
   On -> "centre line"
 
-fits :: Maybe Mm -> Text
-fits largest = case largest of
-  Nothing -> "No cutter fits here, however small."
-  Just (Mm r) -> "The largest cutter that fits has a diameter of " <> Decimal.mm (Mm (fromInteger (floor (2 * r * 1000)) / 1000)) <> "."
+fits :: Tooling -> Maybe Mm -> Text
+fits tool largest = case (largest, work tool) of
+  (Nothing, Milled) -> "No cutter fits here, however small."
+  (Nothing, Turned) -> "No nose fits here, however small."
+  (Just (Mm r), Milled) -> "The largest cutter that fits has a diameter of " <> Decimal.mm (rounded (2 * r)) <> "."
+  (Just (Mm r), Turned) -> "The largest nose that fits has a radius of " <> Decimal.mm (rounded r) <> "."
+  where
+    rounded x = Mm (fromInteger (floor (x * 1000)) / 1000)
 
-diameter :: Mm -> Text
-diameter r = Decimal.mm (times 2 r)
+-- | What cuts, in words.
+toolWord :: Tooling -> Text
+toolWord tool = what <> (if left tool > Mm 0 then " that leaves " <> Decimal.mm (left tool) else "")
+  where
+    what = case work tool of
+      Milled -> "a cutter of diameter " <> Decimal.mm (times 2 (radius tool))
+      Turned -> "a nose of radius " <> Decimal.mm (radius tool)
+
+doneWord :: Tooling -> Text
+doneWord tool = case work tool of
+  Milled -> "milled"
+  Turned -> "turned"
+
+radiusWord :: Tooling -> Text
+radiusWord tool = (case work tool of Milled -> "radius of the cutter"; Turned -> "radius of the nose") <> (if left tool > Mm 0 then " and the allowance" else "")
 
 shape :: Element -> Text
 shape element = case segment element of

@@ -31,7 +31,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Stop, Work (..))
 import Part.Part qualified as Part
-import Path.Error (Error (..))
+import Path.Error (Error (..), Tooling (Tooling))
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
 
@@ -200,12 +200,13 @@ along (Located region milling) allowance = do
     finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
     style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
     element i = elements (contour milling) NonEmpty.!! i
+    tooling = Tooling (Part.work milling) (radius milling) allowance
     -- The cutter that fits is smaller than what fits by the allowance.
     tool largest = [d | Just l <- [largest], let d = minus l allowance, d > Mm 0]
     obstacle (Offset.Obstacle cause largest) = case cause of
-      Offset.Concave i old -> ConcaveRadius region r (element i) old (listToMaybe (tool largest))
-      Offset.InnerCorner i j p -> InnerCorner region r (element i) (element j) p (listToMaybe (tool largest))
-      Offset.Collision i j p -> Collision region r (element i) (element j) p (listToMaybe (tool largest))
+      Offset.Concave i old -> ConcaveRadius region tooling (element i) old (listToMaybe (tool largest))
+      Offset.InnerCorner i j p -> InnerCorner region tooling (element i) (element j) p (listToMaybe (tool largest))
+      Offset.Collision i j p -> Collision region tooling (element i) (element j) p (listToMaybe (tool largest))
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
 touchedRadius :: Milling -> Mm

@@ -160,13 +160,15 @@ enclosed open close inside = do
   opened <- symbol open
   attempt <- Parsec.observing (nested inside)
   x <- either (blame opened) pure attempt
-  closing opened what close
+  ended <- lineEnds
+  when ended (Parsec.customFailure (UnclosedBlock opened what))
+  void (symbol close)
   pure x
   where
     what = quoted (Name open)
-    -- What is missing where the statement ends is the closing bracket.
+    -- What is missing where the statement or the line ends is the closing bracket.
     blame opened failure = do
-      ended <- atEnd
+      ended <- lineEnds
       case failure of
         TrivialError {} | ended -> Parsec.customFailure (UnclosedBlock opened what)
         _ -> Parsec.parseError failure
@@ -230,6 +232,12 @@ closing opened what close = do
   ended <- atEnd
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol close)
+
+-- | Whether something else than a closing bracket begins a new line, or nothing follows at all.
+lineEnds :: Parser Bool
+lineEnds = maybe True begins <$> Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  where
+    begins t = newLine t && shape t `notElem` map Symbol [")", "]", "}"]
 
 -- | Whether the program or the statement ends here.
 atEnd :: Parser Bool
@@ -325,7 +333,8 @@ brokenStatement taken = do
       t : _ -> Token.place t
       [] -> Region 0 0
 
--- | Skip to the next line of the block that is in no bracket of this item, or to the block's end.
+-- | Skip to the next line of the block that is in no braces of this item, or to the block's end. A line that ends
+-- with a comma or an operator goes on.
 -- Tell the name that a definition in the wrong place was to define.
 brokenItem :: (Maybe (Located Name) -> a) -> [Token] -> Parser a
 brokenItem broken taken = do
@@ -336,7 +345,7 @@ brokenItem broken taken = do
     defined ts next = case (map shape ts, next) of
       ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
       _ -> Nothing
-    -- How many brackets are open, and whether a comma says that the item goes on.
+    -- How many braces are open, and whether the last sign says that the item goes on.
     skip :: Int -> Bool -> Parser ()
     skip open goesOn = do
       next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -346,11 +355,10 @@ brokenItem broken taken = do
           | beginsStatement t -> pure ()
           | shape t == Symbol "}" && open <= 0 -> pure ()
           | newLine t && open <= 0 && not goesOn -> pure ()
-          | otherwise -> Parsec.anySingle *> skip (open + opens t) (shape t == Symbol ",")
+          | otherwise -> Parsec.anySingle *> skip (open + opens t) (shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"])
     opens t = case shape t of
-      Symbol s
-        | s `elem` ["(", "[", "{"] -> 1
-        | s `elem` [")", "]", "}"] -> -1
+      Symbol "{" -> 1
+      Symbol "}" -> -1
       _ -> 0
 
 beginsStatement :: Token -> Bool

@@ -137,9 +137,13 @@ furthestOut milling reach
   where
     most = maximum (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling)))
 
--- | Whether a stroke runs at a height, to a pulse.
+-- | Whether a stroke runs at a height, to a pulse, or goes straight down to it or up from it.
 isAt :: Machine -> Mm -> Trace -> Bool
-isAt machine z t = atLevel machine z (fst (heights t)) && atLevel machine z (snd (heights t))
+isAt machine z t = atLevel machine z (fst (heights t)) && atLevel machine z (snd (heights t)) || isUpright t && atLevel machine z (uncurry min (heights t))
+
+-- | Whether a stroke goes straight up or down.
+isUpright :: Trace -> Bool
+isUpright t = Segment.start (line t) == Segment.end (line t)
 
 atLevel :: Machine -> Mm -> Mm -> Bool
 atLevel machine (Mm z) (Mm h) = let Mm pulse = Machine.pulse machine in abs (z - h) <= pulse
@@ -181,7 +185,7 @@ missingHoles machine path traces =
   ]
   where
     pulse = Machine.pulse machine
-    index = Box.index (Box.ofSegment . line) [t | t <- traces, Segment.start (line t) == Segment.end (line t)]
+    index = Box.index (Box.ofSegment . line) (filter isUpright traces)
     reaches bottom p t =
       Vec.distance (Segment.start (line t)) p <= pulse && minus (min (fst (heights t)) (snd (heights t))) bottom <= times 0.6 pulse
 
@@ -214,7 +218,8 @@ examine foreign' machine flat toolOf isFirst traces Pass {job, level, found} =
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
     missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex es | (more, es) <- byAllowance elements]
     milledIndex = Box.index (Box.ofSegment . line) (filter (\t -> flat || isAt machine level t) milled)
-    strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave} elementIndex) within
+    strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave} elementIndex) level'
+    level' = filter (not . isUpright) within
     most = listToMaybe (sortOn (negated . amount) (missed <> strayed))
     passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowedGouge = mayGouge, allowedExcess = mayLeave}
     tooDeep w = amount w > mayGouge
@@ -222,7 +227,7 @@ examine foreign' machine flat toolOf isFirst traces Pass {job, level, found} =
     findings =
       [Gouge first worst mayGouge | Just worst <- [deepest], first : _ <- [filter tooDeep gouges]]
         <> [Excess first (fromMaybe first most) mayLeave | first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
-        <> take 1 (mapMaybe (wrongSide job elementIndex) within)
+        <> take 1 (mapMaybe (wrongSide job elementIndex) level')
     -- Nothing else is wrong with the contour but the order in which it is walked.
     order = case found of
       Passage.Followed {} -> []

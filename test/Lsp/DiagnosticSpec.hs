@@ -1,7 +1,7 @@
 -- | Reports as diagnostics, where a program has several files.
 module Lsp.DiagnosticSpec (spec) where
 
-import Base.Region (Region (..), Source)
+import Base.Region (Region (Region), Source)
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object)
 import Data.Text (Text)
@@ -12,13 +12,16 @@ import Lsp.Location qualified as Location
 import Lsp.Message (Outgoing (..))
 import Lsp.Talk (at, field)
 import Lsp.Uri (Uri (..))
+import Query.Facts qualified as Facts
+import Query.Snapshot (Snapshot (..))
 import Report.Report (Place (..), Report, Severity (..), report)
+import Surface.Syntax (Program (..))
 import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "a report on an imported file stands at the top of the document and names the true place" $
-    shown (report Error "E0101" (InSource (Region 9 10)) "wrong") `shouldBe` [(at (0, 0), String "/tmp/ж.part:2:3: wrong")]
+  it "a report on an imported file stands at the import and names the true place" $
+    shown (report Error "E0101" (InSource (Region 9 10)) "wrong") `shouldBe` [(at (1, 0), String "/tmp/ж.part:2:3: wrong")]
   it "a report on the file as a whole stands at its top" $
     shown (report Error "E0804" InFile "wrong") `shouldBe` [(at (0, 0), String "wrong")]
   it "a report on the document stands at its place" $
@@ -37,6 +40,8 @@ source :: Source
 source = Region.add "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
 
 shown :: Report -> [(Value, Value)]
-shown r = case Diagnostic.publish (Client.fromInitialize (object [])) (Document uri' Nothing text') (Just source) [r] of
+shown r = case Diagnostic.publish (Client.fromInitialize (object [])) (Document uri' Nothing text') (Just snapshot) of
   Notify _ params | Array ds <- field "diagnostics" params -> [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
   other -> error (show other)
+  where
+    snapshot = Snapshot {source, reports = [r], program = Program [] [], facts = Facts.none, imports = [(Region 3 4, "/tmp/ж.part")]}
