@@ -13,7 +13,7 @@ import Lsp.Message (Outgoing (..))
 import Lsp.Talk (at, field)
 import Lsp.Uri (Uri (..))
 import Query.Facts qualified as Facts
-import Query.Snapshot (Snapshot (..))
+import Query.Snapshot (Snapshot (Snapshot))
 import Report.Report (Place (..), Report, Severity (..), report)
 import Surface.Syntax (Program (..))
 import Test.Hspec
@@ -44,4 +44,4 @@ shown r = case Diagnostic.publish (Client.fromInitialize (object [])) (Document 
   Notify _ params | Array ds <- field "diagnostics" params -> [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
   other -> error (show other)
   where
-    snapshot = Snapshot {source, reports = [r], program = Program [] [], facts = Facts.none, imports = [(Region 3 4, "/tmp/ж.part")]}
+    snapshot = Snapshot source [r] (Program [] []) Facts.none [(Region 3 4, "/tmp/ж.part")]
