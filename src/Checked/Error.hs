@@ -56,8 +56,8 @@ data Error
     NoSuchCall Region Text [Text]
   | -- | a statement that does not belong in a block
     NotInBlock Region Text
-  | -- | a setting that the statement in whose braces it stands does not take: the setting, the statement
-    ForeignSetting Region Text Text
+  | -- | a setting that the statement in whose braces it stands does not take: the setting, the statement, its settings
+    ForeignSetting Region Text Text [Text]
   | -- | a setting given twice: the setting, where it stands first
     RepeatedSetting Region Text Region
   | -- | a tolerance of an assertion that is no comparison
@@ -160,8 +160,11 @@ toReport err = case err of
     (at region "E0220" (quote word <> " does not belong in a block"))
       { hints = ["It holds for the whole program: move it above the block."]
       }
-  ForeignSetting region setting statement ->
-    at region "E0221" (quote statement <> " has no setting " <> quote setting)
+  ForeignSetting region setting statement known ->
+    (at region "E0221" (quote statement <> " has no setting " <> quote setting))
+      { message = ["It has: " <> Text.intercalate ", " known <> "."],
+        hints = ["The depth of the holes stands before the braces: drill at P depth 10" | setting == "depth", statement == "drill"]
+      }
   RepeatedSetting region setting before ->
     (at region "E0222" (quote setting <> " is given twice"))
       { others = [Label before "first given here"]

@@ -109,7 +109,7 @@ toReport err = case err of
   ImportCycle region files ->
     (at region "E0113" "this file imports itself")
       { message = [Text.intercalate " imports " files <> "."],
-        hints = ["Put what both need into a third file."]
+        hints = ["Put what both need into a third file." | length files > 2]
       }
   NoSuchParam name known ->
     (report Error "E0114" InFile ("the program has no parameter " <> quote name))
