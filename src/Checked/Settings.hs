@@ -19,6 +19,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
@@ -63,8 +64,8 @@ use s = case s of
   Surface.Tool _ -> setting ToolSetting
   Surface.Tolerance _ -> setting ToleranceSetting
   Surface.From _ -> setting FromSetting
-  Surface.Import _ -> plain {global = True}
-  Surface.Param _ _ -> plain {global = True}
+  Surface.Import _ -> plain {word = 6, global = True}
+  Surface.Param _ _ -> plain {word = 5, global = True}
   Surface.Feed _ -> plain {given = Just FeedSetting}
   Surface.Clearance _ -> plain {given = Just ClearanceSetting}
   Surface.Change _ _ -> plain {given = Just ToolSetting}
@@ -76,7 +77,7 @@ use s = case s of
   _ -> plain
   where
     plain = Use {word = 4, given = Nothing, needed = [], global = False}
-    setting one = Use {word = 4, given = Just one, needed = [], global = True}
+    setting one = Use {word = Text.length (firstWord s), given = Just one, needed = [], global = True}
     cutting = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
     goesDeep options = or [True | Located _ (Surface.Depth _ _) <- options]
     words' =

@@ -1,38 +1,45 @@
 -- | What can be wrong with the way of a cutter around a part.
 module Path.Error
   ( Error (..),
+    Tool (..),
     toReport,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), times)
+import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Element (..), Side (..))
+import Part.Part (Element (..), Side (..), Work (..))
 import Report.Report (Code, Label (..), Place (..), Report (..), report)
 import Report.Report qualified as Report
+
+-- | A cutter at work: its radius, and what it leaves.
+data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
+  deriving stock (Eq, Show)
 
 data Error
   = -- | @outside@ or @inside@ of an open contour
     SideOfOpen Region Side Name Region
-  | -- | the statement, the cutter's radius, the arc and its radius, the largest radius that fits
-    ConcaveRadius Region Mm Element Mm (Maybe Mm)
+  | -- | the statement, the cutter, the arc and its radius, the largest radius that fits
+    ConcaveRadius Region Tool Element Mm (Maybe Mm)
   | -- | a corner towards the cutter, and where it is
-    InnerCorner Region Mm Element Element Point (Maybe Mm)
+    InnerCorner Region Tool Element Element Point (Maybe Mm)
   | -- | on its way along the first element the cutter cuts the second
-    Collision Region Mm Element Element Point (Maybe Mm)
+    Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element, how deep, and whether it even crosses it
     CutsPart Region Segment Element Mm Bool Point
   | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
     MillsAnother Region Region Element Mm Point
   | -- | milling without a depth while the cutter stands so high above the part
     CutsAir Region Mm
+  | -- | a closed contour to be turned: the statement, its name, the contour
+    TurnsClosed Region Name Region
   | -- | climb or conventional where the cutter has no side
     SenseOnContour Region Region
   | -- | climb or conventional that the side does not allow
@@ -47,32 +54,32 @@ toReport err = case err of
       { others = [Label contour "this contour is open"],
         hints = ["Say left or right of the walk, or on."]
       }
-  ConcaveRadius region r element old largest ->
-    (at (origin element) "E0402" ("a cutter of diameter " <> diameter r <> " does not fit into a concave radius of " <> Decimal.mm old))
+  ConcaveRadius region tool element old largest ->
+    (at (origin element) "E0402" (cutter tool <> " does not fit into a concave radius of " <> Decimal.mm old))
       { label = shape element,
-        others = [Label region "milled here" | region /= origin element],
-        hints = [fits largest]
+        others = [Label region (worked tool <> " here") | region /= origin element],
+        hints = [fits tool largest]
       }
-  InnerCorner region r first second p largest ->
+  InnerCorner region tool first second p largest ->
     (at (origin first) "E0403" "no round cutter reaches into this inner corner")
       { label = shape first,
-        others = second' first second <> [Label region ("milled here with a diameter of " <> diameter r)],
+        others = second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
-        hints = "Round the corner with a fillet of at least the cutter's radius, " <> Decimal.mm r <> "." : [fits largest | Just _ <- [largest]]
+        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius tool) (leaves tool)) <> ".") : [fits tool largest | Just _ <- [largest]]
       }
-  Collision region r first second p largest ->
-    (at (origin first) "E0404" ("a cutter of diameter " <> diameter r <> " cannot follow this element without cutting another one"))
+  Collision region tool first second p largest ->
+    (at (origin first) "E0404" (cutter tool <> " cannot follow this element without cutting another one"))
       { label = shape first,
-        others = second' first second <> [Label region "milled here" | region /= origin first],
+        others = second' first second <> [Label region (worked tool <> " here") | region /= origin first],
         message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
-        hints = [fits largest]
+        hints = [fits tool largest]
       }
   CutsPart region way element depth crosses p ->
     (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
-        message = ["It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
-        hints = ["Choose approach and retract points from which the straight way stays clear of the part."]
+        message = [if Vec.near (Segment.start way) (Segment.end way) then "It goes up or down at " <> Vec.written 3 p <> "." else "It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
+        hints = ["Choose points and leads whose ways stay clear of the part, or go over it: a third coordinate is a height."]
       }
   MillsAnother region milled element depth p ->
     (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
@@ -84,6 +91,11 @@ toReport err = case err of
   CutsAir region z ->
     (at region "E0407" ("the cutter stands " <> Decimal.mm z <> " above the part here and cuts nothing"))
       { hints = ["Say how deep to go: depth 5 mm. Or begin at height 0, if the height is set by hand."]
+      }
+  TurnsClosed region (Name name) contour ->
+    (at region "E0410" ("the contour ‘" <> name <> "’ is closed and cannot be turned"))
+      { others = [Label contour "this contour is closed"],
+        hints = ["A profile is an open contour: its edge as seen from the side, without the axis."]
       }
   SenseOnContour region statement ->
     (at region "E0408" "the cutter runs on the contour itself: it cuts on both sides, climb on one and conventional on the other")
@@ -111,13 +123,27 @@ sideWord side = case side of
   RightSide -> "right"
   On -> "centre line"
 
-fits :: Maybe Mm -> Text
-fits largest = case largest of
-  Nothing -> "No cutter fits here, however small."
-  Just (Mm r) -> "The largest cutter that fits has a diameter of " <> Decimal.mm (Mm (fromInteger (floor (2 * r * 1000)) / 1000)) <> "."
+-- | The largest that fits, down to a thousandth of a millimetre.
+fits :: Tool -> Maybe Mm -> Text
+fits tool largest = case (work tool, largest) of
+  (_, Nothing) -> "No cutter fits here, however small."
+  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> down (times 2 r) <> "."
+  (Turned, Just r) -> "The largest nose that fits has a radius of " <> down r <> "."
+  where
+    down (Mm x) = Decimal.mm (Mm (fromInteger (floor (x * 1000)) / 1000))
 
-diameter :: Mm -> Text
-diameter r = Decimal.mm (times 2 r)
+-- | A cutter in words.
+cutter :: Tool -> Text
+cutter Tool {work, radius, leaves} = size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
+  where
+    size = case work of
+      Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
+      Turned -> "a nose of radius " <> Decimal.mm radius
+
+worked :: Tool -> Text
+worked tool = case work tool of
+  Milled -> "milled"
+  Turned -> "turned"
 
 shape :: Element -> Text
 shape element = case segment element of
