@@ -112,7 +112,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Falsehood -> [Form [] Truth']
   Polar -> [Form [length', angle] (Spatial d)]
   Intersection ->
-    [ Form ([given "first" a, given "second" b] <> selector) Type.aPoint
+    [ Form ([given (word a) a, given (word b) b] <> selector) Type.aPoint
       | a <- [Line, Circle],
         b <- [Line, Circle],
         selector <- [] : [[Parameter Rank "" Wrong] | a == Line || b == Line] <> map pure chosen
@@ -121,8 +121,8 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Midpoint -> [Form [given "first" Type.aPoint, given "second" Type.aPoint] Type.aPoint]
   Foot -> [Form [point, line] Type.aPoint]
   Tangency ->
-    [Form [given "first" a, given "second" b] Type.aPoint | (a, b) <- [(Line, Circle), (Circle, Line), (Circle, Circle)]]
-      <> [Form [given "from" Type.aPoint, c] Type.aPoint | c <- circle : sided "circle" Circle]
+    [Form [given (word a) a, given (word b) b] Type.aPoint | (a, b) <- [(Line, Circle), (Circle, Line), (Circle, Circle)]]
+      <> [Form [point, c] Type.aPoint | c <- circle : sided "circle" Circle]
   PointOn -> [Form [circle, angle] Type.aPoint]
   MakeLine ->
     [ Form [given "from" Type.aPoint, given "to" Type.aPoint] Line,
@@ -143,7 +143,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
       <> [Form ([radius, a, b] <> selector) Circle | a <- touched, b <- touched, selector <- [] : map pure chosen]
   Concentric -> [Form [circle, given "distance" Type.len] Circle]
   Distance ->
-    [ Form [given "from" a, given "to" b] Type.len
+    [ Form [given (word a) a, given (word b) b] Type.len
       | (a, b) <- [(Type.aPoint, Type.aPoint), (Type.aPoint, Line), (Line, Type.aPoint), (Line, Line)]
     ]
   DirectionOf -> [Form [line] Type.angle, Form [given "vector" Type.aVector] Type.angle]
@@ -155,7 +155,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Rotated -> transforming [[angle], [angle, given "about" Type.aPoint]]
   Mirrored -> transforming [[given "axis" Line]]
   Scaled -> transforming [[given "factor" Type.number], [given "factor" Type.number, given "about" Type.aPoint]]
-  Reversed -> [Form [given "contour" t] t | t <- [Contour, Line]] <> [Form [given "list" (ListOf anything)] (ListOf anything)]
+  Reversed -> [Form [given (word t) t] t | t <- [Contour, Line]] <> [Form [given "list" (ListOf anything)] (ListOf anything)]
   Row -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number] points]
   Grid -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number, given "other_step" Type.aVector, given "rows" Type.number] points]
   Around ->
@@ -186,6 +186,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     line = given "line" Line
     circle = given "circle" Circle
     points = ListOf Type.aPoint
+    word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
     -- How one of several answers is chosen.
     chosen = [Parameter (Word Near) "point" Type.aPoint] <> sided "line" Line <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
@@ -204,7 +205,7 @@ written builtin form = name builtin <> "(" <> Text.intercalate ", " (map paramet
   where
     parameter p = case label p of
       Bare -> title p
-      Rank -> "first"
+      Rank -> "first or last"
       Word choice -> word choice <> " " <> title p
     word choice = case choice of
       Near -> "near"

@@ -11,7 +11,7 @@ import Base.Name (Name (..))
 import Base.Name qualified as Name
 import Base.Region (Region)
 import Checked.Syntax (Operator (..))
-import Checked.Type (Type)
+import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -56,8 +56,8 @@ data Error
     NoSuchCall Region Text [Text]
   | -- | a statement that does not belong in a block
     NotInBlock Region Text
-  | -- | a setting that the statement in whose braces it stands does not take: the setting, the statement
-    ForeignSetting Region Text Text
+  | -- | a setting that the statement in whose braces it stands does not take: the setting, the statement, its settings
+    ForeignSetting Region Text Text [Text]
   | -- | a setting given twice: the setting, where it stands first
     RepeatedSetting Region Text Region
   | -- | a tolerance of an assertion that is no comparison
@@ -101,7 +101,8 @@ toReport err = case err of
       }
   Disagree region operator (leftRegion, left) (rightRegion, right) settled ->
     (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be " <> (if operator `elem` [Add, Subtract] then "added or subtracted" else "compared")))
-      { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)] <> settledHere settled
+      { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)] <> settledHere settled,
+        hints = ["Compare their distance: distance(p, q) < 0.001" | operator `notElem` [Add, Subtract], Spatial _ <- [left], Spatial _ <- [right]]
       }
   NoOperation region what operands ->
     (at region "E0207" (what <> " is not defined for " <> Text.intercalate " and " (map (Type.describe . snd) operands)))
@@ -131,7 +132,8 @@ toReport err = case err of
       }
   NotWalkable region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
-      { message = ["A contour walks along lines, along circles, and through points."]
+      { message = ["A contour walks along lines, circles and open contours, and through points."],
+        hints = ["The items of a list are walked with: for p in list { p }" | ListOf _ <- [t]]
       }
   NoPart region ->
     (at region "E0215" "the program does not begin with ‘part’")
@@ -160,8 +162,11 @@ toReport err = case err of
     (at region "E0220" (quote word <> " does not belong in a block"))
       { hints = ["It holds for the whole program: move it above the block."]
       }
-  ForeignSetting region setting statement ->
-    at region "E0221" (quote statement <> " has no setting " <> quote setting)
+  ForeignSetting region setting statement known ->
+    (at region "E0221" (quote statement <> " has no setting " <> quote setting))
+      { message = ["It has: " <> Text.intercalate ", " known <> "."],
+        hints = ["The depth of the holes stands before the braces: drill at P depth 10" | setting == "depth", statement == "drill"]
+      }
   RepeatedSetting region setting before ->
     (at region "E0222" (quote setting <> " is given twice"))
       { others = [Label before "first given here"]
@@ -189,6 +194,7 @@ mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found
   | expected == Type.angle && found == Type.number = ["A number of radians becomes an angle when it is multiplied by 1 rad."]
   | expected == Type.number && found == Type.angle = ["An angle becomes a number of radians when it is divided by 1 rad."]
+  | expected == Type.len && found == Type.number = ["A number becomes a length when it is multiplied by 1 mm."]
   | expected == found = []
   | Type.isSquare expected = ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []

@@ -42,9 +42,10 @@ type Later a = Solution -> a
 -- | Check a program.
 check :: Surface.Program -> Result w Error Program
 check Surface.Program {Surface.statements = written} =
-  Result {warnings = [], errors = settings written <> found, output = Just program}
+  Result {warnings = [], errors = settings written <> filter (not . (importing &&) . isUndefined) found, output = Just program}
   where
     defined = Map.fromListWith (\_ first -> first) (concatMap definition written)
+    importing = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
     (found, solution, checked, mentions) = Infer.run (catMaybes <$> mapM (statement defined) written)
     program =
       Program
@@ -57,6 +58,12 @@ check Surface.Program {Surface.statements = written} =
     firstOf xs = case xs of
       [] -> Nothing
       x : _ -> Just x
+
+-- | Whether a name is not known: what could not be imported may have defined it.
+isUndefined :: Error -> Bool
+isUndefined e = case e of
+  UndefinedName {} -> True
+  _ -> False
 
 -- | The name that a statement defines.
 definition :: Statement -> [(Name, Region)]
@@ -182,9 +189,17 @@ assertion defined e within = case (value e, within) of
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
     _ <- operation (region e) Surface.Equal (region l, lt) (region r, rt)
-    within' <- traverse (expect defined lt) within
+    kind <- Infer.known lt
+    -- Things that cannot be compared differ by nothing.
+    within' <- traverse (expect defined (case kind of Type.Quantity _ -> lt; _ -> Type.Wrong)) within
     d <- Type.dimensionOf <$> Infer.known lt
     pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
+  (Surface.Binary op l r, Nothing) | op `elem` [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal] -> do
+    (lt, l') <- infer defined l
+    (rt, r') <- infer defined r
+    _ <- operation (region e) op (region l, lt) (region r, rt)
+    d <- Type.dimensionOf <$> Infer.known lt
+    pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
   (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Infer.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
   (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
 
@@ -251,8 +266,9 @@ repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Chec
 repetition defined counter list = do
   when (nameText counter `elem` Builtin.names) (Infer.mistake (NameTaken (region counter) (value counter)))
   t <- Infer.freshType
-  list' <- expect defined (Type.ListOf t) list
-  pure (t, list')
+  (found, list') <- infer defined list
+  fine <- agrees (region list) (Type.ListOf t) found
+  pure (if fine then t else Type.Wrong, list')
 
 item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
 item defined (Located at i) = case i of
@@ -484,7 +500,7 @@ call defined at (Located place name@(Name text)) arguments = do
         []
           | Just es <- plain, [form] <- forms -> wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
           | otherwise -> wrong (NoSuchCall at text (Infer.formsOf builtin))
-        [form] -> do
+        [form] | length forms == 1 || any (/= Builtin.Bare) labels -> do
           checked <- zipWithM argument (map Builtin.type' (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))) (concatMap valueOf given)
           pure (if all fst checked then Builtin.result form else Type.Wrong, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
         _ -> do

@@ -466,8 +466,9 @@ misfit c arguments = case mapMaybe near (alternatives c) of
   (region, wanted, written', found') : _ -> do
     places <- settledPlaces [(region, written', found')]
     mistakeOnce (map fst places) (Mismatch region wanted found' places)
-  [] -> mistake (NoForm (at c) (Builtin.name (builtin c)) (zip (map fst (given c)) arguments) (map (Builtin.written (builtin c)) (alternatives c)))
+  [] -> mistake (NoForm (at c) (Builtin.name (builtin c)) (zip (map fst (given c)) arguments) (nubOrd (map (Builtin.written (builtin c)) (alternatives c <> related))))
   where
+    related = [f | f <- Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} (builtin c), length (Builtin.parameters f) == length (labels c)]
     near form =
       let wanted = wantedBy form
        in case [(region, w, t, found') | ((region, t), found', w) <- zip3 (given c) arguments wanted, not (mayBe found' w)] of

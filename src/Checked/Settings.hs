@@ -19,6 +19,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
@@ -47,7 +48,7 @@ step (seen, errors) (inBlock, Located at s) = (seen', errors <> misplaced <> mis
     keyword = at {end = start at + word}
     misplaced = [NotInBlock keyword (firstWord s) | inBlock && global]
     missing = maybe [] (\some -> [SettingsMissing keyword some]) (NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed))
-    twice = [SettingTwice at one before | Just one <- [given], one `notElem` [FeedSetting, ClearanceSetting], not (isChange s), Just before <- [Map.lookup one seen]]
+    twice = [SettingTwice at one before | Just one <- [given], one `notElem` [FeedSetting, ClearanceSetting], not (isChange s), null misplaced, Just before <- [Map.lookup one seen]]
     seen' = foldr (\one -> Map.insertWith (\_ old -> old) one at) seen (needed <> maybe [] pure given)
     isChange statement' = case statement' of
       Surface.Change _ _ -> True
@@ -63,8 +64,8 @@ use s = case s of
   Surface.Tool _ -> setting ToolSetting
   Surface.Tolerance _ -> setting ToleranceSetting
   Surface.From _ -> setting FromSetting
-  Surface.Import _ -> plain {global = True}
-  Surface.Param _ _ -> plain {global = True}
+  Surface.Import _ -> plain {word = 6, global = True}
+  Surface.Param _ _ -> plain {word = 5, global = True}
   Surface.Feed _ -> plain {given = Just FeedSetting}
   Surface.Clearance _ -> plain {given = Just ClearanceSetting}
   Surface.Change _ _ -> plain {given = Just ToolSetting}
@@ -76,7 +77,7 @@ use s = case s of
   _ -> plain
   where
     plain = Use {word = 4, given = Nothing, needed = [], global = False}
-    setting one = Use {word = 4, given = Just one, needed = [], global = True}
+    setting one = Use {word = Text.length (firstWord s), given = Just one, needed = [], global = True}
     cutting = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
     goesDeep options = or [True | Located _ (Surface.Depth _ _) <- options]
     words' =
@@ -113,11 +114,11 @@ check expect stop statement written = do
   mapM_ (uncurry twice) (zip (drop 1 (scanl (flip (:)) [] written)) written)
   foldl (\before after sol -> after sol (before sol)) (const none) <$> mapM one written
   where
-    twice seen (Located at s) = case [r | Located r other <- drop 1 seen, name other == name s, name s `notElem` ["approach", "retract", ""]] of
-      before : _ -> Infer.mistake (RepeatedSetting at (name s) before)
+    twice seen (Located at s) = case [r | Located r other <- drop 1 seen, subject other == subject s, name s `notElem` ["approach", "retract", ""]] of
+      before : _ -> Infer.mistake (RepeatedSetting at (subject s) before)
       [] -> pure ()
     one (Located at s) = do
-      unless (statement `elem` takenBy s) (Infer.mistake (ForeignSetting at (name s) statement))
+      unless (name s `elem` "" : settingsOf statement) (Infer.mistake (ForeignSetting at (name s) statement (settingsOf statement)))
       case s of
         Surface.Approach stops -> (\ps sol o -> o {approach = approach o <> map ($ sol) ps}) <$> mapM stop (NonEmpty.toList stops)
         Surface.Retract stops -> (\ps sol o -> o {retract = retract o <> map ($ sol) ps}) <$> mapM stop (NonEmpty.toList stops)
@@ -169,17 +170,18 @@ name s = case s of
   Surface.Peck _ -> "peck"
   Surface.BrokenSetting -> ""
 
--- | The statements that take a setting.
-takenBy :: Surface.Setting_ -> [Text]
-takenBy s = case s of
-  Surface.Approach _ -> ["mill", "turn"]
-  Surface.Retract _ -> ["mill", "turn"]
-  Surface.Depth _ _ -> ["mill"]
-  Surface.LeadBy {} -> ["mill", "turn"]
-  Surface.Allowances _ -> ["mill", "turn"]
-  Surface.CornerStyle _ -> ["mill", "turn"]
-  Surface.CutBy _ -> ["mill"]
-  Surface.StartNear _ -> ["mill"]
-  Surface.Plunge _ -> ["mill", "drill"]
-  Surface.Peck _ -> ["drill"]
-  Surface.BrokenSetting -> ["mill", "turn", "drill"]
+-- | What a setting is about: of one thing a statement is told once.
+subject :: Surface.Setting_ -> Text
+subject s = case s of
+  Surface.CutBy _ -> "climb or conventional"
+  _ -> name s
+
+-- | The settings that a statement takes.
+settingsOf :: Text -> [Text]
+settingsOf statement = case statement of
+  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge"]
+  "turn" -> ways <> passes
+  _ -> ["peck", "plunge"]
+  where
+    ways = ["approach", "retract", "lead in", "lead out"]
+    passes = ["allowance", "corners"]

@@ -106,6 +106,8 @@ data Spin = Spinning Walk (Maybe Expr) | Still
 -- | What has to hold.
 data Assertion
   = Holds Expr
+  | -- | two quantities, one of which has to be larger, or another, than the other
+    Compares Dimension Region Operator Expr Expr
   | -- | two quantities that have to be equal, within a third
     Agrees Dimension Expr Expr (Maybe Expr)
   deriving stock (Eq, Show)

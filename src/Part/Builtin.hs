@@ -13,7 +13,7 @@ where
 
 import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad (..), degrees, plus)
+import Base.Quantity (Mm (..), Rad (..), degrees, minus, plus)
 import Base.Region (Region)
 import Checked.Syntax (Builtin (..), Choice (..), Operator (..), Rank (..))
 import Data.List (sortOn)
@@ -125,14 +125,14 @@ apply region builtin arguments = case (builtin, arguments) of
   (CentreOf, [Plain (CircleValue c)]) -> at (centre c)
   (Midpoint, [Plain (Spatial p), Plain (Spatial q)]) -> at (Vec.between 0.5 (place p) (place q))
   (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Shape.foot l (place p))
-  (Tangency, [Plain (Spatial p), c]) -> at . to =<< tangentLine region (Plain (Spatial p)) c
+  (Tangency, [Plain (Spatial p), c]) -> at . to =<< tangentLine region "point of tangency" (APoint . to) (Plain (Spatial p)) c
   (Tangency, [Plain a, Plain b]) -> tangency region (curve a) (curve b)
   (PointOn, [Plain (CircleValue (Circle c r)), Plain (Quantity a)]) -> at (Vec.shift (Vec.polar r (Rad a)) c)
   (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
     | Vec.near (place p) (place q) -> Eval.mistake (ZeroLine region (place p))
     | otherwise -> pure (LineValue (Line (place p) (place q)))
   (MakeLine, [Plain (Spatial p), Plain (Quantity a)]) -> pure (LineValue (ray (place p) (Vec.polar (Mm 1) (Rad a))))
-  (MakeLine, [a, b]) -> LineValue <$> tangentLine region a b
+  (MakeLine, [a, b]) -> LineValue <$> tangentLine region "line" ALine a b
   (Horizontal, [Plain (Quantity h)]) -> LineValue (ray (Vec.point 0 h) (Vec.vec 1 0)) <$ within region h
   (Vertical, [Plain (Quantity h)]) -> LineValue (ray (Vec.point h 0) (Vec.vec 0 1)) <$ within region h
   (Parallel, [Plain (LineValue l), Choosing ToLeft (Quantity d)]) -> LineValue (Shape.parallelAt (Mm d) l) <$ within region d
@@ -185,11 +185,11 @@ apply region builtin arguments = case (builtin, arguments) of
     [Quantity k, Spatial p] -> scaling k (place p)
     _ -> wrong
   (Row, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n)]) -> do
-    count <- whole region "the count of a row" n
+    count <- whole region "the number of points in a row" n
     points [Vec.shift (Vec.scale (fromIntegral k) v) (place p) | k <- [0 .. count - 1]]
   (Grid, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n), Plain (Spatial w), Plain (Quantity m)]) -> do
-    count <- whole region "the count of a grid" n
-    rows <- whole region "the rows of a grid" m
+    count <- whole region "the number of points in a row" n
+    rows <- whole region "the number of rows" m
     Eval.spend region (min 100000000 (count * rows))
     points [Vec.shift (Vec.add (Vec.scale (fromIntegral k) v) (Vec.scale (fromIntegral j) w)) (place p) | j <- [0 .. rows - 1], k <- [0 .. count - 1]]
   (Around, [Plain (CircleValue c), Plain (Quantity n)]) -> around c n 0 Nothing
@@ -235,7 +235,7 @@ apply region builtin arguments = case (builtin, arguments) of
       | otherwise = pure (Quantity (f x))
     -- Points on a circle: all round, or from one angle to another, both included.
     around (Circle c r) n a b = do
-      count <- whole region "the count of points" n
+      count <- whole region "the number of points" n
       let step = case b of
             Nothing -> 2 * pi / fromIntegral count
             Just end -> if count == 1 then 0 else (end - a) / fromIntegral (count - 1)
@@ -266,7 +266,7 @@ curve v = case v of
 -- are those along which there can be a first and a last.
 picked :: Region -> Text -> (a -> Candidate) -> (a -> Point) -> [Line] -> [a] -> [Given] -> Eval a
 picked region what candidate key lines' found choice = case (found, choice) of
-  ([], _) -> Eval.mistake (NoAnswer region what "The numbers leave no place for it.")
+  ([], _) -> Eval.mistake (NoAnswer region what ("No " <> what <> " of this size touches both things on these sides, or goes through them."))
   ([one], []) -> pure one
   (_, []) -> Eval.mistake (Several region what all')
   (_, Choosing Near (Spatial p) : _) -> case sortOn (Vec.distance (place p) . key) found of
@@ -329,11 +329,11 @@ tangency region a b = case (a, b) of
 
 -- | The directed line that touches two circles, or goes through a point. The word before a circle says on
 -- which side of the line it lies.
-tangentLine :: Region -> Given -> Given -> Eval Line
-tangentLine region a b = case Construct.touchingLines (circleAt a) (circleAt b) of
+tangentLine :: Region -> Text -> (Line -> Candidate) -> Given -> Given -> Eval Line
+tangentLine region what candidate a b = case Construct.touchingLines (circleAt a) (circleAt b) of
   [one] -> pure one
-  [] -> Eval.mistake (NoAnswer region "line" why)
-  several -> Eval.mistake (Several region "line" (map ALine several))
+  [] -> Eval.mistake (NoAnswer region what why)
+  several -> Eval.mistake (Several region what (map candidate several))
   where
     circleAt g = case g of
       Plain (Spatial p) -> ([CounterClockwise, Clockwise], Circle (place p) (Mm 0))
@@ -346,12 +346,17 @@ tangentLine region a b = case Construct.touchingLines (circleAt a) (circleAt b) 
           (_, Circle q s) = circleAt b
           Mm d = Vec.distance p q
           Mm reach = plus r s
-       in if r == Mm 0 || s == Mm 0
-            then "The point lies inside the circle, " <> Decimal.mm (Mm (reach - d)) <> " from its edge."
-            else
-              if d < reach
-                then "The circles overlap by " <> Decimal.mm (Mm (reach - d)) <> ", or one lies in the other."
-                else "The circles are the same."
+          Mm inside = minus (max r s) (min r s)
+          Mm tolerance = Tolerance.coincident
+          place' = if r == Mm 0 then p else q
+       in case () of
+            _
+              | r == Mm 0 && s == Mm 0 -> "The points are the same."
+              | (r == Mm 0 || s == Mm 0) && abs (reach - d) <= tolerance -> "The point " <> Vec.written 4 place' <> " lies on the circle; the line that touches it there is perpendicular to its radius."
+              | r == Mm 0 || s == Mm 0 -> "The point lies inside the circle, " <> Decimal.mm (Mm (reach - d)) <> " from its edge."
+              | d <= tolerance && inside <= tolerance -> "The circles are the same."
+              | d <= inside -> "One circle lies inside the other."
+              | otherwise -> "The circles overlap by " <> Decimal.mm (Mm (reach - d)) <> "."
 
 -- | What a circle is to touch, with the word before it.
 touched :: Given -> [Touched]

@@ -109,8 +109,8 @@ data Fact
   | -- | what must not be negative, and what it is
     Negative Region Text Text
   | NothingToDrill Region
-  | -- | an assertion that does not hold
-    DoesNotHold Region
+  | -- | an assertion that does not hold; the values that it compares
+    DoesNotHold Region [(Region, Text)]
   | -- | two values that should agree: as written, by how much they differ, how much is allowed
     DoNotAgree Region (Region, Text) (Region, Text) Text Text
   | -- | a closed contour as an element of another
@@ -267,7 +267,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   Several region what candidates ->
     (at region "E0332" ("there is more than one such " <> what))
       { message = [listed candidates],
-        hints = [if what == "line" then "Say for each circle on which side of the directed line it lies: left C or right C." else "Choose one that stays right when the part is turned: near P, left L or right L (of a directed line), inside C or outside C" <> (if what == "point" then ", first or last along a line." else ".")]
+        hints = [if what == "line" || what == "point of tangency" then "Say for each circle on which side of the directed line it lies: left C or right C." else "Choose one that stays right when the part is turned: near P, left L or right L (of a directed line), inside C or outside C" <> (if what == "point" then ", first or last along a line." else ".")]
       }
   NoneFits region what candidates ->
     (at region "E0333" ("no such " <> what <> " is where it is sought"))
@@ -298,8 +298,10 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   StepOfZero region ->
     at region "E0340" "a range cannot go in steps of zero"
-  DoesNotHold region ->
-    at region "E0341" "this does not hold"
+  DoesNotHold region values ->
+    (at region "E0341" "this does not hold")
+      { others = [Label r value | (r, value) <- values]
+      }
   Negative region what value ->
     at region "E0345" (what <> " must not be negative, this one is " <> value)
   NothingToDrill region ->
@@ -356,7 +358,7 @@ listed :: [Candidate] -> Text
 listed candidates = case candidates of
   [] -> "There is none."
   [one] -> "There is only " <> words' one <> "."
-  _ -> "There are " <> Text.intercalate " and " (map words' candidates) <> "."
+  _ -> "There are " <> Text.intercalate ", " (map words' (init candidates)) <> " and " <> words' (last candidates) <> "."
   where
     words' c = case c of
       APoint p -> Vec.written 4 p

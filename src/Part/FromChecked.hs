@@ -180,7 +180,12 @@ assert :: Region -> Environment -> Checked.Assertion -> Eval ()
 assert at env assertion = case assertion of
   Checked.Holds e -> do
     v <- Value.evaluate env e
-    if Value.isTrue v then pure () else Eval.mistake (DoesNotHold (region e))
+    if Value.isTrue v then pure () else Eval.mistake (DoesNotHold (region e) [])
+  Checked.Compares d whole' op l r -> do
+    a <- Value.evaluate env l
+    b <- Value.evaluate env r
+    v <- Builtin.binary whole' op a b
+    if Value.isTrue v then pure () else Eval.mistake (DoesNotHold whole' [(region l, Value.written d a), (region r, Value.written d b)])
   Checked.Agrees d l r within -> do
     a <- Value.number <$> Value.evaluate env l
     b <- Value.number <$> Value.evaluate env r
@@ -281,15 +286,14 @@ drilling state at points depth settings = do
 rightCutter :: Region -> Text -> [CutterKind] -> Cutter -> Eval ()
 rightCutter at statement needed c
   | kind c `elem` needed = pure ()
-  | otherwise = Eval.mistake (WrongCutter keyword statement (word (take 1 needed)) (word [kind c]))
+  | otherwise = Eval.mistake (WrongCutter keyword statement (Text.intercalate " or " (map word needed)) (word (kind c)))
   where
     Region begin _ = at
     keyword = Region begin (begin + Text.length statement)
-    word kinds = case kinds of
-      MillingCutter : _ -> "a mill"
-      DrillingCutter : _ -> "a drill"
-      TurningCutter : _ -> "a turning tool"
-      [] -> "a cutter"
+    word cutterKind = case cutterKind of
+      MillingCutter -> "a mill"
+      DrillingCutter -> "a drill"
+      TurningCutter -> "a turning tool"
 
 stopsOf :: State -> [Checked.Stop] -> Eval (Maybe [Stop])
 stopsOf state stops = fmap sequence (Eval.gather (map stop stops))

@@ -1,7 +1,7 @@
 -- | What can be wrong with the way of a cutter around a part.
 module Path.Error
   ( Error (..),
-    Tooling (..),
+    Tool (..),
     toReport,
   )
 where
@@ -19,21 +19,27 @@ import Part.Part (Element (..), Side (..), Work (..))
 import Report.Report (Code, Label (..), Place (..), Report (..), report)
 import Report.Report qualified as Report
 
+-- | A cutter at work: its radius, and what it leaves.
+data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
+  deriving stock (Eq, Show)
+
 data Error
   = -- | @outside@ or @inside@ of an open contour
     SideOfOpen Region Side Name Region
-  | -- | the statement, the cutter's radius, the arc and its radius, the largest radius that fits
-    ConcaveRadius Region Tooling Element Mm (Maybe Mm)
+  | -- | the statement, the cutter, the arc and its radius, the largest radius that fits
+    ConcaveRadius Region Tool Element Mm (Maybe Mm)
   | -- | a corner towards the cutter, and where it is
-    InnerCorner Region Tooling Element Element Point (Maybe Mm)
+    InnerCorner Region Tool Element Element Point (Maybe Mm)
   | -- | on its way along the first element the cutter cuts the second
-    Collision Region Tooling Element Element Point (Maybe Mm)
+    Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element, how deep, and whether it even crosses it
     CutsPart Region Segment Element Mm Bool Point
   | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
     MillsAnother Region Region Element Mm Point
   | -- | milling without a depth while the cutter stands so high above the part
     CutsAir Region Mm
+  | -- | a closed contour to be turned: the statement, its name, the contour
+    TurnsClosed Region Name Region
   | -- | climb or conventional where the cutter has no side
     SenseOnContour Region Region
   | -- | climb or conventional that the side does not allow
@@ -44,10 +50,6 @@ data Error
     AllowanceOnContour Region
   deriving stock (Eq, Show)
 
--- | What cuts: the radius of the cutter or of the nose, and what it leaves standing.
-data Tooling = Tooling {work :: Work, radius :: Mm, left :: Mm}
-  deriving stock (Eq, Show)
-
 -- | The words for it.
 toReport :: Error -> Report
 toReport err = case err of
@@ -56,32 +58,32 @@ toReport err = case err of
       { others = [Label contour "this contour is open"],
         hints = ["Say left or right of the walk, or on."]
       }
-  ConcaveRadius region r element old largest ->
-    (at (origin element) "E0402" (toolWord r <> " does not fit into a concave radius of " <> Decimal.mm old))
+  ConcaveRadius region tool element old largest ->
+    (at (origin element) "E0402" (cutter tool <> " does not fit into a concave radius of " <> Decimal.mm old))
       { label = shape element,
-        others = [Label region (doneWord r <> " here") | region /= origin element],
-        hints = [fits r largest]
+        others = [Label region (worked tool <> " here") | region /= origin element],
+        hints = [fits tool largest]
       }
-  InnerCorner region r first second p largest ->
+  InnerCorner region tool first second p largest ->
     (at (origin first) "E0403" "no round cutter reaches into this inner corner")
       { label = shape first,
-        others = second' first second <> [Label region (doneWord r <> " here with " <> toolWord r)],
+        others = second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
-        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius r) (left r)) <> ", the " <> radiusWord r <> ".") : [fits r largest | Just _ <- [largest]]
+        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius tool) (leaves tool)) <> ".") : [fits tool largest | Just _ <- [largest]]
       }
-  Collision region r first second p largest ->
-    (at (origin first) "E0404" (toolWord r <> " cannot follow this element without cutting another one"))
+  Collision region tool first second p largest ->
+    (at (origin first) "E0404" (cutter tool <> " cannot follow this element without cutting another one"))
       { label = shape first,
-        others = second' first second <> [Label region (doneWord r <> " here") | region /= origin first],
+        others = second' first second <> [Label region (worked tool <> " here") | region /= origin first],
         message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
-        hints = [fits r largest]
+        hints = [fits tool largest]
       }
   CutsPart region way element depth crosses p ->
     (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
-        message = ["It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
-        hints = ["Choose approach and retract points from which the straight way stays clear of the part."]
+        message = [if Vec.near (Segment.start way) (Segment.end way) then "It goes up or down at " <> Vec.written 3 p <> "." else "It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
+        hints = ["Choose points and leads whose ways stay clear of the part, or go over it: a third coordinate is a height."]
       }
   MillsAnother region milled element depth p ->
     (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
@@ -93,6 +95,11 @@ toReport err = case err of
   CutsAir region z ->
     (at region "E0407" ("the cutter stands " <> Decimal.mm z <> " above the part here and cuts nothing"))
       { hints = ["Say how deep to go: depth 5 mm. Or begin at height 0, if the height is set by hand."]
+      }
+  TurnsClosed region (Name name) contour ->
+    (at region "E0410" ("the contour ‘" <> name <> "’ is closed and cannot be turned"))
+      { others = [Label contour "this contour is closed"],
+        hints = ["A profile is an open contour: its edge as seen from the side, without the axis."]
       }
   SenseOnContour region statement ->
     (at region "E0408" "the cutter runs on the contour itself: it cuts on both sides, climb on one and conventional on the other")
@@ -106,7 +113,7 @@ toReport err = case err of
         hints = ["Leave the word out, take the other side, or mill reversed(…). In a mirrored block left becomes right; outside and inside stay what they are."]
       }
   BelowAxis region element ->
-    (at (origin element) "E0410" "a turned profile cannot go below the axis of the spindle, y = 0")
+    (at (origin element) "E0412" "a turned profile cannot go below the axis of the spindle, y = 0")
       { label = shape element,
         others = [Label region "turned here"],
         hints = ["x runs along the spindle, y is the radius: half the diameter."]
@@ -130,30 +137,27 @@ sideWord side = case side of
   RightSide -> "right"
   On -> "centre line"
 
-fits :: Tooling -> Maybe Mm -> Text
-fits tool largest = case (largest, work tool) of
-  (Nothing, Milled) -> "No cutter fits here, however small."
-  (Nothing, Turned) -> "No nose fits here, however small."
-  (Just (Mm r), Milled) -> "The largest cutter that fits has a diameter of " <> Decimal.mm (rounded (2 * r)) <> "."
-  (Just (Mm r), Turned) -> "The largest nose that fits has a radius of " <> Decimal.mm (rounded r) <> "."
+-- | The largest that fits, down to a thousandth of a millimetre.
+fits :: Tool -> Maybe Mm -> Text
+fits tool largest = case (work tool, largest) of
+  (_, Nothing) -> "No cutter fits here, however small."
+  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> down (times 2 r) <> "."
+  (Turned, Just r) -> "The largest nose that fits has a radius of " <> down r <> "."
   where
-    rounded x = Mm (fromInteger (floor (x * 1000)) / 1000)
+    down (Mm x) = Decimal.mm (Mm (fromInteger (floor (x * 1000)) / 1000))
 
--- | What cuts, in words.
-toolWord :: Tooling -> Text
-toolWord tool = what <> (if left tool > Mm 0 then " that leaves " <> Decimal.mm (left tool) else "")
+-- | A cutter in words.
+cutter :: Tool -> Text
+cutter Tool {work, radius, leaves} = size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
   where
-    what = case work tool of
-      Milled -> "a cutter of diameter " <> Decimal.mm (times 2 (radius tool))
-      Turned -> "a nose of radius " <> Decimal.mm (radius tool)
+    size = case work of
+      Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
+      Turned -> "a nose of radius " <> Decimal.mm radius
 
-doneWord :: Tooling -> Text
-doneWord tool = case work tool of
+worked :: Tool -> Text
+worked tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
-
-radiusWord :: Tooling -> Text
-radiusWord tool = (case work tool of Milled -> "radius of the cutter"; Turned -> "radius of the nose") <> (if left tool > Mm 0 then " and the allowance" else "")
 
 shape :: Element -> Text
 shape element = case segment element of

@@ -31,7 +31,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Stop, Work (..))
 import Part.Part qualified as Part
-import Path.Error (Error (..), Tooling (Tooling))
+import Path.Error (Error (..), Tool (Tool))
+import Path.Error qualified
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
 
@@ -138,17 +139,20 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
           behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish z) (Part.retract milling) else []
        in (before <> toBegin from, behind)
     -- With depth the cutter goes over to the last approach point (or to the beginning) at the clearance
-    -- height, down there, and up again from the first retract point.
+    -- height, down there, and up again from the first retract point, unless that has a height of its own.
     deep clear toBegin begin finish =
       let up = rise at clear region
           stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
           over = ways (foldl after at up) (if null stops then [Part.Stop (Located (keyword region) begin) (Just clear) Part.Rapid] else stops)
           above = foldl after (foldl after at up) over
           down = [Move (Straight (plane above) (plane above)) (height above, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) | height above /= z]
-          leave = ways (Spot finish z) [s {Part.level = Just z} | s <- take 1 (Part.retract milling)]
+          (beside, further) = case Part.retract milling of
+            s : more | Nothing <- Part.level s -> ([s {Part.level = Just z}], more)
+            stops' -> ([], stops')
+          leave = ways (Spot finish z) beside
           out = foldl after (Spot finish z) leave
           lift' = rise out clear region
-          rest = if isLast then ways (foldl after out lift') [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- drop 1 (Part.retract milling)] else []
+          rest = if isLast then ways (foldl after out lift') [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
        in (up <> over <> down <> toBegin (Spot (plane above) z), leave <> lift' <> rest)
     lastOf xs = take 1 (reverse xs)
 
@@ -197,16 +201,16 @@ along (Located region milling) allowance = do
     Just s -> first obstacle (Offset.styled style s r (Part.outline (contour milling)))
   where
     r = plus (radius milling) allowance
+    used = Tool {Path.Error.work = Part.work milling, Path.Error.radius = radius milling, Path.Error.leaves = allowance}
     finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
     style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
     element i = elements (contour milling) NonEmpty.!! i
-    tooling = Tooling (Part.work milling) (radius milling) allowance
     -- The cutter that fits is smaller than what fits by the allowance.
     tool largest = [d | Just l <- [largest], let d = minus l allowance, d > Mm 0]
     obstacle (Offset.Obstacle cause largest) = case cause of
-      Offset.Concave i old -> ConcaveRadius region tooling (element i) old (listToMaybe (tool largest))
-      Offset.InnerCorner i j p -> InnerCorner region tooling (element i) (element j) p (listToMaybe (tool largest))
-      Offset.Collision i j p -> Collision region tooling (element i) (element j) p (listToMaybe (tool largest))
+      Offset.Concave i old -> ConcaveRadius region used (element i) old (listToMaybe (tool largest))
+      Offset.InnerCorner i j p -> InnerCorner region used (element i) (element j) p (listToMaybe (tool largest))
+      Offset.Collision i j p -> Collision region used (element i) (element j) p (listToMaybe (tool largest))
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
 touchedRadius :: Milling -> Mm
@@ -221,6 +225,7 @@ touchedRadius milling = case value (side milling) of
 -- between the tool and the axis of the spindle, @y = 0@, when it is turned outside.
 leadingSide :: Milling -> Either Error (Maybe Offset.Side)
 leadingSide milling = case (value (side milling), Part.ends (contour milling)) of
+  (_, Part.Closed) | Part.work milling == Turned -> Left (TurnsClosed (region (side milling)) (value name) (region name))
   (LeftSide, _) -> Right (Just Offset.LeftOf)
   (RightSide, _) -> Right (Just Offset.RightOf)
   (On, _) -> Right Nothing

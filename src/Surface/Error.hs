@@ -9,9 +9,11 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Region (Region)
+import Data.Char (isLetter)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
+import Surface.Keyword qualified as Keyword
 import Surface.Token (Token_ (..), describe, unitName)
 
 -- | A fact about the text, and where it stands.
@@ -70,8 +72,8 @@ toReport err = case err of
     (at region "E0101" ("found " <> shown found <> expectation expected))
       { label = "here",
         hints = case found of
-          FoundToken token -> advice token neighbours
-          FoundEnd -> []
+          FoundToken token | not (isWord expected) -> advice token neighbours
+          _ -> []
       }
   Unclosed region opened what ->
     (at region "E0105" (what <> " is not closed"))
@@ -115,7 +117,7 @@ toReport err = case err of
   ImportCycle region files ->
     (at region "E0113" "this file imports itself")
       { message = [Text.intercalate " imports " files <> "."],
-        hints = ["Put what both need into a third file."]
+        hints = ["Put what both need into a third file." | length files > 2]
       }
   NoSuchParam name known ->
     (report Error "E0114" InFile ("the program has no parameter " <> quote name))
@@ -126,7 +128,7 @@ toReport err = case err of
   BadAssignment region name text _ ->
     (at region "E0115" (quote text <> " is no value for " <> quote name))
       { label = "the parameter",
-        hints = ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
+        hints = ["A decimal point is a point: 59.3." | Text.isInfixOf "," text] <> ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
       }
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
@@ -139,8 +141,14 @@ advice token neighbours = case (token, neighbours) of
   (Symbol "(", (Just (Word _), _)) -> ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
   (Symbol "(", _) -> ["Is a comma missing before it?"]
   (Symbol "+", _) -> ["A positive number needs no sign."]
-  (Word _, (Just (Number _ _), _)) -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
+  (Word word, (Just (Number _ _), _)) | word `notElem` Keyword.reservedWords -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
   _ -> []
+
+-- | Whether only one certain word fits: then there is nothing to guess.
+isWord :: [Text] -> Bool
+isWord expected = case expected of
+  [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one
+  _ -> False
 
 -- | Whether a token is wrong wherever it stands.
 isBroken :: Token_ -> Bool

@@ -66,23 +66,24 @@ imported reader stack path = fmap concat . mapM one
         bring at file name
       _ -> pure [s]
     bring at file name
-      | file `elem` stack = mistake (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))
-      | length stack > deepest = mistake (ImportCycle at [Text.pack file])
+      | file `elem` stack = mistake at (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))
+      | length stack > deepest = mistake at (ImportCycle at [Text.pack file])
       | otherwise = do
         known <- gets (Set.member file . seen)
         if known then pure [] else readIn at file name
     readIn at file name = do
       content <- lift (reader file)
       case content of
-        Left why -> mistake (ImportMissing at name why)
+        Left why -> mistake at (ImportMissing at name why)
         Right text -> do
           progress <- get
           let Result {errors, output} = Parser.parse (Region.next (texts progress)) text
           put progress {texts = Region.add (Text.pack file) text (texts progress), seen = Set.insert file (seen progress), found = reverse errors <> found progress}
           filter defines <$> imported reader (file : stack) file (maybe [] statements output)
 
-mistake :: Monad m => Error -> StateT Progress m [Statement]
-mistake e = [] <$ modify' (\p -> p {found = e : found p})
+-- | What is missing leaves a gap, so that nobody misses the names that it would have brought.
+mistake :: Monad m => Region -> Error -> StateT Progress m [Statement]
+mistake at e = [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
 
 -- | Imports are not nested deeper.
 deepest :: Int
@@ -96,6 +97,7 @@ defines (Located _ s) = case s of
   Param _ _ -> True
   Contour {} -> True
   Broken _ (Just _) -> True
+  Broken (Just "import") _ -> True
   _ -> False
 
 -- | A path without detours, so that one file has one name.
