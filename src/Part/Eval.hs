@@ -17,6 +17,7 @@ import Base.Region (Region)
 import Control.Monad (when)
 import Control.Monad.Except (ExceptT, runExceptT, throwError, withExceptT)
 import Control.Monad.State.Strict (State, get, lift, put, runState)
+import Data.Either (fromLeft)
 import Part.Error (Error (..), Fact (..))
 
 -- | The mistakes found, none when they are reported already; the steps left.
@@ -40,7 +41,7 @@ absent = throwError []
 gather :: Traversable t => t (Eval a) -> Eval (t a)
 gather evals = do
   results <- traverse (lift . runExceptT) evals
-  case foldMap (either id (const [])) results of
+  case foldMap (fromLeft []) results of
     [] -> either (const absent) pure (sequence results)
     errors -> throwError errors
 

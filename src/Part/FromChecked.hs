@@ -13,6 +13,7 @@ import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
+import Control.Applicative ((<|>))
 import Control.Monad (when)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -116,7 +117,7 @@ step state (Located at s) = case s of
     env = environment state
     define name d v =
       state
-        { environment = (bound name v),
+        { environment = bound name v,
           values' = (region name, Value.written d v) : values' state
         }
     bound name v = env {values = Map.insert (value name) v (values env), locals = Map.delete (value name) (locals env)}
@@ -276,7 +277,7 @@ drilling state at points depth settings = do
     Nothing -> Eval.mistake (NothingToDrill (region points))
     Just some -> pure $ do
       tool <- cutter' state
-      drillFeed <- maybe (feed' state) Just plunge
+      drillFeed <- plunge <|> feed' state
       clear <- clearance' state
       Just Drilling {holes = fmap (Located (region points)) some, drillRadius = cutterRadius tool, bottom = Mm (-d), clear, pecked, drillFeed}
   where

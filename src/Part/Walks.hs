@@ -15,6 +15,7 @@ import Base.Quantity (Feed (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr, Item, Item_ (..), Modifier_ (..), Walk)
 import Checked.Syntax qualified as Checked
+import Control.Applicative ((<|>))
 import Data.List (minimumBy)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
@@ -93,7 +94,7 @@ walksOf at walk v finish link = case (v, walk) of
     -- What is asked on the whole counts where its elements ask nothing.
     merged own =
       Finish
-        { ownFeed = maybe (ownFeed finish) Just (ownFeed own),
+        { ownFeed = ownFeed own <|> ownFeed finish,
           slow = slow own || slow finish,
           allowance = if allowance own == Mm 0 then allowance finish else allowance own
         }

@@ -82,7 +82,7 @@ run :: Parser a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
     (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
-    inOrder = sortOn Parsec.errorOffset ([f | f <- final, not (gaveUp memory)] <> failures memory)
+    inOrder = sortOn Parsec.errorOffset ([f | not (gaveUp memory), f <- final] <> failures memory)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
@@ -283,7 +283,7 @@ recovering repair p = do
 
 isTooDeep :: Failure -> Bool
 isTooDeep failure = case failure of
-  FancyError _ problems -> any (== Parsec.ErrorCustom TooDeep) (Set.toList problems)
+  FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
 -- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt like one,

@@ -187,7 +187,7 @@ missingHoles machine path traces =
     pulse = Machine.pulse machine
     index = Box.index (Box.ofSegment . line) (filter isUpright traces)
     reaches bottom p t =
-      Vec.distance (Segment.start (line t)) p <= pulse && minus (min (fst (heights t)) (snd (heights t))) bottom <= times 0.6 pulse
+      Vec.distance (Segment.start (line t)) p <= pulse && minus (uncurry min (heights t)) bottom <= times 0.6 pulse
 
 -- How a pass came out
 

@@ -75,7 +75,7 @@ spec = do
     it "built on transformed points is the contour transformed (catches a construction that looks at the axes)" $
       property $
         forAll ((,) <$> angles <*> corners) $ \((a, x, y), ps) ->
-          let plain = contourOf (\p -> p) ps
+          let plain = contourOf id ps
               turned = contourOf (\p -> "rotated(moved(" <> p <> ", (" <> number x <> ", " <> number y <> ")), " <> number a <> " deg)") ps
               s = Similarity.after (Similarity.rotation (Rad (a * pi / 180)) (Vec.point 0 0)) (Similarity.translation (Vec.vec x y))
            in counterexample (Text.unpack (program turned)) $ case (elementsOf (program plain), elementsOf (program turned), elementsOf (program plain <> moved a x y)) of
