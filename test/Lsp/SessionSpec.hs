@@ -79,7 +79,7 @@ spec = do
       let alone = pause 500 (open addressOf 1 importing ready)
           found = pause 500 (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" alone)
           latest talk = [map code there | (String u, _, there) <- reverse (published talk), u == addressOf]
-      map (take 1 . latest) [alone, found] `shouldBe` [[["E0112", "E0201"]], [[]]]
+      map (take 1 . latest) [alone, found] `shouldBe` [[["E0112"]], [[]]]
     it "of an imported file stand at the import, and name the file" $ do
       let talk = pause 500 (open addressOf 1 importing (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm + 1 deg\n" ready))
       [map (\f -> (from f, code f, "pins.part:2" `Text.isInfixOf` message f)) found | (String u, _, found) <- published talk, u == addressOf] `shouldBe` [[((1, 7), "E0206", True)]]
