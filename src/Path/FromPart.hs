@@ -12,7 +12,7 @@ import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.Bifunctor (first)
 import Data.Function (on)
-import Data.List (groupBy, minimumBy, sortOn)
+import Data.List (groupBy, minimumBy, nubBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
@@ -322,7 +322,11 @@ intrusions path = concatMap inBlock (Path.blocks path)
       _ -> e
     intrusion tool own m
       | fst (Path.heights m) > Mm 0 && snd (Path.heights m) > Mm 0 = []
-      | otherwise = map deepest (groupBy ((==) `on` fst) (sortOn fst (hits tool own m)))
+      | otherwise = nubBy samePlace (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits tool own m))))
+    -- A contour that is milled several times is cut once.
+    samePlace e f = case (e, f) of
+      (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.near p q
+      _ -> False
     hits tool own m =
       [ (n, CutsPart (Path.origin m) (Path.segment m) element (minus tool d) (d <= Tolerance.coincident) p)
         | ((n, milling), element) <- Box.within (Box.inflate tool (Box.ofSegment (Path.segment m))) index,

@@ -68,18 +68,26 @@ elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 find :: Job -> Maybe Point -> [Trace] -> Found
 find job at traces = case if measurable job then mapMaybe followed starts else [] of
   found : _ -> found
-  [] -> case starts of
+  [] -> case filter (staysBeside . snd) starts <> starts of
     (arrival, rest) : _ -> let (along, behind) = untilExit job rest in Lost arrival along behind
     [] -> NeverBegun
   where
     ruler = measure job
     followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
     starts = begun Nothing traces
+    -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
+    staysBeside rest = let (along, _) = untilExit job rest in not (null along) && all (beside job ruler . Segment.end . line) along
     -- The strokes that set out from the beginning, with the one that arrived there: none when the cutter stood
     -- there already, or came from another height.
     begun before ts = case ts of
       [] -> [([t], []) | Just t <- [before], endsNear job (entry job) t] <> [([], []) | Nothing <- [before], Just p <- [at], isNear job (entry job) p]
       t : rest -> [([b | Just b <- [before], endsNear job (entry job) b], ts) | isNear job (entry job) (Segment.start (line t))] <> begun (Just t) rest
+
+-- | Whether the cutter with its centre at a point touches the contour at all.
+beside :: Job -> Ruler -> Point -> Bool
+beside job ruler p = or [Distance.toPoint p s <= near | (_, s) <- Box.within (Box.inflate near (Box.ofPoints p [])) (marks ruler)]
+  where
+    near = plus (outreach job) (allowance job)
 
 isNear :: Job -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
