@@ -55,7 +55,8 @@ spec = do
       sources <- filter ("Error.hs" `isInfixOf`) <$> walk "src"
       codes <- nub . sort . concatMap codesIn <$> traverse readText (filter (not . ("Cli" `isInfixOf`)) sources)
       expectations <- Text.concat <$> (traverse readText . filter ((`elem` [".report", ".frames"]) . takeExtension) =<< walk "test/programs")
-      [c | c <- codes, not (Text.isInfixOf ("[" <> c <> "]") expectations)] `shouldBe` []
+      -- A text that is too long is no small program; Surface.LimitsSpec has one.
+      [c | c <- codes, c /= "E0116", not (Text.isInfixOf ("[" <> c <> "]") expectations)] `shouldBe` []
 
 -- | All that the compiler says of a program, up to the machine's limits.
 reportsOf :: [(Text, Text)] -> Compile.Loaded -> Result Report Report ()

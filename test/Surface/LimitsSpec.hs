@@ -42,7 +42,7 @@ spec = do
     property $
       forAllShow noise Text.unpack $ \text ->
         let unix = Text.replace "\r" "" text
-            placed t = sort [(line, column, c) | r <- reports t, InSource at <- [Report.place r], let {Region.Position {Region.line, Region.column} = Region.position (Region.fromText "" t) (Region.start at); Code c = Report.code r}]
+            placed t = sort [(line, column, c) | r <- reports t, InSource at <- [Report.place r], let Region.Position {Region.line, Region.column} = Region.position (Region.fromText "" t) (Region.start at); Code c = Report.code r]
          in placed (Text.replace "\n" "\r\n" unix) === placed unix .&&. placed (Text.replace "\n" "\r" unix) === placed unix
   where
     nested (name, text) = it name $ codes text `shouldBe` ["E0110"]
