@@ -13,6 +13,8 @@ module Checked.Builtin
     names,
     name,
     written,
+    formsOf,
+    formsHint,
   )
 where
 
@@ -21,6 +23,7 @@ import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Builtin (..), Choice (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
+import Data.Containers.ListUtils (nubOrd)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
@@ -213,3 +216,11 @@ written builtin form = name builtin <> "(" <> Text.intercalate ", " (map paramet
       ToRight -> "right"
       Within' -> "inside"
       Beyond -> "outside"
+
+-- | The forms of a function as calls, for a reader.
+formsOf :: Builtin -> [Text]
+formsOf builtin = nubOrd (map (written builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
+
+-- | What to write instead of a function's bare name.
+formsHint :: Builtin -> [Text]
+formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formsOf builtin)) <> "."]

@@ -32,6 +32,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit (..))
@@ -374,6 +375,7 @@ infer defined (Located at e) = case e of
   Surface.Binary op l r -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
+    when (op `elem` [Surface.Multiply, Surface.Divide]) (plainFactor op (l, lt) (r, rt))
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
   Surface.Range low high Nothing -> do
@@ -410,6 +412,27 @@ infer defined (Located at e) = case e of
     (result, inner') <- Infer.withLocals [(counter, t)] (infer defined inner)
     pure (Type.ListOf result, \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol)))
 
+-- | A bare number beside something that has a dimension is a plain number: twice an angle is an angle. So is
+-- one that divides. Beside a plain number it may be anything: @20 * k@ can be a length, @4 * 4@ an area.
+plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
+plainFactor op (l, lt) (r, rt) = do
+  lt' <- Infer.known lt
+  rt' <- Infer.known rt
+  when (isBare l && not (isBare r) && hasDimension rt') (void (Infer.unify (region l) Type.number lt))
+  when (isBare r && not (isBare l) && (op == Surface.Divide || hasDimension lt')) (void (Infer.unify (region r) Type.number rt))
+  where
+    hasDimension t = case t of
+      Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
+      _ -> False
+
+-- | Whether an expression consists of bare numbers.
+isBare :: Surface.Expr -> Bool
+isBare (Located _ e) = case e of
+  Surface.Literal _ Nothing -> True
+  Surface.Negate inner -> isBare inner
+  Surface.Binary _ l r -> isBare l && isBare r
+  _ -> False
+
 -- | The result of an operation.
 operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
 operation place operator left right = do
@@ -433,7 +456,7 @@ variable defined at name@(Name text) = do
         forms <- fresh builtin
         case forms of
           [Form [] t] -> pure (t, here (Checked.Builtin builtin []))
-          _ -> wrong (FunctionAsValue at name (Infer.formsHint builtin))
+          _ -> wrong (FunctionAsValue at name (Builtin.formsHint builtin))
       Nothing -> unknown defined at name >>= wrong
   where
     here e _ = Located at e
@@ -448,7 +471,7 @@ fresh builtin = do
   pure (Builtin.forms Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t} builtin)
 
 builtinMeaning :: Checked.Builtin -> Text
-builtinMeaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (Infer.formsOf builtin))
+builtinMeaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (Builtin.formsOf builtin))
 
 -- | A name that means nothing here: it stands further down, it is being defined, or it is misspelt.
 unknown :: Defined -> Region -> Name -> Infer Error
@@ -458,7 +481,7 @@ unknown defined at name = do
     Just place
       | start place > start at -> UsedBeforeDefinition at name place
       | otherwise -> Recursive at name
-    Nothing -> UndefinedName at name ([text | Name text <- names] <> Builtin.names)
+    Nothing -> UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
 
 call :: Defined -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer (Type, Later Checked.Expr)
 call defined at (Located place name@(Name text)) arguments = do
@@ -499,7 +522,7 @@ call defined at (Located place name@(Name text)) arguments = do
       case [f | f <- forms, map Builtin.label (Builtin.parameters f) == labels] of
         []
           | Just es <- plain, [form] <- forms -> wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
-          | otherwise -> wrong (NoSuchCall at text (Infer.formsOf builtin))
+          | otherwise -> wrong (NoSuchCall at text (Builtin.formsOf builtin))
         [form] | length forms == 1 || any (/= Builtin.Bare) labels -> do
           checked <- zipWithM argument (map Builtin.type' (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))) (concatMap valueOf given)
           pure (if all fst checked then Builtin.result form else Type.Wrong, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))

@@ -40,8 +40,6 @@ module Checked.Infer
 
     -- * Names in the text
     mention,
-    formsOf,
-    formsHint,
   )
 where
 
@@ -54,7 +52,7 @@ import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Meaning (..), Pending (..), Scheme (..))
-import Checked.Syntax (Builtin, Mention (Mention), Operator (..))
+import Checked.Syntax (Mention (Mention), Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Control.Monad (filterM, unless, void, when)
@@ -202,7 +200,7 @@ freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
 monomorphic :: Dimension -> Infer ()
 monomorphic d = modify' (\m -> m {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared m)})
 
--- | A type as far as it is known.
+-- | As far as it is known.
 known :: Type -> Infer Type
 known t = gets (\m -> resolve m t)
 
@@ -455,7 +453,7 @@ choose c = do
     [] -> do
       unless (Wrong `elem` arguments) (misfit c arguments)
       taint
-      True <$ unify (at c) (chosen c) Wrong
+      True <$ settledAs (at c) (chosen c) Wrong
     [only] -> True <$ take' c only
     _ -> pure False
 
@@ -486,8 +484,17 @@ wantedBy form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.parameter
 -- | Let a call mean a form.
 take' :: Choice -> Form -> Infer ()
 take' c form = do
-  mapM_ (\((region, t), p) -> unify region p t) (zip (given c) (wantedBy form))
-  void (unify (at c) (chosen c) (Builtin.result form))
+  mapM_ (\((region, t), p) -> settledAs region p t) (zip (given c) (wantedBy form))
+  settledAs (at c) (chosen c) (Builtin.result form)
+
+-- | What was decided late has to be what its use took it for.
+settledAs :: Region -> Type -> Type -> Infer ()
+settledAs region wanted found' = do
+  w <- known wanted
+  f <- known found'
+  places <- settledPlaces [(region, wanted, w), (region, found', f)]
+  same <- unify region wanted found'
+  unless same (mistakeOnce (map fst places) (Mismatch region w f places))
 
 -- | The forms with the number and the words of a call's arguments. The unknowns of a form are its own.
 alternatives :: Choice -> [Form]
@@ -497,10 +504,12 @@ alternatives c = [f | f <- Builtin.forms Fresh {dimension = Dimension.none, anyt
 fitting :: Choice -> Infer [Form]
 fitting c = do
   arguments <- traverse (known . snd) (given c)
-  d <- freshDimension
-  t <- freshType
-  let same = [f | f <- Builtin.forms Fresh {dimension = d, anything = t} (builtin c), map label (Builtin.parameters f) == labels c]
-  pure [f | f <- same, and (zipWith mayBe arguments (wantedBy f))]
+  fresh <- Fresh <$> freshDimension <*> freshType
+  outcome' <- known (chosen c)
+  let same = [f | f <- Builtin.forms fresh (builtin c), map label (Builtin.parameters f) == labels c]
+      fits = [f | f <- same, and (zipWith mayBe arguments (wantedBy f))]
+  -- The use of the result helps to choose, but is not what is wrong when nothing fits.
+  pure (case filter (mayBe outcome' . Builtin.result) fits of [] -> fits; some -> some)
 
 -- | Whether a type, as far as it is known, may turn out to be another.
 mayBe :: Type -> Type -> Bool
@@ -514,14 +523,6 @@ mayBe found' wanted = case (found', wanted) of
   _ -> False
   where
     dimensionMayBe d e = d == e || not (Dimension.isKnown d) || not (Dimension.isKnown e)
-
--- | The forms of a function as calls, for a reader.
-formsOf :: Builtin -> [Text]
-formsOf builtin = nubOrd (map (Builtin.written builtin) (Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
-
--- | What to write instead of a function's bare name.
-formsHint :: Builtin -> [Text]
-formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formsOf builtin)) <> "."]
 
 -- Arithmetic
 
@@ -570,7 +571,7 @@ operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
         fine <- (&&) <$> unify leftRegion (Quantity d) l <*> unify rightRegion (Quantity d) r
         if fine then result' Truth' else disagree l r
     quotient d e = Dimension.times d (Dimension.power (-1) e)
-    result' t = True <$ unify region outcome' t
+    result' t = True <$ settledAs region outcome' t
     wrong e = mistake e *> result' Wrong
     disagree l r = do
       places <- settledPlaces [(leftRegion, left', l), (rightRegion, right', r)]

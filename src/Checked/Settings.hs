@@ -52,6 +52,7 @@ step (seen, errors) (inBlock, Located at s) = (seen', errors <> misplaced <> mis
     seen' = foldr (\one -> Map.insertWith (\_ old -> old) one at) seen (needed <> maybe [] pure given)
     isChange statement' = case statement' of
       Surface.Change _ _ -> True
+      Surface.Broken (Just "change") _ -> True
       _ -> False
 
 -- | What a statement sets and what it needs: the length of its keyword; whether it holds for the whole program.

@@ -6,7 +6,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, total, travelTime)
+import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
 import Base.Region (Located (..))
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
@@ -22,19 +22,19 @@ import Machine.Machine (Choice (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Part.Part qualified as Part
-import Path.Path (Block (..), Move (..))
+import Path.Path (Block (..), Move (..), Pass (..))
 import Path.Path qualified as Path
 import Tape.Tape qualified as Tape
 
 -- | The paper's tables for every milled contour, then times and tape.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
-nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map milled cuttings <> [summary])
+nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map milled cuttings <> drilled <> [summary])
   where
     heading = "Part " <> maybe "" (\(Name n) -> n) (Part.name part) <> maybe "" (\t -> ": " <> t) (Part.title part) <> "\n"
     machine = fst <$> punched
-    cuttings = [(job, NonEmpty.toList cut) | Cutting {job, cut} <- Path.blocks path]
-    milled (job, cut) =
-      "Contour " <> contourName' job <> ": nodes of the " <> pathWord job <> ", numbered from the entry\n\n"
+    cuttings = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Path.blocks path]
+    milled (job, pass, cut) =
+      "Contour " <> contourName' job <> passWord pass <> ": nodes of the " <> pathWord job <> ", numbered from the entry\n\n"
         <> Table.columns
           [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
           (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : zipWith (section (length cut) (ends' job)) [0 ..] cut <> lastNode (ends' job) cut)
@@ -43,6 +43,9 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map mi
         <> " mm, time "
         <> seconds (total (map (timeOf machine) cut))
         <> " s\n"
+    -- Which of several passes: the height, and what it leaves standing.
+    passWord Pass {left, atHeight} =
+      (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight) <> (if left == Mm 0 then "" else ", leaving " <> fixed3 left)
     ends' job = Part.ends (Part.contour (value job))
     contourName' job = let Name n = value (Part.contourName (Part.contour (value job))) in n
     pathWord job = case value (Part.side (value job)) of
@@ -62,17 +65,25 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map mi
     lastNode ends cut = case (ends, reverse cut) of
       (Part.Open, final : _) -> [["", "end", Decimal.whole (length cut), fixed3 (Mm (Vec.x (Segment.end (segment final)))), fixed3 (Mm (Vec.y (Segment.end (segment final)))), "", "", "", "", ""]]
       _ -> []
+    drilled =
+      [ "Holes\n\n"
+          <> Table.columns
+            [ToRight, ToRight, ToRight, ToRight]
+            (["x", "y", "diameter", "depth"] : [[fixed3 (Mm (Vec.x p)), fixed3 (Mm (Vec.y p)), fixed3 (times 2 (Part.drillRadius d)), fixed3 (times (-1) (Part.bottom d))] | d <- holings, Located _ p <- NonEmpty.toList (Part.holes d)])
+        | not (null holings)
+      ]
+    holings = [d | Holing (Located _ d) _ <- Path.blocks path]
     everything = concatMap Path.moves (Path.blocks path)
     summary =
       Table.columns
         [ToLeft, ToRight, ToLeft]
-        ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf (concatMap snd cuttings))), "mm"],
+        ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf (concatMap (\(_, _, cut) -> cut) cuttings))), "mm"],
             ["total length of the path", fixed3 (lengthOf everything), "mm"],
             ["total time", seconds (total (map (timeOf machine) everything)), "s"]
           ]
             <> maybe [] tapeRows punched
         )
-    lengthOf = total . map (Segment.length . segment)
+    lengthOf = total . map wayOf
     tapeRows (m, Punched {program, tape}) =
       [ ["frames", Decimal.whole (length (Frame.planned program)), ""],
         ["rows of tape", Decimal.whole (Tape.rowCount tape), ""],
@@ -100,7 +111,14 @@ timeOf machine move = case (pace move, machine) of
     Given _ given -> travelTime l given
     NoSuchFeed _ _ -> travelTime l asked
   where
-    l = Segment.length (segment move)
+    l = wayOf move
+
+-- | The length of a move, in the plane and in height.
+wayOf :: Move -> Mm
+wayOf move =
+  let Mm l = Segment.length (segment move)
+      (Mm a, Mm b) = heights move
+   in Mm (sqrt (l * l + (b - a) * (b - a)))
 
 fixed3 :: Mm -> Text
 fixed3 (Mm x) = Decimal.fixed 3 x

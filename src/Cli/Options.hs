@@ -123,7 +123,7 @@ data Overrides = Overrides
 overrides :: Parser Overrides
 overrides =
   Overrides
-    <$> optional (Opt.option (choice [("human", HumanFormat), ("short", ShortFormat), ("json", JsonFormat), ("sarif", SarifFormat)]) (Opt.long "format" <> Opt.metavar "human|short|json|sarif" <> Opt.help "How reports are written" <> Opt.completeWith ["human", "short", "json", "sarif"]))
+    <$> optional (Opt.option (choice [("human", HumanFormat), ("short", ShortFormat), ("json", JsonFormat), ("sarif", SarifFormat)]) (Opt.long "format" <> Opt.metavar "human|short|json|sarif" <> Opt.help "How errors and warnings are written, on standard error" <> Opt.completeWith ["human", "short", "json", "sarif"]))
     <*> optional (Opt.option (choice [("auto", Auto), ("always", Always), ("never", Never)]) (Opt.long "color" <> Opt.metavar "auto|always|never" <> Opt.help "Colours in reports" <> Opt.completeWith ["auto", "always", "never"]))
     <*> Opt.switch (Opt.long "quiet" <> Opt.short 'q' <> Opt.help "No warnings")
     <*> Opt.switch (Opt.long "werror" <> Opt.help "Warnings count as errors")

@@ -89,7 +89,7 @@ warningReport machine warning = case warning of
       }
   ByHand region kind ->
     (report Report.Warning "W0504" (InSource region) (machineName machine <> " cannot be told " <> what kind <> " by its tape"))
-      { message = ["It has to be done by hand here."],
+      { message = ["It has to be done by hand here." <> (if kind == ToolCommand then " The tape does not wait for it: stop the machine, or give the next tool a tape of its own." else "")],
         hints = ["A free auxiliary command may serve: aux 1" | kind /= ToolCommand]
       }
   where

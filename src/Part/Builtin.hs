@@ -248,7 +248,7 @@ ray p v = Line p (Vec.shift v p)
 -- | A whole number from 1 upwards.
 whole :: Region -> Text -> Double -> Eval Int
 whole region what x
-  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Eval.mistake (NotWhole region what "from 1 upwards" x)
+  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Eval.mistake (NotWhole region what "from 1 to 10000000" x)
   | otherwise = n <$ Eval.spend region n
   where
     n = if abs x > 1e8 then 0 else round x :: Int

@@ -107,12 +107,12 @@ step state (Located at s) = case s of
   Checked.Coolant switch -> perform (Command (Located at (CoolantTo switch)) :)
   Checked.Auxiliary e -> keep (whole env "an auxiliary command" (1, 99) e) (\n -> perform (Command (Located at (Auxiliary n)) :))
   Checked.Repeat name list body ->
-    keep (Value.items <$> Value.evaluate env list) $ \vs ->
-      back (foldl (\before v -> foldl step before {environment = Value.bind name v env} body) state vs)
-  Checked.When e body others -> keep (Value.evaluate env e) (\v -> back (foldl step state (if Value.isTrue v then body else others)))
-  Checked.With e body -> keep (Value.evaluate env e) $ \v ->
-    let inside = foldl step state {operations' = []} body
-     in back inside {operations' = map (Transform.operation (placement v)) (operations' inside) <> operations' state}
+    blocked (Value.items <$> Value.evaluate env list >>= \vs -> vs <$ Eval.spend (region list) (length vs)) $ \vs now ->
+      foldl (\before v -> foldl step before {environment = Value.bind name v env} body) now vs
+  Checked.When e body others -> blocked (Value.evaluate env e) (\v now -> foldl step now (if Value.isTrue v then body else others))
+  Checked.With e body -> blocked (Value.evaluate env e) $ \v now ->
+    let inside = foldl step now {operations' = []} body
+     in inside {operations' = map (Transform.operation (placement v)) (operations' inside) <> operations' state}
   where
     env = environment state
     define name d v =
@@ -124,9 +124,16 @@ step state (Located at s) = case s of
     perform f = state {operations' = f (operations' state)}
     -- What was defined in a block is forgotten behind it.
     back after = after {environment = env}
-    keep answer f = case Eval.run (fuel state) answer of
+    keep answer f = kept answer (\a left -> (f a) {fuel = left})
+    -- A block goes on with the steps that are left, and takes its own.
+    blocked answer f = kept answer (\a left -> back (f a state {fuel = left}))
+    kept answer f = case Eval.run (fuel state) (Eval.spend at statementSteps *> answer) of
       (Left found, left) -> state {errors' = reverse found <> errors' state, fuel = left}
-      (Right a, left) -> (f a) {fuel = left}
+      (Right a, left) -> f a left
+
+-- | What a statement costs besides its expressions.
+statementSteps :: Int
+statementSteps = 5
 
 -- Values
 
@@ -220,6 +227,8 @@ milling state work at e side settings = do
     feed <- feed' state
     approach <- before
     retract <- after
+    -- Without a clearance height, which is reported, no way is right.
+    _ <- if null levels then Just (Mm 0) else clearance' state
     case c of
       ContourValue contour ->
         Just
@@ -270,6 +279,12 @@ drilling state at points depth settings = do
   Mm d <- Walks.lengthOf env "the depth" depth
   pecked <- traverse (Walks.lengthOf env "the depth of a peck") (Checked.peck settings)
   plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
+  let places' = case v of
+        ListValue vs -> length vs
+        _ -> 1
+      pecks = maybe 1 (\(Mm p) -> ceiling (min 1e9 (d / p) - Tolerance.equal)) pecked :: Int
+  when (pecks > 1000) (Eval.mistake (NotWhole (region depth) "the number of pecks" "up to 1000" (fromIntegral pecks)))
+  Eval.spend at (places' * pecks * statementSteps)
   let places = case v of
         ListValue vs -> map Value.point vs
         _ -> [Value.point v]

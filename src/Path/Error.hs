@@ -34,6 +34,8 @@ data Error
     Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element, how deep, and whether it even crosses it
     CutsPart Region Segment Element Mm Bool Point
+  | -- | a hole that cuts into a contour: where it is, the element, how deep
+    HoleCuts Region Point Element Mm
   | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
     MillsAnother Region Region Element Mm Point
   | -- | milling without a depth while the cutter stands so high above the part
@@ -84,6 +86,12 @@ toReport err = case err of
         others = [Label (origin element) (shape element) | origin element /= region],
         message = [if Vec.near (Segment.start way) (Segment.end way) then "It goes up or down at " <> Vec.written 3 p <> "." else "It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
         hints = ["Choose points and leads whose ways stay clear of the part, or go over it: a third coordinate is a height."]
+      }
+  HoleCuts region p element deep ->
+    (at region "E0413" ("the hole at " <> Vec.written 3 p <> " cuts into a contour by " <> Decimal.mm deep))
+      { others = [Label (origin element) ("it cuts " <> shape element) | origin element /= region],
+        message = ["Of several such holes this is the worst."],
+        hints = ["Check the place of the hole, the diameter of the drill, and that the tool was changed before drilling."]
       }
   MillsAnother region milled element depth p ->
     (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))

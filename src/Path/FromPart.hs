@@ -15,6 +15,7 @@ import Data.Function (on)
 import Data.List (groupBy, minimumBy, nubBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Data.Vector qualified as Vector
@@ -89,11 +90,13 @@ blocksOf number tool at operation = case operation of
     possible region given
     milling <- oriented region given
     let job = Located region milling
-        passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [height at] else Part.levels milling]
-    if null (Part.levels milling) && height at > Mm 0
-      then Left (CutsAir (keyword region) (height at))
+        passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [standing milling] else Part.levels milling]
+    if null (Part.levels milling) && standing milling > Mm 0
+      then Left (CutsAir (keyword region) (standing milling))
       else reverse . snd <$> foldl (next job (length passes)) (Right (at, [])) (zip [1 ..] passes)
   where
+    -- Without depth the cutter stays at the height to which it was brought last.
+    standing milling = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     next job count before (k, (allowance, z)) = do
       (spot, done) <- before
       b <- passOf number job (k == 1) (k == count) spot allowance z
@@ -107,22 +110,26 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
   pieces <- along job allowance
   let pace = Part.At (feed milling)
       origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
-      cut = fmap (move pieces) (NonEmpty.zip (0 :| [1 ..]) pieces)
+      cut = fmap move pieces
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
-      -- A feed of its own holds on the element, not round its corners; it slows down on its last piece.
-      move all' (k, piece) =
+      -- A feed of its own holds on the element, not round its corners; nor does it slow down there.
+      move piece =
         let e = origins Vector.! numberOf piece
             own = case Offset.origin piece of
               Offset.Along _ -> Part.ownFeed (Part.finish e)
               Offset.Around _ -> Nothing
-            behind = [numberOf p | p <- take 1 (NonEmpty.drop (k + 1 :: Int) all')]
-         in Move (Offset.segment piece) (z, z) (maybe pace Part.At own) (Part.slow (Part.finish e) && behind /= [numberOf piece]) (Part.origin e)
+            slows = case Offset.origin piece of
+              Offset.Along _ -> Part.slow (Part.finish e)
+              Offset.Around _ -> False
+         in Move (Offset.segment piece) (z, z) (maybe pace Part.At own) slows (Part.origin e)
       entry = Segment.start (Offset.segment (NonEmpty.head pieces))
       exit = Segment.end (Offset.segment (NonEmpty.last pieces))
-      leadIn = leading region milling LeadingIn (Segment.startDirection (Offset.segment (NonEmpty.head pieces))) entry
-      leadOut = leading region milling LeadingOut (Segment.endDirection (Offset.segment (NonEmpty.last pieces))) exit
+      leadIn = leading region milling LeadingIn (setOut Segment.startDirection (NonEmpty.head pieces) (NonEmpty.head (elements (contour milling)))) entry
+      leadOut = leading region milling LeadingOut (setOut Segment.endDirection (NonEmpty.last pieces) (NonEmpty.last (elements (contour milling)))) exit
+      -- A cutter that fills a hollow stands still in it; then the contour tells the direction.
+      setOut direction piece e = direction (if Segment.length (Offset.segment piece) > Tolerance.coincident then Offset.segment piece else Part.segment e)
       begin = maybe entry (Segment.start . Path.segment) (listToMaybe leadIn)
       finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
       toBegin from = ways from [Part.Stop (Located (keyword region) begin) (Just z) pace]
@@ -305,20 +312,30 @@ peckGap = Mm 0.5
 -- cuts along other contours. Cuts along the contour itself are the equidistant's concern. A move wholly above the
 -- top of the part cuts nothing.
 intrusions :: Path -> [Error]
-intrusions path = concatMap inBlock (Path.blocks path)
+intrusions path = worst (concatMap inBlock (Path.blocks path))
   where
+    -- Of a stop that cuts in several places or passes the worst.
+    worst errors = map (minimumBy (comparing depth)) (Map.elems (Map.fromListWith (flip (<>)) [(placeOf e, [e]) | e <- errors]))
+    placeOf e = case e of
+      CutsPart at _ _ _ _ _ -> at
+      HoleCuts at _ _ _ -> at
+      MillsAnother at _ _ _ _ -> at
+      _ -> Region 0 0
     jobs = map NonEmpty.head (NonEmpty.groupBy ((==) `on` fst) [(number pass, milling) | Cutting {job = Located _ milling, pass} <- Path.blocks path, value (side milling) /= On])
     index = Box.index (Box.ofSegment . Part.segment . snd) [((n, milling), e) | (n, milling) <- jobs, e <- NonEmpty.toList (elements (contour milling))]
     inBlock b = case b of
       Commanding _ -> []
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
-      Holing (Located _ d) ms -> concatMap (intrusion (Part.drillRadius d) Nothing) ms
+      Holing (Located _ d) ms -> map hole (concatMap (intrusion (Part.drillRadius d) Nothing) ms)
       Cutting {job = Located at milling, pass, approach, cut, retract} ->
         concatMap (intrusion (radius milling) Nothing) (approach <> retract)
           <> take 1 (concatMap (map (another at) . intrusion (radius milling) (Just (number pass))) (NonEmpty.toList cut))
     -- A cut along another contour is no way that could be chosen otherwise.
     another statement e = case e of
       CutsPart milled _ element deep _ p -> MillsAnother (keyword statement) milled element deep p
+      _ -> e
+    hole e = case e of
+      CutsPart at way element deep _ _ -> HoleCuts at (Segment.end way) element deep
       _ -> e
     intrusion tool own m
       | fst (Path.heights m) > Mm 0 && snd (Path.heights m) > Mm 0 = []
@@ -332,11 +349,13 @@ intrusions path = concatMap inBlock (Path.blocks path)
         | ((n, milling), element) <- Box.within (Box.inflate tool (Box.ofSegment (Path.segment m))) index,
           Just n /= own,
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
-          plus d (fst (Part.deepest (Part.tolerance milling))) < tool
+          plus d (plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance) < tool
       ]
     deepest found = minimumBy (comparing depth) (map snd found)
     depth e = case e of
       CutsPart _ _ _ (Mm d) _ _ -> -d
+      HoleCuts _ _ _ (Mm d) -> -d
+      MillsAnother _ _ _ (Mm d) _ -> -d
       _ -> 0
 
 -- | The first word of a statement.

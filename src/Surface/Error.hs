@@ -72,8 +72,9 @@ toReport err = case err of
     (at region "E0101" ("found " <> shown found <> expectation expected))
       { label = "here",
         hints = case found of
-          FoundToken token | not (isWord expected) -> advice token neighbours
-          _ -> []
+          FoundToken token | not (isWord expected) -> meant token expected <> advice token neighbours
+          FoundToken token -> meant token expected
+          FoundEnd -> []
       }
   Unclosed region opened what ->
     (at region "E0105" (what <> " is not closed"))
@@ -83,7 +84,10 @@ toReport err = case err of
   UnknownStatement region word known ->
     (at region "E0106" (quote word <> " begins no statement"))
       { message = ["A statement begins with one of: " <> Text.intercalate ", " known <> "."],
-        hints = ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.nearest word known)]
+        hints = case (Name.lookAlike word known, Name.nearest word known) of
+          (w : _, _) -> ["It looks like " <> quote w <> ", but has a letter of the other alphabet, Cyrillic or Latin."]
+          ([], w : _) -> ["Did you mean " <> quote w <> "?"]
+          ([], []) -> ["To give a name to a value, write: let " <> word <> " = …"]
       }
   Reserved region word ->
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
@@ -133,6 +137,14 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
 
+-- | A keyword that is nearly what stands there, if one was expected.
+meant :: Token_ -> [Text] -> [Text]
+meant token expected = case token of
+  Word word -> ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.lookAlike word words' <> Name.nearest word words')]
+  _ -> []
+  where
+    words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
+
 -- | What is probably meant by a token in the wrong place, from what stands beside it.
 advice :: Token_ -> Neighbours -> [Text]
 advice token neighbours = case (token, neighbours) of
@@ -141,6 +153,10 @@ advice token neighbours = case (token, neighbours) of
   (Symbol "(", (Just (Word _), _)) -> ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
   (Symbol "(", _) -> ["Is a comma missing before it?"]
   (Symbol "+", _) -> ["A positive number needs no sign."]
+  (Symbol "/", (Just (Symbol "/"), _)) -> ["A comment begins with --."]
+  (Symbol "*", (Just (Symbol "*"), _)) -> ["There are no powers: write x * x."]
+  (Symbol "=", (Just (Symbol "="), _)) -> ["Equality is one sign: a = b."]
+  (Symbol "=", _) -> ["To give a name to a value, write: let name = value"]
   (Word word, (Just (Number _ _), _)) | word `notElem` Keyword.reservedWords -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
   _ -> []
 
@@ -179,6 +195,13 @@ strayHint :: Char -> [Text]
 strayHint c
   | c `elem` ("−–—" :: String) = ["Write the minus sign as -."]
   | c `elem` ("“”„«»'" :: String) = ["A text stands between \" and \"."]
+  | c `elem` ("×·" :: String) = ["Write the product with *."]
+  | c == '^' = ["There are no powers: write x * x, and sqrt(x) for a root."]
+  | c == '±' = ["A tolerance is a statement of its own: tolerance 0.02 mm"]
+  | c == '&' = ["Write: and"]
+  | c == '|' = ["Write: or"]
+  | c == '!' = ["Write: not"]
+  | c == ':' = ["No colon is needed."]
   | c == '#' = ["A comment begins with --."]
   | c == ';' = ["Statements need no separator; a comment begins with --."]
   | c == '.' = ["Write a number with digits on both sides of its point: 0.5, 5.0 or 5."]

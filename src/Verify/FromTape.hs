@@ -58,7 +58,8 @@ prove machine path program frames =
     begin = Frame.start program
     own = map Frame.frame (Frame.planned program)
     strokes = Control.run begin frames
-    traces = [Trace s (Control.segment machine s) (Frame.height machine (from s), Frame.height machine (to s)) | s <- strokes]
+    traces = map traceOf strokes
+    traceOf s = Trace s (Control.segment machine s) (Frame.height machine (from s), Frame.height machine (to s))
     sameCount = length own == length frames
     flat = Path.isFlat path
     located = follow machine flat begin traces [b | b@Path.Cutting {} <- Path.blocks path]
@@ -69,6 +70,7 @@ prove machine path program frames =
       concat found
         <> take 1 [OffPlane (number s) | flat, s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
         <> missingHoles machine path traces
+        <> take 1 [CutsElsewhere n p | not flat, (n, p) <- strangers machine path (map traceOf (Control.run begin own)) traces]
         <> (if sameCount then wrongFeeds program frames else [])
         <> wrongCommands program frames
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found))]
@@ -82,6 +84,7 @@ prove machine path program frames =
       NotFollowed {} -> True
       OffPlane {} -> False
       HoleMissing {} -> False
+      CutsElsewhere {} -> False
       WrongFeed {} -> False
       WrongCommand {} -> False
       NotClosed {} -> False
@@ -94,6 +97,7 @@ prove machine path program frames =
       NotFollowed _ -> (0, 3)
       OffPlane n -> (n, 4)
       HoleMissing _ _ -> (0, 4)
+      CutsElsewhere n _ -> (n, 4)
       WrongFeed n _ _ _ -> (n, 5)
       WrongCommand n _ _ -> (n, 6)
       NotClosed _ -> (maxBound, 7)
@@ -188,6 +192,23 @@ missingHoles machine path traces =
     index = Box.index (Box.ofSegment . line) (filter isUpright traces)
     reaches bottom p t =
       Vec.distance (Segment.start (line t)) p <= pulse && minus (uncurry min (heights t)) bottom <= times 0.6 pulse
+
+-- | Strokes below the top of the part where, or deeper than, the program's own tape does not go: the number of the
+-- frame and a place.
+strangers :: Machine -> Path -> [Trace] -> [Trace] -> [(Int, Point)]
+strangers machine path own traces =
+  [ (number (stroke t), p)
+    | t <- traces,
+      uncurry min (heights t) < minus (Mm 0) pulse,
+      p : _ <- [[p | (p, z) <- places t, z < minus (Mm 0) pulse, not (known p z)]]
+  ]
+  where
+    pulse = Machine.pulse machine
+    index = Box.index (Box.ofSegment . line) (filter (\t -> uncurry min (heights t) < Mm 0) own)
+    -- Chords of another tolerance lie within both.
+    slack = plus (times 2 pulse) (maximum (Mm 0 : [times 2 (uncurry max (Part.deepest (Part.tolerance m))) | Path.Cutting {Path.job = Located _ m} <- Path.blocks path]))
+    known p z = or [Distance.toPoint p (line o) <= slack && uncurry min (heights o) <= plus z pulse | o <- Box.within (Box.inflate slack (Box.ofPoints p [])) index]
+    places t = [(Segment.at k (line t), plus (fst (heights t)) (times k (minus (snd (heights t)) (fst (heights t))))) | k <- [0, 0.5, 1]]
 
 -- How a pass came out
 

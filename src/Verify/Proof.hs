@@ -70,6 +70,8 @@ data Finding
     OffPlane Int
   | -- | a hole that the tape does not drill to its depth
     HoleMissing Region Point
+  | -- | a frame that goes below the top of the part where, or deeper than, the program does not: where
+    CutsElsewhere Int Point
   | -- | the frame, the code on the tape, the code that belongs there, what asks for it
     WrongFeed Int FeedCode FeedCode Region
   | -- | the frame, the auxiliary command on the tape, the one that belongs there
@@ -110,6 +112,10 @@ toReport machine finding = case finding of
   NotFollowed region -> wrong "E0709" (InSource region) "the tape does not follow this contour from its beginning to its end in the direction of the walk"
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " leaves the plane of the part (it moves z)")
   HoleMissing region p -> wrong "E0710" (InSource region) ("the tape drills no hole of the right depth at " <> Vec.written 3 p)
+  CutsElsewhere n p ->
+    (wrong "E0711" InFile (frameWord n <> " goes into the material where the program does not, or deeper"))
+      { message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."]
+      }
   WrongFeed n found wanted region ->
     (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: speed " <> code found))
       { message = ["Here belongs speed " <> code wanted <> "."]
