@@ -494,7 +494,7 @@ settledAs region wanted found' = do
   f <- known found'
   places <- settledPlaces [(region, wanted, w), (region, found', f)]
   same <- unify region wanted found'
-  unless same (mistakeOnce (map fst places) (Mismatch region w f places))
+  unless same (mistakeOnce (region : map fst places) (Mismatch region w f places))
 
 -- | The forms with the number and the words of a call's arguments. The unknowns of a form are its own.
 alternatives :: Choice -> [Form]
@@ -572,10 +572,10 @@ operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
         if fine then result' Truth' else disagree l r
     quotient d e = Dimension.times d (Dimension.power (-1) e)
     result' t = True <$ settledAs region outcome' t
-    wrong e = mistake e *> result' Wrong
+    wrong e = mistakeOnce [region] e *> result' Wrong
     disagree l r = do
       places <- settledPlaces [(leftRegion, left', l), (rightRegion, right', r)]
-      mistakeOnce (map fst places) (Disagree region op (leftRegion, l) (rightRegion, r) places)
+      mistakeOnce (region : map fst places) (Disagree region op (leftRegion, l) (rightRegion, r) places)
       result' Wrong
     sum' d e l r = do
       same <- unifyDimensions region d e

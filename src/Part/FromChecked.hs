@@ -107,7 +107,7 @@ step state (Located at s) = case s of
   Checked.Coolant switch -> perform (Command (Located at (CoolantTo switch)) :)
   Checked.Auxiliary e -> keep (whole env "an auxiliary command" (1, 99) e) (\n -> perform (Command (Located at (Auxiliary n)) :))
   Checked.Repeat name list body ->
-    blocked (Value.items <$> Value.evaluate env list >>= \vs -> vs <$ Eval.spend (region list) (length vs)) $ \vs now ->
+    blocked (Value.evaluate env list >>= \v -> Value.items v <$ Eval.spend (region list) (length (Value.items v))) $ \vs now ->
       foldl (\before v -> foldl step before {environment = Value.bind name v env} body) now vs
   Checked.When e body others -> blocked (Value.evaluate env e) (\v now -> foldl step now (if Value.isTrue v then body else others))
   Checked.With e body -> blocked (Value.evaluate env e) $ \v now ->

@@ -5,6 +5,7 @@ import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
+import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
 import Flange qualified
 import Frame.Frame (Frame (..))
@@ -68,6 +69,17 @@ spec = do
           Nothing -> counterexample "no frames" False
         _ -> counterexample "no path" False
 
+  it "a tape that drills deeper or elsewhere, or mills deeper, than its program is not proven (catches a hole that only has to be deep enough)" $
+    [ (tape, program)
+      | (tape, program) <-
+          [ ("drill at (0, 0) depth 25", "drill at (0, 0) depth 4"),
+            ("drill at [(0, 0), (10, 0)] depth 4", "drill at (0, 0) depth 4"),
+            ("mill k inside { depth 9 step 4.5 }", "mill k inside { depth 4.5 }"),
+            ("mill k inside { depth 2 }\nmove (0, 0, -2)\nmove (0, 0, 3)", "mill k inside { depth 2 }\nmove (0, 0, 3)")
+          ],
+        Proof.isProven (against tape program)
+    ]
+      `shouldBe` []
   it "leads, corners, several passes and depths are proven (catches a pass that is looked for at another height or distance)" $
     property $
       forAll ((,,) <$> (Generate.settings <*> (Generate.job <$> Generate.closedCase)) <*> elements [[], [Mm (-1)], [Mm (-1.5), Mm (-3)]] <*> elements [Part.OnPath (Mm 0.05), Part.Band (Mm 0.02) (Mm 0.06)]) $ \(settled, levels, tolerance) ->
@@ -91,6 +103,15 @@ spec = do
               let p = Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))
                in findings p === [] .&&. conjoin [counterexample (show w) (Proof.amount w <= Mm 0.0201) | Just w <- map Proof.gouge (Proof.passages p)]
   where
+    -- The tape of one program held against another.
+    against tape program' =
+      let (tapeAnalysis, tapeProgram) = punched tape
+          (analysis, own) = punched program'
+       in tapeAnalysis `seq` Verify.prove lkp01f (path analysis) own (map Frame.frame (Frame.planned tapeProgram))
+    punched text = case Compile.analyse [] (Compile.alone "p.part" (deepHead <> text <> "\n")) of
+      r | Just a <- Result.settled r, Just p <- Result.output (FromPath.quantise lkp01f (path a)) -> (a, p)
+        | otherwise -> error (show (Result.errors r))
+    deepHead = "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\nfrom (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
     -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
     ways laid = [Segment.end (Path.segment m) | b <- take 1 (Path.blocks laid), m <- Path.moves b, Segment.length (Path.segment m) > Mm 0]
 
