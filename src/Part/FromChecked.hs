@@ -116,7 +116,7 @@ step state (Located at s) = case s of
     env = environment state
     define name d v =
       state
-        { environment = (bound name v),
+        { environment = bound name v,
           values' = (region name, Value.written d v) : values' state
         }
     bound name v = env {values = Map.insert (value name) v (values env), locals = Map.delete (value name) (locals env)}
