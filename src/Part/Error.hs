@@ -115,6 +115,8 @@ data Fact
     DoNotAgree Region (Region, Text) (Region, Text) Text Text
   | -- | a closed contour as an element of another
     ClosedElement Region Name
+  | -- | a place to begin on a contour that begins at its first element
+    OpenBegins Region Name
   | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
     WrongCutter Region Text Text Text
   | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
@@ -314,6 +316,10 @@ toReport (Error fact calls) = addCalls $ case fact of
   ClosedElement region (Name name) ->
     (at region "E0343" ("the contour " <> quote name <> " is closed and cannot be a part of another"))
       { hints = ["Only an open contour leads on to the next element."]
+      }
+  OpenBegins region (Name name) ->
+    (at region "E0347" ("the contour " <> quote name <> " is open and begins at its first element"))
+      { hints = ["Leave ‘start near’ out. To begin at its other end, mill reversed(" <> name <> ") on the other side."]
       }
   WrongCutter region statement needed there ->
     (at region "E0344" (quote statement <> " needs " <> needed))

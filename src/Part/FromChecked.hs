@@ -216,6 +216,9 @@ milling state work at e side settings = do
   before <- stopsOf state (Checked.approach settings)
   after <- stopsOf state (Checked.retract settings)
   near <- traverse (fmap Value.point . Value.evaluate env) (Checked.startNear settings)
+  case (c, Checked.startNear settings) of
+    (ContourValue contour, Just place) | ends contour == Open -> Eval.mistake (OpenBegins (region place) (value (contourName contour)))
+    _ -> pure ()
   levels <- maybe (pure []) (levelsOf env) (Checked.depth settings)
   plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)

@@ -109,7 +109,8 @@ spec = do
           (analysis, own) = punched program'
        in tapeAnalysis `seq` Verify.prove lkp01f (path analysis) own (map Frame.frame (Frame.planned tapeProgram))
     punched text = case Compile.analyse [] (Compile.alone "p.part" (deepHead <> text <> "\n")) of
-      r | Just a <- Result.settled r, Just p <- Result.output (FromPath.quantise lkp01f (path a)) -> (a, p)
+      r
+        | Just a <- Result.settled r, Just p <- Result.output (FromPath.quantise lkp01f (path a)) -> (a, p)
         | otherwise -> error (show (Result.errors r))
     deepHead = "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\nfrom (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
     -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
