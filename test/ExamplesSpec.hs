@@ -12,18 +12,15 @@ import Compile qualified
 import Control.Exception (IOException, try)
 import Control.Monad (forM_)
 import Data.Bifunctor (first)
-import Data.ByteString qualified as ByteString
 import Data.List (nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Data.Text.Encoding qualified as Encoding
-import Files (readText)
+import Files (expected, readText)
 import Machine.Lkp01f (lkp01f)
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
-import System.Directory (doesFileExist, listDirectory)
-import System.Environment (lookupEnv)
+import System.Directory (listDirectory)
 import System.FilePath (dropExtension, takeExtension, (<.>), (</>))
 import Test.Hspec
 
@@ -58,14 +55,3 @@ reader file = first why <$> try (readText file)
   where
     why :: IOException -> Text
     why = Text.pack . show
-
--- | Compare with the file, or write it when recording.
-expected :: FilePath -> Text -> Expectation
-expected file actual = do
-  recording <- lookupEnv "PARTC_RECORD"
-  there <- doesFileExist file
-  case recording of
-    Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 actual)
-    Nothing
-      | there -> readText file >>= (actual `shouldBe`)
-      | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")

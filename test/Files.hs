@@ -2,6 +2,7 @@
 module Files
   ( readText,
     walk,
+    expected,
   )
 where
 
@@ -9,8 +10,10 @@ import Control.Monad (filterM)
 import Data.ByteString qualified as ByteString
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
-import System.Directory (doesDirectoryExist, listDirectory)
+import System.Directory (doesDirectoryExist, doesFileExist, listDirectory)
+import System.Environment (lookupEnv)
 import System.FilePath ((</>))
+import Test.Hspec (Expectation, expectationFailure, shouldBe)
 
 -- | A file in UTF-8.
 readText :: FilePath -> IO Text
@@ -22,3 +25,14 @@ walk folder = do
   entries <- map (folder </>) <$> listDirectory folder
   folders <- filterM doesDirectoryExist entries
   (filter (`notElem` folders) entries <>) . concat <$> traverse walk folders
+
+-- | Compare with the file, or write it when recording.
+expected :: FilePath -> Text -> Expectation
+expected file actual = do
+  recording <- lookupEnv "PARTC_RECORD"
+  there <- doesFileExist file
+  case recording of
+    Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 actual)
+    Nothing
+      | there -> readText file >>= (actual `shouldBe`)
+      | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")

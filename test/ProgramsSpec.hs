@@ -11,18 +11,15 @@ import Cli.FrameTable qualified as FrameTable
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
 import Control.Monad (forM_, void)
-import Data.ByteString qualified as ByteString
 import Data.List (isInfixOf, nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Data.Text.Encoding qualified as Encoding
-import Files (readText, walk)
+import Files (expected, readText, walk)
 import Machine.Lkp01f (lkp01f)
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
 import System.Directory (doesFileExist)
-import System.Environment (lookupEnv)
 import System.FilePath (takeDirectory, takeExtension, takeFileName, (-<.>), (</>))
 import Test.Hspec
 import Verify.Proof qualified as Proof
@@ -82,14 +79,3 @@ loadedFrom file = do
 -- | Codes in a source text: quotation mark, letter, four digits.
 codesIn :: Text -> [Text]
 codesIn text = [code | piece <- drop 1 (Text.splitOn "\"" text), let code = piece, Text.length code == 5, Text.take 1 code `elem` ["E", "W"], Text.all (`elem` ['0' .. '9']) (Text.drop 1 code)]
-
--- | Compare with the file, or write it when recording.
-expected :: FilePath -> Text -> Expectation
-expected file actual = do
-  recording <- lookupEnv "PARTC_RECORD"
-  there <- doesFileExist file
-  case recording of
-    Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 actual)
-    Nothing
-      | there -> readText file >>= (actual `shouldBe`)
-      | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")

@@ -48,7 +48,7 @@ merge :: Region -> Region -> Region
 merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 
 -- | Texts with an index of their lines, the program's own first. Lines end with LF, CR or CR LF.
-newtype Source = Source (Boxed.Vector File)
+data Source = Source {own :: File, imported :: Boxed.Vector File}
 
 data File = File {path :: Text, base :: Int, content :: Text, length :: Int, starts :: Vector.Vector Int, contents :: Boxed.Vector Text}
 
@@ -58,23 +58,23 @@ data Position = Position {file :: Text, line :: Int, column :: Int}
 
 -- | Index the text of a program; the first argument names its file. Linear in its length.
 fromText :: Text -> Text -> Source
-fromText path = Source . Boxed.singleton . indexed path 0
+fromText path content = Source {own = indexed path 0 content, imported = Boxed.empty}
 
 -- | Put another file behind the ones that are there.
 add :: Text -> Text -> Source -> Source
-add path content source@(Source files) = Source (Boxed.snoc files (indexed path (next source) content))
+add path content source = source {imported = Boxed.snoc (imported source) (indexed path (next source) content)}
 
 -- | The offset at which the next file will begin.
 next :: Source -> Int
-next (Source files) = let final = Boxed.last files in base final + length final + 1
+next source = let final = fileAt source maxBound in base final + length final + 1
 
 -- | The program's own text.
 text :: Source -> Text
-text (Source files) = content (Boxed.head files)
+text = content . own
 
 -- | The program's own file.
 mainFile :: Source -> Text
-mainFile (Source files) = path (Boxed.head files)
+mainFile = path . own
 
 indexed :: Text -> Int -> Text -> File
 indexed path base content =
@@ -91,7 +91,7 @@ indexed path base content =
 
 -- | The file that holds an offset; an offset outside all counts as the nearest.
 fileAt :: Source -> Int -> File
-fileAt (Source files) at = Boxed.last (Boxed.cons (Boxed.head files) (Boxed.takeWhile ((<= at) . base) files))
+fileAt source at = Boxed.foldl' (\_ file' -> file') (own source) (Boxed.takeWhile ((<= at) . base) (imported source))
 
 -- | The position of an offset; an offset outside its text counts as its nearest end.
 position :: Source -> Int -> Position
@@ -103,11 +103,10 @@ position source at = Position {file = path found, line = index + 1, column = wit
 
 -- | The offset of a line and a column of the program's own text, both from 1; a column behind its line counts as its end.
 offset :: Source -> Int -> Int -> Int
-offset (Source files) line column
+offset Source {own} line column
   | line > Vector.length (starts own) = length own
   | otherwise = starts own Vector.! index + max 0 (min (column - 1) (Text.length (contents own Boxed.! index)))
   where
-    own = Boxed.head files
     index = max 0 (line - 1)
 
 -- | The last line that begins at or before an offset within its file.

@@ -11,6 +11,8 @@ where
 import Base.Quantity (Mm (..), minus, plus)
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
+import Geometry.Locus (Locus (..))
+import Geometry.Locus qualified as Locus
 import Geometry.Shape (Circle (..), Line (..), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Tangent qualified as Tangent
@@ -43,11 +45,9 @@ touchingLines (ts, a) (us, b) = distinct [l | t <- senses a ts, u <- senses b us
 
 -- | The circles of a radius that touch two things: at most two.
 circles :: Mm -> Touched -> Touched -> [Circle]
-circles r a b = [Circle c r | Just la <- [locus r a], Just lb <- [locus r b], c <- common la lb]
+circles r a b = [Circle c r | Just la <- [locus r a], Just lb <- [locus r b], c <- Locus.common la lb]
 
 -- | Where the centre may lie.
-data Locus = LineLocus Line | CircleLocus Circle
-
 locus :: Mm -> Touched -> Maybe Locus
 locus r@(Mm radius) touched = case touched of
   Through p -> Just (CircleLocus (Circle p r))
@@ -59,20 +59,6 @@ locus r@(Mm radius) touched = case touched of
     | otherwise -> Nothing
     where
       gap = max (minus rc r) (minus r rc)
-
-common :: Locus -> Locus -> [Point]
-common a b = case meeting of
-  Apart _ -> []
-  Same -> []
-  Touching p -> [p]
-  CrossingOnce p -> [p]
-  Crossing p q -> [p, q]
-  where
-    meeting = case (a, b) of
-      (LineLocus l, LineLocus m) -> Intersect.lines l m
-      (LineLocus l, CircleLocus c) -> Intersect.lineCircle l c
-      (CircleLocus c, LineLocus l) -> Intersect.lineCircle l c
-      (CircleLocus c, CircleLocus d) -> Intersect.circles c d
 
 -- | The circle through three points, unless they lie on one line.
 through :: Point -> Point -> Point -> Maybe Circle

@@ -7,9 +7,9 @@ module Geometry.Fillet
 where
 
 import Base.Quantity (Mm (..), minus, plus)
-import Geometry.Intersect (Meeting (..))
-import Geometry.Intersect qualified as Intersect
-import Geometry.Shape (Circle (..), Line, Turn (..), Walked (..))
+import Geometry.Locus (Locus (..))
+import Geometry.Locus qualified as Locus
+import Geometry.Shape (Circle (..), Turn (..), Walked (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
@@ -25,14 +25,12 @@ between radius turn a b =
   [ Fillet {middle = c, start, end}
     | Just la <- [locus radius turn a],
       Just lb <- [locus radius turn b],
-      c <- common la lb,
+      c <- Locus.common la lb,
       Just start <- [touch radius turn a c],
       Just end <- [touch radius turn b c]
   ]
 
 -- | Where the centre of an arc can lie that touches an element in its direction.
-data Locus = LineLocus Line | CircleLocus Circle
-
 locus :: Mm -> Turn -> Walked -> Maybe Locus
 locus radius@(Mm r) turn walked = case walked of
   OnLine l -> Just (LineLocus (Shape.parallelAt (Mm (Shape.sense turn * r)) l))
@@ -43,20 +41,6 @@ locus radius@(Mm r) turn walked = case walked of
     where
       gap = max (minus rc radius) (minus radius rc)
   AtPoint _ -> Nothing
-
-common :: Locus -> Locus -> [Point]
-common a b = case meeting of
-  Apart _ -> []
-  Same -> []
-  Touching p -> [p]
-  CrossingOnce p -> [p]
-  Crossing p q -> [p, q]
-  where
-    meeting = case (a, b) of
-      (LineLocus l, LineLocus m) -> Intersect.lines l m
-      (LineLocus l, CircleLocus c) -> Intersect.lineCircle l c
-      (CircleLocus c, LineLocus l) -> Intersect.lineCircle l c
-      (CircleLocus c, CircleLocus d) -> Intersect.circles c d
 
 -- | Where an arc about a centre touches the element.
 touch :: Mm -> Turn -> Walked -> Point -> Maybe Point
