@@ -116,7 +116,7 @@ lone :: Walk -> Either Fact [Element]
 lone Walk {place, shape, finish, link} = case (shape, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
-    Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place finish]
+    Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place finish False]
   (OnLine _, _) -> Left (LoneElement place shape)
   (AtPoint _, _) -> Left (LoneElement place shape)
 
@@ -263,7 +263,7 @@ elementsOf walks begin before route = go walks begin before (reverse (taken rout
   where
     go ws at came js = case (ws, js) of
       (Walk {place, shape, finish, link} : rest, joint : more) ->
-        [Element s place finish | Just s <- [stretch shape came (inserted joint) at (leave joint)]]
-          <> [Element s (maybe place fst link) plainFinish | Just s <- [inserted joint]]
+        [Element s place finish False | Just s <- [stretch shape came (inserted joint) at (leave joint)]]
+          <> [Element s (maybe place fst link) plainFinish False | Just s <- [inserted joint]]
           <> go rest (enter joint) (inserted joint) more
       _ -> []

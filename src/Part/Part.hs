@@ -60,7 +60,14 @@ data Contour = Contour {contourName :: Located Name, ends :: Ends, elements :: N
   deriving stock (Eq, Show)
 
 -- | A segment, the element or the link of the program that it came from, and what is asked on it.
-data Element = Element {segment :: Segment, origin :: Region, finish :: Finish}
+data Element = Element
+  { segment :: Segment,
+    origin :: Region,
+    finish :: Finish,
+    -- | it goes on, without a corner, with the curve of the element before: one of the arcs that a curve is
+    -- replaced by
+    continues :: Bool
+  }
   deriving stock (Eq, Show)
 
 -- | What is asked on one element.

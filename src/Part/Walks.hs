@@ -89,7 +89,7 @@ walksOf at walk v finish link = case (v, walk) of
       [] -> []
       [e] -> [walkOf e link]
       e : rest -> walkOf e (Just (at, Fixed (Segment.end (Part.segment e)))) : chained rest
-    walkOf (Part.Element s origin own) link' =
+    walkOf (Part.Element s origin own _) link' =
       Chain.Walk {Chain.place = origin, Chain.shape = shapeOf s, Chain.begins = Just (Segment.start s), Chain.stops = Just (Segment.end s), Chain.finish = merged own, Chain.link = link'}
     -- What is asked on the whole counts where its elements ask nothing.
     merged own =
