@@ -80,6 +80,23 @@ name builtin = case builtin of
   LengthOf -> "length_of"
   XOf -> "x_of"
   YOf -> "y_of"
+  MakeSpline -> "spline"
+  ClosedSpline -> "closed_spline"
+  Polyline -> "polyline"
+  Parabola -> "parabola"
+  Biarcs -> "arcs"
+  ClosedBiarcs -> "closed_arcs"
+  Fit -> "fit"
+  Sections -> "sections"
+  RowsOf -> "rows_of"
+  PointAtX -> "point_at_x"
+  PointAlong -> "point_along"
+  LengthAlong -> "length_along"
+  StartOf -> "start_of"
+  EndOf -> "end_of"
+  TangentOf -> "tangent_of"
+  NormalOf -> "normal_of"
+  CurvatureOf -> "curvature_of"
   Moved -> "moved"
   Rotated -> "rotated"
   Mirrored -> "mirrored"
@@ -116,13 +133,13 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Polar -> [Form [length', angle] (Spatial d)]
   Intersection ->
     [ Form ([given (word a) a, given (word b) b] <> selector) Type.aPoint
-      | a <- [Line, Circle],
-        b <- [Line, Circle],
-        selector <- [] : [[Parameter Rank "" Wrong] | a == Line || b == Line] <> map pure chosen
+      | a <- [Line, Circle, Curve anything],
+        b <- [Line, Circle, Curve anything],
+        selector <- [] : [[Parameter Rank "" Wrong] | a /= Circle || b /= Circle] <> map pure chosen
     ]
   CentreOf -> [Form [circle] Type.aPoint]
   Midpoint -> [Form [given "first" Type.aPoint, given "second" Type.aPoint] Type.aPoint]
-  Foot -> [Form [point, line] Type.aPoint]
+  Foot -> [Form [point, line] Type.aPoint, Form [point, curve] Type.aPoint]
   Tangency ->
     [Form [given (word a) a, given (word b) b] Type.aPoint | (a, b) <- [(Line, Circle), (Circle, Line), (Circle, Circle)]]
       <> [Form [point, c] Type.aPoint | c <- circle : sided "circle" Circle]
@@ -147,18 +164,35 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Concentric -> [Form [circle, given "distance" Type.len] Circle]
   Distance ->
     [ Form [given (word a) a, given (word b) b] Type.len
-      | (a, b) <- [(Type.aPoint, Type.aPoint), (Type.aPoint, Line), (Line, Type.aPoint), (Line, Line)]
+      | (a, b) <- [(Type.aPoint, Type.aPoint), (Type.aPoint, Line), (Line, Type.aPoint), (Line, Line), (Type.aPoint, Curve anything), (Curve anything, Type.aPoint)]
     ]
   DirectionOf -> [Form [line] Type.angle, Form [given "vector" Type.aVector] Type.angle]
   RadiusOf -> [Form [circle] Type.len]
-  LengthOf -> [Form [given "contour" Contour] Type.len, Form [line] Type.len, Form [given "vector" Type.aVector] Type.len]
+  LengthOf -> [Form [given "contour" Contour] Type.len, Form [line] Type.len, Form [given "vector" Type.aVector] Type.len, Form [curve] Type.len]
   XOf -> [Form [given "point" (Spatial d)] Type.len]
   YOf -> [Form [given "point" (Spatial d)] Type.len]
+  MakeSpline -> laid [] <> laid [given "first_direction" Type.angle, given "last_direction" Type.angle]
+  ClosedSpline -> laid []
+  Polyline -> laid []
+  Parabola -> laid []
+  Biarcs -> laid [] <> [Form [curve, tolerance] (Curve (Fields []))]
+  ClosedBiarcs -> laid []
+  Fit -> laid [tolerance]
+  Sections -> laid [given "rows" (ListOf (ListOf Type.number))]
+  RowsOf -> [Form [table', given "numbers" (ListOf Type.number)] (Table anything)]
+  PointAtX -> [Form ([curve, given "x" Type.len] <> selector) Type.aPoint | selector <- [] : [Parameter Rank "" Wrong] : map pure chosen]
+  PointAlong -> [Form [curve, given "length" Type.len] Type.aPoint]
+  LengthAlong -> [Form [curve, point] Type.len]
+  StartOf -> [Form [curve] Type.aPoint]
+  EndOf -> [Form [curve] Type.aPoint]
+  TangentOf -> [Form [curve, point] Type.angle]
+  NormalOf -> [Form [curve, point] Type.angle]
+  CurvatureOf -> [Form [curve, point] (Quantity (Dimension.power (-1) (Type.dimensionOf Type.len)))]
   Moved -> transforming [[given "by" Type.aVector]]
   Rotated -> transforming [[angle], [angle, given "about" Type.aPoint]]
   Mirrored -> transforming [[given "axis" Line]]
   Scaled -> transforming [[given "factor" Type.number], [given "factor" Type.number, given "about" Type.aPoint]]
-  Reversed -> [Form [given (word t) t] t | t <- [Contour, Line]] <> [Form [given "list" (ListOf anything)] (ListOf anything)]
+  Reversed -> [Form [given (word t) t] t | t <- [Contour, Line, Curve anything]] <> [Form [given "list" (ListOf anything)] (ListOf anything)]
   Row -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number] points]
   Grid -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number, given "other_step" Type.aVector, given "rows" Type.number] points]
   Around ->
@@ -188,6 +222,11 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     point = given "point" Type.aPoint
     line = given "line" Line
     circle = given "circle" Circle
+    curve = given "curve" (Curve anything)
+    table' = given "table" (Table anything)
+    tolerance = Parameter (Word UpTo) "tolerance" Type.len
+    -- Through the points of a table, or through points without anything else.
+    laid more = [Form (table' : more) (Curve anything), Form (given "points" points : more) (Curve (Fields []))]
     points = ListOf Type.aPoint
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
@@ -198,7 +237,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     -- Of a thing the thing moved; of nothing the motion itself.
     transforming extra =
       concat
-        [ Form more Placement : [Form (given "what" t : more) t | t <- [Type.aPoint, Circle, Line, Contour, ListOf Type.aPoint, ListOf Circle, ListOf Line, ListOf Contour]]
+        [ Form more Placement : [Form (given "what" t : more) t | t <- [Type.aPoint, Circle, Line, Contour, Curve anything, ListOf (Curve anything), ListOf Type.aPoint, ListOf Circle, ListOf Line, ListOf Contour]]
           | more <- extra
         ]
 
@@ -216,6 +255,7 @@ written builtin form = name builtin <> "(" <> Text.intercalate ", " (map paramet
       ToRight -> "right"
       Within' -> "inside"
       Beyond -> "outside"
+      UpTo -> "within"
 
 -- | The forms of a function as calls, for a reader.
 formsOf :: Builtin -> [Text]

@@ -62,6 +62,22 @@ data Error
     RepeatedSetting Region Text Region
   | -- | a tolerance of an assertion that is no comparison
     WithinNothing Region
+  | -- | a table whose first line does not name its columns
+    HeadingsMissing Region
+  | -- | names of columns further down
+    HeadingsAgain Region
+  | -- | a column named twice; where it stands first
+    ColumnTwice Region Name Region
+  | -- | a table without one of the columns x and y
+    ColumnMissing Region Name
+  | -- | a row: its number from 1, how many columns there are, how many cells it has
+    RowLength Region Int Int Int
+  | -- | the digit of a cipher that there is not
+    NoSuchCipher Region Text
+  | -- | a cipher with a wrong number of values: its digit, how many
+    CipherMisfit Region Text Int
+  | -- | a name in a cipher that is neither a column nor a value; the columns
+    NoColumn Region Name [Text]
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
@@ -171,6 +187,44 @@ toReport err = case err of
     (at region "E0222" (quote setting <> " is given twice"))
       { others = [Label before "first given here"]
       }
+  HeadingsMissing region ->
+    (at region "E0224" "the first line of a table names its columns")
+      { hints = ["Write above the numbers, for example: x y mu deg H"]
+      }
+  HeadingsAgain region ->
+    (at region "E0224" "the columns of this table are named already")
+      { hints = ["A row has a number for each column; a value in words stands in brackets: (2 * h)."]
+      }
+  ColumnTwice region (Name name) before ->
+    (at region "E0225" ("the table has two columns " <> quote name))
+      { others = [Label before "the first one"]
+      }
+  ColumnMissing region (Name name) ->
+    (at region "E0225" ("the table has no column " <> quote name))
+      { hints = ["Every table has columns x and y; others may follow."]
+      }
+  RowLength region number columns cells ->
+    (at region "E0226" ("row " <> Decimal.whole number <> " has " <> counted cells "cell" <> ", but the table has " <> counted columns "column"))
+      { hints = ["A row stands on one line. A value that is no plain number stands in brackets: (2 * h)."]
+      }
+  NoSuchCipher region digit ->
+    (at region "E0227" ("there is no cipher " <> digit))
+      { message = ["This was control stop 14441 of the Minsk-22 system: the cipher is not provided for."],
+        hints = ["The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel and height), 6 (a distance at each point)."]
+      }
+  CipherMisfit region digit count ->
+    (at region "E0228" ("cipher " <> digit <> " does not work with " <> counted count "value"))
+      { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
+        hints = ["Write " <> Text.intercalate ", or " (cipherForms digit) <> "."]
+      }
+  NoColumn region (Name name) columns ->
+    (at region "E0229" ("the curve has no column " <> quote name))
+      { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
+        hints = case (Name.nearest name columns, columns) of
+          (w : _, _) -> ["Did you mean " <> quote w <> "?"]
+          ([], []) -> ["The table of the curve has only the columns x and y: name more of them in its first line."]
+          ([], _) -> ["Its columns are " <> Text.intercalate ", " columns <> "."]
+      }
   WithinNothing region ->
     (at region "E0223" "‘within’ needs two values that are to be equal")
       { hints = ["Write: assert a = b within d"]
@@ -179,6 +233,17 @@ toReport err = case err of
     (at region "E0214" (quote name <> " is used in its own definition"))
       { message = ["Every program must come to an end, so a definition uses only what stands above it."]
       }
+
+-- | How a cipher is written.
+cipherForms :: Text -> [Text]
+cipherForms digit = case digit of
+  "1" -> ["1(from, to)", "1(from, to, mu)", "1(from, to, start_point, end_point)"]
+  "2" -> ["2(distance)", "2(distance, mu)"]
+  "4" -> ["4(mu, height)", "4(mu, height, allowance)"]
+  _ -> ["6(distance)", "6(distance, mu)"]
+
+counted :: Int -> Text -> Text
+counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
 at :: Region -> Code -> Text -> Report
 at region code = report Error code (InSource region)

@@ -17,6 +17,8 @@ import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Infer (Infer, Solution)
 import Checked.Infer qualified as Infer
+import Checked.Piece (unitType)
+import Checked.Piece qualified as Piece
 import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Pending (..))
 import Checked.Settings (settings)
 import Checked.Settings qualified as Settings
@@ -35,7 +37,7 @@ import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
-import Surface.Token (Numeral (..), Unit (..))
+import Surface.Token (Numeral (..))
 
 -- | A term that is known when the whole program has been looked at.
 type Later a = Solution -> a
@@ -73,6 +75,9 @@ definition (Located _ s) = case s of
   Surface.LetFunction n _ _ -> [(value n, region n)]
   Surface.Param n _ -> [(value n, region n)]
   Surface.Contour n _ _ -> [(value n, region n)]
+  Surface.Table n _ -> [(value n, region n)]
+  Surface.Curve n _ -> [(value n, region n)]
+  Surface.Piece n _ _ _ _ -> [(value n, region n)]
   Surface.Broken _ (Just n) -> [(value n, region n)]
   _ -> []
 
@@ -94,8 +99,8 @@ statement defined (Located at s) = case s of
     Surface.Between a b -> (\a' b' sol -> Checked.Between (a' sol) (b' sol)) <$> expect defined Type.len a <*> expect defined Type.len b
   Surface.Clearance e -> one Checked.Clearance (expect defined Type.len e)
   Surface.From e -> one Checked.From (spot defined e)
-  Surface.LetValue name e -> binding name e
-  Surface.Param name e -> binding name e
+  Surface.LetValue name e -> binding name (infer defined e)
+  Surface.Param name e -> binding name (infer defined e)
   Surface.LetFunction name parameters e -> do
     checked <- Infer.separately (unused name *> function defined name parameters e)
     defining name fst checked
@@ -104,6 +109,15 @@ statement defined (Located at s) = case s of
     checked <- Infer.separately (unused name *> mapM (item defined) items)
     defining name (const (Value (region name) Type.Contour)) checked
     pure (plain (\items' sol -> Checked.Contour name closure (map ($ sol) items')) checked)
+  Surface.Table name written -> do
+    checked <- Infer.separately (unused name *> Piece.table (checker defined) name (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> []))
+    defining name (\(t, _) -> Value (region name) t) checked
+    pure (plain (\(_, columns) sol -> Checked.Table name (columns sol)) checked)
+  Surface.Curve name e -> binding name (curve defined e)
+  Surface.Piece name e ciphers side joggles -> do
+    checked <- Infer.separately (unused name *> piece defined e ciphers joggles)
+    defining name (\(t, _) -> Value (region name) t) checked
+    pure (plain (\(_, (e', ciphers', joggles')) sol -> Checked.Piece name (e' sol) (map ($ sol) ciphers') side (map ($ sol) joggles')) checked)
   Surface.Assert e within -> one Checked.Assert (assertion defined e within)
   Surface.Mill e side options -> machining Checked.Mill "mill" e side options
   Surface.Turn e side options -> machining Checked.Turn "turn" e side options
@@ -138,8 +152,8 @@ statement defined (Located at s) = case s of
   where
     plain f = fmap (\x sol -> Located at (f x sol))
     one make inside = plain (\x sol -> make (x sol)) <$> Infer.separately inside
-    binding name e = do
-      checked <- Infer.separately (unused name *> infer defined e)
+    binding name inside = do
+      checked <- Infer.separately (unused name *> inside)
       defining name (\(t, _) -> Value (region name) t) checked
       d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Infer.known . fst) checked
       pure (plain (\(_, e') sol -> Checked.LetValue name (sol d) (e' sol)) checked)
@@ -163,6 +177,26 @@ statement defined (Located at s) = case s of
       catMaybes <$> mapM (statement (inner body)) body
     inner body = Map.union (Map.fromListWith (\_ first -> first) (concatMap definition body)) defined
 
+checker :: Defined -> Piece.Checker
+checker defined = Piece.Checker (expect defined)
+
+-- | A curve, of whatever table.
+curve :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+curve defined e = do
+  t <- Type.Curve <$> Infer.freshType
+  e' <- expect defined t e
+  Infer.settle
+  pure (t, e')
+
+-- | A curve with its recalculations and joggles.
+piece :: Defined -> Surface.Expr -> [Surface.Cipher] -> [Surface.Joggle] -> Infer (Type, (Later Checked.Expr, [Later Checked.Cipher], [Later Checked.Joggle]))
+piece defined e ciphers joggles = do
+  (t, e') <- curve defined e
+  columns <- Piece.columnsOf t
+  ciphers' <- catMaybes <$> mapM (Piece.cipher (checker defined) columns) ciphers
+  joggles' <- mapM (Piece.joggle (checker defined)) joggles
+  pure (t, (e', ciphers', joggles'))
+
 -- | What a reader is told of a name.
 meaningOf :: Entry -> Maybe Infer.Meaning
 meaningOf entry = case entry of
@@ -182,6 +216,8 @@ cutter defined (Located at c) = fmap (Located at .) $ case c of
   Surface.MillCutter e -> (Checked.MillCutter .) <$> expect defined Type.len e
   Surface.DrillCutter e -> (Checked.DrillCutter .) <$> expect defined Type.len e
   Surface.TurningCutter e -> (Checked.TurningCutter .) <$> expect defined Type.len e
+  Surface.ConeCutter d a h -> (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol)) <$> expect defined Type.len d <*> expect defined Type.angle a <*> expect defined Type.len h
+  Surface.BladeCutter d g -> (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol)) <$> expect defined Type.len d <*> expect defined Type.len g
 
 -- | Something that has to be true, or two quantities that have to be equal.
 assertion :: Defined -> Surface.Expr -> Maybe Surface.Expr -> Infer (Later Checked.Assertion)
@@ -287,19 +323,22 @@ item defined (Located at i) = case i of
     others' <- mapM (item defined) others
     pure (\sol -> Located at (Checked.Choose (e' sol) (map ($ sol) items') (map ($ sol) others')))
   Surface.Element walk e modifiers link -> do
-    e' <- walked defined walk e
-    modifiers' <- mapM (modified defined) modifiers
+    (t, e') <- walked defined walk e
+    columns <- Piece.columnsOf t
+    modifiers' <- mapM (modified defined columns) modifiers
     link' <- traverse (linked defined) link
     pure (\sol -> Located at (Checked.Element (value <$> walk) (e' sol) (map ($ sol) modifiers') (($ sol) <$> link')))
 
-modified :: Defined -> Surface.Modifier -> Infer (Later Checked.Modifier)
-modified defined (Located at m) = fmap (Located at .) $ case m of
+-- | What is asked on an element with these columns.
+modified :: Defined -> [(Text, Type)] -> Surface.Modifier -> Infer (Later Checked.Modifier)
+modified defined columns (Located at m) = fmap (Located at .) $ case m of
   Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect defined Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect defined Type.len e
+  Surface.Bevel e -> (Checked.Bevel .) <$> Piece.withColumns (region e) columns (expect defined Type.angle e)
 
--- | A circle with its sense, or a line, a point or a contour without one.
-walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Later Checked.Expr)
+-- | A circle with its sense, or a line, a point, a curve or a contour without one.
+walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 walked defined walk e = do
   (t, e') <- infer defined e
   t' <- Infer.known t
@@ -308,6 +347,8 @@ walked defined walk e = do
     (Type.Circle, Just _) -> pure ()
     (Type.Line, Nothing) -> pure ()
     (Type.Contour, Nothing) -> pure ()
+    (Type.Curve _, Nothing) -> pure ()
+    (Type.Curve _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
     (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
     (Type.Line, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
     (Type.Contour, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
@@ -315,7 +356,7 @@ walked defined walk e = do
     (Type.Variable _, Just _) -> equal (region e) Type.Circle t
     (Type.Wrong, _) -> pure ()
     _ -> Infer.mistake (NotWalkable (region e) t')
-  pure e'
+  pure (t, e')
 
 linked :: Defined -> Surface.Link -> Infer (Later Checked.Link)
 linked defined (Located at l) = fmap (Located at .) $ case l of
@@ -547,19 +588,3 @@ valueOf argument = case argument of
   Surface.Given e -> [e]
   Surface.Chosen _ e -> [e]
   Surface.Ranked _ -> []
-
--- Units
-
--- | What a unit measures, and its size in mm, radians and minutes.
-unitType :: Unit -> (Type, Double)
-unitType unit = case unit of
-  Millimetre -> (Type.len, 1)
-  Centimetre -> (Type.len, 10)
-  Metre -> (Type.len, 1000)
-  Inch -> (Type.len, 25.4)
-  Degree -> (Type.angle, pi / 180)
-  Radian -> (Type.angle, 1)
-  MmPerMin -> (Type.feed, 1)
-  MPerMin -> (Type.feed, 1000)
-  InPerMin -> (Type.feed, 25.4)
-  Rpm -> (Type.turns, 1)

@@ -208,18 +208,7 @@ knownDimension :: Dimension -> Infer Dimension
 knownDimension d = gets (\m -> resolveDimension (dimensions m) d)
 
 resolve :: Memory -> Type -> Type
-resolve m t = case t of
-  Quantity d -> Quantity (resolveDimension (dimensions m) d)
-  Spatial d -> Spatial (resolveDimension (dimensions m) d)
-  ListOf inner -> ListOf (resolve m inner)
-  Variable n -> maybe t (resolve m) (IntMap.lookup n (types m))
-  Circle -> t
-  Line -> t
-  Contour -> t
-  Truth' -> t
-  Space -> t
-  Placement -> t
-  Wrong -> t
+resolve m t = Type.replaced (resolveDimension (dimensions m)) (\n -> maybe (Variable n) (resolve m) (IntMap.lookup n (types m))) t
 
 resolveDimension :: IntMap Dimension -> Dimension -> Dimension
 resolveDimension bound d = case [(n, b) | n <- Dimension.unknowns d, Just b <- [IntMap.lookup n bound]] of
@@ -232,16 +221,9 @@ decidedAt t = gets (\m -> listToMaybe (places m t))
   where
     places m t' = case t' of
       Variable n -> mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (places m) (IntMap.lookup n (types m))
-      ListOf _ -> []
       Quantity d -> ofDimension m d
       Spatial d -> ofDimension m d
-      Circle -> []
-      Line -> []
-      Contour -> []
-      Truth' -> []
-      Space -> []
-      Placement -> []
-      Wrong -> []
+      _ -> []
     ofDimension m d =
       concat
         [ mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (ofDimension m) (IntMap.lookup n (dimensions m))
@@ -273,6 +255,10 @@ unify region a b = do
     (Quantity d, Quantity e) -> unifyDimensions region d e
     (Spatial d, Spatial e) -> unifyDimensions region d e
     (ListOf c, ListOf d) -> unify region c d
+    (Table c, Table d) -> unify region c d
+    (Curve c, Curve d) -> unify region c d
+    (Fields cs, Fields ds)
+      | map fst cs == map fst ds -> and <$> sequence (zipWith (\(_, c) (_, d) -> unify region c d) cs ds)
     _ -> pure (a' == b')
   where
     bind n t
@@ -376,18 +362,7 @@ mostOpen = 50
 instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
 instantiate use scheme = do
   renamed <- traverse (const freshNumber) (IntMap.fromSet id (general scheme))
-  let type' t = case t of
-        Quantity d -> Quantity (dimension d)
-        Spatial d -> Spatial (dimension d)
-        ListOf inner -> ListOf (type' inner)
-        Variable n -> Variable (IntMap.findWithDefault n n renamed)
-        Circle -> t
-        Line -> t
-        Contour -> t
-        Truth' -> t
-        Space -> t
-        Placement -> t
-        Wrong -> t
+  let type' = Type.replaced dimension (\n -> Variable (IntMap.findWithDefault n n renamed))
       dimension d = foldl (\d' n -> Dimension.substitute n (fresh n) d') d (Dimension.unknowns d)
       fresh n = Dimension.atom (Dimension.Unknown (IntMap.findWithDefault n n renamed))
       operation op = case op of
@@ -520,6 +495,8 @@ mayBe found' wanted = case (found', wanted) of
   (Quantity d, Quantity e) -> dimensionMayBe d e
   (Spatial d, Spatial e) -> dimensionMayBe d e
   (ListOf a, ListOf b) -> mayBe a b
+  (Table a, Table b) -> mayBe a b
+  (Curve a, Curve b) -> mayBe a b
   _ -> False
   where
     dimensionMayBe d e = d == e || not (Dimension.isKnown d) || not (Dimension.isKnown e)

@@ -7,6 +7,11 @@ module Checked.Syntax
     Statement_ (..),
     Cutter,
     Cutter_ (..),
+    Columns (..),
+    Cipher,
+    Cipher_ (..),
+    Joggle,
+    Joggle_ (..),
     Accuracy (..),
     Spin (..),
     Assertion (..),
@@ -74,6 +79,9 @@ data Statement_
   | -- | with the dimension of its quantities
     LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
+  | Table (Located Name) Columns
+  | -- | the curve, the columns of its table, its recalculations, the side, the joggles
+    Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
   | Contour (Located Name) Closure [Item]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
@@ -91,10 +99,43 @@ data Statement_
   | With Expr [Statement]
   deriving stock (Eq, Show)
 
+-- | The columns of a table besides x and y with their dimensions, and its rows: x, y, and the others in order.
+data Columns = Columns [(Name, Dimension)] [Located [Expr]]
+  deriving stock (Eq, Show)
+
+type Cipher = Located Cipher_
+
+-- | The recalculations of a curve (Kolsanova, section 5). Lengths and angles may name columns: their values
+-- go along the curve.
+data Cipher_
+  = -- | 1: a distance that changes uniformly along the curve, from one to another; the bevel if it is measured
+    -- square to the surface; between two points of the curve, or along all of it
+    Growing Expr Expr (Maybe Expr) (Maybe (Expr, Expr))
+  | -- | 2: one distance, square to the surface if there is a bevel
+    Constant Expr (Maybe Expr)
+  | -- | 4: what the bevel makes of the height, and an allowance
+    Bevelled Expr Expr (Maybe Expr)
+  | -- | 6: a distance for each point, square to the surface if there is a bevel
+    Pointwise Expr (Maybe Expr)
+  deriving stock (Eq, Show)
+
+type Joggle = Located Joggle_
+
+-- | From where to where along x, how deep, with what radius.
+data Joggle_ = Joggle Expr Expr Expr Expr
+  deriving stock (Eq, Show)
+
 type Cutter = Located Cutter_
 
 -- | A mill or a drill by its diameter, a turning tool by the radius of its nose.
-data Cutter_ = MillCutter Expr | DrillCutter Expr | TurningCutter Expr
+data Cutter_
+  = MillCutter Expr
+  | DrillCutter Expr
+  | TurningCutter Expr
+  | -- | by its diameter, its angle, the height of what it cuts
+    ConeCutter Expr Expr Expr
+  | -- | by its diameter and that of the wheel that swivels it
+    BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
 data Accuracy = Within Expr | Between Expr Expr
@@ -176,6 +217,23 @@ data Builtin
   | LengthOf
   | XOf
   | YOf
+  | MakeSpline
+  | ClosedSpline
+  | Polyline
+  | Parabola
+  | Biarcs
+  | ClosedBiarcs
+  | Fit
+  | Sections
+  | RowsOf
+  | PointAtX
+  | PointAlong
+  | LengthAlong
+  | StartOf
+  | EndOf
+  | TangentOf
+  | NormalOf
+  | CurvatureOf
   | Moved
   | Rotated
   | Mirrored
@@ -212,7 +270,7 @@ data Item_
 
 type Modifier = Located Modifier_
 
-data Modifier_ = AtElementFeed Expr | Slow | ElementAllowance Expr
+data Modifier_ = AtElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
   deriving stock (Eq, Show)
 
 type Link = Located Link_

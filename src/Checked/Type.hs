@@ -13,6 +13,8 @@ module Checked.Type
     dimensions,
     dimensionOf,
     variables,
+    inner,
+    replaced,
   )
 where
 
@@ -37,6 +39,12 @@ data Type
   | -- | a motion of the plane
     Placement
   | ListOf Type
+  | -- | rows of values, by its columns
+    Table Type
+  | -- | by the columns of the table that it was made of
+    Curve Type
+  | -- | columns with their names, besides x and y
+    Fields [(Text, Type)]
   | -- | not yet known
     Variable Int
   | -- | the type of a thing that is already reported as wrong; agrees with everything
@@ -67,15 +75,26 @@ describe t = case t of
   Truth' -> "true or false"
   Space -> "a point with a height"
   Placement -> "a transformation"
-  ListOf inner -> case inner of
-    Quantity d | Dimension.isKnown d -> "a list of " <> plural inner
-    Spatial d | Dimension.isKnown d -> "a list of " <> plural inner
+  Table columns -> "a table" <> besides columns
+  Curve columns -> "a curve" <> besides columns
+  Fields _ -> "columns"
+  ListOf item -> case item of
+    Quantity d | Dimension.isKnown d -> "a list of " <> plural item
+    Spatial d | Dimension.isKnown d -> "a list of " <> plural item
     Circle -> "a list of circles"
     Line -> "a list of lines"
     Contour -> "a list of contours"
+    Curve _ -> "a list of curves"
+    ListOf (Quantity d) | d == Dimension.none -> "a list of lists of numbers"
     _ -> "a list"
   Variable _ -> "a value"
   Wrong -> "a value"
+
+-- | The columns of a table besides x and y.
+besides :: Type -> Text
+besides t = case t of
+  Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
+  _ -> ""
 
 -- | Several of a known kind.
 plural :: Type -> Text
@@ -95,7 +114,7 @@ isSquare t = case t of
 dimensionOf :: Type -> Dimension
 dimensionOf t = case t of
   Quantity d -> d
-  ListOf inner -> dimensionOf inner
+  ListOf item -> dimensionOf item
   _ -> Dimension.none
 
 -- | The unknown dimensions in a type.
@@ -103,7 +122,23 @@ dimensions :: Type -> [Int]
 dimensions t = case t of
   Quantity d -> Dimension.unknowns d
   Spatial d -> Dimension.unknowns d
-  ListOf inner -> dimensions inner
+  _ -> concatMap dimensions (inner t)
+
+-- | The unknown types in a type.
+variables :: Type -> [Int]
+variables t = case t of
+  Variable n -> [n]
+  _ -> concatMap variables (inner t)
+
+-- | The types in a type, one level down.
+inner :: Type -> [Type]
+inner t = case t of
+  ListOf a -> [a]
+  Table a -> [a]
+  Curve a -> [a]
+  Fields columns -> map snd columns
+  Quantity _ -> []
+  Spatial _ -> []
   Circle -> []
   Line -> []
   Contour -> []
@@ -113,17 +148,22 @@ dimensions t = case t of
   Variable _ -> []
   Wrong -> []
 
--- | The unknown types in a type.
-variables :: Type -> [Int]
-variables t = case t of
-  Variable n -> [n]
-  ListOf inner -> variables inner
-  Quantity _ -> []
-  Spatial _ -> []
-  Circle -> []
-  Line -> []
-  Contour -> []
-  Truth' -> []
-  Space -> []
-  Placement -> []
-  Wrong -> []
+-- | A type with its dimensions and its unknown types replaced.
+replaced :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
+replaced dimension unknown t = case t of
+  Quantity d -> Quantity (dimension d)
+  Spatial d -> Spatial (dimension d)
+  Variable n -> unknown n
+  ListOf a -> ListOf (again a)
+  Table a -> Table (again a)
+  Curve a -> Curve (again a)
+  Fields columns -> Fields (map (fmap again) columns)
+  Circle -> t
+  Line -> t
+  Contour -> t
+  Truth' -> t
+  Space -> t
+  Placement -> t
+  Wrong -> t
+  where
+    again = replaced dimension unknown

@@ -35,6 +35,9 @@ symbol source (Located whole s) = case s of
   Param what _ -> named Value what "param"
   LetFunction what parameters _ -> named Function what ("(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")")
   Contour what _ _ -> named Contour' what ""
+  Table what _ -> named Value what "table"
+  Curve what _ -> named Value what "curve"
+  Piece what _ _ _ _ -> named Value what "piece"
   Mill what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
   Turn what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
   Drill places depth _ -> Just (unnamed (Region (start whole) (end (region depth))) (region places))

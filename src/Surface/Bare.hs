@@ -37,6 +37,10 @@ statement s = case s of
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) closure (map (moved item) items)
+  Table name (LinesOf file) -> Table (here name) (LinesOf (here file))
+  Table name (WrittenLines ls) -> Table (here name) (WrittenLines (map (moved line) ls))
+  Curve name e -> Curve (here name) (expr e)
+  Piece name e ciphers side joggles -> Piece (here name) (expr e) (map (moved cipher) ciphers) (here side) (map (moved joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
   Mill e side settings -> Mill (expr e) (here side) (map (moved setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (moved setting) settings)
@@ -52,11 +56,25 @@ statement s = case s of
   With e inside -> With (expr e) (statements inside)
   Broken word name -> Broken word (fmap here name)
 
+line :: Line_ -> Line_
+line l = case l of
+  Header columns -> Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)
+  Entries es -> Entries (fmap expr es)
+  BrokenLine -> BrokenLine
+
+cipher :: Cipher_ -> Cipher_
+cipher (Cipher digit es) = Cipher (here digit) (fmap expr es)
+
+joggle :: Joggle_ -> Joggle_
+joggle (Joggle from to depth radius) = Joggle (expr from) (expr to) (expr depth) (expr radius)
+
 cutter :: Cutter_ -> Cutter_
 cutter c = case c of
   MillCutter e -> MillCutter (expr e)
   DrillCutter e -> DrillCutter (expr e)
   TurningCutter e -> TurningCutter (expr e)
+  ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
+  BladeCutter d g -> BladeCutter (expr d) (expr g)
 
 expression :: Expr_ -> Expr_
 expression e = case e of
@@ -91,6 +109,7 @@ modifier m = case m of
   AtElementFeed e -> AtElementFeed (expr e)
   Slow -> Slow
   ElementAllowance e -> ElementAllowance (expr e)
+  Bevel e -> Bevel (expr e)
 
 linked :: Link_ -> Link_
 linked l = case l of

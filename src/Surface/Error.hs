@@ -40,6 +40,12 @@ data Error
     ImportMissing Region Text Text
   | -- | files that import one another, the first again at the end
     ImportCycle Region [Text]
+  | -- | a file for a table with nothing in it
+    EmptyTable Region
+  | -- | what should name a column, as it is written
+    BadHeading Region Text
+  | -- | what should be a number of a table, as it is written
+    BadCell Region Text
   | -- | a value from outside for a name that is no parameter; the parameters
     NoSuchParam Text [Text]
   | -- | a value from outside that is none: the parameter, its name, the text
@@ -122,6 +128,18 @@ toReport err = case err of
     (at region "E0113" "this file imports itself")
       { message = [Text.intercalate " imports " files <> "."],
         hints = ["Put what both need into a third file." | length files > 2]
+      }
+  EmptyTable region ->
+    (at region "E0117" "the file of a table is empty")
+      { hints = ["Its first line names the columns, its others have a number for each: x,y and below it 0,40"]
+      }
+  BadHeading region text ->
+    (at region "E0118" (quote text <> " cannot name a column"))
+      { hints = ["The first line of the file names the columns, with a unit if there is one: x,y,mu deg"]
+      }
+  BadCell region text ->
+    (at region "E0119" (if Text.null text then "a cell of the table is empty" else quote text <> " is not a number"))
+      { hints = ["Every line has a number for each column; the unit stands in the first line."]
       }
   NoSuchParam name known ->
     (report Error "E0114" InFile ("the program has no parameter " <> quote name))

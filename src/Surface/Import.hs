@@ -19,9 +19,10 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Csv qualified as Csv
 import Surface.Error (Error (..))
 import Surface.Parser qualified as Parser
-import Surface.Syntax (Program (..), Statement, Statement_ (..))
+import Surface.Syntax (Line, Lines (..), Program (..), Statement, Statement_ (..))
 import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeDirectory, (</>))
 
 -- | Reads a file, or says why it cannot be read.
@@ -64,6 +65,11 @@ imported reader stack path = fmap concat . mapM one
         let file = simple (takeDirectory path </> Text.unpack name)
         modify' (\p -> p {named = (at, Text.pack file) : named p})
         bring at file name
+      Located region (Table name (LinesOf (Located at file))) -> do
+        let path' = simple (takeDirectory path </> Text.unpack file)
+        modify' (\p -> p {named = (at, Text.pack path') : named p})
+        rows <- linesIn reader at path' file
+        pure [maybe (Located region (Broken (Just "table") (Just name))) (Located region . Table name . WrittenLines) rows]
       _ -> pure [s]
     bring at file name
       | file `elem` stack = mistake at (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))
@@ -81,6 +87,18 @@ imported reader stack path = fmap concat . mapM one
           put progress {texts = Region.add (Text.pack file) text (texts progress), seen = Set.insert file (seen progress), found = reverse errors <> found progress}
           filter defines <$> imported reader (file : stack) file (maybe [] statements output)
 
+-- | The lines of a table in a file. It may be read several times; each reading has places of its own.
+linesIn :: Monad m => Reader m -> Region -> FilePath -> Text -> StateT Progress m (Maybe [Line])
+linesIn reader at file name = do
+  content <- lift (reader file)
+  case content of
+    Left why -> Nothing <$ modify' (\p -> p {found = ImportMissing at name why : found p})
+    Right text -> do
+      progress <- get
+      let (errors, rows) = Csv.table (Region.next (texts progress)) text
+      put progress {texts = Region.add (Text.pack file) text (texts progress), found = reverse errors <> found progress}
+      pure (if null errors then Just rows else Nothing)
+
 -- | What is missing leaves a gap, so that nobody misses the names that it would have brought.
 mistake :: Monad m => Region -> Error -> StateT Progress m [Statement]
 mistake at e = [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
@@ -96,6 +114,9 @@ defines (Located _ s) = case s of
   LetFunction {} -> True
   Param _ _ -> True
   Contour {} -> True
+  Table _ _ -> True
+  Curve _ _ -> True
+  Piece {} -> True
   Broken _ (Just _) -> True
   Broken (Just "import") _ -> True
   _ -> False

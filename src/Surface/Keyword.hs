@@ -19,7 +19,7 @@ import Surface.Token (unitName)
 statements :: [Text]
 statements =
   ["part", "machine", "import", "tool", "feed", "tolerance", "clearance", "from"]
-    <> ["let", "param", "contour", "assert"]
+    <> ["let", "param", "table", "curve", "piece", "contour", "assert"]
     <> ["mill", "turn", "drill", "rapid", "move", "change", "spindle", "coolant", "aux", "with"]
 
 -- | The words that begin a statement with a block, and an item of a contour as well.
@@ -42,7 +42,7 @@ reservedWords =
   statements
     <> blocks
     <> ["open", "closed", "in", "cw", "ccw", "else", "then", "and", "or", "not"]
-    <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer", "slow", "allowance"]
+    <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer", "slow", "allowance", "bevel"]
     <> ["outside", "inside", "left", "right", "on", "first", "last", "approach", "retract"]
     <> filter (/= "in") (map unitName [minBound .. maxBound])
 

@@ -80,6 +80,9 @@ forms =
     ("let", definition),
     ("param", Param <$> name <* symbol "=" <*> expr),
     ("contour", contour),
+    ("table", Table <$> name <*> lines'),
+    ("curve", Curve <$> name <* symbol "=" <*> expr),
+    ("piece", piece),
     ("assert", Assert <$> expr <*> Parsec.optional (keyword "within" *> expr)),
     ("mill", machining "mill" Mill),
     ("turn", machining "turn" Turn),
@@ -115,9 +118,17 @@ machine = token "the name of a machine" machineOf
 
 -- | @mill(diameter 20 mm)@
 cutter :: Parser Cutter
-cutter = located (one "mill" "diameter" MillCutter <|> one "drill" "diameter" DrillCutter <|> one "turn" "nose" TurningCutter)
+cutter =
+  located $
+    one "mill" "diameter" MillCutter
+      <|> one "drill" "diameter" DrillCutter
+      <|> one "turn" "nose" TurningCutter
+      <|> (keyword "cone" *> parens (ConeCutter <$> measured "diameter" <*> further "bevel" <*> further "height"))
+      <|> (keyword "blade" *> parens (BladeCutter <$> measured "diameter" <*> further "gear"))
   where
-    one kind measure make = keyword kind *> parens (keyword measure *> (make <$> expr))
+    one kind measure make = keyword kind *> parens (make <$> measured measure)
+    measured measure = keyword measure *> expr
+    further measure = symbol "," *> measured measure
 
 accuracy :: Parser Accuracy
 accuracy = (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
@@ -141,6 +152,34 @@ contour = do
   what <- name
   closure <- (Closed <$ keyword "closed") <|> (Open <$ keyword "open")
   Contour what closure <$> block ("the contour " <> quoted (value what)) BrokenItem item
+
+-- | The lines of a table, in braces or in a file.
+lines' :: Parser Lines
+lines' = (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks"))) <|> (WrittenLines <$> block "the table" (const BrokenLine) line)
+
+-- | The columns of a table, or a value for each of them.
+line :: Parser Line_
+line = (Header <$> onLine column) <|> (Entries <$> onLine cell)
+  where
+    onLine p = (:|) <$> p <*> Parsec.many (onThisLine p)
+    column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
+    unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- [minBound .. maxBound]]
+    cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> number))) <|> parens expr
+
+-- | @skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@
+piece :: Parser Statement_
+piece = do
+  what <- name <* symbol "="
+  base <- expr
+  ciphers <- Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
+  side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right"))
+  Piece what base ciphers side <$> Parsec.many (located joggle)
+  where
+    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> (touching *> parens (expr `sepBy1` ","))
+    digit t = case shape t of
+      Number x Nothing -> Just x
+      _ -> Nothing
+    joggle = Joggle <$> (keyword "joggle" *> keyword "from" *> expr) <*> (keyword "to" *> expr) <*> (keyword "depth" *> expr) <*> (keyword "radius" *> expr)
 
 item :: Parser Item_
 item = repetition <|> choice <|> element
@@ -173,6 +212,7 @@ modifier =
   (keyword "feed" *> (AtElementFeed <$> expr))
     <|> (Slow <$ keyword "slow")
     <|> (keyword "allowance" *> (ElementAllowance <$> expr))
+    <|> (keyword "bevel" *> (Bevel <$> expr))
 
 link :: Parser Link_
 link =
@@ -278,8 +318,10 @@ factor = Parsec.hidden (located (Negate <$> (symbol "-" *> nested factor))) <|> 
 
 primary :: Parser Expr
 primary = (number <|> variableOrCall <|> pairOrGroup <|> list) <?> "a value"
+
+number :: Parser Expr
+number = located (token "a number" numberOf)
   where
-    number = located (token "a number" numberOf)
     numberOf t = case shape t of
       Number x unit -> Just (Literal x unit)
       _ -> Nothing
@@ -301,7 +343,7 @@ argument :: Parser Argument
 argument = Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
   where
     chosen = Chosen <$> located (Parsec.choice [c <$ keyword k | (k, c) <- choices]) <*> expr
-    choices = [("near", Near), ("left", ToLeft), ("right", ToRight), ("inside", Within'), ("outside", Beyond)]
+    choices = [("near", Near), ("left", ToLeft), ("right", ToRight), ("inside", Within'), ("outside", Beyond), ("within", UpTo)]
     ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
 
 -- | Only if a parenthesis follows without a space.

@@ -10,6 +10,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (Located))
 import Base.Region qualified as Region
+import Data.List (transpose)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
@@ -21,6 +22,7 @@ import Surface.PrintExpr qualified as PrintExpr
 import Surface.Row (Cells (..), Column (..), Row (..))
 import Surface.Row qualified as Row
 import Surface.Syntax
+import Surface.Token (unitName)
 
 -- | The text of a program.
 program :: Program -> Text
@@ -75,6 +77,10 @@ statement commented indent (Located _ s) = case s of
   LetFunction (Located _ (Name name)) parameters e -> defined ("let " <> name <> "(" <> names parameters <> ")") e
   Param (Located _ (Name name)) e -> defined ("param " <> name) e
   Contour (Located _ (Name name)) closure items -> braces indent (Text ("contour " <> name <> " " <> closureName closure)) (concatMap (item commented (indent + 2)) items)
+  Table (Located _ (Name name)) (LinesOf (Located _ file)) -> plain (Text ("table " <> name <> " from " <> quoted file))
+  Table (Located _ (Name name)) (WrittenLines ls) -> braces indent (Text ("table " <> name)) (table commented (indent + 2) ls)
+  Curve (Located _ (Name name)) e -> defined ("curve " <> name) e
+  Piece (Located _ (Name name)) e ciphers (Located _ side) joggles -> cells' Definitions indent (Text ("piece " <> name)) (words' [Text "=", piece commented e ciphers side joggles])
   Assert e within -> plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
   Mill e side settings -> machining "mill" e side settings
   Turn e side settings -> machining "turn" e side settings
@@ -107,6 +113,39 @@ statement commented indent (Located _ s) = case s of
       [Located _ (When c yes no)] -> Just (c, yes, no)
       _ -> Nothing
 
+-- | The lines of a table, their cells lined up.
+table :: Commented -> Int -> [Line] -> [Row]
+table commented indent ls = map row written
+  where
+    written = [cellsOf l | Located _ l <- ls, readable l]
+    row texts = Row {indent, cells = Whole (Text.stripEnd (Text.intercalate "  " (zipWith (\w -> Text.justifyLeft w ' ') (widths <> repeat 0) texts))), continues = False}
+    widths = map (maximum . map Text.length) (transpose written)
+    cellsOf l = case l of
+      Header columns -> [name <> maybe "" ((" " <>) . unitName) unit | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns]
+      Entries es -> map cell (NonEmpty.toList es)
+      BrokenLine -> []
+    readable l = case l of
+      BrokenLine -> False
+      Header _ -> True
+      Entries _ -> True
+    cell e = case Region.value e of
+      Literal _ _ -> text (PrintExpr.value commented e)
+      Negate (Located _ (Literal _ _)) -> text (PrintExpr.value commented e)
+      _ -> "(" <> text (PrintExpr.value commented e) <> ")"
+    text doc = Text.unwords (map Doc.text (Doc.lay 0 doc))
+
+piece :: Commented -> Expr -> [Cipher] -> Side -> [Joggle] -> Doc
+piece commented e ciphers side joggles =
+  Series (map PrintExpr.one ([value e] <> recalculations <> [Text (sideName side)] <> concatMap joggle joggles))
+  where
+    value = PrintExpr.value commented
+    recalculations = case zip ciphers (replicate (length ciphers - 1) "," <> [""]) of
+      [] -> []
+      (first, comma) : rest -> words' [Text "cipher", cipher first comma] : map (uncurry cipher) rest
+    cipher (Located region (Cipher (Located _ digit) es)) comma = Beside [PrintExpr.group' commented region (digits digit <> "(") es, Text comma]
+    joggle (Located _ (Joggle from to depth radius)) =
+      [words' [Text "joggle from", value from, Text "to", value to], words' [Text "depth", value depth], words' [Text "radius", value radius]]
+
 -- | @if c { … } else if d { … } else { … }@: what stands before the condition, how conditions and blocks are
 -- laid out, and whether a block is nothing but another choice.
 alternatives :: Int -> Doc -> (Expr -> Doc) -> ([a] -> [Row]) -> ([a] -> Maybe (Expr, [a], [a])) -> Expr -> [a] -> [a] -> [Row]
@@ -133,8 +172,11 @@ cutter commented (Located _ c) = case c of
   MillCutter e -> made "mill(diameter " e
   DrillCutter e -> made "drill(diameter " e
   TurningCutter e -> made "turn(nose " e
+  ConeCutter d a h -> Beside [Text "cone(diameter ", value d, Text ", bevel ", value a, Text ", height ", value h, Text ")"]
+  BladeCutter d g -> Beside [Text "blade(diameter ", value d, Text ", gear ", value g, Text ")"]
   where
-    made before e = Beside [Text before, PrintExpr.value commented e, Text ")"]
+    made before e = Beside [Text before, value e, Text ")"]
+    value = PrintExpr.value commented
 
 accuracy :: Commented -> Accuracy -> Doc
 accuracy commented a = case a of
@@ -194,6 +236,7 @@ modifier commented (Located _ m) = case m of
   AtElementFeed e -> words' [Text "feed", PrintExpr.value commented e]
   Slow -> Text "slow"
   ElementAllowance e -> words' [Text "allowance", PrintExpr.value commented e]
+  Bevel e -> words' [Text "bevel", PrintExpr.value commented e]
 
 linked :: Commented -> Link -> Doc
 linked commented (Located _ l) = case l of

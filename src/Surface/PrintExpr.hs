@@ -5,6 +5,7 @@ module Surface.PrintExpr
     value,
     element,
     list,
+    group',
     one,
     words',
   )
@@ -20,7 +21,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Doc (Doc (..), Piece (..))
 import Surface.Doc qualified as Doc
-import Surface.Syntax
+import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
 -- | Where the text that is laid out has comments: whether there is any between two offsets, and whether there is
@@ -147,6 +148,11 @@ bare commented (Located region e) = case e of
     group = Brackets (anywhere commented (start region) (end region))
     coordinates es = NonEmpty.toList (list commented (fmap (\x -> (Region.region x, sub x)) es))
 
+-- | Values with commas between them behind an opening bracket, with the region of the whole.
+group' :: Commented -> Region -> Text -> NonEmpty Expr -> Doc
+group' commented region open es =
+  Brackets (anywhere commented (start region) (end region)) open (NonEmpty.toList (list commented (fmap (\x -> (Region.region x, value commented x)) es))) ")"
+
 -- | A chain of operators of one rank: @a@, @+ b@, @- c@.
 chain :: Commented -> Tightness -> Expr -> [Piece]
 chain commented looser = reverse . go
@@ -186,6 +192,7 @@ choiceName choice = case choice of
   ToRight -> "right"
   Within' -> "inside"
   Beyond -> "outside"
+  UpTo -> "within"
 
 rankName :: Rank -> Text
 rankName which = case which of

@@ -20,6 +20,14 @@ module Surface.Syntax
     Item,
     Item_ (..),
     Walk (..),
+    Lines (..),
+    Line,
+    Line_ (..),
+    Heading (..),
+    Cipher,
+    Cipher_ (..),
+    Joggle,
+    Joggle_ (..),
     Modifier,
     Modifier_ (..),
     Link,
@@ -74,6 +82,12 @@ data Statement_
     Param (Located Name) Expr
   | -- | @contour outline closed { … }@
     Contour (Located Name) Closure [Item]
+  | -- | @table profile { x y … }@ and @table profile from "profile.csv"@
+    Table (Located Name) Lines
+  | -- | @curve skin = spline(profile)@
+    Curve (Located Name) Expr
+  | -- | @piece flange = skin cipher 2(2.5), 4(mu, H) left joggle …@
+    Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
   | -- | @assert distance(p, q) = 41 within 0.1@
     Assert Expr (Maybe Expr)
   | -- | @mill outline outside { … }@
@@ -115,6 +129,10 @@ data Cutter_
     DrillCutter Expr
   | -- | @turn(nose r)@
     TurningCutter Expr
+  | -- | @cone(diameter d, bevel a, height h)@: a mill whose flank leans by an angle
+    ConeCutter Expr Expr Expr
+  | -- | @blade(diameter d, gear e)@: a blade that swivels, by the wheel that swivels it
+    BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
 -- | How far chords may be off.
@@ -171,8 +189,49 @@ data Argument
     Ranked (Located Rank)
   deriving stock (Eq, Show)
 
-data Choice = Near | ToLeft | ToRight | Within' | Beyond
+data Choice
+  = Near
+  | ToLeft
+  | ToRight
+  | -- | @inside c@
+    Within'
+  | Beyond
+  | -- | @within d@: a tolerance
+    UpTo
   deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+-- | The lines of a table.
+data Lines
+  = WrittenLines [Line]
+  | -- | the name of a file of comma-separated values
+    LinesOf (Located Text)
+  deriving stock (Eq, Show)
+
+type Line = Located Line_
+
+data Line_
+  = -- | @x y mu deg H@: the columns, with the unit of their bare numbers
+    Header (NonEmpty Heading)
+  | -- | a value for each column
+    Entries (NonEmpty Expr)
+  | -- | a line that could not be read
+    BrokenLine
+  deriving stock (Eq, Show)
+
+data Heading = Heading (Located Name) (Maybe Unit)
+  deriving stock (Eq, Show)
+
+type Cipher = Located Cipher_
+
+-- | One recalculation of a curve: its digit, and what it is given.
+data Cipher_ = Cipher (Located Numeral) (NonEmpty Expr)
+  deriving stock (Eq, Show)
+
+type Joggle = Located Joggle_
+
+-- | @joggle from x1 to x2 depth d radius r@
+data Joggle_ = Joggle {from :: Expr, to :: Expr, depth :: Expr, radius :: Expr}
+  deriving stock (Eq, Show)
 
 data Rank = First | Last
   deriving stock (Eq, Ord, Show, Enum, Bounded)
@@ -207,6 +266,8 @@ data Modifier_
     Slow
   | -- | what is left on it
     ElementAllowance Expr
+  | -- | how far its surface leans from the axis of the tool
+    Bevel Expr
   deriving stock (Eq, Show)
 
 type Link = Located Link_

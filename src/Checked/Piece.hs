@@ -1,0 +1,187 @@
+-- | Tables and the pieces of curves that are made of them: columns, ciphers, joggles.
+module Checked.Piece
+  ( Checker (..),
+    table,
+    columnsOf,
+    withColumns,
+    cipher,
+    joggle,
+    unitType,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Region (Located (..), Region)
+import Checked.Builtin qualified as Builtin
+import Checked.Dimension qualified as Dimension
+import Checked.Error (Error (..))
+import Checked.Infer (Infer, Solution)
+import Checked.Infer qualified as Infer
+import Checked.Syntax (Columns (..))
+import Checked.Syntax qualified as Checked
+import Checked.Type (Type)
+import Checked.Type qualified as Type
+import Control.Monad (when)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (catMaybes, isNothing)
+import Data.Text (Text)
+import Surface.Syntax qualified as Surface
+import Surface.Token (Numeral (..), Unit (..))
+
+-- | Checks a value of a type.
+newtype Checker = Checker {expect :: Type -> Surface.Expr -> Infer (Solution -> Checked.Expr)}
+
+-- Tables
+
+-- | A column of a table: its name, its type, the size of its bare numbers if its heading tells their unit.
+data Column = Column {called :: Located Name, kind :: Type, size :: Maybe Double}
+
+-- | The columns and the rows of a table, and its type.
+table :: Checker -> Located Name -> [Surface.Line] -> Infer (Type, Solution -> Columns)
+table checker name written = case written of
+  Located _ (Surface.Header headings) : rows -> do
+    columns <- traverse column (NonEmpty.toList headings)
+    mapM_ twice (zip [0 ..] columns)
+    mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing (region name) (Name n)))) ["x", "y"]
+    rows' <- catMaybes <$> traverse (row checker columns) (zip [1 ..] rows)
+    let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
+        order = concatMap (`named` columns) ["x", "y"] <> [i | (i, c) <- zip [0 ..] columns, value (called c) `elem` map (value . called) extra]
+    pure
+      ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
+        \sol -> Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] [Located at [es !! i | i <- order] | r <- rows', let Located at es = r sol]
+      )
+    where
+      twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
+        before : _ -> Infer.mistake (ColumnTwice (region (called c)) (value (called c)) before)
+        [] -> pure ()
+        where
+          columnsBefore = [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
+  Located at Surface.BrokenLine : _ -> missing <$ (const Infer.taint at)
+  _ -> missing <$ Infer.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
+  where
+    missing = (Type.Wrong, const (Columns [] []))
+    named n columns = [i | (i, c) <- zip [0 :: Int ..] columns, value (called c) == Name n]
+    firstOf xs = case xs of
+      [] -> Nothing
+      x : _ -> Just x
+
+-- | The lengths x and y; what the others are is said by their unit, or by their use.
+column :: Surface.Heading -> Infer Column
+column (Surface.Heading name unit) = case (unit, value name) of
+  (Just u, n) -> do
+    let (t, factor) = unitType u
+    when (n `elem` map Name ["x", "y"] && t /= Type.len) (Infer.mistake (Mismatch (region name) Type.len t []))
+    pure (Column name t (Just factor))
+  (Nothing, n)
+    | n `elem` map Name ["x", "y"] -> pure (Column name Type.len Nothing)
+    | otherwise -> do
+      d <- Infer.freshDimension
+      Infer.monomorphic d
+      pure (Column name (Type.Quantity d) Nothing)
+
+-- | The cells of a row, which has its number from 1.
+row :: Checker -> [Column] -> (Int, Surface.Line) -> Infer (Maybe (Solution -> Located [Checked.Expr]))
+row checker columns (number, Located at line) = case line of
+  Surface.Header _ -> Nothing <$ Infer.mistake (HeadingsAgain at)
+  Surface.BrokenLine -> Nothing <$ Infer.taint
+  Surface.Entries cells
+    | length cells /= length columns -> Nothing <$ Infer.mistake (RowLength at number (length columns) (length cells))
+    | otherwise -> do
+      cells' <- sequence (zipWith (cell checker) columns (NonEmpty.toList cells))
+      pure (Just (\sol -> Located at (map ($ sol) cells')))
+
+-- | A bare number has the unit of its column.
+cell :: Checker -> Column -> Surface.Expr -> Infer (Solution -> Checked.Expr)
+cell checker c e = case bare e of
+  Just x -> pure (\sol -> Located (region e) (Checked.Number (x * maybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) id (size c))))
+  Nothing -> expect checker (kind c) e
+  where
+    bare (Located _ written) = case written of
+      Surface.Literal (Numeral _ x) Nothing -> Just x
+      Surface.Negate inner -> negate <$> bare inner
+      _ -> Nothing
+
+-- | The columns that the values of a curve's or a table's points stand in.
+columnsOf :: Type -> Infer [(Text, Type)]
+columnsOf t = do
+  t' <- Infer.known t
+  pure $ case t' of
+    Type.Curve (Type.Fields cs) -> cs
+    Type.Table (Type.Fields cs) -> cs
+    _ -> []
+
+-- | With the columns as values; their names win over those of the program.
+withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
+withColumns at columns = Infer.withLocals [(Located at (Name text), t) | (text, t) <- columns]
+
+-- Ciphers
+
+-- | A recalculation of a curve with these columns; nothing when there is none such.
+cipher :: Checker -> [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Solution -> Checked.Cipher))
+cipher checker columns (Located at (Surface.Cipher (Located place digit) given)) = case (digits digit, NonEmpty.toList given) of
+  ("1", [a, b]) -> made (Checked.Growing <$$> len a <**> len b <**> none <**> none)
+  ("1", [a, b, m]) -> made (Checked.Growing <$$> len a <**> len b <**> some (angle m) <**> none)
+  ("1", [a, b, p, q]) -> made (Checked.Growing <$$> len a <**> len b <**> none <**> some (between p q))
+  ("1", [a, b, m, p, q]) -> made (Checked.Growing <$$> len a <**> len b <**> some (angle m) <**> some (between p q))
+  ("2", [h]) -> made (Checked.Constant <$$> len h <**> none)
+  ("2", [h, m]) -> made (Checked.Constant <$$> len h <**> some (angle m))
+  ("4", [m, h]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> none)
+  ("4", [m, h, d]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> some (len d))
+  ("6", [h]) -> made (Checked.Pointwise <$$> len h <**> none)
+  ("6", [h, m]) -> made (Checked.Pointwise <$$> len h <**> some (angle m))
+  (d, es)
+    | d `elem` ["1", "2", "4", "6"] -> Nothing <$ Infer.mistake (CipherMisfit at d (length es))
+    | otherwise -> Nothing <$ Infer.mistake (NoSuchCipher place d)
+  where
+    made later = Just . (Located at .) <$> later
+    len = along Type.len
+    angle = along Type.angle
+    point p = expect checker Type.aPoint p
+    between p q = (\a b sol -> (a sol, b sol)) <$> point p <*> point q
+    none = pure (const Nothing)
+    some = fmap (Just .)
+    f <$$> a = (f .) <$> a
+    f <**> a = (\g x sol -> g sol (x sol)) <$> f <*> a
+    -- A value at every point.
+    along t e = do
+      mapM_ (\(r, n) -> Infer.mistake (NoColumn r n (map fst columns))) =<< missing e
+      absent <- not . null <$> missing e
+      if absent then pure (const (Located (region e) (Checked.Number 0))) else withColumns (region e) columns (expect checker t e)
+    missing e = catMaybes <$> traverse unknown (namesIn e)
+    unknown (r, n@(Name text)) = do
+      entry <- Infer.find n
+      pure (if isNothing entry && text `notElem` map fst columns && isNothing (Builtin.lookup text) then Just (r, n) else Nothing)
+
+-- | The names in a value that is but a name, or a sum or a product of such.
+namesIn :: Surface.Expr -> [(Region, Name)]
+namesIn (Located at e) = case e of
+  Surface.Variable name -> [(at, name)]
+  Surface.Negate a -> namesIn a
+  Surface.Binary _ a b -> namesIn a <> namesIn b
+  _ -> []
+
+joggle :: Checker -> Surface.Joggle -> Infer (Solution -> Checked.Joggle)
+joggle checker (Located at (Surface.Joggle from to depth radius)) = do
+  from' <- len from
+  to' <- len to
+  depth' <- len depth
+  radius' <- len radius
+  pure (\sol -> Located at (Checked.Joggle (from' sol) (to' sol) (depth' sol) (radius' sol)))
+  where
+    len = expect checker Type.len
+
+-- Units
+
+-- | What a unit measures, and its size in mm, radians and minutes.
+unitType :: Unit -> (Type, Double)
+unitType unit = case unit of
+  Millimetre -> (Type.len, 1)
+  Centimetre -> (Type.len, 10)
+  Metre -> (Type.len, 1000)
+  Inch -> (Type.len, 25.4)
+  Degree -> (Type.angle, pi / 180)
+  Radian -> (Type.angle, 1)
+  MmPerMin -> (Type.feed, 1)
+  MPerMin -> (Type.feed, 1000)
+  InPerMin -> (Type.feed, 25.4)
+  Rpm -> (Type.turns, 1)

@@ -1,0 +1,92 @@
+-- | Tables from files of comma-separated values.
+--
+-- The first line names the columns, each with the unit of its numbers or without one; every other line has
+-- a number for each of them. Between them stand commas, semicolons or tabs, whichever the first line
+-- has; where it is not commas, a number may have a decimal comma. Empty lines count for nothing.
+module Surface.Csv
+  ( table,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Region (Located (..), Region (..))
+import Data.Char (isAlpha, isAlphaNum, isSpace)
+import Data.Either (partitionEithers)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Read qualified as Read
+import Surface.Error (Error (..))
+import Surface.Keyword qualified as Keyword
+import Surface.Syntax (Expr_ (..), Heading (..), Line, Line_ (..), Numeral (..))
+import Surface.Token (unitName)
+
+-- | The lines of a text whose first character has the offset given, and what cannot be read.
+table :: Int -> Text -> ([Error], [Line])
+table begin text = case filter (not . Text.all isSpace . value) (linesOf begin text) of
+  [] -> ([EmptyTable (Region begin begin)], [])
+  header : rest ->
+    let separator = separatorOf (value header)
+        (wrong, first) = headings separator header
+        (wrongs, others) = unzip (map (numbers separator) rest)
+     in (wrong <> concat wrongs, first : others)
+
+-- | The lines with their places, without a mark of the byte order.
+linesOf :: Int -> Text -> [Located Text]
+linesOf begin text = go begin text
+  where
+    go at rest
+      | Text.null rest = []
+      | otherwise =
+        let (line, after) = Text.break (`elem` ['\n', '\r', '\xFEFF']) rest
+         in Located (Region at (at + Text.length line)) line : go (at + Text.length line + 1) (Text.drop 1 after)
+
+separatorOf :: Text -> Char
+separatorOf header = case filter (`Text.any` header) [(== ';'), (== '\t')] of
+  _ : _ | Text.any (== ';') header -> ';'
+  _ : _ -> '\t'
+  [] -> ','
+
+-- | What stands between the separators, without the spaces and the quotation marks around it.
+fields :: Char -> Located Text -> NonEmpty (Located Text)
+fields separator (Located (Region at _) line) = NonEmpty.zipWith field starts parts
+  where
+    parts = NonEmpty.fromList (Text.split (== separator) line)
+    starts = NonEmpty.scanl (\a p -> a + Text.length p + 1) at (NonEmpty.toList parts)
+    field from part =
+      let inside = Text.dropAround around part
+          before = Text.length (Text.takeWhile around part)
+          size = Text.length inside
+       in Located (if size == 0 then Region from (from + Text.length part) else Region (from + before) (from + before + size)) inside
+    around c = isSpace c || c == '"'
+
+headings :: Char -> Located Text -> ([Error], Line)
+headings separator line = case partitionEithers (map heading (NonEmpty.toList (fields separator line))) of
+  ([], h : hs) -> ([], Located (region line) (Header (h :| hs)))
+  (wrong, _) -> (wrong, Located (region line) BrokenLine)
+  where
+    heading (Located at text) = case Text.words (Text.map (\c -> if c `elem` ("[]()" :: String) then ' ' else c) text) of
+      [word] | isName word -> Right (Heading (Located at (Name word)) Nothing)
+      [word, unit] | isName word, u : _ <- [u | u <- [minBound .. maxBound], unitName u == unit] -> Right (Heading (Located (Region (start at) (start at + Text.length word)) (Name word)) (Just u))
+      _ -> Left (BadHeading at text)
+    isName word = Text.all (\c -> isAlphaNum c || c == '_') word && Text.any isAlpha (Text.take 1 word) && not (Keyword.isReserved word)
+
+numbers :: Char -> Located Text -> ([Error], Line)
+numbers separator line = case partitionEithers (map number (filled (NonEmpty.toList (fields separator line)))) of
+  ([], e : es) -> ([], Located (region line) (Entries (e :| es)))
+  (wrong, _) -> (wrong, Located (region line) BrokenLine)
+  where
+    -- Nothing behind the last separator is no cell.
+    filled cells = case reverse cells of
+      Located _ "" : rest@(_ : _ : _) -> reverse rest
+      _ -> cells
+    number (Located at text) = case Text.uncons text of
+      Just ('-', rest) -> Located at . Negate . Located (Region (start at + 1) (end at)) <$> numeral at (Text.stripStart rest)
+      Just ('+', rest) -> Located at <$> numeral at rest
+      _ -> Located at <$> numeral at text
+    numeral at text =
+      let digits = if separator == ',' then text else Text.replace "," "." text
+       in case Read.rational digits :: Either String (Double, Text) of
+            Right (x, "") | Text.all (`elem` ("0123456789.eE+-" :: String)) digits, not (isInfinite x) -> Right (Literal (Numeral digits x) Nothing)
+            _ -> Left (BadCell at text)
