@@ -6,6 +6,9 @@ module Geometry.Tolerance
     clearance,
     sameLength,
     smallestFillet,
+    sameFillet,
+    smoothGap,
+    smoothTurn,
     equal,
     resolution,
     reach,
@@ -39,6 +42,18 @@ sameLength = Mm 1e-6
 -- | A fillet that has to be smaller than this does not fit.
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
+
+-- | Two fillets whose centres are no further apart are one: it touches where two segments of a curve join.
+sameFillet :: Mm
+sameFillet = Mm 1e-5
+
+-- | Curves of measured points count as joined when their ends are no further apart …
+smoothGap :: Mm
+smoothGap = Mm 1e-3
+
+-- | … and as smooth when their directions differ by no more: 0.1°.
+smoothTurn :: Rad
+smoothTurn = Rad 1.75e-3
 
 -- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm, radians,
 -- minutes, none).

@@ -25,13 +25,14 @@ import Geometry.Contour qualified as Contour
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (..), Line (..), Turn (..), Walked (..))
+import Geometry.Shape (Circle (..), Line (..), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Similarity (Similarity)
 import Geometry.Similarity qualified as Similarity
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Part.Error (Candidate (..), Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval

@@ -23,10 +23,11 @@ import Data.Text (Text)
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (Line), Turn (..), Walked (..))
+import Geometry.Shape (Circle (Circle), Line (Line), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Part.Builtin qualified as Builtin
 import Part.Chain (Link (..))
 import Part.Chain qualified as Chain

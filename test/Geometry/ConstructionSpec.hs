@@ -7,11 +7,12 @@ import Geometry.Fillet qualified as Fillet
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (..), Turn (..), Walked (..))
+import Geometry.Shape (Circle (Circle), Line (..), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Tangent qualified as Tangent
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Test.Hspec
 import Test.QuickCheck
 
