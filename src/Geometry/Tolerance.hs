@@ -9,6 +9,7 @@ module Geometry.Tolerance
     sameFillet,
     smoothGap,
     smoothTurn,
+    slightRest,
     equal,
     resolution,
     reach,
@@ -54,6 +55,10 @@ smoothGap = Mm 1e-3
 -- | … and as smooth when their directions differ by no more: 0.1°.
 smoothTurn :: Rad
 smoothTurn = Rad 1.75e-3
+
+-- | A corner towards the cutter in which no more than this is left standing counts as none.
+slightRest :: Mm
+slightRest = Mm 1e-5
 
 -- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm, radians,
 -- minutes, none).

@@ -71,6 +71,7 @@ touches w p direction = case w of
   OnLine l -> onLine l p .&&. same (Shape.direction l)
   OnCircle t c@(Circle m _) -> on c p .&&. same (Vec.unit (Vec.scale (Shape.sense t) (Vec.left (Vec.to m p))))
   AtPoint q -> property (apart p q < 1e-6)
+  OnCurve _ -> property False
   where
     same d = counterexample (show (direction, d)) (Vec.dot d direction > 1 - 1e-6)
 
