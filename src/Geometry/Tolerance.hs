@@ -13,6 +13,10 @@ module Geometry.Tolerance
     equal,
     resolution,
     reach,
+    arcLength,
+    arcLengthShare,
+    parameter,
+    still,
   )
 where
 
@@ -73,3 +77,19 @@ reach = Mm 1e6
 -- | How finely a largest cutter or a largest excess is determined.
 resolution :: Mm
 resolution = Mm 1e-6
+
+-- | How exactly the length of each piece of a curve is measured, where its doubles hold so much.
+arcLength :: Mm
+arcLength = Mm 1e-9
+
+-- | Below this share of its length the measure of a piece is lost in the rounding of the speed.
+arcLengthShare :: Double
+arcLengthShare = 1e-12
+
+-- | How exactly a place on a curve is found by its parameter, of which a span has 1.
+parameter :: Double
+parameter = 1e-12
+
+-- | A curve whose place changes no faster, in mm for 1 of its parameter, stands still there.
+still :: Mm
+still = Mm 1e-9
