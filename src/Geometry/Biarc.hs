@@ -212,12 +212,12 @@ follow track tolerance stretch@((start, firstEnd) :| _) =
   where
     final = snd (NonEmpty.last stretch)
     go u pose spans step
-      | not (u < final) = []
-      | otherwise =
+      | u < final =
         let Trial {reached, pieces} = furthest track tolerance final u pose spans step
             ahead = dropWhile ((<= reached) . snd) spans
             end = (Segment.end (NonEmpty.last pieces), heading track final spans reached)
          in NonEmpty.toList pieces <> go reached end ahead (reached - u)
+      | otherwise = []
 
 -- | The direction at a joint: the mean of both sides where spans meet.
 heading :: Track -> Double -> [(Double, Double)] -> Double -> Vec
