@@ -17,6 +17,12 @@ module Geometry.Tolerance
     arcLengthShare,
     parameter,
     still,
+    straight,
+    oneArc,
+    halfTurn,
+    kink,
+    deviationShare,
+    finestStep,
   )
 where
 
@@ -93,3 +99,27 @@ parameter = 1e-12
 -- | A curve whose place changes no faster, in mm for 1 of its parameter, stands still there.
 still :: Mm
 still = Mm 1e-9
+-- | An arc that turns by no more is a straight line: its centre would be so far away that distances from it
+-- lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the bulge (@c·2.5·10⁻⁹@) is worth.
+straight :: Rad
+straight = Rad 2e-8
+
+-- | A biarc whose ends lean to its chord by angles that differ by no more is one arc.
+oneArc :: Rad
+oneArc = Rad 1e-9
+
+-- | No arc of a biarc turns by more: half a turn, and what rounding adds.
+halfTurn :: Rad
+halfTurn = Rad (pi + 1e-9)
+
+-- | A smooth curve may change its direction at a joint of its spans by this much; by more, it has a corner there.
+kink :: Rad
+kink = Rad 1e-3
+
+-- | The share of a tolerance that is kept back because a deviation is measured at finitely many points.
+deviationShare :: Double
+deviationShare = 0.02
+
+-- | No step along a curve is smaller than this share of a span.
+finestStep :: Double
+finestStep = 1e-6
