@@ -30,7 +30,7 @@ import Part.Data qualified as Data
 import Part.Error (Error, Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
-import Part.Part
+import Part.Part hiding (spot)
 import Part.Piece qualified as Piece
 import Part.Transform qualified as Transform
 import Part.Value (Environment (..))
