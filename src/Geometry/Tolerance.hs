@@ -8,6 +8,7 @@ module Geometry.Tolerance
     smallestFillet,
     equal,
     resolution,
+    curve,
     reach,
   )
 where
@@ -53,3 +54,7 @@ reach = Mm 1e6
 -- | How finely a largest cutter or a largest excess is determined.
 resolution :: Mm
 resolution = Mm 1e-6
+
+-- | A curve is replaced by arcs that stay so near to it.
+curve :: Mm
+curve = Mm 1e-5
