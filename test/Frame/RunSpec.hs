@@ -1,14 +1,19 @@
 -- | The laws of chords along a curve.
 module Frame.RunSpec (spec) where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Region (Located (..), Region (Region))
+import Base.Result qualified as Result
 import Data.List (partition)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
+import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as FromPath
 import Frame.Run (Bounds (..))
 import Frame.Run qualified as Run
+import Generate qualified
 import Generate.Curve qualified as Curve
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
@@ -16,6 +21,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Lkp01f (lkp01f)
+import Machine.Machine (FeedCode (..))
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
 import Path.Path (Move (..))
 import Test.Hspec
 import Test.QuickCheck
@@ -60,6 +68,20 @@ spec = do
               moves = NonEmpty.zipWith (\(z, z') m -> m {heights = (Mm z, Mm z')}) (NonEmpty.fromList (zip zs (drop 1 zs))) (Curve.run ss)
               ends = [(p, z) | (p, Mm z) <- Run.chordEnds 100000 b moves]
            in counterexample (show (length ends)) (worstHeight (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
+    it "slow down as far before the end of a curve as anywhere (catches a brake on the last of its arcs only)" $
+      property $
+        forAll Curve.curveCase $ \c ->
+          let job = Curve.jobAlong c
+              slowly e = e {Part.finish = Part.plainFinish {Part.slow = True}}
+              braked' = job {Part.feed = Feed 240 <$ Part.feed job, Part.contour = (Part.contour job) {Part.elements = fmap slowly (Part.elements (Part.contour job))}}
+           in case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) braked')))) >>= Result.output . FromPath.quantise lkp01f of
+                Nothing -> counterexample "no frames" False
+                Just program ->
+                  let frames = map Frame.frame (Frame.planned program)
+                      (quick, slow) = span ((== FeedCode 9) . speed) frames
+                      wayOf f = let Mm d = Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f)) in d
+                   in counterexample (show (map speed frames)) $
+                        not (null quick) && all ((== FeedCode 1) . speed) slow && abs (sum (map wayOf slow) - 1.6) <= 0.05
   where
     chain = oneof [Curve.open, Curve.closed]
     arc = do
