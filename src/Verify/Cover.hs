@@ -85,9 +85,11 @@ isCovered others distance segment
           | a > t + hair -> from a
           -- It ends right here, and what is nearest a hair further on does not begin before.
           | otherwise -> maybe False (const together) (nearestAt (min 1 (t + hair)))
-    nearestAt t = let p = Segment.at t segment in case Box.closest (away p) p (index others) of
-      Just (d, other) | d <= distance -> Just other
-      _ -> Nothing
+    nearestAt t =
+      let p = Segment.at t segment
+       in case Box.closest (away p) p (index others) of
+            Just (d, other) | d <= distance -> Just other
+            _ -> Nothing
     away p other =
       let d = Distance.toPoint p (line others other)
        in if d > distance || counts others other then d else Mm (1 / 0)
