@@ -24,6 +24,7 @@ module Generate.Curve
 where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Data.Either (fromRight)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import GHC.Exts qualified as Exts
@@ -114,7 +115,7 @@ polyline = do
   Table _ points <- walked 0 turns
   closing <- arbitrary
   let closedUp = points <> [p | closing, length points > 2, p <- take 1 points]
-  pure (either (const (ok (Curve.polyline (Exts.fromList points)))) id (Curve.polyline (Exts.fromList closedUp)))
+  pure (fromRight (ok (Curve.polyline (Exts.fromList points))) (Curve.polyline (Exts.fromList closedUp)))
 
 -- | Parabolas, the x rising or falling.
 parabola :: Gen Curve
@@ -214,7 +215,7 @@ distance reach curve =
       d <- choose (0.2, 0.8) >>= \share -> pure (share * min 1 reach)
       k <- choose (0.6, 3)
       flip' <- elements [1, -1]
-      pure (either (const (Constant (Mm d))) id (Curve.joggled Joggle {begins = parameterOf curve a, ends = parameterOf curve b, depth = Mm (flip' * d), radius = Mm (k * d)} curve))
+      pure (fromRight (Constant (Mm d)) (Curve.joggled Joggle {begins = parameterOf curve a, ends = parameterOf curve b, depth = Mm (flip' * d), radius = Mm (k * d)} curve))
 
 -- | A shift that fits: well within the radius of curvature.
 shifts :: Curve -> Gen Curve

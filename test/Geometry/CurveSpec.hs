@@ -122,7 +122,7 @@ spec = do
         forAll Generate.gentle $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
            in counterexample (show u) (abs (Curve.nearest (Curve.at c u) c - u) < 1e-6)
-    it "at an abscissa: every answer lies there, and no crossing is left out (catches a turn between two samples)" $
+    it "at an abscissa: every answer lies there, and no crossing is left out (catches an answer of another span)" $
       property $
         forAll (Generate.layered 1 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let x = Vec.x (Curve.at c (Generate.parameterOf c t)) + 1e-4
@@ -130,9 +130,16 @@ spec = do
               side u = Vec.x (Curve.at c u) > x
               bs = Curve.breaks c
               -- Crossings between close samples, breaks left out.
-              steps = [(a', b') | (a, b) <- zip bs (drop 1 bs), k <- [0 .. 39 :: Int], let step = (b - a) / 40, let a' = a + step * fromIntegral k, let b' = a' + step, k < 39]
+              steps = [(a', a' + step) | (a, b) <- zip bs (drop 1 bs), let step = (b - a) / 40, k <- [0 .. 38 :: Int], let a' = a + step * fromIntegral k]
            in conjoin [counterexample (show u) (abs (Vec.x (Curve.placeFrom approach c u) - x) < 1e-6) | u <- found, let approach = if u `elem` bs && abs (Vec.x (Curve.placeFrom Before c u) - x) < 1e-6 then Before else After]
                 .&&. conjoin [counterexample (show (a, b, found)) (any (\u -> u >= a - 1e-9 && u <= b + 1e-9) found) | (a, b) <- steps, side a /= side b]
+    it "just short of a turn there are two places (catches a turn between two samples)" $
+      property $
+        forAll Generate.ring $ \c -> forAll (choose (0.001, 0.02)) $ \short ->
+          let xs = [Vec.x (Curve.at c (Generate.parameterOf c (k / 5000))) | k <- [0 .. 5000]]
+              x = maximum xs - short
+              sides = map (> x) xs
+           in length (Curve.atX x c) === length (filter id (zipWith (/=) sides (drop 1 sides)))
     it "at an abscissa that it only touches there is one place (catches the place that is counted twice)" $
       Curve.atX 50 (circleOf 60 50) `shouldSatisfy` \case
         [0] -> True

@@ -12,11 +12,11 @@ spec = do
     it "a quotient times its divisor is the dividend (catches a term of the recurrence that is left out)" $
       property $
         forAll ((,) <$> series <*> positive) $ \(a, b) -> Series.multiply (Series.divide a b) b `alike` a
-    it "powers add in their exponents (catches a weight α·j − (k − j) with a wrong sign)" $
+    it "powers add in their exponents (catches a weight without its α)" $
       property $
         forAll ((,,) <$> positive <*> choose (-2, 2) <*> choose (-2, 2)) $ \(a, p, q) ->
           Series.multiply (Series.power p a) (Series.power q a) `alike` Series.power (p + q) a
-    it "the square of a root is the whole" $
+    it "the square of a root is the whole (catches a weight α·j − (k − j) with a wrong sign)" $
       property $
         forAll positive $ \a -> Series.multiply (Series.power 0.5 a) (Series.power 0.5 a) `alike` a
     it "sin² + cos² is 1 (catches a sign of the two recurrences)" $
