@@ -37,9 +37,10 @@ import Geometry.Offset (Piece, Side (..))
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Line (..), Turn (..), Walked (..))
+import Geometry.Shape (Line (..), Turn (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Linear.V3 (V3 (..))
 import Machine.Machine (FeedCode (..), Machine)
 import Machine.Machine qualified as Machine

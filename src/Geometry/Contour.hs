@@ -90,8 +90,18 @@ selfCrossing (Contour ends ss) = listToMaybe (concatMap pairs numbered)
           j > i,
           p <- case joints' i j s of
             [] -> Distance.crossings s other
+            _ | goesOn i j s other -> []
             shared -> retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
       ]
+    -- Of two neighbours that hardly turn, the one lies in a cone behind their joint and the other before it.
+    goesOn i j s other
+      | j == i + 1 = straightOn s other
+      | otherwise = straightOn other s
+    straightOn a b = hardlyTurns a && hardlyTurns b && abs (turnOf a b) <= 0.1
+    turnOf a b = let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in t
+    hardlyTurns a = case a of
+      Straight _ _ -> True
+      Arc {sweep = Rad t} -> abs t <= 1
     -- A neighbour that runs back along the way it came meets it at its middle.
     retraced s other =
       let shorter = if Segment.length s <= Segment.length other then s else other

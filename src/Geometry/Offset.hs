@@ -90,12 +90,38 @@ raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
 raw style side radius contour = do
   shifted <- traverse (\(i, s) -> along side (plus radius (extra style i)) i s) (NonEmpty.zip (0 :| [1 ..]) (segments contour))
   corners <- traverse (corner style side radius (NonEmpty.length shifted)) (Contour.joints contour)
-  let pieces = concat (zipWith (:) (NonEmpty.toList shifted) (corners <> [[]]))
+  let bends = [(number, next, t) | (number, before, after) <- Contour.joints contour, let next = (number + 1) `mod` NonEmpty.length shifted, Just t <- [slightBend style side radius number next before after]]
+  cut <- traverse (shortened bends) (NonEmpty.zip (0 :| [1 ..]) shifted)
+  let pieces = concat (zipWith (:) (NonEmpty.toList cut) (corners <> [[]]))
       real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) pieces
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
   Right (maybe (NonEmpty.head shifted :| []) chained (NonEmpty.nonEmpty real))
   where
     chained = Contour.chained segment (\s p -> p {segment = s}) (Contour.ends contour)
+
+-- | A corner towards the cutter that is too slight to leave more than 'Tolerance.slightRest' standing: by how much
+-- the ways before and behind it are shortened, @r·tan(θ/2)@. Measured curves that are joined smoothly have such ones.
+slightBend :: Style -> Side -> Mm -> Int -> Int -> Segment -> Segment -> Maybe Double
+slightBend style side (Mm radius) number next before after
+  | turned * leftward side > smooth && extra style number == extra style next && r * (1 / cos (turned / 2) - 1) <= rest = Just (r * tan (abs turned / 2))
+  | otherwise = Nothing
+  where
+    Rad smooth = Tolerance.smoothAngle
+    Rad turned = Vec.turn (Segment.endDirection before) (Segment.startDirection after)
+    Mm rest = Tolerance.slightRest
+    r = let Mm more = extra style number in radius + more
+
+-- | A way without what lies beyond the slight bends at its ends.
+shortened :: [(Int, Int, Double)] -> (Int, Piece) -> Either Cause Piece
+shortened bends (i, piece)
+  | front + back <= 0 = Right piece
+  | front + back >= l = Left (case [(a, b) | (a, b, _) <- bends, a == i || b == i] of (a, b) : _ -> InnerCorner a b (Segment.end s); [] -> InnerCorner i i (Segment.end s))
+  | otherwise = Right piece {segment = snd (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) s)))}
+  where
+    s = segment piece
+    Mm l = Segment.length s
+    front = sum [t | (_, b, t) <- bends, b == i]
+    back = sum [t | (a, _, t) <- bends, a == i]
 
 -- | A segment moved to its side.
 along :: Side -> Mm -> Int -> Segment -> Either Cause Piece
@@ -122,6 +148,7 @@ leftward side = case side of
 corner :: Style -> Side -> Mm -> Int -> (Int, Segment, Segment) -> Either Cause [Piece]
 corner style side radius count (number, before, after)
   | abs turned <= smooth || radius <= Mm 0 = Right [Piece (Around number) (Straight p q) | r1 /= r2]
+  | Just _ <- slightBend style side radius number next before after = Right []
   | turned * leftward side > 0 && pi - abs turned > smooth = Left (InnerCorner number next vertex)
   | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Right [Piece (Around number) (Straight p tip), Piece (Around number) (Straight tip q)]
   | otherwise = Right (map (Piece (Around number)) ([Straight p wideP | r1 < wide] <> [Segment.arc sense vertex wideP wideQ] <> [Straight wideQ q | r2 < wide]))

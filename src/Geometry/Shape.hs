@@ -8,7 +8,6 @@ module Geometry.Shape
     Circle (..),
     Turn (..),
     sense,
-    Walked (..),
   )
 where
 
@@ -53,11 +52,3 @@ sense :: Turn -> Double
 sense t = case t of
   Clockwise -> -1
   CounterClockwise -> 1
-
--- | What a contour walks on.
-data Walked
-  = OnLine Line
-  | OnCircle Turn Circle
-  | -- | a corner that the contour passes through
-    AtPoint Point
-  deriving stock (Eq, Show)

@@ -6,9 +6,23 @@ module Geometry.Tolerance
     clearance,
     sameLength,
     smallestFillet,
+    sameFillet,
+    smoothGap,
+    smoothTurn,
+    slightRest,
     equal,
     resolution,
     reach,
+    arcLength,
+    arcLengthShare,
+    parameter,
+    still,
+    straight,
+    oneArc,
+    halfTurn,
+    kink,
+    deviationShare,
+    finestStep,
   )
 where
 
@@ -40,6 +54,22 @@ sameLength = Mm 1e-6
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
 
+-- | Two fillets whose centres are no further apart are one: it touches where two segments of a curve join.
+sameFillet :: Mm
+sameFillet = Mm 1e-5
+
+-- | Curves of measured points count as joined when their ends are no further apart …
+smoothGap :: Mm
+smoothGap = Mm 1e-3
+
+-- | … and as smooth when their directions differ by no more: 0.1°.
+smoothTurn :: Rad
+smoothTurn = Rad 1.75e-3
+
+-- | A corner towards the cutter in which no more than this is left standing counts as none.
+slightRest :: Mm
+slightRest = Mm 1e-5
+
 -- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm, radians,
 -- minutes, none).
 equal :: Double
@@ -53,3 +83,43 @@ reach = Mm 1e6
 -- | How finely a largest cutter or a largest excess is determined.
 resolution :: Mm
 resolution = Mm 1e-6
+
+-- | How exactly the length of each piece of a curve is measured, where its doubles hold so much.
+arcLength :: Mm
+arcLength = Mm 1e-9
+
+-- | Below this share of its length the measure of a piece is lost in the rounding of the speed.
+arcLengthShare :: Double
+arcLengthShare = 1e-12
+
+-- | How exactly a place on a curve is found by its parameter, of which a span has 1.
+parameter :: Double
+parameter = 1e-12
+
+-- | A curve whose place changes no faster, in mm for 1 of its parameter, stands still there.
+still :: Mm
+still = Mm 1e-9
+-- | An arc that turns by no more is a straight line: its centre would be so far away that distances from it
+-- lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the bulge (@c·2.5·10⁻⁹@) is worth.
+straight :: Rad
+straight = Rad 2e-8
+
+-- | A biarc whose ends lean to its chord by angles that differ by no more is one arc.
+oneArc :: Rad
+oneArc = Rad 1e-9
+
+-- | No arc of a biarc turns by more: half a turn, and what rounding adds.
+halfTurn :: Rad
+halfTurn = Rad (pi + 1e-9)
+
+-- | A smooth curve may change its direction at a joint of its spans by this much; by more, it has a corner there.
+kink :: Rad
+kink = Rad 1e-3
+
+-- | The share of a tolerance that is kept back because a deviation is measured at finitely many points.
+deviationShare :: Double
+deviationShare = 0.02
+
+-- | No step along a curve is smaller than this share of a span.
+finestStep :: Double
+finestStep = 1e-6

@@ -1,13 +1,7 @@
 -- | What the functions of the language compute.
 module Part.Builtin
-  ( Value (..),
-    Given (..),
-    apply,
+  ( apply,
     binary,
-    spatial,
-    lifted,
-    within,
-    place,
   )
 where
 
@@ -25,36 +19,21 @@ import Geometry.Contour qualified as Contour
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (..), Line (..), Turn (..), Walked (..))
+import Geometry.Shape (Circle (..), Line (..), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Similarity (Similarity)
 import Geometry.Similarity qualified as Similarity
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
+import Part.Curve qualified as Curve
+import Part.CurveBuiltin qualified as CurveBuiltin
+import Part.Data
 import Part.Error (Candidate (..), Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
 import Part.Part (Contour (..), Element (..), outline)
-
--- | What a name can stand for. Numbers are in mm, radians, minutes and turns.
-data Value
-  = Quantity Double
-  | -- | a point or a vector
-    Spatial Vec
-  | -- | a point with a height
-    SpaceValue Point Mm
-  | TruthValue Bool
-  | CircleValue Circle
-  | LineValue Line
-  | ContourValue Contour
-  | ListValue [Value]
-  | PlacementValue Similarity
-  deriving stock (Eq, Show)
-
--- | An argument with the word before it.
-data Given = Plain Value | Choosing Choice Value | Ranking Rank
-  deriving stock (Eq, Show)
 
 -- Operators
 
@@ -83,35 +62,6 @@ binary region op l r = case (op, l, r) of
     truth = pure . TruthValue
     equal a b = abs (a - b) <= Tolerance.equal
 
--- | A point or vector that a machine reaches.
-spatial :: Region -> Vec -> Eval Value
-spatial region v = Spatial v <$ within region (Vec.norm v)
-
--- | A point with a height that a machine reaches.
-lifted :: Region -> Point -> Mm -> Eval Value
-lifted region p z@(Mm h) = SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
-
--- | A length that a machine reaches.
-within :: Region -> Double -> Eval ()
-within region x
-  | abs x <= limit = pure ()
-  | otherwise = Eval.mistake (OutOfReach region Tolerance.reach)
-  where
-    Mm limit = Tolerance.reach
-
--- | A number that can be held.
-finite :: Region -> Double -> Eval Value
-finite region x
-  | isNaN x || isInfinite x = Eval.mistake (TooLarge region)
-  | otherwise = pure (Quantity x)
-
--- | The place that a vector from (0, 0) reaches.
-place :: Vec -> Point
-place v = Vec.shift v (Vec.point 0 0)
-
-offset :: Point -> Vec
-offset = Vec.to (Vec.point 0 0)
-
 -- Functions
 
 -- | The value of a function for its arguments.
@@ -121,7 +71,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (Truth, []) -> pure (TruthValue True)
   (Falsehood, []) -> pure (TruthValue False)
   (Polar, [Plain (Quantity r), Plain (Quantity a)]) -> spatial region (Vec.polar (Mm r) (Rad a))
-  (Intersection, Plain a : Plain b : choice) -> intersection region (curve a) (curve b) choice
+  (Intersection, Plain a : Plain b : choice) | none isCurve [a, b] -> intersection region (curve a) (curve b) choice
   (CentreOf, [Plain (CircleValue c)]) -> at (centre c)
   (Midpoint, [Plain (Spatial p), Plain (Spatial q)]) -> at (Vec.between 0.5 (place p) (place q))
   (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Shape.foot l (place p))
@@ -168,6 +118,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (XOf, [Plain (Spatial v)]) -> pure (Quantity (Vec.x (place v)))
   (YOf, [Plain (Spatial v)]) -> pure (Quantity (Vec.y (place v)))
   (Reversed, [Plain (LineValue l)]) -> pure (LineValue (Line (to l) (from l)))
+  (Reversed, [Plain (CurveValue c)]) -> pure (CurveValue (Curve.reversed c))
   (Reversed, [Plain (ContourValue c)]) -> pure (ContourValue (reversed c))
   (Reversed, [Plain (ListValue vs)]) -> pure (ListValue (reverse vs))
   (Moved, ps) -> transformed region ps $ \case
@@ -216,8 +167,12 @@ apply region builtin arguments = case (builtin, arguments) of
   (Min, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (min a b))
   (Max, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (max a b))
   (Floor, [Plain (Quantity x)]) -> pure (Quantity (fromInteger (floor (x + Tolerance.equal))))
-  _ -> wrong
+  _ -> maybe wrong id (CurveBuiltin.apply region builtin arguments)
   where
+    none p = not . any p
+    isCurve v = case v of
+      CurveValue _ -> True
+      _ -> False
     wrong = bug "a function applied to values of other types"
     at = spatial region . offset
     points ps = ListValue <$> traverse at ps
@@ -245,14 +200,6 @@ apply region builtin arguments = case (builtin, arguments) of
 ray :: Point -> Vec -> Line
 ray p v = Line p (Vec.shift v p)
 
--- | A whole number from 1 upwards.
-whole :: Region -> Text -> Double -> Eval Int
-whole region what x
-  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Eval.mistake (NotWhole region what "from 1 to 10000000" x)
-  | otherwise = n <$ Eval.spend region n
-  where
-    n = if abs x > 1e8 then 0 else round x :: Int
-
 -- Choices
 
 -- | A line or a circle as a curve.
@@ -262,38 +209,6 @@ curve v = case v of
   CircleValue c -> OnCircle CounterClockwise c
   _ -> bug "a value that is no curve where one was checked"
 
--- | The one answer that is meant. The function tells the point by which an answer is chosen; the lines
--- are those along which there can be a first and a last.
-picked :: Region -> Text -> (a -> Candidate) -> (a -> Point) -> [Line] -> [a] -> [Given] -> Eval a
-picked region what candidate key lines' found choice = case (found, choice) of
-  ([], _) -> Eval.mistake (NoAnswer region what ("No " <> what <> " of this size touches both things on these sides, or goes through them."))
-  ([one], []) -> pure one
-  (_, []) -> Eval.mistake (Several region what all')
-  (_, Choosing Near (Spatial p) : _) -> case sortOn (Vec.distance (place p) . key) found of
-    a : b : _ | near (Vec.distance (place p) (key a)) (Vec.distance (place p) (key b)) -> Eval.mistake (SeveralFit region what all')
-    a : _ -> pure a
-    [] -> only []
-  (_, Choosing ToLeft (LineValue l) : _) -> only (filter (\a -> sideOf l a > tolerance) found)
-  (_, Choosing ToRight (LineValue l) : _) -> only (filter (\a -> sideOf l a < -tolerance) found)
-  (_, Choosing Within' (CircleValue c) : _) -> only (filter (\a -> depth c a > tolerance) found)
-  (_, Choosing Beyond (CircleValue c) : _) -> only (filter (\a -> depth c a < -tolerance) found)
-  (_, Ranking rank : _) | l : _ <- lines' -> pure (ranked rank (NonEmpty.fromList (sortOn (along l) found)))
-  _ -> bug "a choice of another kind"
-  where
-    all' = map candidate found
-    only fitting = case fitting of
-      [one] -> pure one
-      [] -> Eval.mistake (NoneFits region what all')
-      _ -> Eval.mistake (SeveralFit region what (map candidate fitting))
-    Mm tolerance = Tolerance.coincident
-    near (Mm a) (Mm b) = abs (a - b) <= tolerance
-    sideOf l a = let Mm d = Shape.signedDistance l (key a) in d
-    depth (Circle c (Mm r)) a = let Mm d = Vec.distance c (key a) in r - d
-    along l a = Vec.dot (Shape.direction l) (Vec.to (from l) (key a))
-    ranked rank as = case rank of
-      First -> NonEmpty.head as
-      Last -> NonEmpty.last as
-
 intersection :: Region -> Walked -> Walked -> [Given] -> Eval Value
 intersection region a b choice = case meeting of
   Apart gap -> Eval.mistake (NothingCommon region a b gap)
@@ -302,7 +217,8 @@ intersection region a b choice = case meeting of
   CrossingOnce p -> chosen [p]
   Crossing p q -> chosen [p, q]
   where
-    chosen ps = picked region "point" APoint id [l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
+    alongLine l p = Mm (Vec.dot (Shape.direction l) (Vec.to (from l) p))
+    chosen ps = picked region "point" APoint id [alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
     meeting = case (a, b) of
       (OnLine l, OnLine m) -> Intersect.lines l m
       (OnLine l, OnCircle _ c) -> Intersect.lineCircle l c
@@ -391,6 +307,7 @@ image region s v = case v of
     mapM_ (within region . Vec.norm . offset . Segment.end . segment) (elements d)
     pure (ContourValue d)
   ListValue vs -> ListValue <$> traverse (image region s) vs
+  CurveValue c -> let d = Curve.transformed s c in CurveValue d <$ mapM_ (within region . Vec.norm . offset) (Curve.ends d)
   _ -> bug "a transformation of something else"
 
 -- | A contour walked the other way.

@@ -11,7 +11,7 @@ module Part.Chain
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, total)
 import Base.Region (Region)
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List (minimumBy, sortOn)
@@ -21,13 +21,16 @@ import Data.Maybe (catMaybes, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Contour (Ends (..))
 import Geometry.Contour qualified as Contour
+import Geometry.Polyarc (Polyarc)
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (Line), Walked (..))
+import Geometry.Shape (Circle (Circle), Line (Line))
 import Geometry.Shape qualified as Shape
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Part.Error (Fact (..), Joined (Joined))
 import Part.Error qualified as Error
 import Part.Joint (Joint (..), Link (..))
@@ -117,6 +120,9 @@ lone Walk {place, shape, finish, link} = case (shape, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
     Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place finish False]
+  (OnCurve c, Nothing) | Polyarc.isClosed c -> Right (marked place finish (NonEmpty.toList (Polyarc.segments c)))
+  (OnCurve c, Just (at, _)) | Polyarc.isClosed c -> Left (LinkOfLoneCircle at)
+  (OnCurve _, _) -> Left (LoneElement place shape)
   (OnLine _, _) -> Left (LoneElement place shape)
   (AtPoint _, _) -> Left (LoneElement place shape)
 
@@ -238,24 +244,47 @@ walked shape before behind a b = case shape of
   OnLine l
     | Vec.near a b -> Mm 0
     | otherwise -> Mm (Vec.dot (Shape.direction l) (Vec.to a b))
-  OnCircle _ _ -> maybe (Mm 0) Segment.length (stretch shape before behind a b)
+  OnCircle _ _ -> total (map Segment.length (stretch shape before behind a b))
+  OnCurve c -> let (Mm from, Mm to) = stations c a b in Mm (to - from)
   AtPoint _ -> Mm 0
 
 -- | The segment along an element between two of its points. A circle that is entered where it is left is
 -- walked once round (a contour that does not walk an element at all would be the shortest), unless
 -- a straight line goes by it: circles in a row, joined by tangents.
-stretch :: Walked -> Maybe Segment -> Maybe Segment -> Point -> Point -> Maybe Segment
+stretch :: Walked -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
 stretch shape before behind a b = case shape of
-  OnLine (Line _ _) -> if Vec.near a b then Nothing else Just (Straight a b)
+  OnLine (Line _ _) -> [Straight a b | not (Vec.near a b)]
   OnCircle turn circle@(Circle c _)
-    | Vec.near a b && goesBy -> Nothing
-    | Vec.near a b -> Just (Segment.fullCircle turn circle a)
-    | otherwise -> Just (Segment.arc turn c a b)
-  AtPoint _ -> Nothing
+    | Vec.near a b && goesBy -> []
+    | Vec.near a b -> [Segment.fullCircle turn circle a]
+    | otherwise -> [Segment.arc turn c a b]
+  OnCurve c
+    | to > Polyarc.length c -> Polyarc.stretch c from (Polyarc.length c) <> Polyarc.stretch c (Mm 0) (minus to (Polyarc.length c))
+    | otherwise -> Polyarc.stretch c from to
+    where
+      (from, to) = stations c a b
+  AtPoint _ -> []
   where
     goesBy = case (before, behind) of
       (Just (Straight p q), Just (Straight s t)) -> Vec.dot (Vec.unit (Vec.to p q)) (Vec.unit (Vec.to s t)) > 0.5
       _ -> False
+
+-- | Where on a curve the walk enters and where it leaves; on a closed one, that may be in the next round.
+stations :: Polyarc -> Point -> Point -> (Mm, Mm)
+stations c a b
+  | Polyarc.isClosed c && (to <= from || Vec.near a b) = (from, plus to (Polyarc.length c))
+  | otherwise = (from, to)
+  where
+    from = Polyarc.station c a
+    to = Polyarc.station c b
+
+-- | The segments of one element. Those that go on smoothly on the same curve are marked.
+marked :: Region -> Finish -> [Segment] -> [Element]
+marked place finish ss = zipWith element ss (False : zipWith goesOn ss (drop 1 ss))
+  where
+    element s = Element s place finish
+    goesOn a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned <= smooth
+    Rad smooth = Tolerance.smoothAngle
 
 -- | The segments of a way.
 elementsOf :: [Walk] -> Point -> Maybe Segment -> Route -> [Element]
@@ -263,7 +292,7 @@ elementsOf walks begin before route = go walks begin before (reverse (taken rout
   where
     go ws at came js = case (ws, js) of
       (Walk {place, shape, finish, link} : rest, joint : more) ->
-        [Element s place finish False | Just s <- [stretch shape came (inserted joint) at (leave joint)]]
+        marked place finish (stretch shape came (inserted joint) at (leave joint))
           <> [Element s (maybe place fst link) plainFinish False | Just s <- [inserted joint]]
           <> go rest (enter joint) (inserted joint) more
       _ -> []

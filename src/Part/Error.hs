@@ -12,14 +12,17 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Rad (..), degrees)
 import Base.Region (Region)
 import Data.List (nub)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Geometry.Shape (Circle (..), Line (..), Walked (..))
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Shape (Circle (..), Line (..))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Report.Report (Code, Label (..), Place (..), Report (..), quote, report)
 import Report.Report qualified as Report
 
@@ -67,6 +70,8 @@ data Fact
   | -- | the points to choose from
     AmbiguousMeeting Joined [Point]
   | NotSmooth Joined Mm
+  | -- | they meet at this angle
+    Kinked Joined Rad
   | -- | they touch, but the walk would have to turn back
     TurnsBack Joined
   | -- | a tangent needs circles or points
@@ -131,6 +136,7 @@ joined' fact = case fact of
   SameCurve j -> Just j
   AmbiguousMeeting j _ -> Just j
   NotSmooth j _ -> Just j
+  Kinked j _ -> Just j
   TurnsBack j -> Just j
   TangentNeedsCircles j -> Just j
   ConcentricTangent j -> Just j
@@ -213,6 +219,11 @@ toReport (Error fact calls) = addCalls $ case fact of
     (joined "E0315" j (things j <> " do not touch: they miss it by " <> Decimal.mm gap))
       { message = [stop "17533"],
         hints = ["Correct the numbers, or join them with a fillet."]
+      }
+  Kinked j angle ->
+    (joined "E0348" j (things j <> " meet at an angle of " <> Decimal.short 2 (degrees angle) <> " deg"))
+      { message = ["Smooth neighbours differ in direction by at most " <> Decimal.short 2 (degrees Tolerance.smoothTurn) <> " deg."],
+        hints = ["Correct the numbers, round the corner with a fillet, or leave smooth out."]
       }
   TurnsBack j ->
     (joined "E0316" j "the elements touch here, but the walk would have to turn back")
@@ -353,6 +364,7 @@ describe :: Walked -> Text
 describe walked = case walked of
   OnLine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
   OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
+  OnCurve c -> "the curve from " <> Vec.written 4 (Polyarc.start c) <> " to " <> Vec.written 4 (Polyarc.end c)
   AtPoint p -> "the point " <> Vec.written 4 p
 
 -- | A curve in words, without where it is entered.

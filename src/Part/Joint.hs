@@ -12,16 +12,20 @@ import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
 import Geometry.Fillet qualified as Fillet
+import Geometry.Box qualified as Box
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Turn (..), Walked (..))
+import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Tangent qualified as Tangent
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
+import Geometry.Walked qualified as Walked
 import Part.Error (Fact (..), Joined (..))
 
 -- | A link with its values.
@@ -66,6 +70,8 @@ meet j own near = case shapes j of
     | otherwise -> Right (Joint p q (Just (Straight p q)))
   (AtPoint p, b) -> on p b
   (a, AtPoint q) -> on q a
+  (OnCurve c, b) -> ofCurve (Polyarc.segments c) (Walked.within (extent c) b)
+  (a, OnCurve c) -> ofCurve (Walked.within (extent c) a) (Polyarc.segments c)
   (OnLine l, OnLine m) -> case Intersect.lines l m of
     Apart gap -> Left (ParallelLines j gap)
     Same | Vec.near (Shape.to l) (Shape.from m) -> Right (through (Shape.to l))
@@ -80,11 +86,16 @@ meet j own near = case shapes j of
       Same -> Left (SameCurve j)
       Touching p -> Right (through p)
       CrossingOnce p -> Right (through p)
-      Crossing p q -> through <$> choose p q
-    choose p q = case near of
-      Just n | abs (distance n p - distance n q) > tolerance -> Right (if distance n p < distance n q then p else q)
-      Nothing | [one] <- [c | c <- [p, q], any (Vec.near c) own] -> Right one
-      _ -> Left (AmbiguousMeeting j [p, q])
+      Crossing p q -> choose [p, q]
+    ofCurve a b = case Polyarc.meetings a b of
+      [] -> Left (NoMeeting j (Polyarc.gap a b))
+      [p] -> Right (through p)
+      ps -> choose ps
+    extent c = foldl (\box s -> Box.union box (Box.ofSegment s)) (Box.ofPoints (Polyarc.start c) []) (Polyarc.segments c)
+    choose ps = through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
+      (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
+      (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
+      _ -> Left (AmbiguousMeeting j ps)
     distance a b = let Mm d = Vec.distance a b in d
     Mm tolerance = Tolerance.coincident
 
@@ -93,6 +104,7 @@ distanceTo :: Walked -> Point -> Mm
 distanceTo shape p = case shape of
   OnLine l -> let Mm d = Shape.signedDistance l p in Mm (abs d)
   OnCircle _ (Circle c (Mm r)) -> let Mm d = Vec.distance c p in Mm (abs (d - r))
+  OnCurve c -> Vec.distance p (Polyarc.at c (Polyarc.station c p))
   AtPoint q -> Vec.distance p q
 
 -- | The point where neighbours that touch go over into one another.
@@ -109,8 +121,26 @@ smooth j = case shapes j of
   (OnCircle t1 c1, OnCircle t2 c2) -> circles (t1, c1) (t2, c2)
   (AtPoint _, _) -> meet j [] Nothing
   (_, AtPoint _) -> meet j [] Nothing
+  (OnCurve c, b) -> let (p, u) = (Polyarc.end c, Polyarc.directionAt c (Polyarc.length c)) in goesOn (p, u) (sidedBy b p)
+  (a, OnCurve c) -> let (q, v) = (Polyarc.start c, Polyarc.directionAt c (Mm 0)) in goesOn (sidedBy a q) (q, v)
   where
     Mm tolerance = Tolerance.coincident
+    -- Curves come from measured points: a small gap and a small turn are theirs.
+    goesOn (p, u) (q, v)
+      | Vec.distance p q > Tolerance.smoothGap = Left (NotSmooth j (Vec.distance p q))
+      | abs turned > pi / 2 = Left (TurnsBack j)
+      | abs turned > smooth' = Left (Kinked j (Rad (abs turned)))
+      | otherwise = Right (Joint p q Nothing)
+      where
+        Rad turned = Vec.turn u v
+        Rad smooth' = Tolerance.smoothTurn
+    -- The point of an element that faces a point, and its direction there.
+    sidedBy shape p = case shape of
+      OnLine l -> (Shape.foot l p, Shape.direction l)
+      OnCircle turn (Circle c (Mm r)) ->
+        let out = Vec.unit (Vec.to c p) in (Vec.shift (Vec.scale r out) c, Vec.scale (Shape.sense turn) (Vec.left out))
+      OnCurve c -> let s = Polyarc.station c p in (Polyarc.at c s, Polyarc.directionAt c s)
+      AtPoint q -> (q, Vec.unit (Vec.to q p))
     touching gap p
       | abs gap <= tolerance = Right (through p)
       | otherwise = Left (NotSmooth j (Mm (abs gap)))
@@ -135,6 +165,8 @@ tangent :: Joined -> Either Fact Joint
 tangent j = case shapes j of
   (OnLine _, _) -> Left (TangentNeedsCircles j)
   (_, OnLine _) -> Left (TangentNeedsCircles j)
+  (OnCurve _, _) -> Left (TangentNeedsCircles j)
+  (_, OnCurve _) -> Left (TangentNeedsCircles j)
   (OnCircle t1 c1, OnCircle t2 c2) -> between (t1, c1) (t2, c2)
   (AtPoint p, OnCircle t c) -> between (t, Circle p (Mm 0)) (t, c)
   (OnCircle t c, AtPoint p) -> between (t, c) (t, Circle p (Mm 0))
@@ -177,4 +209,5 @@ chamfer j own (Mm d) = case shapes j of
     along shape s p = case shape of
       OnLine l -> Vec.shift (Vec.scale s (Shape.direction l)) p
       OnCircle turn (Circle c (Mm r)) -> Vec.shift (Vec.rotate (Rad (Shape.sense turn * s / r)) (Vec.to c p)) c
+      OnCurve c -> let Mm t = Polyarc.station c p in Polyarc.at c (Mm (t + s))
       AtPoint q -> q

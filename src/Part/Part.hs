@@ -5,6 +5,7 @@ module Part.Part
     Element (..),
     Finish (..),
     plainFinish,
+    runs,
     outline,
     Spot (..),
     Operation (..),
@@ -33,7 +34,7 @@ import Base.Name (Name)
 import Base.Quantity (Feed, Mm (..))
 import Base.Region (Located, Region)
 import Checked.Syntax (Corners (..), CutSense (..), LeadForm (..), MachineRef (..), Side (..), Switch (..), Walk (..))
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
 import Geometry.Contour (Ends (..))
 import Geometry.Contour qualified as Geometry
@@ -84,6 +85,12 @@ data Finish = Finish
 -- | Nothing out of the ordinary.
 plainFinish :: Finish
 plainFinish = Finish {ownFeed = Nothing, slow = False, allowance = Mm 0}
+
+-- | Elements in groups, each of which is one curve.
+runs :: [Element] -> [NonEmpty Element]
+runs es = case es of
+  [] -> []
+  e : rest -> let (same, others) = span continues rest in (e :| same) : runs others
 
 -- | The bare geometry of a contour.
 outline :: Contour -> Geometry.Contour

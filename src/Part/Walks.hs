@@ -11,22 +11,25 @@ where
 import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
 import Base.Name (Name)
-import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Quantity (Feed (..), Mm (..))
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr, Item, Item_ (..), Modifier_ (..), Walk)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Data.List (minimumBy)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Data.Text (Text)
 import Geometry.Distance qualified as Distance
-import Geometry.Segment (Segment (..))
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (Line), Turn (..), Walked (..))
+import Geometry.Shape (Line (Line), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
+import Geometry.Walked qualified as Walked
 import Part.Builtin qualified as Builtin
 import Part.Chain (Link (..))
 import Part.Chain qualified as Chain
@@ -85,12 +88,18 @@ walksOf at walk v finish link = case (v, walk) of
   _ -> bug "an element that can not be walked"
   where
     one shape begins stops = pure [Chain.Walk {Chain.place = at, Chain.shape, Chain.begins, Chain.stops, Chain.finish, Chain.link}]
-    chained es = case es of
+    chained es = case Part.runs es of
       [] -> []
-      [e] -> [walkOf e link]
-      e : rest -> walkOf e (Just (at, Fixed (Segment.end (Part.segment e)))) : chained rest
-    walkOf (Part.Element s origin own _) link' =
-      Chain.Walk {Chain.place = origin, Chain.shape = shapeOf s, Chain.begins = Just (Segment.start s), Chain.stops = Just (Segment.end s), Chain.finish = merged own, Chain.link = link'}
+      runs' -> zipWith walkOf runs' (map (Just . (at,) . Fixed . Segment.end . Part.segment . NonEmpty.last) (init runs') <> [link])
+    walkOf run@(e :| more) link' =
+      Chain.Walk
+        { Chain.place = Part.origin e,
+          Chain.shape = if null more then Walked.ofSegment (Part.segment e) else OnCurve (Polyarc.fromSegments (fmap Part.segment run)),
+          Chain.begins = Just (Segment.start (Part.segment e)),
+          Chain.stops = Just (Segment.end (Part.segment (NonEmpty.last run))),
+          Chain.finish = merged (Part.finish e),
+          Chain.link = link'
+        }
     -- What is asked on the whole counts where its elements ask nothing.
     merged own =
       Finish
@@ -98,9 +107,6 @@ walksOf at walk v finish link = case (v, walk) of
           slow = slow own || slow finish,
           allowance = if allowance own == Mm 0 then allowance finish else allowance own
         }
-    shapeOf s = case s of
-      Straight p q -> OnLine (Line p q)
-      Arc {start, centre, sweep = Rad a} -> OnCircle (if a > 0 then CounterClockwise else Clockwise) (Circle centre (Segment.radius centre start))
 
 linkOf :: Environment -> Checked.Link -> Eval (Region, Link)
 linkOf env (Located at l) =

@@ -20,7 +20,7 @@ import Data.Text.Read qualified as Read
 import Surface.Error (Error (..))
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr_ (..), Heading (..), Line, Line_ (..), Numeral (..))
-import Surface.Token (unitName)
+import Surface.Token (columnUnits, unitName)
 
 -- | The lines of a text whose first character has the offset given, and what cannot be read.
 table :: Int -> Text -> ([Error], [Line])
@@ -68,7 +68,7 @@ headings separator line = case partitionEithers (map heading (NonEmpty.toList (f
   where
     heading (Located at text) = case Text.words (Text.map (\c -> if c `elem` ("[]()" :: String) then ' ' else c) text) of
       [word] | isName word -> Right (Heading (Located at (Name word)) Nothing)
-      [word, unit] | isName word, u : _ <- [u | u <- [minBound .. maxBound], unitName u == unit] -> Right (Heading (Located (Region (start at) (start at + Text.length word)) (Name word)) (Just u))
+      [word, unit] | isName word, u : _ <- [u | u <- columnUnits, unitName u == unit] -> Right (Heading (Located (Region (start at) (start at + Text.length word)) (Name word)) (Just u))
       _ -> Left (BadHeading at text)
     isName word = Text.all (\c -> isAlphaNum c || c == '_') word && Text.any isAlpha (Text.take 1 word) && not (Keyword.isReserved word)
 

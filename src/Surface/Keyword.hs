@@ -1,6 +1,6 @@
 -- | The words that the language keeps for itself.
 --
--- Words that only ever stand where no name can (@depth@, @within@, @by@ …) are not among them.
+-- Words that only ever stand where no name can (@depth@, @step@, @by@ …) are not among them.
 module Surface.Keyword
   ( statements,
     blocks,
@@ -43,7 +43,7 @@ reservedWords =
     <> blocks
     <> ["open", "closed", "in", "cw", "ccw", "else", "then", "and", "or", "not"]
     <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer", "slow", "allowance", "bevel"]
-    <> ["outside", "inside", "left", "right", "on", "first", "last", "approach", "retract"]
+    <> ["outside", "inside", "left", "right", "on", "within", "first", "last", "approach", "retract"]
     <> filter (/= "in") (map unitName [minBound .. maxBound])
 
 reserved :: Set Text

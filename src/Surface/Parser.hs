@@ -163,7 +163,7 @@ line = (Header <$> onLine column) <|> (Entries <$> onLine cell)
   where
     onLine p = (:|) <$> p <*> Parsec.many (onThisLine p)
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
-    unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- [minBound .. maxBound]]
+    unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
     cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> number))) <|> parens expr
 
 -- | @skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@
@@ -175,7 +175,7 @@ piece = do
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right"))
   Piece what base ciphers side <$> Parsec.many (located joggle)
   where
-    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> (touching *> parens (expr `sepBy1` ","))
+    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> parens (expr `sepBy1` ",")
     digit t = case shape t of
       Number x Nothing -> Just x
       _ -> Nothing

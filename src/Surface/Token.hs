@@ -5,6 +5,7 @@ module Surface.Token
     Numeral (..),
     Unit (..),
     unitName,
+    columnUnits,
     describe,
   )
 where
@@ -61,6 +62,10 @@ unitName unit = case unit of
   MPerMin -> "m/min"
   InPerMin -> "in/min"
   Rpm -> "rpm"
+
+-- | The units that a column of a table can have: of lengths and angles.
+columnUnits :: [Unit]
+columnUnits = [Millimetre, Centimetre, Metre, Inch, Degree, Radian]
 
 -- | A token in the words of a report.
 describe :: Token_ -> Text

@@ -136,7 +136,7 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       Optional r
         | height r > fuel -> pure []
         | otherwise -> frequency [(3, pure []), (1, derive fuel r)]
-      Named "name" -> word ["a", "lug", "радиус", "depth", "within", "step", "at", "line"]
+      Named "name" -> word ["a", "lug", "радиус", "depth", "step", "at", "line"]
       Named "number" -> word ["0", "41", "59.3", "007"]
       Named "text" -> word ["\"\"", "\"Фланец, фиг. 2\""]
       Named "machine-name" -> word ["lkp-01f", "2.5-ax"]

@@ -19,7 +19,7 @@ import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax hiding (statements)
-import Surface.Token (Token (..), Token_ (..))
+import Surface.Token (Token (..), Token_ (..), columnUnits)
 import Test.QuickCheck
 
 -- | A program that the parser can give: all of it at one place, and nothing broken in it.
@@ -49,7 +49,7 @@ name :: Gen Name
 name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
   where
     plain = ["a", "b", "p", "lug", "радиус", "Ёж", "x1", "_", "half_turn", "a_rather_long_name_for_a_thing"]
-    words' = ["by", "at", "depth", "step", "within", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "lead", "rpm1", "min", "byte"]
+    words' = ["by", "at", "depth", "step", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "lead", "cipher", "joggle", "radius", "cone", "blade", "gear", "bevel1", "to", "rpm1", "min", "byte"]
     made = (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019"))) `suchThat` (not . Keyword.isReserved)
 
 number :: Gen Numeral
@@ -78,6 +78,9 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         LetValue <$> at name <*> expr (n + 1),
         LetFunction <$> at name <*> nonEmpty 2 (at name) <*> expr (n + 1),
         Param <$> at name <*> expr n,
+        Table <$> at name <*> (LinesOf <$> at title),
+        Curve <$> at name <*> expr (n + 1),
+        Piece <$> at name <*> expr n <*> some' 3 (at cipher) <*> at (elements [LeftSide, RightSide]) <*> some' 2 (at joggle),
         Assert <$> expr (n + 1) <*> maybe' (expr n),
         Drill <$> expr n <*> expr n <*> some' 3 (setting n),
         Travel <$> every <*> nonEmpty 3 (stop n),
@@ -88,6 +91,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       ]
     deep =
       [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
+        Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (Entries <$> nonEmpty 3 cell)))),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
@@ -95,12 +99,16 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         With <$> expr n <*> inside
       ]
     inside = some' 3 (statement (n - 1))
+    cipher = Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
+    joggle = Joggle <$> expr n <*> expr n <*> expr n <*> expr n
+    heading = Heading <$> at name <*> maybe' (elements columnUnits)
+    cell = oneof [at (Literal <$> number <*> maybe' every), at (Negate <$> at (Literal <$> number <*> maybe' every)), expr (n + 1)]
 
 machine :: Gen Text
 machine = oneof [pure "lkp-01f", (Text.pack <$> listOf1 (elements "abж.-079")) `suchThat` (not . Text.isInfixOf "--")]
 
 cutter :: Int -> Gen Cutter
-cutter n = at (oneof [MillCutter <$> expr n, DrillCutter <$> expr n, TurningCutter <$> expr n])
+cutter n = at (oneof [MillCutter <$> expr n, DrillCutter <$> expr n, TurningCutter <$> expr n, ConeCutter <$> expr n <*> expr n <*> expr n, BladeCutter <$> expr n <*> expr n])
 
 stop :: Int -> Gen Stop
 stop n = Stop <$> expr n <*> oneof [pure Cutting, pure Rapid, AtFeed <$> expr n]
@@ -109,7 +117,7 @@ item :: Int -> Gen Item
 item n = at (frequency ((6, element) : [(1, i) | n > 0, i <- deep]))
   where
     element = Element <$> maybe' (at every) <*> expr (n + 1) <*> some' 2 (at modifier) <*> maybe' (at link)
-    modifier = oneof [AtElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n]
+    modifier = oneof [AtElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n, Bevel <$> expr n]
     link = oneof [Meet <$> maybe' (expr n), pure Smooth, pure Tangent, Fillet <$> expr n, Chamfer <$> expr n]
     deep = [For <$> at name <*> expr n <*> inside, Choose <$> expr n <*> inside <*> inside]
     inside = some' 3 (item (n - 1))
@@ -159,11 +167,27 @@ respaced text = do
   end' <- elements ["\n", "\r\n", "\r"]
   mark <- elements ["", "\xFEFF"]
   before <- Text.concat <$> ownLines
-  pieces <- traverse piece (zip tokens (map Just (drop 1 tokens) <> [Nothing]))
+  pieces <- traverse piece (zip3 (inTables tokens) tokens (map Just (drop 1 tokens) <> [Nothing]))
   pure (mark <> Text.replace "\n" end' (before <> Text.concat pieces))
   where
     tokens = fst (Lexer.tokens 0 text)
-    piece (t, next) = (written text t <>) <$> maybe newLines (between t) next
+    piece (inTable, t, next) = (written text t <>) <$> maybe newLines (if inTable then inLine t else between t) next
+
+-- | Whether each token stands in the braces of a table, where lines mean something.
+inTables :: [Token] -> [Bool]
+inTables = go False
+  where
+    go inside tokens = case tokens of
+      a : _ : c : rest | not inside && newLine a && map shape [a, c] == [Word "table", Symbol "{"] -> False : False : True : go True rest
+      t : rest | inside && shape t == Symbol "}" -> False : go False rest
+      _ : rest -> inside : go inside rest
+      [] -> []
+
+-- | What may stand between two tokens of a table.
+inLine :: Token -> Token -> Gen Text
+inLine _ u
+  | newLine u = (<> "  ") <$> newLines
+  | otherwise = pure (if attached u then "" else " ")
 
 -- | What may stand between two tokens.
 between :: Token -> Token -> Gen Text

@@ -7,11 +7,12 @@ import Geometry.Fillet qualified as Fillet
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (..), Turn (..), Walked (..))
+import Geometry.Shape (Circle (Circle), Line (..), Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Tangent qualified as Tangent
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Geometry.Walked (Walked (..))
 import Test.Hspec
 import Test.QuickCheck
 
@@ -70,6 +71,7 @@ touches w p direction = case w of
   OnLine l -> onLine l p .&&. same (Shape.direction l)
   OnCircle t c@(Circle m _) -> on c p .&&. same (Vec.unit (Vec.scale (Shape.sense t) (Vec.left (Vec.to m p))))
   AtPoint q -> property (apart p q < 1e-6)
+  OnCurve _ -> property False
   where
     same d = counterexample (show (direction, d)) (Vec.dot d direction > 1 - 1e-6)
 

@@ -1,0 +1,221 @@
+-- | Curves given by tables, pieces or chains, and their shifts (ciphers), exactly.
+--
+-- A curve gives its place for a parameter from 0 to the number of its spans. A shift is one more layer: it moves what is
+-- below along the left normal by a distance that is itself a function of the parameter. Places, directions and
+-- curvatures come from power series through all layers; nothing is sampled in between, so the only error is that of
+-- doubles. Behind a corner that a shift opens, the curve goes on at another place: links are left to others.
+--
+-- The fields of bases, rows, columns and folds are read through the modules of those types below this one.
+module Geometry.Curve
+  ( -- * What curves are
+    Curve,
+    base,
+    layers,
+    Base,
+    Method (..),
+    Ends (..),
+    Row,
+    Span (..),
+    Flaw (..),
+
+    -- * Making them
+    polyline,
+    spline,
+    parabola,
+    Piece (..),
+    ofPieces,
+    ofSegments,
+
+    -- * Shifting them
+    Column,
+    column,
+    Distance (..),
+    Growth (..),
+    Joggle (..),
+    joggled,
+    ramp,
+    shifted,
+    Side (..),
+
+    -- * Looking at them
+    domain,
+    spans,
+    breaks,
+    at,
+    tangent,
+    normal,
+    curvature,
+    jet,
+    Approach (..),
+    placeFrom,
+    tangentFrom,
+    start,
+    end,
+    isClosed,
+    length,
+    lengthTo,
+    alongTo,
+    distanceOf,
+    nearest,
+    atX,
+    corners,
+    Fold,
+    fold,
+
+    -- * Turning them
+    reversed,
+    transformed,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, times)
+import Data.List.NonEmpty (NonEmpty)
+import Data.Vector (Vector)
+import Geometry.Curve.Base (Base, Ends (..), Flaw (..), Method (..), Piece (..), Row, Span (..))
+import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.Column (Column)
+import Geometry.Curve.Column qualified as Column
+import Geometry.Curve.Distance (Distance (..), Growth (..), Joggle (..), ramp)
+import Geometry.Curve.Distance qualified as Distance
+import Geometry.Curve.Fold (Fold, fold)
+import Geometry.Curve.Layered (Curve (..), Layer (..), base, breaks, domain, layers, shifted)
+import Geometry.Curve.Layered qualified as Layered
+import Geometry.Curve.Search (atX, corners, nearest)
+import Geometry.Curve.Search qualified as Search
+import Geometry.Jet (Approach (..), Jet)
+import Geometry.Jet qualified as Jet
+import Geometry.Offset (Side (..))
+import Geometry.Ruler qualified as Ruler
+import Geometry.Segment (Segment)
+import Geometry.Series qualified as Series
+import Geometry.Similarity (Similarity)
+import Geometry.Similarity qualified as Similarity
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Prelude hiding (length)
+
+-- | Straight from point to point; closed when the last is the first.
+polyline :: Vector Point -> Either Flaw Curve
+polyline points = Plain <$> Base.polyline points
+
+-- | A cubic spline by the chord length from point to point.
+spline :: Ends -> Vector Point -> Either Flaw Curve
+spline ends points = Plain <$> Base.spline ends points
+
+-- | Parabolas y(x) through points 1–3, 3–5, …
+parabola :: Vector Point -> Either Flaw Curve
+parabola points = Plain <$> Base.parabola points
+
+-- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
+ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Curve
+ofPieces pieces parameters = Plain <$> Base.ofPieces pieces parameters
+
+-- | A chain of lines and arcs; its rows are the ends of the segments.
+ofSegments :: NonEmpty Segment -> Either Flaw Curve
+ofSegments segments = Plain <$> Base.ofSegments segments
+
+-- | Numbers at the rows of the curve's table, as many as there are, interpolated as the points are.
+column :: Curve -> Vector Double -> Column
+column curve = Column.column (base curve)
+
+-- | The distance of a joggle that fits between two parameters of the curve that it is to shift.
+joggled :: Joggle -> Curve -> Either Flaw Distance
+joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
+  | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
+  | needed > there = Left (LongJoggle needed there)
+  | otherwise = Right (Joggled joggle)
+  where
+    needed = times 2 (ramp joggle)
+    there = minus (lengthTo curve ends) (lengthTo curve begins)
+
+-- | How many spans there are.
+spans :: Curve -> Int
+spans curve = Base.count (base curve)
+
+-- | The place with a parameter; beyond the ends, the end.
+at :: Curve -> Double -> Point
+at = placeFrom After
+
+-- | The place that the curve comes to before a parameter, or goes on from behind it: they differ where a shift has
+-- opened a corner.
+placeFrom :: Approach -> Curve -> Double -> Point
+placeFrom approach curve u = Jet.place (jet approach 0 curve u)
+
+-- | The direction, of length 1.
+tangent :: Curve -> Double -> Vec
+tangent = tangentFrom After
+
+-- | The direction before or behind a parameter. On a closed curve the way goes on over the joint.
+tangentFrom :: Approach -> Curve -> Double -> Vec
+tangentFrom = Search.directionAt
+
+-- | The left normal, of length 1.
+normal :: Curve -> Double -> Vec
+normal curve u = Vec.left (tangent curve u)
+
+-- | In 1/mm, positive where the curve bends to the left.
+curvature :: Curve -> Double -> Double
+curvature curve u = Jet.curvature (jet After 2 curve u)
+
+-- | The power series of the place up to an order.
+jet :: Approach -> Int -> Curve -> Double -> Jet
+jet approach n curve u = Layered.jetAt n curve (Layered.spot approach u curve)
+
+start :: Curve -> Point
+start curve = placeFrom After curve 0
+
+end :: Curve -> Point
+end curve = placeFrom Before curve (domain curve)
+
+-- | Whether the curve ends where it begins.
+isClosed :: Curve -> Bool
+isClosed = Search.closed
+
+-- | The true length; what a shift opens at corners is no part of it.
+length :: Curve -> Mm
+length curve = Ruler.total (Layered.ruler curve)
+
+-- | The true length up to a parameter.
+lengthTo :: Curve -> Double -> Mm
+lengthTo curve = Ruler.lengthTo (Layered.ruler curve)
+
+-- | The parameter up to which the curve has a length.
+alongTo :: Curve -> Mm -> Double
+alongTo curve = Ruler.parameterAt (Layered.ruler curve)
+
+-- | How far to the left the outermost shift moves the place with a parameter; nothing without a shift.
+distanceOf :: Curve -> Double -> Mm
+distanceOf curve u = case curve of
+  Plain _ -> Mm 0
+  Shifted layer lower _ ->
+    let s = Layered.spot After u curve
+     in Mm (Series.value (Layered.distanceAt 0 layer lower (Layered.jetAt 1 lower s) s))
+
+-- | The same curve walked from its end.
+reversed :: Curve -> Curve
+reversed curve = case curve of
+  Plain b -> Plain (Base.reversed b)
+  Shifted layer lower _ ->
+    let lower' = reversed lower
+     in shifted (otherSide (side layer)) (Distance.reversed (base lower) (base lower') (distance layer)) lower'
+
+-- | The curve moved, turned, scaled, mirrored: distances grow with it and change sides in a mirror.
+transformed :: Similarity -> Curve -> Curve
+transformed s curve = case curve of
+  Plain b -> Plain (Base.transformed s b)
+  Shifted layer lower _ ->
+    let lower' = transformed s lower
+        side' = if Similarity.mirrors s then otherSide (side layer) else side layer
+     in shifted side' (Distance.scaled (base lower') (factor s) (distance layer)) lower'
+
+-- | How much longer everything becomes.
+factor :: Similarity -> Double
+factor s = let Mm k = Vec.distance (Similarity.point s (Vec.point 0 0)) (Similarity.point s (Vec.point far 0)) in k / far
+  where
+    -- So far that the rounding of large displacements does not tell.
+    far = 1024
+
+otherSide :: Side -> Side
+otherSide s = case s of
+  LeftOf -> RightOf
+  RightOf -> LeftOf

@@ -1,0 +1,378 @@
+-- | What a curve is before any shift: spans, one behind the other, each a cubic in both coordinates or an arc.
+--
+-- The parameter runs from 0 to the number of spans, each span having 1 of it. A base remembers the rows of the table
+-- that it came from, so that columns of numbers beside the points can be interpolated in the same way.
+module Geometry.Curve.Base
+  ( Base (..),
+    Method (..),
+    Ends (..),
+    Row (..),
+    Span (..),
+    Flaw (..),
+    polyline,
+    spline,
+    parabola,
+    Piece (..),
+    ofPieces,
+    ofSegments,
+    count,
+    ruler,
+    chords,
+    fractions,
+    Spot (..),
+    spot,
+    jet,
+    reversed,
+    backwards,
+    unrepeated,
+    transformed,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Data.Vector.Unboxed qualified as Unboxed
+import Geometry.Jet (Approach (..), Jet (..))
+import Geometry.Jet qualified as Jet
+import Geometry.Ruler (Ruler)
+import Geometry.Ruler qualified as Ruler
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Series qualified as Series
+import Geometry.Similarity (Similarity)
+import Geometry.Similarity qualified as Similarity
+import Geometry.Spline (Cubic (..))
+import Geometry.Spline qualified as Spline
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+
+data Base = Base
+  { method :: Method,
+    -- | the rows of the table, in the order of the walk
+    rows :: Vector Row,
+    -- | at least one
+    spans :: Vector Span,
+    -- | whether the end is the beginning
+    closed :: Bool,
+    -- | along the base; read by 'ruler'
+    measure :: ~Ruler
+  }
+  deriving stock (Eq, Show)
+
+-- | How the points became spans.
+data Method
+  = -- | a straight line from each row to the next
+    Polyline
+  | -- | a cubic from each row to the next
+    Spline Ends
+  | -- | a parabola through rows 1–3, 3–5, …
+    Parabola
+  | -- | pieces given as such
+    Joined
+  deriving stock (Eq, Show)
+
+-- | What holds at the ends of a spline.
+data Ends
+  = -- | no curvature
+    Natural
+  | -- | these directions, of length 1
+    Clamped Vec Vec
+  | -- | the end goes over into the beginning, curvature included
+    Periodic
+  deriving stock (Eq, Show)
+
+-- | A point of the table and its parameter on the curve.
+data Row = Row {at :: Double, place :: Point}
+  deriving stock (Eq, Show)
+
+-- | A part of the curve, its own parameter running from 0 to 1.
+data Span
+  = -- | x and y
+    Polynomial Cubic Cubic
+  | -- | an arc, evenly
+    Round Segment
+  deriving stock (Eq, Show)
+
+-- | Why there is no such curve. Rows and pieces count from 1.
+data Flaw
+  = -- | fewer points than are needed, and how many that is
+    TooFew Int
+  | -- | this row and the next are one point
+    Coincident Int
+  | -- | so many points that the last parabola lacks one
+    EvenCount Int
+  | -- | between this row and the next x does not go on as it began
+    NotMonotone Int
+  | -- | a direction at the end of a spline has no length
+    NoDirection
+  | -- | this piece has no length
+    NoLength Int
+  | -- | this piece ends elsewhere than the next begins
+    Disjoint Int
+  | -- | this row does not come before the next along the curve, or lies beyond its ends
+    Disordered Int
+  | -- | a joggle's radius is not above half of its depth
+    DeepJoggle
+  | -- | the ramps of a joggle need this length; there is only that
+    LongJoggle Mm Mm
+  deriving stock (Eq, Show)
+
+-- | A base of these spans.
+made :: Method -> Bool -> Vector Row -> Vector Span -> Base
+made method closed rows spans = base
+  where
+    base = Base {method, rows, spans, closed, measure = Ruler.measured speed (map fromIntegral [0 .. Vector.length spans])}
+    speed u = Vec.norm (Jet.velocity (jet 1 base (spot After u base)))
+
+-- | Straight from point to point; closed when the last is the first.
+polyline :: Vector Point -> Either Flaw Base
+polyline points = do
+  distinct 2 points
+  let line i p = let q = points Vector.! (i + 1) in Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
+  Right (made Polyline (closes points) (numbered points) (Vector.imap line (Vector.init points)))
+
+-- | A cubic spline by the chord length from point to point; continuous up to the second derivative by it. At
+-- clamped ends the derivative by the chord length is the direction given. The points of a periodic one may or may not
+-- repeat the first at the end.
+spline :: Ends -> Vector Point -> Either Flaw Base
+spline ends points = case ends of
+  Natural -> do
+    distinct 2 points
+    Right (made (Spline ends) (closes points) (numbered points) (cubics Spline.Natural Spline.Natural points))
+  Clamped from to
+    | Vec.norm from <= Tolerance.parallel || Vec.norm to <= Tolerance.parallel -> Left NoDirection
+    | otherwise -> do
+      distinct 2 points
+      let f = Vec.unit from
+          t = Vec.unit to
+          by part = Spline.Clamped (Vec.dot f part) (Vec.dot t part)
+      Right (made (Spline (Clamped f t)) (closes points) (numbered points) (cubics (by (Vec.vec 1 0)) (by (Vec.vec 0 1)) points))
+  Periodic -> do
+    let once = if closes points then Vector.init points else points
+        round' = Vector.snoc once (Vector.head once)
+    distinct 3 once
+    Right (made (Spline Periodic) True (numbered points) (cubics Spline.Periodic Spline.Periodic round'))
+
+-- | The spans of a spline, from what holds at the ends for x and for y.
+cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> Vector Span
+cubics forX forY points = Vector.zipWith Polynomial (through forX Vec.x) (through forY Vec.y)
+  where
+    steps = distances points
+    through boundary part = Spline.interpolate boundary steps (Unboxed.convert (Vector.map part points))
+
+-- | The distances from point to point, in mm.
+distances :: Vector Point -> Unboxed.Vector Double
+distances points = Unboxed.convert (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
+
+-- | The distances from row to row, in mm; for a closed base whose last row is not the first again, to that too.
+chords :: Base -> Unboxed.Vector Double
+chords base
+  | closed base && not (closes points) = distances (Vector.snoc points (Vector.head points))
+  | otherwise = distances points
+  where
+    points = Vector.map place (rows base)
+
+-- | Where the middle row of each parabola lies, as a fraction of its span.
+fractions :: Base -> Vector Double
+fractions base = Vector.imap (\i _ -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1))) (spans base)
+
+-- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the template). A span is a
+-- parabola; its parameter is proportional to x, which rises or falls all along.
+parabola :: Vector Point -> Either Flaw Base
+parabola points
+  | Vector.length points < 3 = Left (TooFew 3)
+  | even (Vector.length points) = Left (EvenCount (Vector.length points))
+  | otherwise = do
+    distinct 3 points
+    maybe (Right ()) (Left . NotMonotone . (+ 1)) (Vector.findIndex (<= 0) (Vector.zipWith advance points (Vector.drop 1 points)))
+    let middles = Vector.generate (Vector.length points `div` 2) middle
+        row i p = Row {at = if even i then fromIntegral (i `div` 2) else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2), place = p}
+        through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
+        spans = Vector.imap (\i y -> Polynomial (Spline.line (x (2 * i)) (x (2 * i + 2))) y) (through Vec.y)
+    Right (made Parabola False (Vector.imap row points) spans)
+  where
+    x i = Vec.x (points Vector.! i)
+    sense = signum (x 1 - x 0)
+    -- Points above one another are no parabola's, however far apart.
+    advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
+    middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
+
+-- | A part of a curve that is put together.
+data Piece
+  = -- | a straight line from one point to another
+    Line Point Point
+  | -- | @y = a·x² + b·x + c@ with a (1/mm), b, c (mm), from one x to another
+    Quadratic Double Double Double Double Double
+  | -- | an arc
+    Circular Segment
+  deriving stock (Eq, Show)
+
+-- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
+ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Base
+ofPieces pieces parameters = do
+  joined (NonEmpty.toList spans)
+  maybe (Right ()) (Left . Disordered . (+ 1)) (Vector.findIndex not ordered)
+  Right base {rows = Vector.map (\u -> Row {at = u, place = Jet.place (jet 0 base (spot After u base))}) parameters}
+  where
+    spans = fmap spanOf pieces
+    base = chain Vector.empty spans
+    n = fromIntegral (NonEmpty.length spans)
+    ordered = Vector.imap (\i u -> u >= 0 && u <= n && all (> u) (parameters Vector.!? (i + 1))) parameters
+
+spanOf :: Piece -> Span
+spanOf piece = case piece of
+  Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
+  Quadratic a b c from to ->
+    let d = to - from
+     in Polynomial (Spline.line from to) (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
+  Circular s -> ofSegment s
+
+ofSegment :: Segment -> Span
+ofSegment s = case s of
+  Straight p q -> spanOf (Line p q)
+  Arc {} -> Round s
+
+-- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the chain is closed.
+ofSegments :: NonEmpty Segment -> Either Flaw Base
+ofSegments segments = do
+  joined (NonEmpty.toList spans)
+  Right base {rows = numbered (if closed base then starts else Vector.snoc starts (Segment.end (NonEmpty.last segments)))}
+  where
+    spans = fmap ofSegment segments
+    base = chain Vector.empty spans
+    starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
+
+-- | A base of spans that join.
+chain :: Vector Row -> NonEmpty Span -> Base
+chain rows spans = made Joined (Vec.near first final) rows (Vector.fromList (NonEmpty.toList spans))
+  where
+    (first, _) = spanEnds (NonEmpty.head spans)
+    (_, final) = spanEnds (NonEmpty.last spans)
+
+spanEnds :: Span -> (Point, Point)
+spanEnds s = case s of
+  Polynomial x y -> let place t = Vec.point (Spline.value x t) (Spline.value y t) in (place 0, place 1)
+  Round g -> (Segment.start g, Segment.end g)
+
+-- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
+joined :: [Span] -> Either Flaw ()
+joined spans = maybe (Right ()) Left (listToMaybe (lengthless <> apart))
+  where
+    lengthless = [NoLength i | (i, s) <- zip [1 ..] spans, stands s]
+    apart = [Disjoint i | (i, s, s') <- zip3 [1 ..] spans (drop 1 spans), not (Vec.near (snd (spanEnds s)) (fst (spanEnds s')))]
+    stands s = case s of
+      Polynomial _ _ -> let (p, q) = spanEnds s in Vec.near p q
+      Round g -> Segment.length g <= Tolerance.coincident
+
+-- | There are enough points, and none is the next one's place.
+distinct :: Int -> Vector Point -> Either Flaw ()
+distinct needed points
+  | Vector.length points < needed = Left (TooFew needed)
+  | otherwise = maybe (Right ()) (Left . Coincident . (+ 1)) (Vector.findIndex id (Vector.zipWith Vec.near points (Vector.drop 1 points)))
+
+closes :: Vector Point -> Bool
+closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
+  (Just p, Just q) -> Vector.length points > 2 && Vec.near p q
+  _ -> False
+
+-- | Rows at the ends of the spans.
+numbered :: Vector Point -> Vector Row
+numbered = Vector.imap (\i p -> Row {at = fromIntegral i, place = p})
+
+-- | How many spans there are: the parameter of the end.
+count :: Base -> Int
+count base = Vector.length (spans base)
+
+-- | Along the base.
+ruler :: Base -> Ruler
+ruler = measure
+
+-- | A place on a curve: the parameter, the number of its span, the span's own parameter, and the side from which it is
+-- reached.
+data Spot = Spot {parameter :: Double, number :: Int, local :: Double, approach :: Approach}
+  deriving stock (Eq, Show)
+
+-- | The place with a parameter; beyond the ends, the end.
+spot :: Approach -> Double -> Base -> Spot
+spot approach u base = Spot {parameter, number, local = parameter - fromIntegral number, approach}
+  where
+    n = count base
+    parameter = max 0 (min (fromIntegral n) u)
+    number = case approach of
+      After -> min (n - 1) (truncate parameter)
+      Before -> max 0 (ceiling parameter - 1)
+
+-- | The power series of the place up to an order.
+jet :: Int -> Base -> Spot -> Jet
+jet n base s = case spans base Vector.! number s of
+  Polynomial x y -> Jet (Spline.series n x (local s)) (Spline.series n y (local s))
+  Round (Arc {start, centre, sweep = Rad sweep}) ->
+    let out = Vec.to centre start
+        turned = Vec.rotate (Rad (sweep * local s)) out
+        -- Each derivative turns by a quarter and grows by the sweep.
+        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left turned)
+        part direction = map (Vec.dot direction) terms
+     in Jet
+          (Series.plusConstant (Vec.x centre) (Series.fromList n (part (Vec.vec 1 0))))
+          (Series.plusConstant (Vec.y centre) (Series.fromList n (part (Vec.vec 0 1))))
+  Round (Straight p q) ->
+    let d = Vec.to p q
+     in Jet
+          (Series.fromList n [Vec.x p + local s * Vec.dot d (Vec.vec 1 0), Vec.dot d (Vec.vec 1 0)])
+          (Series.fromList n [Vec.y p + local s * Vec.dot d (Vec.vec 0 1), Vec.dot d (Vec.vec 0 1)])
+
+-- | The same walked from its end.
+reversed :: Base -> Base
+reversed base = made method' (closed base) (Vector.imap back (backwards base (rows base))) (Vector.map turned (Vector.reverse (spans base)))
+  where
+    back i row = row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
+    turned s = case s of
+      Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
+      Round g -> Round (Segment.reverse g)
+    method' = case method base of
+      Spline (Clamped from to) -> Spline (Clamped (Vec.negate to) (Vec.negate from))
+      Spline Natural -> Spline Natural
+      Spline Periodic -> Spline Periodic
+      Polyline -> Polyline
+      Parabola -> Parabola
+      Joined -> Joined
+
+-- | What belongs to the rows, in the order of the reversed base.
+backwards :: Base -> Vector a -> Vector a
+backwards base values
+  | unrepeated base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
+  | otherwise = Vector.reverse values
+
+-- | Whether the base is closed and its first row, at the beginning, does not stand at the end a second time.
+unrepeated :: Base -> Bool
+unrepeated base = case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
+  (Just first, Just final) -> closed base && at first == 0 && at final < fromIntegral (count base)
+  _ -> False
+
+-- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
+transformed :: Similarity -> Base -> Base
+transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Similarity.point s (place row)}) (rows base)) (Vector.map image (spans base))
+  where
+    image g = case g of
+      Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
+        let p = Similarity.point s (Vec.point x0 y0)
+            (a1, b1) = components (image' (Vec.vec x1 y1))
+            (a2, b2) = components (image' (Vec.vec x2 y2))
+            (a3, b3) = components (image' (Vec.vec x3 y3))
+         in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
+      Round arc -> Round (Similarity.segment s arc)
+    origin = Vec.point 0 0
+    image' v = Vec.to (Similarity.point s origin) (Similarity.point s (Vec.shift v origin))
+    components v = (Vec.dot v (Vec.vec 1 0), Vec.dot v (Vec.vec 0 1))
+    method' = case method base of
+      Spline (Clamped from to) -> Spline (Clamped (Vec.unit (image' from)) (Vec.unit (image' to)))
+      Spline Natural -> Spline Natural
+      Spline Periodic -> Spline Periodic
+      Polyline -> Polyline
+      Parabola -> Parabola
+      Joined -> Joined

@@ -1,0 +1,107 @@
+-- | Numbers beside the points of a table, one for every row, interpolated in the same way and on the same parameter as
+-- the points: straight between the rows of a polyline, by parabolas where the points are, by splines where they are.
+--
+-- On pieces that are put together the numbers are a spline by the true length along them, natural or, on a closed
+-- base, periodic: the parameter's speed jumps there from piece to piece.
+module Geometry.Curve.Column
+  ( Column (..),
+    Course (..),
+    column,
+    series,
+    scaled,
+    reversed,
+  )
+where
+
+import Base.Crash qualified as Crash
+import Base.Quantity (Mm (..))
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Data.Vector.Unboxed qualified as Unboxed
+import Geometry.Curve.Base (Base, Method (..), Spot (..))
+import Geometry.Curve.Base qualified as Base
+import Geometry.Jet qualified as Jet
+import Geometry.Ruler qualified as Ruler
+import Geometry.Series (Series)
+import Geometry.Series qualified as Series
+import Geometry.Spline (Boundary (..), Cubic (..))
+import Geometry.Spline qualified as Spline
+
+-- | Row values, in whatever unit, and what they are between the rows.
+data Column = Column {values :: Vector Double, course :: Course}
+  deriving stock (Eq, Show)
+
+data Course
+  = -- | a cubic for every span of the base
+    BySpan (Vector Cubic)
+  | -- | the lengths along the base, in mm, where one cubic follows another, the ends included
+    ByLength (Unboxed.Vector Double) (Vector Cubic)
+  deriving stock (Eq, Show)
+
+-- | As many values as the base has rows.
+column :: Base -> Vector Double -> Column
+column base values
+  | Vector.length values /= Vector.length (Base.rows base) = Crash.bug "a column of another length than its table"
+  | otherwise = Column {values, course}
+  where
+    flat = Unboxed.convert values
+    first = Vector.take 1 values
+    -- A table that repeats its first point may give that another value the second time.
+    round' = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
+    onceRound = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
+    course = case Base.method base of
+      Polyline -> BySpan (Vector.zipWith Spline.line values (Vector.drop 1 values))
+      Spline Base.Natural -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
+      Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
+      Spline Base.Periodic -> BySpan (Spline.interpolate (if round' then Periodic else Natural) (Base.chords base) onceRound)
+      Parabola -> BySpan (Spline.parabolas (Base.fractions base) flat)
+      Joined -> byLength base values
+
+-- | The spline by the length along the base. Of two values and more; a single one is the same everywhere.
+byLength :: Base -> Vector Double -> Course
+byLength base values = case Vector.toList values of
+  [] -> BySpan (Vector.replicate (Base.count base) (Cubic 0 0 0 0))
+  [v] -> BySpan (Vector.replicate (Base.count base) (Cubic v 0 0 0))
+  v : _
+    | Base.unrepeated base -> spline (if Vector.length values >= 3 then Periodic else Natural) (Unboxed.snoc stations whole) (Vector.snoc values v)
+    | Base.closed base && aroundOnce && Vector.length values >= 4 -> spline Periodic stations values
+    | otherwise -> spline Natural stations values
+  where
+    Mm whole = Ruler.total (Base.ruler base)
+    stations = Unboxed.convert (Vector.map (\row -> let Mm s = Ruler.lengthTo (Base.ruler base) (Base.at row) in s) (Base.rows base))
+    aroundOnce = Unboxed.take 1 stations == Unboxed.singleton 0 && Unboxed.last stations == whole && Vector.take 1 values == Vector.drop (Vector.length values - 1) values
+    spline boundary at vs = ByLength at (Spline.interpolate boundary (Unboxed.zipWith (-) (Unboxed.drop 1 at) at) (Unboxed.fromList (Vector.toList vs)))
+
+-- | The power series of the value up to an order.
+series :: Int -> Base -> Column -> Spot -> Series
+series n base c spot = case course c of
+  BySpan cubics -> Spline.series n (cubics Vector.! number spot) (local spot)
+  ByLength stations cubics -> Series.polynomial (Spline.coefficients (cubics Vector.! i)) fraction
+    where
+      Mm here = Ruler.lengthTo (Base.ruler base) (parameter spot)
+      i = stretchAt here stations
+      from = stations Unboxed.! i
+      width = stations Unboxed.! (i + 1) - from
+      run = case n of
+        0 -> Series.constant 0 here
+        _ -> Series.integral here (Jet.speed (Base.jet n base spot))
+      fraction = Series.scale (1 / width) (Series.plusConstant (-from) run)
+
+-- | The number of the stretch between two of these lengths that a length belongs to; the outer ones reach on.
+stretchAt :: Double -> Unboxed.Vector Double -> Int
+stretchAt s stations = search 0 (Unboxed.length stations - 1)
+  where
+    search low high
+      | high - low <= 1 = low
+      | stations Unboxed.! middle <= s = search middle high
+      | otherwise = search low middle
+      where
+        middle = (low + high) `div` 2
+
+-- | The values times a factor, on a base that may be another.
+scaled :: Base -> Double -> Column -> Column
+scaled base k c = column base (Vector.map (k *) (values c))
+
+-- | The column of a reversed base, given the base that it was on and the new one.
+reversed :: Base -> Base -> Column -> Column
+reversed old new c = column new (Base.backwards old (values c))

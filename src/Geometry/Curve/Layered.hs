@@ -1,0 +1,106 @@
+-- | A base and the shifts laid on it, one on the other, and what they give near a place.
+module Geometry.Curve.Layered
+  ( Curve (..),
+    Layer (..),
+    Side (..),
+    shifted,
+    base,
+    layers,
+    breaks,
+    ruler,
+    spot,
+    jetAt,
+    distanceAt,
+    domain,
+  )
+where
+
+import Geometry.Curve.Base (Base, Spot (..))
+import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.Distance (Below (..), Distance, Stretch)
+import Geometry.Curve.Distance qualified as Distance
+import Geometry.Jet (Approach (..), Jet)
+import Geometry.Jet qualified as Jet
+import Geometry.Offset (Side (..))
+import Geometry.Ruler (Ruler)
+import Geometry.Ruler qualified as Ruler
+import Geometry.Series (Series)
+import Geometry.Series qualified as Series
+import Geometry.Vec qualified as Vec
+
+data Curve
+  = Plain Base
+  | -- | a curve moved along its left normal; the ruler is that of the outcome
+    Shifted Layer Curve ~Ruler
+  deriving stock (Eq, Show)
+
+-- | One shift.
+data Layer = Layer {side :: Side, distance :: Distance, known :: ~Stretch}
+  deriving stock (Eq, Show)
+
+-- | Every point moved along the normal, to a side, by a distance that is known for the curve.
+shifted :: Side -> Distance -> Curve -> Curve
+shifted side distance lower = whole
+  where
+    whole = Shifted Layer {side, distance, known = Distance.stretch (ruler lower) distance} lower (Ruler.measured speed (breaks whole))
+    speed u = Vec.norm (Jet.velocity (jetAt 1 whole (spot After u whole)))
+
+-- | What lies under all shifts.
+base :: Curve -> Base
+base curve = case curve of
+  Plain b -> b
+  Shifted _ lower _ -> base lower
+
+-- | The shifts, the innermost first.
+layers :: Curve -> [(Side, Distance)]
+layers curve = reverse (outermost curve)
+  where
+    outermost c = case c of
+      Plain _ -> []
+      Shifted layer lower _ -> (side layer, distance layer) : outermost lower
+
+-- | The parameters between which the curve is smooth, in rising order, from its beginning to its end.
+breaks :: Curve -> [Double]
+breaks curve = case curve of
+  Plain b -> map fromIntegral [0 .. Base.count b]
+  Shifted layer lower _ -> merged (breaks lower) (filter inside (Distance.marks (known layer)))
+  where
+    inside u = u > 0 && u < domain curve
+
+-- | Two rising lists as one, without repetition.
+merged :: [Double] -> [Double] -> [Double]
+merged as bs = case (as, bs) of
+  ([], _) -> bs
+  (_, []) -> as
+  (a : as', b : bs')
+    | a < b -> a : merged as' bs
+    | b < a -> b : merged as bs'
+    | otherwise -> a : merged as' bs'
+
+-- | The parameter of the end: the number of spans.
+domain :: Curve -> Double
+domain = fromIntegral . Base.count . base
+
+-- | How far along the curve its parameter leads.
+ruler :: Curve -> Ruler
+ruler curve = case curve of
+  Plain b -> Base.ruler b
+  Shifted _ _ along -> along
+
+-- | The place with a parameter; beyond the ends, the end.
+spot :: Approach -> Double -> Curve -> Spot
+spot approach u curve = Base.spot approach u (base curve)
+
+-- | The power series of the place up to an order. Every shift asks the curve under it for one order more.
+jetAt :: Int -> Curve -> Spot -> Jet
+jetAt n curve s = case curve of
+  Plain b -> Base.jet n b s
+  Shifted layer lower _ -> let near = jetAt (n + 1) lower s in Jet.moved (distanceAt n layer lower near s) near
+
+-- | The power series of a shift's distance to the left up to an order, given the curve below near the spot.
+distanceAt :: Int -> Layer -> Curve -> Jet -> Spot -> Series
+distanceAt n layer lower near s = case side layer of
+  LeftOf -> d
+  RightOf -> Series.scale (-1) d
+  where
+    d = Distance.series n Below {under = base lower, along = ruler lower, near} (known layer) (distance layer) s

@@ -1,0 +1,134 @@
+-- | Places on a curve: the nearest to a point, those at an abscissa, those where its direction jumps.
+--
+-- Every smooth stretch of the curve is sampled at equal steps of the parameter, and places are made exact between
+-- the samples. What a curve does twice between neighbouring samples may be overlooked.
+module Geometry.Curve.Search
+  ( nearest,
+    atX,
+    corners,
+    directionAt,
+    closed,
+    stretches,
+    samples,
+    within,
+  )
+where
+
+import Base.Crash qualified as Crash
+import Base.Quantity (Mm (..), Rad (..), plus, times)
+import Data.List (minimumBy)
+import Data.Ord (comparing)
+import Geometry.Curve.Base (Spot)
+import Geometry.Curve.Layered (Curve (..))
+import Geometry.Curve.Layered qualified as Layered
+import Geometry.Jet (Approach (..), Jet (..))
+import Geometry.Jet qualified as Jet
+import Geometry.Root qualified as Root
+import Geometry.Series qualified as Series
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+
+-- | The smooth stretches, each from one parameter to another.
+stretches :: Curve -> [(Double, Double)]
+stretches curve = let bs = Layered.breaks curve in zip bs (drop 1 bs)
+
+-- | Parameters across a stretch, its ends included.
+samples :: (Double, Double) -> [Double]
+samples (a, b) = [if k == steps then b else a + (b - a) * fromIntegral k / fromIntegral steps | k <- [0 .. steps]]
+
+-- | How many steps a smooth stretch is sampled in.
+steps :: Int
+steps = 8
+
+-- | The place with a parameter, seen from within a stretch.
+within :: (Double, Double) -> Curve -> Double -> Spot
+within (_, b) curve u = Layered.spot (if u >= b then Before else After) u curve
+
+-- | The parameter of the place that is nearest to a point. Of several the first.
+nearest :: Point -> Curve -> Double
+nearest p curve = fst (minimumBy (comparing snd) (map (\(u, q, _) -> (u, Vec.distance p q)) (concatMap snd sampled) <> concatMap feet sampled))
+  where
+    sampled = map (\stretch -> (stretch, map (sample stretch) (samples stretch))) (stretches curve)
+    sample stretch u =
+      let jet = Layered.jetAt 1 curve (within stretch curve u)
+          q = Jet.place jet
+       in (u, q, Vec.dot (Vec.to p q) (Jet.velocity jet))
+    best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
+    -- Where the way turns from towards the point to away from it, unless that is certainly further than a sample.
+    feet (stretch, found) =
+      [ (u, Vec.distance p (Jet.place (Layered.jetAt 0 curve (within stretch curve u))))
+        | ((a, q, v), (b, r, w)) <- zip found (drop 1 found),
+          v < 0,
+          w > 0,
+          min (Vec.distance p q) (Vec.distance p r) <= plus best (times 2 (Vec.distance q r)),
+          let u = Root.zero (approaching stretch) a b
+      ]
+    approaching stretch u = (Vec.dot out v, Vec.dot v v + Vec.dot out bend)
+      where
+        jet@(Jet x y) = Layered.jetAt 2 curve (within stretch curve u)
+        out = Vec.to p (Jet.place jet)
+        v = Jet.velocity jet
+        bend = Vec.vec (2 * Series.coefficient 2 x) (2 * Series.coefficient 2 y)
+
+-- | The parameters at which the curve has an abscissa (mm), in rising order; of a stretch that runs straight up there,
+-- its ends.
+atX :: Double -> Curve -> [Double]
+atX abscissa curve = distinct (concatMap found (stretches curve))
+  where
+    x order stretch u = let Jet a _ = Layered.jetAt order curve (within stretch curve u) in a
+    found stretch = roots (map (\u -> (u, off (Series.value (x 0 stretch u)))) (merged (samples stretch) turns))
+      where
+        slopes = map (\u -> (u, Series.coefficient 1 (x 1 stretch u))) (samples stretch)
+        slope u = let a = x 2 stretch u in (Series.coefficient 1 a, 2 * Series.coefficient 2 a)
+        turns = merged (Root.rising slope slopes) (Root.falling slope slopes)
+        crossing u = let a = x 1 stretch u in (Series.value a - abscissa, Series.coefficient 1 a)
+        roots ((a, v) : rest@((b, w) : _))
+          | v == 0 = a : roots rest
+          | v * w < 0 = Root.zero crossing a b : roots rest
+          | otherwise = roots rest
+        roots [(a, 0)] = [a]
+        roots _ = []
+    -- What is as near as doubles can tell is there.
+    off v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
+    -- Touching samples that follow one another closely are one place; of more that do, the ends are kept.
+    distinct (a : b : rest)
+      | b - a <= same = distinct (a : rest)
+      | otherwise = a : distinct (b : rest)
+    distinct us = us
+    same = 1e-3 / fromIntegral steps
+
+merged :: [Double] -> [Double] -> [Double]
+merged as bs = case (as, bs) of
+  ([], _) -> bs
+  (_, []) -> as
+  (a : as', b : bs') -> if a <= b then a : merged as' bs else b : merged as bs'
+
+-- | The parameters at which the direction jumps by more than 'Tolerance.smoothAngle', in rising order; that of a closed
+-- curve's joint is 0.
+corners :: Curve -> [Double]
+corners curve = [0 | closed curve, jumps 0] <> filter jumps (drop 1 (init (Layered.breaks curve)))
+  where
+    jumps u = let Rad a = Vec.turn (directionAt Before curve u) (directionAt After curve u) in Rad (abs a) > Tolerance.smoothAngle
+
+-- | Whether the curve ends where it begins.
+closed :: Curve -> Bool
+closed curve = Vec.near (end After 0) (end Before (Layered.domain curve))
+  where
+    end approach u = Jet.place (Layered.jetAt 0 curve (Layered.spot approach u curve))
+
+-- | The direction before or behind a place. On a closed curve the way goes on over the joint. Where the curve stands
+-- still it is the limit; where a shift has made a point of a whole stretch it is that of the curve below.
+directionAt :: Approach -> Curve -> Double -> Vec
+directionAt approach curve u
+  | approach == Before && u <= 0 && closed curve = along curve (Layered.spot Before (Layered.domain curve) curve)
+  | approach == After && u >= Layered.domain curve && closed curve = along curve (Layered.spot After 0 curve)
+  | otherwise = along curve (Layered.spot approach u curve)
+  where
+    along c s = case Jet.direction approach (Layered.jetAt 1 c s) of
+      Just d -> d
+      Nothing -> case Jet.direction approach (Layered.jetAt 4 c s) of
+        Just d -> d
+        Nothing -> case c of
+          Shifted _ lower _ -> along lower s
+          Plain _ -> Crash.bug "a span that is a point"

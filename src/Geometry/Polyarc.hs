@@ -1,0 +1,136 @@
+-- | Chains of straight lines and arcs that are walked as one thing: what stands for a curve.
+--
+-- A place on a chain is its distance from the beginning along the chain, in mm.
+module Geometry.Polyarc
+  ( Polyarc,
+    fromSegments,
+    segments,
+    start,
+    end,
+    length,
+    isClosed,
+    at,
+    directionAt,
+    station,
+    stretch,
+    reverse,
+    transformed,
+    meetings,
+    gap,
+  )
+where
+
+import Base.Quantity (Mm (..), plus)
+import Data.Containers.ListUtils (nubOrd)
+import Data.List (minimumBy)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Data.Vector.Unboxed qualified as Unboxed
+import Geometry.Box qualified as Box
+import Geometry.Distance (Nearest (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Similarity (Similarity)
+import Geometry.Similarity qualified as Similarity
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Prelude hiding (length, reverse)
+
+-- | Segments with a length, each of which ends where the next begins, and the places where they begin.
+data Polyarc = Polyarc {chain :: Vector Segment, stations :: Unboxed.Vector Double}
+  deriving stock (Eq, Show)
+
+fromSegments :: NonEmpty Segment -> Polyarc
+fromSegments ss = Polyarc {chain, stations = Unboxed.fromList (scanl (\s g -> let Mm l = Segment.length g in s + l) 0 (Vector.toList chain))}
+  where
+    chain = Vector.fromList (NonEmpty.toList ss)
+
+-- | In the order of the walk.
+segments :: Polyarc -> NonEmpty Segment
+segments p = Vector.head (chain p) :| drop 1 (Vector.toList (chain p))
+
+start :: Polyarc -> Point
+start = Segment.start . Vector.head . chain
+
+end :: Polyarc -> Point
+end = Segment.end . Vector.last . chain
+
+length :: Polyarc -> Mm
+length = Mm . Unboxed.last . stations
+
+-- | Whether it ends where it begins.
+isClosed :: Polyarc -> Bool
+isClosed p = Vec.near (start p) (end p)
+
+-- | The segment that holds a place, and the fraction of its length there.
+locate :: Polyarc -> Mm -> (Int, Double)
+locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - stations p Unboxed.! i) / l)))
+  where
+    i = search 0 (Vector.length (chain p))
+    l = stations p Unboxed.! (i + 1) - stations p Unboxed.! i
+    -- The place lies behind the beginning of the segment low, and before that of high.
+    search low high
+      | high - low <= 1 = low
+      | stations p Unboxed.! middle <= s = search middle high
+      | otherwise = search low middle
+      where
+        middle = (low + high) `div` 2
+
+-- | The point at a place; at the nearer end for a place outside.
+at :: Polyarc -> Mm -> Point
+at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
+
+-- | The direction of the walk at a place, of length 1.
+directionAt :: Polyarc -> Mm -> Vec
+directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
+
+-- | The place nearest to a point. Linear in the number of segments.
+station :: Polyarc -> Point -> Mm
+station p q = Mm (stations p Unboxed.! best + max 0 (min 1 along) * l)
+  where
+    best = fst (minimumBy (comparing snd) [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))])
+    s' = chain p Vector.! best
+    Mm l = Segment.length s'
+    along
+      | Segment.spans s' q = Segment.fraction s' q
+      | Vec.distance q (Segment.start s') <= Vec.distance q (Segment.end s') = 0
+      | otherwise = 1
+
+-- | The segments from one place to a later one. What is shorter than a point at either end is left out.
+stretch :: Polyarc -> Mm -> Mm -> [Segment]
+stretch p a b = [piece i | i <- [i1 .. i2], let Mm l = Segment.length (piece i), Mm l > Tolerance.coincident || i1 == i2 && l > 0]
+  where
+    (i1, t1) = locate p a
+    (i2, t2) = locate p b
+    piece i =
+      let s = chain p Vector.! i
+          front = if i == i2 && t2 < 1 then fst (Segment.cutAt t2 s) else s
+       in if i == i1 && t1 > 0 then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front) else front
+
+-- | The same chain walked the other way.
+reverse :: Polyarc -> Polyarc
+reverse p = fromSegments (NonEmpty.reverse (fmap Segment.reverse (segments p)))
+
+transformed :: Similarity -> Polyarc -> Polyarc
+transformed s p = fromSegments (fmap (Similarity.segment s) (segments p))
+
+-- | The points that two chains have in common, in the order of the first one.
+meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
+meetings a b = apart (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
+  where
+    index = Box.index Box.ofSegment (NonEmpty.toList b)
+    others s = Box.within (Box.inflate Tolerance.coincident (Box.ofSegment s)) index
+    inOrder s ps = map snd (nubOrd [(Segment.fraction s p, p) | p <- ps])
+    -- Where segments join, both of them have the point; near such a place it may be twice with a small error.
+    apart ps = case ps of
+      [] -> []
+      p : rest -> p : apart (filter (\q -> Vec.distance p q > plus Tolerance.coincident Tolerance.coincident) rest)
+
+-- | The least distance of two chains.
+gap :: NonEmpty Segment -> NonEmpty Segment -> Mm
+gap a b = minimum [distance (Distance.segments s g) | s <- NonEmpty.toList a, g <- NonEmpty.toList b]
