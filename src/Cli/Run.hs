@@ -322,7 +322,7 @@ import' reporter file' place = do
 -- | Write a program as a sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 exportSheet reporter file' place = withProgram reporter file' $ \loaded ->
-  settle reporter loaded (Result.thenSound (Compile.evaluated (values loaded) (texts loaded)) (Result.mapErrors id Sheet.misfitReport . Sheet.fromPart . snd)) $
+  settle reporter loaded (Result.thenSound (Compile.evaluated (values loaded) (texts loaded)) (Result.mapErrors id Sheet.toReport . Sheet.fromPart . snd)) $
     deliver reporter file' place . Sheet.write
 
 -- | Write a text to a file, but not over what it was made from, or to standard output.
