@@ -163,10 +163,11 @@ outside c = (Contour.signedArea (contour c) > 0) == (side c == RightOf)
 job :: Case -> Milling
 job c =
   Milling
-    { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s (Region 0 0) Part.plainFinish False) (segments (contour c))),
+    { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s (Region 0 0) Part.plainFinish False Nothing) (segments (contour c))) [],
       Part.work = Part.Milled,
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,
+      Part.gear = Nothing,
       Part.tolerance = Part.OnPath (Mm 0.02),
       Part.feed = here (Feed 60),
       Part.approach = [Stop (here (begin c)) Nothing Part.Rapid],
@@ -212,6 +213,7 @@ partOf at operation =
       Part.start = Just (Located (Region 0 0) (Part.Spot at (Mm 0))),
       Part.contours = [],
       Part.operations = [operation],
+      Part.fittings = [],
       Part.readings = []
     }
 

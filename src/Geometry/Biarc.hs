@@ -24,9 +24,11 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Control.Monad (guard)
+import Data.List (minimumBy, sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
+import Data.Ord (comparing)
 import Geometry.Contour (Ends (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
@@ -122,13 +124,13 @@ through ends points = case distinct ends points of
 
 -- | Without points that follow at the same place.
 distinct :: Ends -> NonEmpty Point -> NonEmpty Point
-distinct ends (first :| others) = first :| back (apart first others)
+distinct ends (first :| others) = first :| back (onward first others)
   where
-    apart before rest = case rest of
+    onward before rest = case rest of
       [] -> []
       p : more
-        | Vec.near before p -> apart before more
-        | otherwise -> p : apart p more
+        | Vec.near before p -> onward before more
+        | otherwise -> p : onward p more
     back ps = case ends of
       Open -> ps
       Closed -> reverse (dropWhile (Vec.near first) (reverse ps))
@@ -149,7 +151,7 @@ openDirections ps = case (ps, reverse ps) of
 passing :: Point -> Point -> Point -> Vec
 passing a b c
   | not (Vec.near a c) && Vec.dot round' ab >= 0 && Vec.dot round' bc >= 0 = round'
-  | Vec.norm halving > 0 = Vec.unit halving
+  | Vec.norm halving > Tolerance.parallel = Vec.unit halving
   | otherwise = Vec.left ab
   where
     ab = Vec.unit (Vec.to a b)
@@ -205,15 +207,16 @@ stretches track = case filter (uncurry (<)) (zip (begin track : NonEmpty.toList 
 -- | A biarc that has been tried: how far it reaches, and the largest distance from the curve.
 data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, off :: Double}
 
--- | The segments along a stretch.
+-- | The segments along a stretch. Where the end may be near, the whole rest is tried first: that a shorter biarc does not
+-- do it does not mean that a longer one does not either.
 follow :: Track -> Double -> Stretch -> [Segment]
-follow track tolerance stretch@((start, firstEnd) :| _) =
-  go start (place track start, direction track Leaving start) (NonEmpty.toList stretch) ((firstEnd - start) / 8)
+follow track tolerance stretch@((start, _) :| _) =
+  go start (place track start, direction track Leaving start) (NonEmpty.toList stretch) (final - start)
   where
     final = snd (NonEmpty.last stretch)
     go u pose spans step
       | u < final =
-        let Trial {reached, pieces} = furthest track tolerance final u pose spans step
+        let Trial {reached, pieces} = furthest track tolerance final u pose spans (if final - u <= 4 * step then final - u else step)
             ahead = dropWhile ((<= reached) . snd) spans
             end = (Segment.end (NonEmpty.last pieces), heading track final spans reached)
          in NonEmpty.toList pieces <> go reached end ahead (reached - u)
@@ -245,7 +248,7 @@ furthest track tolerance final u pose spans = search (24 :: Int) Nothing Nothing
         Just best | left <= 0 || narrow best (reached found) -> best
         _ -> search (left - 1) held (Just (reached found)) (next' found)
       where
-        found = try track aim final u pose spans (min final (u + step))
+        found = try track aim u final pose spans (min final (u + step))
         good = left <= 0 || reached found >= final || off found >= 0.93 * aim || maybe False (narrow found) missed
         next t = within t (fromMaybe (u + 4 * step) missed) (step * grown t)
         next' t = case held of
@@ -258,45 +261,85 @@ furthest track tolerance final u pose spans = search (24 :: Int) Nothing Nothing
     within best limit s = let a = reached best - u; gap = limit - reached best in max (a + 0.15 * gap) (min (a + 0.85 * gap) s)
     forced = let v = min final (u + floor') in Trial v (Straight (fst pose) (place track v) :| []) 0
 
--- | The biarc to a parameter, measured.
+-- | The biarc to a parameter, measured; where the usual ratio of the chords misses, the best of some others.
 try :: Track -> Double -> Double -> Double -> (Point, Vec) -> [(Double, Double)] -> Double -> Trial
-try track aim final u pose@(p, _) spans v = case join pose (q, heading track final spans v) of
-  Just pieces -> Trial v pieces (deviation (place track) aim u v spans pieces)
-  Nothing
-    | Vec.distance p q <= Mm aim -> let pieces = Straight p q :| [] in Trial v pieces (deviation (place track) aim u v spans pieces)
-    | otherwise -> Trial v (Straight p q :| []) (8 * aim)
+try track aim u final' pose spans v = case candidates of
+  first : others
+    | roughly first <= aim || null others -> measured first
+    | otherwise -> let (_, found) = minimumBy (comparing fst) [(roughly c, c) | c <- candidates] in measured found
+  [] -> Trial v (Straight p q :| []) (8 * aim)
   where
+    p = fst pose
     q = place track v
-
--- | The largest distance from a curve between two parameters to segments: at points all along each span, if these are near
--- enough at more of them, and at the vertices of the parabolas through three neighbours about each maximum.
--- Infinite where the feet on the segments go back by more than the tolerance: then not every point of the
--- segments is near the curve.
-deviation :: (Double -> Point) -> Double -> Double -> Double -> [(Double, Double)] -> NonEmpty Segment -> Double
-deviation point aim u v spans pieces
-  | coarse > aim = coarse
-  | backwards = 1 / 0
-  | otherwise = maximum (0 : map snd dense <> refined)
-  where
+    end = (q, heading track final' spans v)
+    usual = uncurry ratio (lean pose end)
+    candidates
+      | Vec.near p q = [Straight p q :| []]
+      | otherwise = [pieces | k <- [1, 0.7, 1.4, 0.5, 2], Just pieces <- [joinWith (k * usual) pose end]]
     parts = [(max u lo, min v hi) | (lo, hi) <- takeWhile ((< v) . fst) spans, hi > u]
-    count (a, b) = max 3 (ceiling (8 * (b - a) / (v - u))) :: Int
-    stations shift part@(a, b) = [a + (b - a) * (fromIntegral k - shift) / fromIntegral (count part) | k <- [1 .. count part]]
-    measured w = let p = point w in (w, p, distance p)
-    distance p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
-    middles = [map measured (stations 0.5 part) | part <- parts]
-    coarse = maximum (0 : [d | (_, _, d) <- concat middles])
-    ends = [map measured (stations 0 part) | part <- parts]
-    all' = concat (zipWith (\ms es -> concat (zipWith (\m e -> [m, e]) ms es)) middles ends)
-    dense = (u, 0) : [(w, d) | (w, _, d) <- all']
-    refined = [d | (a, b, c) <- zip3 dense (drop 1 dense) (drop 2 dense), Just w <- [peak a b c], let (_, _, d) = measured w]
-    peak (a, da) (b, db) (c, dc)
-      | db >= da && db >= dc && db > 0.5 * aim && below > 0 && w > a && w < c = Just w
-      | otherwise = Nothing
+    -- As many as its share of the parameter or of the length asks for.
+    chords = [let Mm d = Vec.distance (place track a) (place track b) in d | (a, b) <- parts]
+    counts = [max 3 (ceiling (8 * max ((b - a) / (v - u)) (d / sum chords))) | ((a, b), d) <- zip parts chords] :: [Int]
+    stations shift (a, b) n = [let w = a + (b - a) * uneven ((fromIntegral k - shift) / fromIntegral n) in (w, place track w) | k <- [1 .. n]]
+    -- So that a wave does not pass for its samples.
+    uneven f = f + 0.2 * f * (1 - f)
+    middles = concat (zipWith (stations 0.5) parts counts)
+    roughly pieces = maximum (map (apart pieces . snd) middles)
+    measured pieces
+      | roughly pieces > aim = Trial v pieces (roughly pieces)
+      | otherwise = Trial v pieces (deviation (place track) aim pieces ((u, p) : interleaved middles (concat (zipWith (stations 0) parts counts))))
+    interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
+
+-- | The distance of a point from the nearest of some segments.
+apart :: NonEmpty Segment -> Point -> Double
+apart pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
+
+-- | The largest distance between segments and a curve given by points along it: at these points, near the segments'
+-- joint, and at each maximum between them. Infinite where the feet on the segments jump or go back: then not
+-- every point of the segments is near the curve.
+deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
+deviation point aim pieces points
+  | largest > aim || covered point aim pieces feet = largest
+  | otherwise = 1 / 0
+  where
+    feet = [(w, p, progress pieces p) | (w, p) <- points]
+    Mm half = Segment.length (NonEmpty.head pieces)
+    atJoint = [let w = a + (b - a) * (half - s) / (t - s) in (w, off w) | length pieces > 1, ((a, _, s), (b, _, t)) <- zip feet (drop 1 feet), s < half, half < t]
+    known = sort ([(w, apart pieces p) | (w, p) <- points] <> atJoint)
+    off w = apart pieces (point w)
+    largest = maximum (map snd known <> zipWith3 (\a b c -> snd (highest off aim (6 :: Int) a b c)) known (drop 1 known) (drop 2 known))
+
+-- | The maximum about the middle one of three neighbouring values, if that is the largest and matters: the vertex of the
+-- parabola through them, again and again until it says nothing new.
+highest :: (Double -> Double) -> Double -> Int -> (Double, Double) -> (Double, Double) -> (Double, Double) -> (Double, Double)
+highest off aim left one@(a, da) two@(b, db) three@(c, dc)
+  | left <= 0 || db < da || db < dc || db < 0.3 * aim || not (below > 0 && w > a && w < c && w /= b) = two
+  | abs (dw - db) < 0.002 * aim = max' new two
+  | dw > db = if w < b then again one new two else again two new three
+  | w < b = again new two three
+  | otherwise = again one two new
+  where
+    below = (b - a) * (db - dc) + (c - b) * (db - da)
+    w = b - ((b - a) * (b - a) * (db - dc) - (c - b) * (c - b) * (db - da)) / (2 * below)
+    dw = off w
+    new = (w, dw)
+    again = highest off aim (left - 1)
+    max' x y = if snd x > snd y then x else y
+
+-- | Whether the feet of a curve's points move along the segments without a jump. Where a foot moves much further than
+-- its point, the curve between is looked at more closely.
+covered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
+covered point aim pieces feet = and (zipWith (steady (20 :: Int)) feet (drop 1 feet))
+  where
+    steady left one@(a, p, s) two@(b, q, t)
+      | t < s - grain = False
+      | t - s <= 1.5 * far + grain = True
+      | far <= grain || left <= 0 = False
+      | otherwise = let middle = at ((a + b) / 2) in steady (left - 1) one middle && steady (left - 1) middle two
       where
-        below = (b - a) * (db - dc) + (c - b) * (db - da)
-        w = b - ((b - a) * (b - a) * (db - dc) - (c - b) * (c - b) * (db - da)) / (2 * below)
-    feet = [progress pieces p | (_, p, _) <- all']
-    backwards = or (zipWith (\a b -> b < a - aim) feet (drop 1 feet))
+        Mm far = Vec.distance p q
+    at w = let p = point w in (w, p, progress pieces p)
+    grain = 0.1 * aim
 
 -- | How far along segments the foot of a point lies.
 progress :: NonEmpty Segment -> Point -> Double

@@ -25,10 +25,15 @@ module Geometry.Curve
     Piece (..),
     ofPieces,
     ofSegments,
+    ofChain,
+    Segment,
 
     -- * Shifting them
     Column,
     column,
+    columnAt,
+    rowCount,
+    backwards,
     Distance (..),
     Growth (..),
     Joggle (..),
@@ -70,7 +75,9 @@ where
 
 import Base.Quantity (Mm (..), minus, times)
 import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
+import Data.Vector qualified as Vector
 import Geometry.Curve.Base (Base, Ends (..), Flaw (..), Method (..), Piece (..), Row, Span (..))
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column (Column)
@@ -86,7 +93,8 @@ import Geometry.Jet (Approach (..), Jet)
 import Geometry.Jet qualified as Jet
 import Geometry.Offset (Side (..))
 import Geometry.Ruler qualified as Ruler
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (Arc, Straight))
+import Geometry.Segment qualified as Segment
 import Geometry.Series qualified as Series
 import Geometry.Similarity (Similarity)
 import Geometry.Similarity qualified as Similarity
@@ -114,9 +122,37 @@ ofPieces pieces parameters = Plain <$> Base.ofPieces pieces parameters
 ofSegments :: NonEmpty Segment -> Either Flaw Curve
 ofSegments segments = Plain <$> Base.ofSegments segments
 
+-- | A chain of lines and arcs through the points of a table, in order; a closed one may leave out the first point at its end.
+ofChain :: NonEmpty Segment -> Vector Point -> Either Flaw Curve
+ofChain segments points = Plain <$> Base.ofPieces (fmap piece segments) (parameters 0 (NonEmpty.toList segments) (Vector.toList points))
+  where
+    piece s = case s of
+      Straight p q -> Line p q
+      Arc {} -> Circular s
+    -- Every point is the beginning of a segment, or the end of the last one.
+    parameters u ss ps = Vector.fromList (go u ss ps)
+    go u ss ps = case (ss, ps) of
+      (s : rest, p : more)
+        | Vec.near (Segment.start s) p -> u : go u (s : rest) more
+        | otherwise -> go (u + 1) rest ps
+      ([], _ : _) -> [u]
+      (_, []) -> []
+
 -- | Numbers at the rows of the curve's table, as many as there are, interpolated as the points are.
 column :: Curve -> Vector Double -> Column
 column curve = Column.column (base curve)
+
+-- | How many rows the curve's table has.
+rowCount :: Curve -> Int
+rowCount = Vector.length . Base.rows . base
+
+-- | What a column is at a parameter.
+columnAt :: Curve -> Column -> Double -> Double
+columnAt curve c u = Series.value (Column.series 0 (base curve) c (Layered.spot After u curve))
+
+-- | The values at the rows of a curve in the order of its reverse.
+backwards :: Curve -> Vector Double -> Vector Double
+backwards curve = Base.backwards (base curve)
 
 -- | The distance of a joggle that fits between two parameters of the curve that it is to shift.
 joggled :: Joggle -> Curve -> Either Flaw Distance

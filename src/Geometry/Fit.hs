@@ -312,7 +312,7 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
       | j > final || null alive = []
       | otherwise =
         let ms = misses alive i j
-            onward = [k | (k, d) <- ms, d <= tolerance + within] <> [k | k <- alive, j == i + 1, k `notElem` map fst ms]
+            onward = [k | (k, d) <- ms, d <= tolerance + within] <> [k | j == i + 1, k <- alive, k `notElem` map fst ms]
             good = [m | m@(_, d) <- ms, d <= within]
          in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow i (j + 1) onward)
     misses ks i j

@@ -9,6 +9,7 @@ module Geometry.Polyarc
     end,
     length,
     isClosed,
+    joints,
     at,
     directionAt,
     station,
@@ -62,6 +63,10 @@ end = Segment.end . Vector.last . chain
 
 length :: Polyarc -> Mm
 length = Mm . Unboxed.last . stations
+
+-- | The places at which its segments begin, and its end; in mm.
+joints :: Polyarc -> [Double]
+joints = Unboxed.toList . stations
 
 -- | Whether it ends where it begins.
 isClosed :: Polyarc -> Bool

@@ -13,6 +13,7 @@ module Geometry.Tolerance
     equal,
     resolution,
     reach,
+    curve,
     arcLength,
     arcLengthShare,
     parameter,
@@ -99,6 +100,7 @@ parameter = 1e-12
 -- | A curve whose place changes no faster, in mm for 1 of its parameter, stands still there.
 still :: Mm
 still = Mm 1e-9
+
 -- | An arc that turns by no more is a straight line: its centre would be so far away that distances from it
 -- lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the bulge (@c·2.5·10⁻⁹@) is worth.
 straight :: Rad
@@ -123,3 +125,7 @@ deviationShare = 0.02
 -- | No step along a curve is smaller than this share of a span.
 finestStep :: Double
 finestStep = 1e-6
+
+-- | A curve is replaced by arcs that stay so near to it.
+curve :: Mm
+curve = Mm 1e-5

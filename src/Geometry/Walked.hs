@@ -3,6 +3,7 @@ module Geometry.Walked
   ( Walked (..),
     ofSegment,
     within,
+    alongLine,
   )
 where
 
@@ -39,10 +40,14 @@ within :: Box -> Walked -> NonEmpty Segment
 within box walked = case walked of
   OnLine l ->
     let Box.Box left bottom right top = Box.inflate (Mm 1) box
-        along p = Vec.dot (Shape.direction l) (Vec.to (Shape.from l) p)
+        along p = let Mm s = alongLine l p in s
         marks = map along [Vec.point x y | x <- [left, right], y <- [bottom, top]]
         place s = Vec.shift (Vec.scale s (Shape.direction l)) (Shape.from l)
      in Straight (place (minimum marks)) (place (maximum marks)) :| []
   OnCircle turn circle@(Circle c (Mm r)) -> Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c) :| []
   OnCurve p -> Polyarc.segments p
   AtPoint p -> Straight p p :| []
+
+-- | How far along a line the foot of a point lies.
+alongLine :: Line -> Point -> Mm
+alongLine l p = Mm (Vec.dot (Shape.direction l) (Vec.to (Shape.from l) p))

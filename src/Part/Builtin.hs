@@ -9,10 +9,11 @@ import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..), degrees, minus, plus)
 import Base.Region (Region)
-import Checked.Syntax (Builtin (..), Choice (..), Operator (..), Rank (..))
-import Data.List (sortOn)
+import Checked.Syntax (Builtin (..), Choice (..), Operator (..))
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
+import Data.Tuple (swap)
 import Geometry.Construct (Touched (..))
 import Geometry.Construct qualified as Construct
 import Geometry.Contour qualified as Contour
@@ -27,6 +28,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
+import Geometry.Walked qualified as Walked
 import Part.Curve qualified as Curve
 import Part.CurveBuiltin qualified as CurveBuiltin
 import Part.Data
@@ -217,8 +219,7 @@ intersection region a b choice = case meeting of
   CrossingOnce p -> chosen [p]
   Crossing p q -> chosen [p, q]
   where
-    alongLine l p = Mm (Vec.dot (Shape.direction l) (Vec.to (from l) p))
-    chosen ps = picked region "point" APoint id [alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
+    chosen ps = picked region "point" APoint id [Walked.alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
     meeting = case (a, b) of
       (OnLine l, OnLine m) -> Intersect.lines l m
       (OnLine l, OnCircle _ c) -> Intersect.lineCircle l c
@@ -303,7 +304,7 @@ image region s v = case v of
   CircleValue c -> let d@(Circle o (Mm r)) = Similarity.circle s c in CircleValue d <$ (within region (Vec.norm (offset o)) *> within region r)
   LineValue l -> let m = Similarity.line s l in LineValue m <$ within region (Vec.norm (offset (from m)))
   ContourValue c -> do
-    let d = c {elements = fmap (\e -> e {segment = Similarity.segment s (segment e)}) (elements c)}
+    let d = c {elements = fmap (\e -> e {segment = Similarity.segment s (segment e)}) (elements c), legs = []}
     mapM_ (within region . Vec.norm . offset . Segment.end . segment) (elements d)
     pure (ContourValue d)
   ListValue vs -> ListValue <$> traverse (image region s) vs
@@ -312,4 +313,8 @@ image region s v = case v of
 
 -- | A contour walked the other way.
 reversed :: Contour -> Contour
-reversed c = c {elements = NonEmpty.reverse (fmap (\e -> e {segment = Segment.reverse (segment e)}) (elements c))}
+reversed c = c {elements = NonEmpty.zipWith (\goesOn e -> e {continues = goesOn}) marks turned, legs = []}
+  where
+    turned = NonEmpty.reverse (fmap (\e -> e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e)}) (elements c))
+    -- What went on with the one before now is gone on with by the one behind.
+    marks = False :| map continues (NonEmpty.init (NonEmpty.reverse (elements c)))

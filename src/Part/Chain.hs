@@ -31,6 +31,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
+import Part.Curve (Curve)
 import Part.Error (Fact (..), Joined (Joined))
 import Part.Error qualified as Error
 import Part.Joint (Joint (..), Link (..))
@@ -45,6 +46,10 @@ data Walk = Walk
     begins :: Maybe Point,
     stops :: Maybe Point,
     finish :: Finish,
+    -- | how far its surface leans: places along it in mm with angles in radians, rising; one holds all along
+    bevel :: [(Double, Double)],
+    -- | the curve that it is, exactly
+    source :: Maybe Curve,
     link :: Maybe (Region, Link)
   }
   deriving stock (Eq, Show)
@@ -116,11 +121,11 @@ attempt region ends walks = do
 
 -- | A closed contour of one element: a circle, from its rightmost point.
 lone :: Walk -> Either Fact [Element]
-lone Walk {place, shape, finish, link} = case (shape, link) of
+lone w@Walk {place, shape, link} = case (shape, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
-    Right [Element (Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)) place finish False]
-  (OnCurve c, Nothing) | Polyarc.isClosed c -> Right (marked place finish (NonEmpty.toList (Polyarc.segments c)))
+    Right (marked w (Mm 0) [Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)])
+  (OnCurve c, Nothing) | Polyarc.isClosed c -> Right (marked w (Mm 0) (NonEmpty.toList (Polyarc.segments c)))
   (OnCurve c, Just (at, _)) | Polyarc.isClosed c -> Left (LinkOfLoneCircle at)
   (OnCurve _, _) -> Left (LoneElement place shape)
   (OnLine _, _) -> Left (LoneElement place shape)
@@ -278,21 +283,40 @@ stations c a b
     from = Polyarc.station c a
     to = Polyarc.station c b
 
--- | The segments of one element. Those that go on smoothly on the same curve are marked.
-marked :: Region -> Finish -> [Segment] -> [Element]
-marked place finish ss = zipWith element ss (False : zipWith goesOn ss (drop 1 ss))
+-- | The place on a curve at which the walk enters it.
+begun :: Walked -> Point -> Point -> Mm
+begun shape a b = case shape of
+  OnCurve c -> fst (stations c a b)
+  OnLine _ -> Mm 0
+  OnCircle _ _ -> Mm 0
+  AtPoint _ -> Mm 0
+
+-- | The segments of one element from a place on it. Those that go on smoothly on the same curve are marked.
+marked :: Walk -> Mm -> [Segment] -> [Element]
+marked Walk {place, finish, bevel} (Mm from) ss = zipWith3 element ss (False : zipWith goesOn ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
-    element s = Element s place finish
+    element s continues (a, b) = Element s place finish continues ((,) <$> leaning bevel a <*> leaning bevel b)
+    marks = scanl (\s g -> let Mm l = Segment.length g in s + l) from ss
     goesOn a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned <= smooth
     Rad smooth = Tolerance.smoothAngle
+
+-- | The angle at a place along an element, from those at some places.
+leaning :: [(Double, Double)] -> Double -> Maybe Double
+leaning bevel s = case (reverse before, behind) of
+  ((a, x) : _, (b, y) : _) | b > a -> Just (x + (y - x) * (s - a) / (b - a))
+  ((_, x) : _, _) -> Just x
+  ([], (_, y) : _) -> Just y
+  ([], []) -> Nothing
+  where
+    (before, behind) = span ((<= s) . fst) bevel
 
 -- | The segments of a way.
 elementsOf :: [Walk] -> Point -> Maybe Segment -> Route -> [Element]
 elementsOf walks begin before route = go walks begin before (reverse (taken route))
   where
     go ws at came js = case (ws, js) of
-      (Walk {place, shape, finish, link} : rest, joint : more) ->
-        marked place finish (stretch shape came (inserted joint) at (leave joint))
-          <> [Element s (maybe place fst link) plainFinish False | Just s <- [inserted joint]]
+      (w@Walk {place, shape, link} : rest, joint : more) ->
+        marked w (begun shape at (leave joint)) (stretch shape came (inserted joint) at (leave joint))
+          <> [Element s (maybe place fst link) plainFinish False Nothing | Just s <- [inserted joint]]
           <> go rest (enter joint) (inserted joint) more
       _ -> []

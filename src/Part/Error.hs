@@ -3,6 +3,7 @@ module Part.Error
   ( Error (..),
     Fact (..),
     Candidate (..),
+    Trouble (..),
     joined',
     Joined (..),
     toReport,
@@ -36,6 +37,25 @@ data Joined = Joined {link :: Region, before :: (Region, Walked), after :: (Regi
 
 -- | One of several answers.
 data Candidate = APoint Point | ALine Line | ACircle Circle
+  deriving stock (Eq, Show)
+
+-- | Why points make no curve.
+data Trouble
+  = -- | how many there are, how many are needed
+    FewPoints Int Int
+  | -- | this row is the point of the one before
+    SamePoint Int
+  | EvenPoints Int
+  | -- | x does not go on in this row as it began
+    Unordered Int
+  | -- | a section by its number, and how many rows it has
+    SectionRows Int Int
+  | SectionOrder Int
+  | -- | the row with which a section begins, and with which it must
+    SectionJoint Int Int Int
+  | -- | the last row of the sections, and of the table
+    SectionEnd Int Int
+  | Split Text
   deriving stock (Eq, Show)
 
 data Fact
@@ -124,6 +144,24 @@ data Fact
     OpenBegins Region Name
   | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
     WrongCutter Region Text Text Text
+  | -- | the points of a curve: the call, the row, why
+    NoCurve Region (Maybe Region) Trouble
+  | -- | a shift of a curve beyond its radius of curvature: the cipher, the place, the distance, the largest there
+    Folds Region Point Mm Mm
+  | -- | a shift of a curve with a corner: the cipher, the place, the angle
+    ShiftsCorner Region Point Rad
+  | -- | the bevel in a row is no angle between −90° and 90°
+    SteepBevel Region (Maybe Int) Rad
+  | -- | the ends of a change of distance do not follow one another along the curve
+    GrowthEnds Region
+  | -- | a coordinate of a joggle that the piece does not have, or has several times: the points
+    JoggleCoordinate Region Mm [Point]
+  | -- | the two coordinates of a joggle are one place
+    JoggleNowhere Region
+  | -- | a joggle's radius does not fit: its radius, the length between its ends, the largest that fits
+    JoggleRadius Region Mm Mm (Maybe Mm)
+  | -- | a joggle's radius is too small for its depth: the least
+    JoggleDepth Region Mm Mm
   | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
     CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
@@ -332,6 +370,48 @@ toReport (Error fact calls) = addCalls $ case fact of
     (at region "E0347" ("the contour " <> quote name <> " is open and begins at its first element"))
       { hints = ["Leave ‘start near’ out. To begin at its other end, mill reversed(" <> name <> ") on the other side."]
       }
+  NoCurve region row trouble ->
+    (at (maybe region id row) "E0349" (troubled trouble))
+      { others = [Label region "for this curve" | Just r <- [row], r /= region],
+        hints = troubleHint trouble
+      }
+  Folds region p asked largest ->
+    (at region "E0350" ("the curve folds over: at " <> Vec.written 3 p <> " its radius of curvature is only " <> downTo largest))
+      { message = ["It is shifted there by " <> Decimal.mm asked <> " towards the inside of the bend; a curve can be shifted by less than its radius."],
+        hints = ["The largest distance that fits there is " <> downTo largest <> "."]
+      }
+  ShiftsCorner region p angle ->
+    (at region "E0351" ("the curve has a corner of " <> Decimal.short 2 (degrees angle) <> " deg at " <> Vec.written 3 p))
+      { message = ["A shift would tear it open there, or let its parts cross."],
+        hints = ["Lay a spline through the points, or make a piece of each part and join them by a link."]
+      }
+  SteepBevel region row angle ->
+    (at region "E0352" ("a bevel of " <> Decimal.short 3 (degrees angle) <> " deg is none"))
+      { message = ["In row " <> Decimal.whole k <> " of the table." | Just k <- [row]],
+        hints = ["The bevel is measured from the axis of the tool; it lies between -90 deg and 90 deg."]
+      }
+  GrowthEnds region ->
+    (at region "E0353" "the change of distance must end behind its beginning, along the walk")
+      { hints = ["Give the point first that the walk comes to first."]
+      }
+  JoggleCoordinate region x points ->
+    (at region "E0354" (case points of [] -> "the piece does not come to x = " <> Decimal.mm x; _ -> "the piece has more than one point with x = " <> Decimal.mm x))
+      { message = [listed (map APoint points) | not (null points)] <> [stop "15074"],
+        hints = ["A joggle needs x coordinates that the piece passes once."]
+      }
+  JoggleNowhere region ->
+    (at region "E0354" "a joggle needs two different coordinates")
+      { message = [stop "15074"]
+      }
+  JoggleRadius region r there largest ->
+    (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " does not fit into " <> Decimal.mm there <> " of the piece"))
+      { message = [stop "14174"],
+        hints = ["The largest radius that fits is " <> downTo m <> "." | Just m <- [largest]]
+      }
+  JoggleDepth region r least ->
+    (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " cannot go so deep"))
+      { hints = ["Its radius must be more than half of its depth, " <> Decimal.mm least <> "."]
+      }
   WrongCutter region statement needed there ->
     (at region "E0344" (quote statement <> " needs " <> needed))
       { message = ["The tool is " <> there <> "."],
@@ -346,6 +426,30 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   where
     addCalls r = r {others = others r <> [Label c "in this call" | c <- nub (take 1 calls <> take 1 (reverse calls))]}
+
+troubled :: Trouble -> Text
+troubled trouble = case trouble of
+  FewPoints there needed -> "a curve needs " <> Decimal.whole needed <> " points, these are " <> Decimal.whole there
+  SamePoint k -> "row " <> Decimal.whole k <> " is the same point as the row before it"
+  EvenPoints n -> "parabolas need an odd number of points, these are " <> Decimal.whole n
+  Unordered k -> "x does not go on in row " <> Decimal.whole k <> " as it began"
+  SectionRows s n -> "section " <> Decimal.whole s <> " names " <> Decimal.whole n <> (if n == 1 then " row" else " rows")
+  SectionOrder s -> "the rows of section " <> Decimal.whole s <> " do not rise"
+  SectionJoint s begins must -> "section " <> Decimal.whole s <> " begins with row " <> Decimal.whole begins <> ", not with row " <> Decimal.whole must
+  SectionEnd final all' -> "the last section ends with row " <> Decimal.whole final <> ", the table with row " <> Decimal.whole all'
+  Split why -> why
+
+troubleHint :: Trouble -> [Text]
+troubleHint trouble = case trouble of
+  FewPoints _ _ -> []
+  SamePoint _ -> ["Leave one of the two rows out."]
+  EvenPoints _ -> ["The first parabola goes through rows 1 to 3, the next through rows 3 to 5, and so on."]
+  Unordered _ -> ["Sort the rows by x. A curve that turns back in x is a spline, arcs or a polyline."]
+  SectionRows _ _ -> ["Two rows are joined by a line, three by a parabola: [[1, 3], [3, 5, 8]]."]
+  SectionOrder _ -> ["Write the rows in the order of the table: [3, 5, 8]."]
+  SectionJoint {} -> ["The first section begins with row 1, every other one with the row that the one before ends with."]
+  SectionEnd _ _ -> ["The last section ends with the last row."]
+  Split _ -> []
 
 at :: Region -> Code -> Text -> Report
 at region code = report Report.Error code (InSource region)

@@ -6,7 +6,8 @@ where
 
 import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed, Mm (..), over, times)
+import Base.Name (Name)
+import Base.Quantity (Feed, Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region (Region))
 import Base.Result (Result (..))
 import Checked.Dimension (Dimension)
@@ -23,12 +24,16 @@ import Data.Text qualified as Text
 import Geometry.Similarity (Similarity)
 import Geometry.Tolerance qualified as Tolerance
 import Part.Builtin qualified as Builtin
+import Part.Curve (Curve (..), Fitting)
+import Part.Data (Value (..))
+import Part.Data qualified as Data
 import Part.Error (Error, Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
-import Part.Part
+import Part.Part hiding (spot)
+import Part.Piece qualified as Piece
 import Part.Transform qualified as Transform
-import Part.Value (Environment (..), Value (..))
+import Part.Value (Environment (..))
 import Part.Value qualified as Value
 import Part.Walks qualified as Walks
 
@@ -44,6 +49,7 @@ data State = State
     contours' :: [Contour],
     operations' :: [Operation],
     values' :: [(Region, Text)],
+    fittings' :: [(Located Name, Fitting)],
     errors' :: [Error],
     fuel :: Int
   }
@@ -65,6 +71,7 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           contours' = [],
           operations' = [],
           values' = [],
+          fittings' = [],
           errors' = [],
           fuel = Eval.mostSteps
         }
@@ -76,6 +83,7 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           start = start' final,
           contours = reverse (contours' final),
           operations = reverse (operations' final),
+          fittings = reverse (fittings' final),
           readings = values' final
         }
 
@@ -89,6 +97,8 @@ step state (Located at s) = case s of
   Checked.LetValue name d e -> keep (Value.evaluate env e) (define name d)
   Checked.LetFunction name parameters body ->
     state {environment = env {functions = Map.insert name (locals env, parameters, body) (functions env), locals = Map.delete name (locals env)}}
+  Checked.Table name columns -> keep (Piece.table env columns) (define name Dimension.none . TableValue)
+  Checked.Piece name e ciphers side joggles -> keep (Value.evaluate env e >>= \v -> Piece.piece env (curveOf v) ciphers side joggles) (define name Dimension.none . CurveValue)
   Checked.Contour name closure items ->
     keep (Walks.contour env name closure items) $ \c -> (define name Dimension.none (ContourValue c)) {contours' = c : contours' state}
   Checked.Assert assertion -> keep (assert at env assertion) (const state)
@@ -118,7 +128,8 @@ step state (Located at s) = case s of
     define name d v =
       state
         { environment = bound name v,
-          values' = (region name, Value.written d v) : values' state
+          values' = (region name, Value.written d v) : values' state,
+          fittings' = [(name, f) | CurveValue Curve {fitting = Just f} <- [v]] <> fittings' state
         }
     bound name v = env {values = Map.insert (value name) v (values env), locals = Map.delete (value name) (locals env)}
     perform f = state {operations' = f (operations' state)}
@@ -141,6 +152,11 @@ placement :: Value -> Similarity
 placement v = case v of
   PlacementValue s -> s
   _ -> bug "a value that is no transformation where one was checked"
+
+curveOf :: Value -> Curve
+curveOf v = case v of
+  CurveValue c -> c
+  _ -> bug "a value that is no curve where one was checked"
 
 spot :: Environment -> Expr -> Eval Spot
 spot env e = spotOf <$> Value.evaluate env e
@@ -172,16 +188,31 @@ accuracyOf env accuracy = case accuracy of
     notNegative e = do
       x <- Value.number <$> Value.evaluate env e
       when (x < 0) (Eval.mistake (Negative (region e) "the tolerance" (Decimal.mm (Mm x))))
-      Mm x <$ Builtin.within (region e) x
+      Mm x <$ Data.within (region e) x
 
 cutter :: Environment -> Checked.Cutter -> Eval Cutter
 cutter env (Located _ c) = case c of
-  Checked.MillCutter e -> Cutter MillingCutter . times 0.5 <$> Walks.lengthOf env "the cutter's diameter" e
-  Checked.DrillCutter e -> Cutter DrillingCutter . times 0.5 <$> Walks.lengthOf env "the drill's diameter" e
+  Checked.MillCutter e -> rigid MillingCutter . times 0.5 <$> Walks.lengthOf env "the cutter's diameter" e
+  Checked.DrillCutter e -> rigid DrillingCutter . times 0.5 <$> Walks.lengthOf env "the drill's diameter" e
+  -- The flank of a cone touches what is H high at @a = R + H·tan μ@ from the axis (Kolsanova, section 3).
+  Checked.ConeCutter e lean h -> do
+    Mm d <- Walks.lengthOf env "the cutter's diameter" e
+    mu <- Value.number <$> Value.evaluate env lean
+    Mm height' <- Walks.lengthOf env "the height of the flank" h
+    when (abs mu >= pi / 2 - 1e-6) (Eval.mistake (SteepBevel (region lean) Nothing (Rad mu)))
+    let a = d / 2 + height' * tan mu
+    when (a <= 0) (Eval.mistake (NotPositive (region lean) "the radius of the cutter at this height" (Decimal.mm (Mm a))))
+    pure (rigid MillingCutter (Mm a))
+  Checked.BladeCutter e g -> do
+    d <- Walks.lengthOf env "the blade's diameter" e
+    wheel <- Walks.lengthOf env "the diameter of the wheel" g
+    pure (Cutter MillingCutter (times 0.5 d) (Just wheel))
   Checked.TurningCutter e -> do
     x <- Value.number <$> Value.evaluate env e
     when (x < 0) (Eval.mistake (Negative (region e) "the radius of the nose" (Decimal.mm (Mm x))))
-    pure (Cutter TurningCutter (Mm x))
+    pure (rigid TurningCutter (Mm x))
+  where
+    rigid kind' r = Cutter kind' r Nothing
 
 -- | Compare what the program says has to hold.
 assert :: Region -> Environment -> Checked.Assertion -> Eval ()
@@ -240,6 +271,7 @@ milling state work at e side settings = do
               work,
               side,
               radius = cutterRadius tool,
+              gear = swivel tool,
               tolerance,
               feed,
               approach,
@@ -264,7 +296,7 @@ milling state work at e side settings = do
     allowance x = do
       v <- Value.number <$> Value.evaluate env x
       when (v < 0) (Eval.mistake (Negative (region x) "the allowance" (Decimal.mm (Mm v))))
-      Mm v <$ Builtin.within (region x) v
+      Mm v <$ Data.within (region x) v
 
 -- | The heights of the passes: equal ones, none deeper than is asked.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]

@@ -11,8 +11,8 @@ import Base.Quantity (Mm (..), Rad (..))
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
-import Geometry.Fillet qualified as Fillet
 import Geometry.Box qualified as Box
+import Geometry.Fillet qualified as Fillet
 import Geometry.Intersect (Meeting (..))
 import Geometry.Intersect qualified as Intersect
 import Geometry.Polyarc qualified as Polyarc
@@ -92,10 +92,11 @@ meet j own near = case shapes j of
       [p] -> Right (through p)
       ps -> choose ps
     extent c = foldl (\box s -> Box.union box (Box.ofSegment s)) (Box.ofPoints (Polyarc.start c) []) (Polyarc.segments c)
-    choose ps = through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
-      (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
-      (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
-      _ -> Left (AmbiguousMeeting j ps)
+    choose ps =
+      through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
+        (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
+        (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
+        _ -> Left (AmbiguousMeeting j ps)
     distance a b = let Mm d = Vec.distance a b in d
     Mm tolerance = Tolerance.coincident
 

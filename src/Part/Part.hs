@@ -2,6 +2,7 @@
 module Part.Part
   ( Part (..),
     Contour (..),
+    Leg (..),
     Element (..),
     Finish (..),
     plainFinish,
@@ -40,6 +41,9 @@ import Geometry.Contour (Ends (..))
 import Geometry.Contour qualified as Geometry
 import Geometry.Segment (Segment)
 import Geometry.Vec (Point)
+import Geometry.Walked (Walked)
+import Part.Curve (Curve, Fitting)
+import Part.Joint (Link)
 
 -- | What the program says, computed.
 data Part = Part
@@ -51,13 +55,26 @@ data Part = Part
     contours :: [Contour],
     -- | in the order of the tape
     operations :: [Operation],
+    -- | the curves of pieces that were chosen for a table, by their names
+    fittings :: [(Located Name, Fitting)],
     -- | the values of the definitions by the places of their names, for a reader
     readings :: [(Region, Text)]
   }
   deriving stock (Eq, Show)
 
 -- | A contour of the part with the elements that it was walked on.
-data Contour = Contour {contourName :: Located Name, ends :: Ends, elements :: NonEmpty Element}
+data Contour = Contour
+  { contourName :: Located Name,
+    ends :: Ends,
+    elements :: NonEmpty Element,
+    -- | as it was written; nothing when it was turned or moved since
+    legs :: [Leg]
+  }
+  deriving stock (Eq, Show)
+
+-- | One element of a contour as it was written: what was walked, exactly if it is a curve; what is asked on it; the link
+-- behind it.
+data Leg = Leg {spot :: Region, shape :: Walked, source :: Maybe Curve, asked :: Finish, link :: Maybe Link}
   deriving stock (Eq, Show)
 
 -- | A segment, the element or the link of the program that it came from, and what is asked on it.
@@ -67,7 +84,9 @@ data Element = Element
     finish :: Finish,
     -- | it goes on, without a corner, with the curve of the element before: one of the arcs that a curve is
     -- replaced by
-    continues :: Bool
+    continues :: Bool,
+    -- | how far its surface leans from the axis of the tool at its beginning and its end, in radians, if it is said
+    bevel :: Maybe (Double, Double)
   }
   deriving stock (Eq, Show)
 
@@ -116,6 +135,8 @@ data Milling = Milling
     side :: Located Side,
     -- | of the cutter, or of the nose of a turning tool
     radius :: Mm,
+    -- | of a blade, the diameter of the wheel that swivels it
+    gear :: Maybe Mm,
     tolerance :: Accuracy,
     feed :: Located Feed,
     approach :: [Stop],
@@ -177,7 +198,8 @@ data Command
     ChangeTool Int Cutter
   deriving stock (Eq, Show)
 
-data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
+-- | A tool, its radius where it cuts, and of a blade the diameter of the wheel that swivels it.
+data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm, swivel :: Maybe Mm}
   deriving stock (Eq, Show)
 
 data CutterKind = MillingCutter | DrillingCutter | TurningCutter

@@ -30,7 +30,7 @@ operation s o = case o of
   Command c -> Command c
   where
     stop p = p {place = fmap (Similarity.point s) (place p)}
-    shape c = c {elements = fmap (\e -> e {segment = Similarity.segment s (segment e)}) (elements c)}
+    shape c = c {elements = fmap (\e -> e {segment = Similarity.segment s (segment e)}) (elements c), legs = []}
     swapped side'
       | Similarity.mirrors s = case side' of
         LeftSide -> RightSide

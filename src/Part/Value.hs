@@ -26,13 +26,17 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
+import Data.Vector qualified as Vector
 import Geometry.Contour qualified as Contour
+import Geometry.Curve qualified as Exact
 import Geometry.Shape (Circle (..), Line (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Builtin (Value (..))
 import Part.Builtin qualified as Builtin
+import Part.Curve qualified as Curve
+import Part.Data (Value (..))
+import Part.Data qualified as Data
 import Part.Error (Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
@@ -83,12 +87,12 @@ evaluate env (Located region e) =
     Pair x y -> do
       a <- number <$> evaluate env x
       b <- number <$> evaluate env y
-      Builtin.spatial region (Vec.vec a b)
+      Data.spatial region (Vec.vec a b)
     Triple x y z -> do
       a <- number <$> evaluate env x
       b <- number <$> evaluate env y
       c <- number <$> evaluate env z
-      Builtin.lifted region (Vec.point a b) (Mm c)
+      Data.lifted region (Vec.point a b) (Mm c)
     List es -> ListValue <$> traverse (evaluate env) es
     Each inner name list -> do
       vs <- items <$> evaluate env list
@@ -98,9 +102,9 @@ evaluate env (Located region e) =
       Just _ -> a
       Nothing -> b
     argument a = case a of
-      Given x -> Builtin.Plain <$> evaluate env x
-      Chosen choice x -> Builtin.Choosing choice <$> evaluate env x
-      Ranked rank -> pure (Builtin.Ranking rank)
+      Given x -> Data.Plain <$> evaluate env x
+      Chosen choice x -> Data.Choosing choice <$> evaluate env x
+      Ranked rank -> pure (Data.Ranking rank)
     range a b by
       | by == 0 = Eval.mistake (StepOfZero region)
       | otherwise = do
@@ -117,7 +121,7 @@ number v = case v of
 -- | A checked point.
 point :: Value -> Point
 point v = case v of
-  Spatial p -> Builtin.place p
+  Spatial p -> Data.place p
   _ -> bug "a value that is no point where a point was checked"
 
 -- | A checked truth.
@@ -138,7 +142,7 @@ written dimension v = case v of
   Quantity x ->
     let unit = Dimension.unitWord dimension
      in Decimal.short 6 (x / Dimension.defaultUnit dimension) <> (if unit == "" then "" else " " <> unit)
-  Spatial p -> Vec.written 4 (Builtin.place p)
+  Spatial p -> Vec.written 4 (Data.place p)
   SpaceValue p (Mm z) -> Vec.written 4 p <> " at height " <> Decimal.mm (Mm z)
   TruthValue b -> if b then "true" else "false"
   CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
@@ -146,3 +150,5 @@ written dimension v = case v of
   ContourValue c -> "length " <> Decimal.mm (Contour.length (outline c))
   ListValue vs -> Decimal.whole (length vs) <> (if length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
+  TableValue t -> Decimal.whole (Vector.length (Curve.rows t)) <> " rows"
+  CurveValue c -> "length " <> Decimal.mm (Exact.length (Curve.exact c))

@@ -19,6 +19,7 @@ import Control.Applicative ((<|>))
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
 import Data.Ord (comparing)
 import Data.Text (Text)
 import Geometry.Distance qualified as Distance
@@ -30,15 +31,18 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
 import Geometry.Walked qualified as Walked
-import Part.Builtin qualified as Builtin
 import Part.Chain (Link (..))
 import Part.Chain qualified as Chain
+import Part.Curve qualified as Curve
+import Part.Data (Value (..))
+import Part.Data qualified as Data
 import Part.Error (Error (..), Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
-import Part.Part (Contour (..), Ends (..), Finish (..), plainFinish)
+import Part.Part (Contour (..), Ends (..), Finish (..), Leg (Leg), plainFinish)
 import Part.Part qualified as Part
-import Part.Value (Environment, Value (..))
+import Part.Piece qualified as Piece
+import Part.Value (Environment)
 import Part.Value qualified as Value
 
 -- | The contour of a name.
@@ -49,11 +53,12 @@ contour env name closure items = do
     Nothing -> Eval.mistake (EmptyContour (region name) (value name))
     Just some -> case Chain.solve (region name) ends some of
       Left facts -> Eval.mistakes (NonEmpty.toList (fmap (`Error` []) facts))
-      Right elements -> pure Contour {contourName = name, ends, elements}
+      Right elements -> pure Contour {contourName = name, ends, elements, legs = map leg (NonEmpty.toList some)}
   where
     ends = case closure of
       Checked.Open -> Open
       Checked.Closed -> Closed
+    leg w = Leg {Part.spot = Chain.place w, Part.shape = Chain.shape w, Part.source = Chain.source w, Part.asked = Chain.finish w, Part.link = snd <$> Chain.link w}
 
 item :: Environment -> Item -> Eval [Chain.Walk]
 item env (Located _ i) = case i of
@@ -66,14 +71,22 @@ item env (Located _ i) = case i of
   Element walk e modifiers link -> do
     v <- Value.evaluate env e
     finish <- foldl (\before m -> before >>= modified env m) (pure plainFinish) modifiers
+    bevel <- bevelOf env v modifiers
     link' <- traverse (linkOf env) link
-    walksOf (region e) walk v finish link'
+    map (\w -> w {Chain.bevel = if null bevel then Chain.bevel w else bevel}) <$> walksOf (region e) walk v finish link'
 
 modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
 modified env (Located _ m) finish = case m of
   AtElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
   Slow -> pure finish {slow = True}
   ElementAllowance e -> (\d -> finish {allowance = d}) <$> lengthOf env "the allowance" e
+  Bevel _ -> pure finish
+
+-- | How far an element leans, along it.
+bevelOf :: Environment -> Value -> [Checked.Modifier] -> Eval [(Double, Double)]
+bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
+  [] -> pure []
+  e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
 -- | The walks of an element: one, or those of a whole contour.
 walksOf :: Region -> Maybe Walk -> Value -> Finish -> Maybe (Region, Link) -> Eval [Chain.Walk]
@@ -82,12 +95,13 @@ walksOf at walk v finish link = case (v, walk) of
   (CircleValue c, Just Checked.CounterClockwise) -> one (OnCircle CounterClockwise c) Nothing Nothing
   (LineValue l@(Line p q), Nothing) -> one (OnLine l) (Just p) (Just q)
   (Spatial _, Nothing) -> let p = Value.point v in one (AtPoint p) (Just p) (Just p)
+  (CurveValue c, Nothing) -> one (OnCurve (Curve.laid c)) (listToMaybe (Curve.ends c)) (listToMaybe (drop 1 (Curve.ends c)))
   (ContourValue c, Nothing) -> case ends c of
     Closed -> Eval.mistake (ClosedElement at (value (contourName c)))
     Open -> pure (chained (NonEmpty.toList (elements c)))
   _ -> bug "an element that can not be walked"
   where
-    one shape begins stops = pure [Chain.Walk {Chain.place = at, Chain.shape, Chain.begins, Chain.stops, Chain.finish, Chain.link}]
+    one shape begins stops = pure [Chain.Walk {Chain.place = at, Chain.shape, Chain.begins, Chain.stops, Chain.finish, Chain.bevel = [], Chain.source = case v of CurveValue c -> Just c; _ -> Nothing, Chain.link}]
     chained es = case Part.runs es of
       [] -> []
       runs' -> zipWith walkOf runs' (map (Just . (at,) . Fixed . Segment.end . Part.segment . NonEmpty.last) (init runs') <> [link])
@@ -98,6 +112,8 @@ walksOf at walk v finish link = case (v, walk) of
           Chain.begins = Just (Segment.start (Part.segment e)),
           Chain.stops = Just (Segment.end (Part.segment (NonEmpty.last run))),
           Chain.finish = merged (Part.finish e),
+          Chain.bevel = concat [[(0, b) | Just (b, _) <- [Part.bevel e]] <> [(s, b) | (s, Just (_, b)) <- zip (drop 1 (scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = Segment.length (Part.segment x)])) (map Part.bevel (NonEmpty.toList run))]],
+          Chain.source = Nothing,
           Chain.link = link'
         }
     -- What is asked on the whole counts where its elements ask nothing.
@@ -119,7 +135,7 @@ linkOf env (Located at l) =
       r <- Value.number <$> Value.evaluate env e
       if r == 0
         then Eval.mistake (NotPositive (region e) "the radius of a fillet" "0 mm")
-        else signed r <$ Builtin.within (region e) r
+        else signed r <$ Data.within (region e) r
     Checked.Chamfer e -> Chamfer <$> lengthOf env "the chamfer" e
 
 -- | +R is walked clockwise, −R counter-clockwise (Kolsanova: links between pieces).
@@ -132,7 +148,7 @@ positive env what written make e = do
   x <- Value.number <$> Value.evaluate env e
   if x <= 0
     then Eval.mistake (NotPositive (region e) what (written (make x)))
-    else make x <$ Builtin.within (region e) x
+    else make x <$ Data.within (region e) x
 
 lengthOf :: Environment -> Text -> Expr -> Eval Mm
 lengthOf env what = positive env what Decimal.mm Mm
@@ -143,7 +159,7 @@ feedOf env e = Located (region e) <$> positive env "the feed" (\(Feed f) -> Deci
 -- | A closed contour that begins where it comes nearest to a point.
 startingNear :: Point -> Contour -> Contour
 startingNear p c = case NonEmpty.nonEmpty turned of
-  Just es -> c {elements = es}
+  Just es -> c {elements = es, legs = []}
   Nothing -> c
   where
     list = NonEmpty.toList (elements c)

@@ -1,0 +1,122 @@
+-- | Tables and curves as values of a program.
+module Part.Curve
+  ( Table (..),
+    Row (..),
+    Curve (..),
+    Fitting (..),
+    curve,
+    plain,
+    ends,
+    reversed,
+    transformed,
+    track,
+    along,
+    piecesOf,
+  )
+where
+
+import Base.Name (Name)
+import Base.Quantity (Mm (..))
+import Base.Region (Region)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Semigroup (sconcat)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Biarc (Track (..))
+import Geometry.Biarc qualified as Biarc
+import Geometry.Curve (Approach (..), Piece (..))
+import Geometry.Curve qualified as Exact
+import Geometry.Fit qualified as Fit
+import Geometry.Polyarc (Polyarc)
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment qualified as Segment
+import Geometry.Similarity (Similarity)
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- | Points in the order of the rows, and the other columns, in mm, radians and minutes.
+data Table = Table {rows :: Vector Row, columns :: [(Name, Vector Double)]}
+  deriving stock (Eq, Show)
+
+-- | A point, and where its row stands.
+data Row = Row {written :: Region, point :: Point}
+  deriving stock (Eq, Show)
+
+-- | A curve as it is defined, exactly; the columns of its table; the pieces that were chosen for it, if they were; and the chain of arcs
+-- within 'Tolerance.curve' that stands for it where it is walked.
+data Curve = Curve
+  { exact :: Exact.Curve,
+    fields :: [(Name, Vector Double)],
+    fitting :: Maybe Fitting,
+    laid :: ~Polyarc
+  }
+  deriving stock (Eq, Show)
+
+-- | The pieces through a table, and by how much they miss its rows.
+data Fitting = Fitting {pieces :: NonEmpty Fit.Piece, misses :: [Fit.Deviation], points :: Vector Row}
+  deriving stock (Eq, Show)
+
+-- | A curve with the columns of its table.
+curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> Curve
+curve fields fitting exact = Curve {exact, fields, fitting, laid = Polyarc.fromSegments (sconcat (Biarc.approximate Tolerance.curve (track exact)))}
+
+-- | A curve without a table.
+plain :: Exact.Curve -> Curve
+plain = curve [] Nothing
+
+track :: Exact.Curve -> Track
+track c =
+  Track
+    { place = Exact.at c,
+      direction = \side -> Exact.tangentFrom (case side of Biarc.Arriving -> Before; Biarc.Leaving -> After) c,
+      begin = 0,
+      breaks = case drop 1 (Exact.breaks c) of
+        [] -> Exact.domain c :| []
+        u : us -> u :| us
+    }
+
+-- | Where it begins and ends.
+ends :: Curve -> [Point]
+ends c = [Exact.start (exact c), Exact.end (exact c)]
+
+-- | Walked the other way; the columns go with it.
+reversed :: Curve -> Curve
+reversed c = curve [(n, Exact.backwards (exact c) vs) | (n, vs) <- fields c] Nothing (Exact.reversed (exact c))
+
+-- | The columns keep their values: they are dimensions of the part.
+transformed :: Similarity -> Curve -> Curve
+transformed s c = curve (fields c) Nothing (Exact.transformed s (exact c))
+
+-- | Values for the rows of a curve's table, along the chain that stands for the curve: the place on the chain and the value, at the
+-- ends of its segments.
+along :: Curve -> Vector Double -> [(Double, Double)]
+along c values = [(s, at s) | s <- Polyarc.joints (laid c)]
+  where
+    column = Exact.column (exact c) values
+    -- The chain and the curve differ in length by nothing that tells.
+    at s = Exact.columnAt (exact c) column (Exact.alongTo (exact c) (Mm (s * whole / chain)))
+    Mm whole = Exact.length (exact c)
+    Mm chain = Polyarc.length (laid c)
+
+-- | Pieces as a curve, with the parameters of the rows on it.
+piecesOf :: Vector Point -> NonEmpty Fit.Piece -> (NonEmpty Piece, Vector Double)
+piecesOf rows chosen = (fmap piece chosen, Vector.imap station rows)
+  where
+    piece p = case (Fit.formula p, Fit.segment p) of
+      (Fit.Polynomial a b c, Nothing) -> Quadratic a b c (Vec.x (Fit.from p)) (Vec.x (Fit.to p))
+      (_, Just s) -> case s of
+        Segment.Straight a b -> Line a b
+        Segment.Arc {} -> Circular s
+      (Fit.Circle _ _, Nothing) -> Line (Fit.from p) (Fit.to p)
+    numbered = zip [0 :: Int ..] (NonEmpty.toList chosen)
+    station k q = case [(i, p) | (i, p) <- numbered, k + 1 <= Fit.final p] of
+      (i, p) : _ -> fromIntegral i + share p q
+      [] -> fromIntegral (length chosen)
+    share p q
+      | Vec.x q == Vec.x (Fit.from p) = 0
+      | Vec.x q == Vec.x (Fit.to p) = 1
+      | otherwise = case Fit.segment p of
+        Just s@Segment.Arc {} -> Segment.fraction s (Vec.point (Vec.x q) (Fit.height p (Vec.x q)))
+        _ -> (Vec.x q - Vec.x (Fit.from p)) / (Vec.x (Fit.to p) - Vec.x (Fit.from p))
