@@ -47,6 +47,7 @@ import Sheet.FromPart qualified as Sheet
 import Sheet.FromText qualified as Sheet
 import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
+import Sheet.Unfit qualified as Unfit
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
 import System.IO (stdin, stdout)
@@ -322,7 +323,7 @@ import' reporter file' place = do
 -- | Write a program as a sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 exportSheet reporter file' place = withProgram reporter file' $ \loaded ->
-  settle reporter loaded (Result.thenSound (Compile.evaluated (values loaded) (texts loaded)) (Result.mapErrors id Sheet.toReport . Sheet.fromPart . snd)) $
+  settle reporter loaded (Compile.evaluated (values loaded) (texts loaded) `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry Sheet.fromPart)) $
     deliver reporter file' place . Sheet.write
 
 -- | Write a text to a file, but not over what it was made from, or to standard output.

@@ -17,7 +17,7 @@ import Surface.Parser qualified as Parser
 import Surface.Syntax qualified as Surface
 import Test.Hspec
 import Test.Hspec.QuickCheck (prop)
-import Test.QuickCheck
+import Test.QuickCheck hiding (Result (..))
 
 spec :: Spec
 spec = do
