@@ -64,7 +64,7 @@ name builtin = case builtin of
   Intersection -> "intersection"
   CentreOf -> "centre_of"
   Midpoint -> "midpoint"
-  Foot -> "foot"
+  Foot -> "foot_of"
   Tangency -> "tangency"
   PointOn -> "point_on"
   MakeLine -> "line"

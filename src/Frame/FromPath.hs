@@ -13,11 +13,13 @@ import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrd)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (listToMaybe, mapMaybe)
 import Frame.Error (CommandKind (..), Error (..), Warning (..))
 import Frame.Frame (Frame (..), Planned (Planned, frame), Program (Program), Role (..))
 import Frame.Frame qualified as Frame
+import Frame.Run qualified as Run
 import Geometry.Box qualified as Box
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (..))
@@ -34,8 +36,15 @@ import Path.FromPart qualified as Path
 import Path.Path (Move (..), Path)
 import Path.Path qualified as Path
 
--- | What becomes frames: a move with its role and the chord error allowed on it, or a command.
-data Task = Task {role :: Role, error' :: ChordError, tool :: Mm, move :: Move} | Order (Located Command)
+-- | What becomes frames: a run of moves with its role and what is allowed to its chords, or a command.
+data Task
+  = Task
+      { role :: Role,
+        error' :: ChordError,
+        tool :: Mm,
+        run :: NonEmpty Move
+      }
+  | Order (Located Command)
 
 -- | How far chords may be off.
 data ChordError
@@ -43,6 +52,8 @@ data ChordError
     Sagitta Mm
   | -- | so far towards the centre of an arc, and so far away from it
     BandOf Mm Mm
+  | -- | along a curve
+    Along Run.Bounds
 
 -- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an increment is
 -- the difference of two of them, so rounding never adds up.
@@ -60,12 +71,12 @@ quantise machine path = case problems of
     startWarning =
       let at = Frame.position machine begin
        in [StartRounded fromRegion fromPoint at | not (Vec.near at fromPoint)]
-    feedWarning task = case pace (move task) of
+    feedWarning task = case pace (NonEmpty.head (run task)) of
       Rapid -> Nothing
       At (Located region asked@(Feed f)) -> case Machine.chooseFeed machine asked of
         Machine.Given _ given@(Feed g) | abs (g - f) > feedSlack * f -> Just (FeedDiffers region asked given)
         _ -> Nothing
-    heightWarning task = if Z `notElem` Machine.driven machine && uncurry (/=) (heights (move task)) then Just (HeightUnsure (origin (move task))) else Nothing
+    heightWarning task = listToMaybe [HeightUnsure (origin m) | Z `notElem` Machine.driven machine, m <- NonEmpty.toList (run task), uncurry (/=) (heights m)]
     byHand = [ByHand region (kindOf c) | Order (Located region c) <- tasks, not (onTape c)]
     problems = nubOrd (mapMaybe toleranceProblem (Path.blocks path) <> mapMaybe feedProblem moves <> mapMaybe reachProblem moves <> mapMaybe commandProblem tasks <> tooLong)
     toleranceProblem block = case block of
@@ -78,21 +89,22 @@ quantise machine path = case problems of
     commandProblem task = case task of
       Order (Located region (Part.Auxiliary n)) | n > Machine.auxiliaries machine -> Just (NoSuchCommand region n (Machine.auxiliaries machine))
       _ -> Nothing
-    feedProblem task = case pace (move task) of
+    feedProblem task = case pace (NonEmpty.head (run task)) of
       Rapid -> Nothing
       At (Located region asked) -> case Machine.chooseFeed machine asked of
         Machine.NoSuchFeed low high -> Just (FeedMissing region asked low high)
         Machine.Given _ _ -> Nothing
-    reachProblem task =
-      let Box.Box l b r t = Box.ofSegment (segment (move task))
-       in beyond (origin (move task)) (Vec.point l b) <|> beyond (origin (move task)) (Vec.point r t) <|> beyond fromRegion fromPoint
+    reachProblem task = listToMaybe (mapMaybe reachOf (NonEmpty.toList (run task)))
+    reachOf m =
+      let Box.Box l b r t = Box.ofSegment (segment m)
+       in beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> beyond fromRegion fromPoint
     beyond :: Region -> Point -> Maybe Error
     beyond region p = if max (abs (Vec.x p)) (abs (Vec.y p)) <= limit then Nothing else Just (OutOfReach region p Tolerance.reach)
     Mm limit = Tolerance.reach
     tooLong = case dropWhile ((<= mostFrames) . fst) (scanl (\(n, _) t -> (n + count t, Just t)) (0, Nothing) moves) of
-      (_, Just t) : _ -> [TooManyFrames (origin (move t)) mostFrames]
+      (_, Just t) : _ -> [TooManyFrames (origin (NonEmpty.head (run t))) mostFrames]
       _ -> []
-    count task = frameCount machine (error' task) (segment (move task))
+    count task = frameCount machine (error' task) (run task)
 
 -- | Whether a machine is told a command by its tape.
 onTape :: Command -> Bool
@@ -125,14 +137,33 @@ tasksOf machine path = concatMap (braking machine) (concat (zipWith block number
   where
     -- How many passes along contours stand before each block.
     numbers = scanl (\n b -> case b of Path.Cutting {} -> n + 1; _ -> n) (0 :: Int) (Path.blocks path)
-    straight r radius = map (Task r (Sagitta (Mm 0)) radius)
+    straight r radius = map (Task r (Sagitta (Mm 0)) radius . (:| []))
     block n b = case b of
       Path.Travelling radius ms -> straight Travelling radius ms
       Path.Holing (Located _ d) ms -> straight Drilling (Part.drillRadius d) ms
       Path.Commanding c -> [Order c]
       Path.Cutting {Path.job = Located _ job, Path.approach = before, Path.cut = along, Path.retract = after} ->
         concat [led (Approaching n) job before, led (Cutting n) job (NonEmpty.toList along), led (Retracting n) job after]
-    led r job = map (\m -> Task r (chordError job (segment m)) (Part.radius job) m)
+    led r job = map (\ms -> Task r (allowedOn machine job ms) (Part.radius job) ms) . Path.runs
+
+-- | What is allowed to the chords of a run.
+allowedOn :: Machine -> Milling -> NonEmpty Move -> ChordError
+allowedOn machine job ms
+  | Path.isCurve ms = Along (curveBounds machine job)
+  | otherwise = chordError job (segment (NonEmpty.head ms))
+
+-- | How far a curve may lie from its chords: a chord that runs inside of the material has the curve on the cutter's
+-- side. What the arcs are off from the curve is taken from it first. Heights are as exact as the chords, or to a pulse.
+curveBounds :: Machine -> Milling -> Run.Bounds
+curveBounds machine job = Run.Bounds {Run.left = l, Run.right = r, Run.rise = max pulse (min l r), Run.shortest = pulse}
+  where
+    pulse = Machine.pulse machine
+    (l, r) = case (Part.tolerance job, Path.leadingSide job) of
+      (Part.OnPath d, _) -> (less d, less d)
+      (Part.Band a b, Right (Just Offset.LeftOf)) -> (less a, less b)
+      (Part.Band a b, Right (Just Offset.RightOf)) -> (less b, less a)
+      (Part.Band a b, _) -> let d = if a > Mm 0 && b > Mm 0 then min a b else max a b in (less d, less d)
+    less d = max (Mm 0) (minus d Tolerance.curve)
 
 -- | The chord error of a segment: on the side of the material its own, and on the other one.
 chordError :: Milling -> Segment -> ChordError
@@ -147,21 +178,36 @@ chordError job s = case (Part.tolerance job, s) of
       | otherwise -> BandOf a b
     _ -> Sagitta (if a > Mm 0 && b > Mm 0 then min a b else max a b)
 
--- | A move that slows down at its end becomes two: the last stretch, @L = v² / 2a@, runs at the lowest feed.
+-- | A run that slows down at its end becomes two: the last stretch, @L = v² / 2a@, runs at the lowest feed.
 braking :: Machine -> Task -> [Task]
 braking machine task = case task of
-  Task {move = m}
-    | braked m,
-      At (Located region asked) <- pace m,
+  Task {run = ms}
+    | braked (NonEmpty.last ms),
+      At (Located region asked) <- pace (NonEmpty.head ms),
       Machine.Given _ (Feed v) <- Machine.chooseFeed machine asked ->
       let slow = At (Located region (snd (Machine.slowest machine)))
-          stretch = (v / 60) ** 2 / (2 * Machine.deceleration machine)
-          Mm l = Segment.length (segment m)
-          (front, tail') = Segment.cutAt (1 - stretch / l) (segment m)
-       in if stretch >= l
-            then [task {move = m {pace = slow}}]
-            else [task {move = m {segment = front}}, task {move = m {segment = tail', pace = slow}}]
+          (front, tail') = cutBefore ((v / 60) ** 2 / (2 * Machine.deceleration machine)) (reverse (NonEmpty.toList ms))
+       in [task {run = part} | Just part <- [NonEmpty.nonEmpty (reverse front)]]
+            <> [task {run = fmap (\m -> m {pace = slow}) part} | Just part <- [NonEmpty.nonEmpty (reverse tail')]]
   _ -> [task]
+
+-- | Moves, the last one first, cut so many mm before their end.
+cutBefore :: Double -> [Move] -> ([Move], [Move])
+cutBefore stretch ms = case ms of
+  [] -> ([], [])
+  m : before
+    | stretch >= l -> (m :) <$> cutBefore (stretch - l) before
+    | otherwise -> (m {segment = front, heights = (fst (heights m), z)} : before, [m {segment = tail', heights = (z, snd (heights m))}])
+    where
+      Mm l = Segment.length (segment m)
+      (front, tail') = Segment.cutAt (1 - stretch / l) (segment m)
+      z = heightAt (1 - stretch / l) m
+
+-- | The height at a fraction of a move.
+heightAt :: Double -> Move -> Mm
+heightAt t m
+  | t >= 1 = snd (heights m)
+  | otherwise = plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
 
 -- | The nearest whole number of pulses; half a pulse goes up.
 rounded :: Machine -> (Point, Mm) -> V3 Pulses
@@ -182,25 +228,32 @@ framesOf machine = go Nothing
         _ -> go waiting begin rest
       task@Task {} : rest ->
         let mine = moveFrames machine begin task
-            finish = rounded machine (Segment.end (segment (move task)), snd (heights (move task)))
+            finish = let final = NonEmpty.last (run task) in rounded machine (Segment.end (segment final), snd (heights final))
          in case (waiting, mine) of
               (Just (n, _), p : more) -> p {frame = (frame p) {auxiliary = n}} : more <> go Nothing finish rest
               _ -> mine <> go waiting finish rest
     alone (n, region) = Planned Frame {increment = 0, speed = FeedCode 0, auxiliary = n} Commanding region (Mm 0)
 
--- | The frames of one move from where the last one ended.
+-- | The frames of one run from where the last one ended.
 moveFrames :: Machine -> V3 Pulses -> Task -> [Planned]
 moveFrames machine begin task = case task of
   Order _ -> []
-  Task {role, error', tool, move = m} -> filter ((/= 0) . increment . frame) (zipWith planned (begin : stops) stops)
+  Task {role, error', tool, run} -> filter ((/= 0) . increment . frame) (zipWith planned (begin : stops) stops)
     where
+      m = NonEmpty.head run
       stops = concat (zipWith (split machine) (begin : map (rounded machine) points) (zip ((Segment.start (segment m), fst (heights m)) : points) points))
-      points = zip chordEnds [height' (fromIntegral k / fromIntegral count) | k <- [1 .. count]]
-      chordEnds = chordsWithin machine error' (segment m)
-      count = length chordEnds
-      height' :: Double -> Mm
-      height' t = if t >= 1 then snd (heights m) else plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
+      points = chordPoints machine error' run
       planned a b = Planned Frame {increment = b - a, speed = speedOf machine (pace m), auxiliary = 0} role (origin m) tool
+
+-- | The ends of the chords of a run with their heights.
+chordPoints :: Machine -> ChordError -> NonEmpty Move -> [(Point, Mm)]
+chordPoints machine allowed ms = case allowed of
+  Sagitta y -> alone (chords machine y)
+  BandOf toward away -> alone (bandChords machine toward away)
+  Along bounds -> Run.chordEnds mostFrames bounds ms
+  where
+    m = NonEmpty.head ms
+    alone chordsOf = let ends = chordsOf (segment m) in zip ends [heightAt (fromIntegral k / fromIntegral (length ends)) m | k <- [1 .. length ends]]
 
 speedOf :: Machine -> Pace -> FeedCode
 speedOf machine pace = case pace of
@@ -223,12 +276,6 @@ split machine begin ((a, za), (b, zb)) = head' (filter fits (map parts [fewest .
     head' xs = case xs of
       x : _ -> x
       [] -> [finish]
-
--- | The ends of the chords of a segment, the last one its end.
-chordsWithin :: Machine -> ChordError -> Segment -> [Point]
-chordsWithin machine allowed s = case allowed of
-  Sagitta y -> chords machine y s
-  BandOf toward away -> bandChords machine toward away s
 
 -- | The ends of the chords of a segment, the last one its end: equal steps that stay within
 -- the sagitta, @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@ (Ural paper; R is the radius of the path),
@@ -261,12 +308,19 @@ bandChords machine toward away s = case s of
       step = if count == 0 then 0 else (abs angle - 2 * first) / fromIntegral count
       corner a = Vec.shift (Vec.scale (outer / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p))) centre
 
--- | How many frames a segment needs, or one less for each chord: its chords, each split to fit the fields of a frame.
-frameCount :: Machine -> ChordError -> Segment -> Int
-frameCount machine allowed segment = n * max 1 (ceiling (l / fromIntegral n / (fromIntegral field * pulse)))
+-- | How many frames a run needs, or one less for each chord: its chords, each split to fit the fields of a frame.
+-- Chords of a curve are counted as far as it matters.
+frameCount :: Machine -> ChordError -> NonEmpty Move -> Int
+frameCount machine allowed ms = case allowed of
+  Sagitta y -> alone y
+  BandOf a b -> alone (max a b)
+  Along bounds ->
+    let ends = map fst (take (mostFrames + 1) (Run.chordEnds mostFrames bounds ms))
+     in sum (zipWith (\p q -> parts (let Mm d = Vec.distance p q in d)) (Segment.start only : ends) ends)
   where
-    n = chordCount machine (case allowed of Sagitta y -> y; BandOf a b -> max a b) segment
-    Mm l = Segment.length segment
+    only = segment (NonEmpty.head ms)
+    alone y = let n = chordCount machine y only; Mm l = Segment.length only in n * parts (l / fromIntegral n)
+    parts l = max 1 (ceiling (l / (fromIntegral field * pulse)))
     Mm pulse = Machine.pulse machine
     Pulses field = max 1 (minimum [Machine.capacity machine axis | axis <- [X, Y]])
 

@@ -6,13 +6,17 @@ module Geometry.Box
     union,
     inflate,
     meets,
+    distance,
+    atLeast,
     Index,
     index,
     within,
+    select,
+    closest,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), minus)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -47,6 +51,11 @@ inflate (Mm d) (Box l b r t) = Box (l - d) (b - d) (r + d) (t + d)
 meets :: Box -> Box -> Bool
 meets (Box l b r t) (Box l' b' r' t') = l <= r' && l' <= r && b <= t' && b' <= t
 
+-- | No point of a box has a smaller distance from something, by the distances of points from it: that of the middle
+-- of the box less half of its diagonal.
+atLeast :: (Point -> Mm) -> Box -> Mm
+atLeast distanceTo (Box l b r t) = minus (distanceTo (Vec.point ((l + r) / 2) ((b + t) / 2))) (Mm (Vec.norm (Vec.vec (r - l) (t - b)) / 2))
+
 -- | Things in the order in which they were given, with the boxes of their groups: the order of a
 -- contour is a good order in space.
 data Index a = Empty | Leaf Box a | Node Box (Index a) (Index a)
@@ -73,9 +82,42 @@ index box things = build (length things) things
 
 -- | All things whose boxes meet a box, in order.
 within :: Box -> Index a -> [a]
-within box i = go i []
+within box = select (meets box)
+
+-- | All things for whose boxes something holds, in order. It holds for a box that holds one for which it does.
+select :: (Box -> Bool) -> Index a -> [a]
+select holds i = go i []
   where
     go i' rest = case i' of
       Empty -> rest
-      Leaf p a -> if meets box p then a : rest else rest
-      Node p a b -> if meets box p then go a (go b rest) else rest
+      Leaf p a -> if holds p then a : rest else rest
+      Node p a b -> if holds p then go a (go b rest) else rest
+
+-- | The thing nearest to a point, by a distance that is no less than that of its box; of several the first.
+closest :: (a -> Mm) -> Point -> Index a -> Maybe (Mm, a)
+closest distanceTo p = go (Mm (1 / 0))
+  where
+    -- Among those no further than a bound.
+    go bound i = case i of
+      Empty -> Nothing
+      Leaf box a -> let d = distanceTo a in if fromBox box <= bound && d <= bound then Just (d, a) else Nothing
+      Node box a b
+        | fromBox box > bound -> Nothing
+        | away a <= away b -> let found = go bound a in first found (go (narrower bound found) b)
+        | otherwise -> let found = go bound b in first (go (narrower bound found) a) found
+    narrower bound found = maybe bound fst found
+    first one other = case (one, other) of
+      (Just (d, _), Just (e, _)) -> if d <= e then one else other
+      (Nothing, _) -> other
+      (_, Nothing) -> one
+    away i = case i of
+      Empty -> Mm 0
+      Leaf box _ -> fromBox box
+      Node box _ _ -> fromBox box
+    fromBox = distance p
+
+-- | The distance of a point from a box, none inside.
+distance :: Point -> Box -> Mm
+distance p (Box l b r t) = Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))
+  where
+    outside low c high = max 0 (max (low - c) (c - high))

@@ -18,6 +18,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
+import Data.Traversable (mapAccumR)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour qualified as Contour
@@ -110,7 +111,7 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
   pieces <- along job allowance
   let pace = Part.At (feed milling)
       origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
-      cut = fmap move pieces
+      cut = NonEmpty.zipWith (\previous piece -> (move piece) {Path.continues = goesOn previous piece}) (Nothing :| map Just (NonEmpty.toList pieces)) pieces
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
@@ -123,7 +124,11 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
             slows = case Offset.origin piece of
               Offset.Along _ -> Part.slow (Part.finish e)
               Offset.Around _ -> False
-         in Move (Offset.segment piece) (z, z) (maybe pace Part.At own) slows (Part.origin e)
+         in Move (Offset.segment piece) (z, z) (maybe pace Part.At own) slows (Part.origin e) False
+      -- Behind an arc in which the cutter stands still there may be a corner.
+      goesOn previous piece = case (Offset.origin <$> previous, Offset.origin piece) of
+        (Just (Offset.Along i), Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
+        _ -> False
       entry = Segment.start (Offset.segment (NonEmpty.head pieces))
       exit = Segment.end (Offset.segment (NonEmpty.last pieces))
       leadIn = leading region milling LeadingIn (setOut Segment.startDirection (NonEmpty.head pieces) (NonEmpty.head (elements (contour milling)))) entry
@@ -152,7 +157,7 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
           stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
           over = ways (foldl after at up) (if null stops then [Part.Stop (Located (keyword region) begin) (Just clear) Part.Rapid] else stops)
           above = foldl after (foldl after at up) over
-          down = [Move (Straight (plane above) (plane above)) (height above, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) | height above /= z]
+          down = [Move (Straight (plane above) (plane above)) (height above, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) False | height above /= z]
           (beside, further) = case Part.retract milling of
             s : more | Nothing <- Part.level s -> ([s {Part.level = Just z}], more)
             stops' -> ([], stops')
@@ -165,7 +170,7 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
 
 -- | Straight up to a height, if the cutter stands below it.
 rise :: Spot -> Mm -> Region -> [Move]
-rise (Spot p z) clear region = [Move (Straight p p) (z, clear) Part.Rapid False (keyword region) | z < clear]
+rise (Spot p z) clear region = [Move (Straight p p) (z, clear) Part.Rapid False (keyword region) False | z < clear]
 
 data Leading = LeadingIn | LeadingOut
   deriving stock (Eq)
@@ -184,7 +189,7 @@ leading region milling which direction p = case if which == LeadingIn then Part.
   where
     back = if which == LeadingIn then -1 else 1
     pair onto off = if which == LeadingIn then onto else off
-    lead s = Move s (Mm 0, Mm 0) (Part.At (feed milling)) False (keyword region)
+    lead s = Move s (Mm 0, Mm 0) (Part.At (feed milling)) False (keyword region) False
     free = case leadingSide milling of
       Right (Just Offset.RightOf) -> -1
       _ -> 1 :: Double
@@ -195,7 +200,7 @@ ways at stops = case stops of
   [] -> []
   Part.Stop (Located region p) level pace : rest
     | Vec.near (plane at) p && z == height at -> ways at rest
-    | otherwise -> Move (Straight (plane at) p) (height at, z) pace False region : ways (Spot p z) rest
+    | otherwise -> Move (Straight (plane at) p) (height at, z) pace False region False : ways (Spot p z) rest
     where
       z = fromMaybe (height at) level
 
@@ -272,7 +277,9 @@ oriented region milling = case Part.sense milling of
         | otherwise -> Right milling {contour = backwards (contour milling)}
   where
     region' (Located r _) = r
-    backwards c = c {elements = NonEmpty.reverse (fmap (\e -> e {Part.segment = Segment.reverse (Part.segment e)}) (elements c))}
+    backwards c = c {elements = NonEmpty.reverse (snd (mapAccumR turned (Part.continues (NonEmpty.head (elements c))) (elements c)))}
+    -- Walked backwards an element continues the one that continued it.
+    turned next e = (Part.continues e, e {Part.segment = Segment.reverse (Part.segment e), Part.continues = next})
 
 -- Holes
 
@@ -290,7 +297,7 @@ holing at (Located region d) = rise at clear region <> go (Spot (plane at) (max 
       let start' = maybe clear (\b -> min clear (plus b peckGap)) before
        in [vertical place p (clear, start') Part.Rapid | start' /= clear]
             <> [vertical place p (start', z) (Part.At (Part.drillFeed d)), vertical place p (z, clear) Part.Rapid]
-    vertical place p heights pace = Move (Straight p p) heights pace False place
+    vertical place p heights pace = Move (Straight p p) heights pace False place False
     depths = depthsOf d
 
 -- | The depths to which a drill goes down, one after the other: equal pecks, none deeper than is asked.

@@ -5,6 +5,8 @@ module Path.Path
     Pass (..),
     Move (..),
     moves,
+    runs,
+    isCurve,
     isFlat,
     end,
   )
@@ -12,7 +14,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -52,7 +54,9 @@ data Move = Move
     pace :: Pace,
     -- | slow down at its end
     braked :: Bool,
-    origin :: Region
+    origin :: Region,
+    -- | it goes on, without a corner, with the curve of the move before
+    continues :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -63,6 +67,16 @@ moves block = case block of
   Cutting {approach, cut, retract} -> approach <> NonEmpty.toList cut <> retract
   Holing _ ms -> ms
   Commanding _ -> []
+
+-- | Moves in order, those together that go along one curve: each but the first continues the one before.
+runs :: [Move] -> [NonEmpty Move]
+runs = NonEmpty.groupBy (\_ m -> continues m)
+
+-- | Whether a run goes along a curve that is replaced by arcs, rather than along one line or arc.
+isCurve :: NonEmpty Move -> Bool
+isCurve run = case run of
+  m :| [] -> continues m
+  _ -> True
 
 -- | Whether the cutter stays at the height at which it starts.
 isFlat :: Path -> Bool

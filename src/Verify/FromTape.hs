@@ -45,6 +45,7 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 import Path.Path (Block, Path)
 import Path.Path qualified as Path
+import Verify.Cover qualified as Cover
 import Verify.Passage (Job (..), Trace (..), elementsOf)
 import Verify.Passage qualified as Passage
 import Verify.Proof (Finding (..), Passage (..), Proof (Proof), Witness (..))
@@ -116,7 +117,7 @@ follow machine flat begin = go begin
       Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut} : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = Segment.end (Path.segment (NonEmpty.last cut))
-            job = Job {milling, statement = region, entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Part.deepest (Part.tolerance milling))) (Machine.pulse machine)}
+            job = Job {milling, statement = region, entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (allowedOff milling)) (Machine.pulse machine)}
             standsThere = flat || atLevel machine atHeight (Frame.height machine at)
             found = Passage.find job (if standsThere then Just (Frame.position machine at) else Nothing) (filter (\t -> flat || isAt machine atHeight t) rest)
             behind = case reverse (stretch found) of
@@ -132,6 +133,16 @@ follow machine flat begin = go begin
       Passage.Followed arrival along _ -> arrival <> along
       Passage.Lost arrival along _ -> arrival <> along
       Passage.NeverBegun -> []
+
+-- | How far a tape may be off from a contour, into the material and out of it. Of a curve the contour has arcs that may be
+-- off themselves: the tape has to come so much nearer to them.
+allowedOff :: Milling -> (Mm, Mm)
+allowedOff milling
+  | any Part.continues (Part.elements (Part.contour milling)) = (less a, less b)
+  | otherwise = (a, b)
+  where
+    (a, b) = Part.deepest (Part.tolerance milling)
+    less d = minus d Tolerance.curve
 
 -- | How far the cutter's centre goes from a contour at most.
 furthestOut :: Milling -> Mm -> Mm
@@ -221,7 +232,7 @@ examine foreign' machine flat toolOf isFirst traces Pass {job, level, found} =
     elements = elementsOf job
     elementIndex = Box.index (Box.ofSegment . Part.segment) elements
     pulse = Machine.pulse machine
-    (inside, outside) = Part.deepest (Part.tolerance (milling job))
+    (inside, outside) = allowedOff (milling job)
     mayGouge = plus (if upon then allowance' else inside) pulse
     mayLeave = plus (if upon then allowance' else outside) pulse
     allowance' = max inside outside
@@ -270,10 +281,11 @@ gougeOf furthest' required index t
   where
     near =
       [ Witness {amount = minus (required e p) d, frame = number (stroke t), element = Part.origin e, place = p}
-        | e <- Box.within (Box.inflate furthest' (Box.ofSegment (line t))) index,
+        | e <- Box.select (\box -> Box.meets around box && Box.atLeast (\p -> Distance.toPoint p (line t)) box <= furthest') index,
           let Nearest d p = Distance.segments (line t) (Part.segment e),
           d < required e p
       ]
+    around = Box.inflate furthest' (Box.ofSegment (line t))
 
 -- | What is left on an element where it is nearest to a point; where elements join, no more than on any of them.
 leftAt :: Box.Index Element -> Element -> Point -> Mm
@@ -292,13 +304,13 @@ uncut job index = go (Mm 0)
   where
     go least elements = case elements of
       [] -> []
-      e : rest -> case furthest job (around e) least (Part.segment e) of
+      e : rest -> case Cover.furthest (others e) least (Part.segment e) of
         Nothing -> go least rest
-        Just (most, p, near) ->
-          let nearest = minimumBy (comparing (Distance.toPoint p . line)) near
+        Just Cover.Beyond {Cover.most, Cover.place = p, Cover.around} ->
+          let nearest = minimumBy (comparing (Distance.toPoint p . line)) around
               next = if most > allowance job then least else most
            in Witness {amount = most, frame = number (stroke nearest), element = Part.origin e, place = p} : go next rest
-    around e box = [(line t, t) | t <- Box.within box index, onLeadingSide job (Part.segment e) (line t)]
+    others e = Cover.Others {Cover.index, Cover.line, Cover.counts = onLeadingSide job (Part.segment e) . line, Cover.reach = reach job, Cover.allowance = allowance job}
 
 -- | Whether a stroke runs on the side of an element on which the cutter has to stand: another one would reach
 -- the element through the part.
@@ -315,66 +327,26 @@ onLeadingSide job element t = case fromRight Nothing (Path.leadingSide (milling 
 
 -- | How far a stroke strays from the contour, if it is more than is allowed.
 strayOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
-strayOf job index t = case furthest job around (allowance job) (line t) of
+strayOf job index t = case Cover.furthest others (allowance job) (line t) of
   Nothing -> Nothing
-  Just (most, p, near) ->
-    let e = minimumBy (comparing (Distance.toPoint p . Part.segment)) near
+  Just Cover.Beyond {Cover.most, Cover.place = p, Cover.around} ->
+    let e = minimumBy (comparing (Distance.toPoint p . Part.segment)) around
      in Just Witness {amount = most, frame = number (stroke t), element = Part.origin e, place = p}
   where
-    around box = [(Part.segment e, e) | e <- Box.within box index]
-
--- | How much further than the cutter's radius some point of a segment lies from the others, if it is
--- more than a bound: the excess, the point, the others around it. The others are asked for by boxes.
--- An excess beyond 'lost' is given as that.
-furthest :: Job -> (Box.Box -> [(Segment, a)]) -> Mm -> Segment -> Maybe (Mm, Point, [a])
-furthest job around least segment
-  | covered least = Nothing
-  | otherwise = case dropWhile (not . covered) widths of
-    [] -> witness lost
-    enough : _ -> witness (halve covered least enough)
-  where
-    widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowance job)))
-    others m = if m <= allowance job then nearby else within m
-    nearby = within (allowance job)
-    within m = around (Box.inflate (plus (reach job) m) (Box.ofSegment segment))
-    gaps m = Distance.uncovered (plus (reach job) m) (map fst (others m)) segment
-    covered = null . gaps
-    witness most = case map snd (others most) of
-      [] -> Nothing
-      near ->
-        let p = case gaps (minus most (times 2 Tolerance.resolution)) of
-              (a, b) : _ -> Segment.at ((a + b) / 2) segment
-              [] -> Segment.start segment
-         in Just (most, p, near)
-
--- | An excess that is as good as infinite: the part is not cut there at all.
-lost :: Mm
-lost = Mm 1e7
-
--- | Between a value that does not hold and one that does, the smallest that does.
-halve :: (Mm -> Bool) -> Mm -> Mm -> Mm
-halve holds low high
-  | minus high low <= Tolerance.resolution = high
-  | holds middle = halve holds low middle
-  | otherwise = halve holds middle high
-  where
-    middle = times 0.5 (plus low high)
+    others = Cover.Others {Cover.index, Cover.line = Part.segment, Cover.counts = const True, Cover.reach = reach job, Cover.allowance = allowance job}
 
 -- | A stroke whose middle lies beside an element on the wrong side.
 wrongSide :: Job -> Box.Index Element -> Trace -> Maybe Finding
-wrongSide job index t = case (side, near) of
-  (Just s, _ : _)
-    | Segment.spans element middle && distanceTo nearest > allowance job && sideOf element /= s ->
+wrongSide job index t = case (side, Box.closest distanceTo middle index) of
+  (Just s, Just (d, nearest))
+    | d < Mm (1 / 0) && d > allowance job && Segment.spans (Part.segment nearest) middle && sideOf (Part.segment nearest) /= s ->
       Just (WrongSide (number (stroke t)) (Part.origin nearest))
-    where
-      nearest = minimumBy (comparing distanceTo) near
-      element = Part.segment nearest
   _ -> Nothing
   where
     side = fromRight Nothing (Path.leadingSide (milling job))
     middle = Segment.at 0.5 (line t)
-    near = Box.within (Box.inflate (plus (outreach job) (allowance job)) (Box.ofSegment (line t))) index
-    distanceTo e = Distance.toPoint middle (Part.segment e)
+    around = Box.inflate (plus (outreach job) (allowance job)) (Box.ofSegment (line t))
+    distanceTo e = if Box.meets around (Box.ofSegment (Part.segment e)) then Distance.toPoint middle (Part.segment e) else Mm (1 / 0)
     sideOf s =
       let foot = Segment.at (Segment.fraction s middle) s
           ahead = Segment.directionAt (Segment.fraction s middle) s

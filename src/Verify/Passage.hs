@@ -10,10 +10,11 @@ module Verify.Passage
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), plus)
+import Base.Quantity (Mm (..), Rad (..), plus, total)
 import Base.Region (Region)
 import Control.StraightLine (Stroke)
 import Data.List (minimumBy)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -85,9 +86,7 @@ find job at traces = case if measurable job then mapMaybe followed starts else [
 
 -- | Whether the cutter with its centre at a point touches the contour at all.
 beside :: Job -> Ruler -> Point -> Bool
-beside job ruler p = or [Distance.toPoint p s <= near | (_, s) <- Box.within (Box.inflate near (Box.ofPoints p [])) (marks ruler)]
-  where
-    near = plus (outreach job) (allowance job)
+beside job ruler p = maybe False ((<= plus (outreach job) (allowance job)) . fst) (Box.closest (Distance.toPoint p . snd) p (marks ruler))
 
 isNear :: Job -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
@@ -108,9 +107,44 @@ untilExit job traces = (leaving <> along <> arrival, behind)
 data Ruler = Ruler {marks :: Box.Index (Double, Segment), whole :: Double, slack :: Double, closed :: Bool}
 
 -- | Whether the place of the cutter's centre tells where it touches: not in a hollow in which the centre
--- hardly moves while the cutter touches all of it.
+-- hardly moves while the cutter touches all of it. The arcs of a curve count together.
 measurable :: Job -> Bool
-measurable job = and [blur job s < l | s@Arc {} <- map Part.segment (elementsOf job), let Mm l = Segment.length s]
+measurable job = and [blurAlong job run < total (map Segment.length (NonEmpty.toList run)) | run <- runsOf job, any isArc run]
+  where
+    isArc s = case s of
+      Arc {} -> True
+      Straight _ _ -> False
+
+-- | The elements, those together that go on with one curve; also over the beginning of a closed contour.
+runsOf :: Job -> [NonEmpty Segment]
+runsOf job = map (fmap Part.segment) $ case NonEmpty.groupBy (\_ e -> Part.continues e) (elementsOf job) of
+  first : more
+    | final : between <- reverse more, closedOf job, Part.continues (NonEmpty.head first) -> reverse ((final <> first) : between)
+  runs -> runs
+
+-- | How far along a run the place of touch may seem to go back by rounding alone: along a curve the most of it that is
+-- touched while the centre moves by as much as it does there on one arc.
+blurAlong :: Job -> NonEmpty Segment -> Mm
+blurAlong job run = case run of
+  s :| [] -> Mm (blur job s)
+  _ -> Mm (max (longest steps) (longest (reverse steps)))
+  where
+    steps = [(l * 2 * a / blur job s, l) | s <- NonEmpty.toList run, let Mm l = Segment.length s]
+    Mm a = allowance job
+    longest ps = widest (2 * a) (zip (scanl (+) 0 (map fst ps)) (scanl (+) 0 (map snd ps)))
+
+-- | The largest growth of the second number while the first one, which rises too, grows by so much from any of the
+-- pairs; between the pairs both grow evenly.
+widest :: Double -> [(Double, Double)] -> Double
+widest window marks = maximum (0 : go marks (zip marks (drop 1 marks)))
+  where
+    final = maximum (0 : map snd marks)
+    go starts steps = case starts of
+      [] -> []
+      (m, l) : more -> let left' = dropWhile (\(_, (end, _)) -> end <= m + window) steps in grown m left' - l : go more left'
+    grown m steps = case steps of
+      [] -> final
+      ((m0, l0), (m1, l1)) : _ -> l0 + (l1 - l0) * (m + window - m0) / (m1 - m0)
 
 -- | How far along an element the place of touch may seem to go back by rounding alone.
 blur :: Job -> Segment -> Double
@@ -126,13 +160,16 @@ blur job s = case s of
       Right (Just Offset.RightOf) -> turned < 0
       _ -> False
 
+closedOf :: Job -> Bool
+closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed
+
 measure :: Job -> Ruler
 measure job =
   Ruler
     { marks = Box.index (Box.ofSegment . snd) (zip (scanl (+) 0 lengths) segments),
       whole = sum lengths,
-      slack = maximum (0 : map (blur job) segments),
-      closed = Part.ends (Part.contour (milling job)) == Part.Closed
+      slack = maximum (0 : [b | run <- runsOf job, let Mm b = blurAlong job run]),
+      closed = closedOf job
     }
   where
     segments = map Part.segment (elementsOf job)
@@ -164,16 +201,15 @@ follows job ruler = go 0 0 (entry job)
       | otherwise = s - mark
     round' x = floor (x + 0.5) :: Int
     -- What the cutter touches is nearest to it.
-    places p = [before + max 0 (min 1 (footOf s p)) * len | (d, before, s, len) <- around, d <= nearest]
-      where
-        around =
-          [ (d, before, s, len)
-            | (before, s) <- Box.within (Box.inflate near (Box.ofPoints p [])) (marks ruler),
-              let d = Distance.toPoint p s,
-              d <= near,
-              let Mm len = Segment.length s
-          ]
-        nearest = plus (minimum (near : [d | (d, _, _, _) <- around])) (plus (allowance job) (allowance job))
+    places p = case Box.closest (Distance.toPoint p . snd) p (marks ruler) of
+      Just (nearest, _) ->
+        let far = min near (plus nearest (plus (allowance job) (allowance job)))
+         in [ before + max 0 (min 1 (footOf s p)) * len
+              | (before, s) <- Box.select ((<= far) . Box.distance p) (marks ruler),
+                Distance.toPoint p s <= far,
+                let Mm len = Segment.length s
+            ]
+      Nothing -> []
     near = plus (outreach job) (allowance job)
     -- Beside an arc the nearer of its ends counts.
     footOf s p

@@ -37,7 +37,7 @@ groups :: [(String, Kind, [Text])]
 groups =
   [ ("intersection, with every choice", Points, ["intersection(" <> a <> ", " <> b <> choice <> ")" | (a, b) <- pairs, choice <- choices <> ranks a b]),
     ("tangency", Points, ["tangency(p#, " <> side <> "c#)" | side <- sides] <> ["tangency(l#, circle(p#, l#))", "tangency(c#, line(p#, left c#))", "tangency(c#, concentric(circle(r, outside c#, p#, near q#), 0))"]),
-    ("foot, midpoint, centre_of", Points, ["foot(p#, l#)", "midpoint(p#, q#)", "centre_of(c#)", "item_of(row(p#, q# - p#, 3), 3)", "item_of(grid(p#, q# - p#, 2, s# - p#, 2), 4)"]),
+    ("foot_of, midpoint, centre_of", Points, ["foot_of(p#, l#)", "midpoint(p#, q#)", "centre_of(c#)", "item_of(row(p#, q# - p#, 3), 3)", "item_of(grid(p#, q# - p#, 2, s# - p#, 2), 4)"]),
     ("line, with sides", Lines, ["line(" <> a <> ", " <> b <> ")" | a <- ["p#"] <> map (<> "c#") sides, b <- ["q#"] <> map (<> "d#") sides]),
     ("parallel, perpendicular, reversed", Lines, ["perpendicular(l#, p#)", "parallel(l#, left r)", "parallel(l#, right r)", "parallel(l#, p#)", "reversed(l#)"]),
     ("circle of a radius, with every side and choice", Circles, ["circle(r, " <> a <> ", " <> b <> choice <> ")" | a <- touched "l#" "c#" "p#", b <- touched "k#" "d#" "q#", choice <- choices <> [", near p#", ", near q#", ", near s#"]]),
@@ -95,7 +95,7 @@ same :: Kind -> Int -> Text
 same kind n = Text.unlines $ case kind of
   Points -> ["assert distance(" <> there <> ", " <> image <> ") < 0.0001"]
   Lines ->
-    [ "assert distance(foot((0, 0), " <> there <> "), foot((0, 0), " <> image <> ")) < 0.0001",
+    [ "assert distance(foot_of((0, 0), " <> there <> "), foot_of((0, 0), " <> image <> ")) < 0.0001",
       "assert cos(direction_of(" <> there <> ") - direction_of(" <> image <> ")) > 0.999999",
       "assert length_of(" <> there <> ") = length_of(" <> image <> ") within 0.0001"
     ]

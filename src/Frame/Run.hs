@@ -1,0 +1,220 @@
+-- | Chords along a run: moves that go on, without a corner, along one curve. Each chord reaches from where the last
+-- one ended as far along the run as it may, whatever arcs it passes.
+--
+-- From the beginning of a chord every point of the run is seen in a direction, and the chord has to pass it within
+-- what is allowed on either side: that leaves a sector of directions, which narrows as the run goes on. An arc narrows
+-- it by its end and by the place at which its tangent runs along the edge of the sector, so nothing is sampled.
+module Frame.Run
+  ( Bounds (..),
+    chordEnds,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), times)
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Path.Path (Move)
+import Path.Path qualified as Path
+
+-- | How far a run may lie from its chords.
+data Bounds = Bounds
+  { -- | to the left of the chord
+    left :: Mm,
+    -- | to its right
+    right :: Mm,
+    -- | above and below it, at the same share of the way
+    rise :: Mm,
+    -- | no chord need be shorter along the run
+    shortest :: Mm
+  }
+  deriving stock (Eq, Show)
+
+-- | The ends of the chords of a run with their heights, the last one its end. When there are more than so many, at
+-- least so many of them.
+chordEnds :: Int -> Bounds -> NonEmpty Move -> [(Point, Mm)]
+chordEnds most bounds run
+  | null pieces = [(Segment.end (Path.segment final), snd (Path.heights final))]
+  | otherwise = map (\p -> (place p, Mm (level p))) (if count > most then widest else evened)
+  where
+    final = NonEmpty.last run
+    pieces = [Piece (Path.segment m) 0 (a, b) | m <- NonEmpty.toList run, let { (Mm a, Mm b) = Path.heights m }, Segment.length (Path.segment m) > Mm 0]
+    widest = walk 1
+    count = length (take (most + 1) widest)
+    walk tightness = chords (limitsOf bounds tightness) pieces
+    evened = evenest evenings (1 - 1 / fromIntegral count) 1 widest
+    -- The tightest limits that need no more chords make the last one as long as the others.
+    evenest :: Int -> Double -> Double -> [Place] -> [Place]
+    evenest tries low high best
+      | tries <= 0 || count == 1 = best
+      | null (drop count tighter) = evenest (tries - 1) low middle tighter
+      | otherwise = evenest (tries - 1) middle high best
+      where
+        middle = (low + high) / 2
+        tighter = walk middle
+
+-- | How often the limits are halved.
+evenings :: Int
+evenings = 5
+
+-- | Bounds in mm, and how far the run may turn within a chord, in radians.
+data Limits = Limits {leftOf :: Double, rightOf :: Double, rising :: Double, turning :: Double, least :: Double}
+
+-- | The chords of an arc turn by so much of what they might when its sagitta is the square of that share.
+limitsOf :: Bounds -> Double -> Limits
+limitsOf bounds tightness =
+  Limits {leftOf = share (left bounds), rightOf = share (right bounds), rising = share (rise bounds), turning = tightness * pi / 2, least}
+  where
+    Mm least = shortest bounds
+    -- Less than one point from the chord is on it.
+    share d = let Mm y = max Tolerance.coincident (times (tightness * tightness) d) in y
+
+-- | What is left of a move, from a fraction of its length on; the heights at the ends of the whole move in mm.
+data Piece = Piece {segment :: Segment, from :: Double, heights :: (Double, Double)}
+
+-- | A place on the run, its height in mm, and what lies behind it.
+data Place = Place {place :: Point, level :: Double, rest :: [Piece]}
+
+-- | The ends of the chords along pieces.
+chords :: Limits -> [Piece] -> [Place]
+chords limits pieces = case pieces of
+  [] -> []
+  first : _ -> let next = furthest limits (placeOn first (from first) pieces) in next : chords limits (rest next)
+
+-- | A place at a fraction of the first of some pieces.
+placeOn :: Piece -> Double -> [Piece] -> Place
+placeOn piece t pieces =
+  Place {place = Segment.at t (segment piece), level = levelAt t piece, rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces}
+
+levelAt :: Double -> Piece -> Double
+levelAt t piece = let (a, b) = heights piece in if t >= 1 then b else a + t * (b - a)
+
+-- Looking along the run
+
+-- | The beginning of a chord: the place, its height in mm, and the direction in which the run sets out there.
+data Eye = Eye {standing :: Point, standingAt :: Double, out :: Vec}
+
+-- | What is seen of the run from the beginning of a chord, up to some place. Directions are angles in radians from the
+-- one in which the run sets out, counter-clockwise.
+data Sight = Sight
+  { -- | the directions in which a chord passes the run within the limits
+    lowest :: Double,
+    highest :: Double,
+    -- | the rises with which it does, in mm per mm of the way
+    flattest :: Double,
+    steepest :: Double,
+    -- | the direction of the run at this place, and the least and the greatest on the way
+    heading :: Double,
+    leastHeading :: Double,
+    mostHeading :: Double,
+    -- | the way so far in mm
+    gone :: Double,
+    -- | whether a chord to this place stays within the limits
+    fits :: Bool
+  }
+
+-- | Where the longest chord from a place ends. A place behind one that no chord reaches may be reached again, as long
+-- as there is any direction left.
+furthest :: Limits -> Place -> Place
+furthest limits begin = case rest begin of
+  [] -> begin
+  first : _ -> case reached (Eye (place begin) (level begin) (Segment.directionAt (from first) (segment first))) Nothing nothing (rest begin) of
+    Just (way, p) | way >= least limits -> p
+    _ -> onward (least limits) begin
+  where
+    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, fits = True}
+    reached eye best before pieces = case pieces of
+      [] -> best
+      piece : more
+        | isClosed after || t < 1 -> better
+        | otherwise -> reached eye better after more
+        where
+          t = turnsAt limits before piece
+          after = see limits eye before piece t
+          better
+            | fits after = found t
+            | fits before && share > from piece = found share
+            | otherwise = best
+          share = lastFit (fits . see limits eye before piece) (from piece) t
+          found u = Just (gone before + lengthBetween (from piece) u piece, placeOn piece u pieces)
+    isClosed sight = lowest sight > highest sight || flattest sight > steepest sight
+
+-- | The place so many mm further on, or the end.
+onward :: Double -> Place -> Place
+onward way at = case rest at of
+  [] -> at
+  piece : _
+    | way >= left' -> onward (way - left') (placeOn piece 1 (rest at))
+    | otherwise -> placeOn piece (from piece + (1 - from piece) * way / left') (rest at)
+    where
+      left' = lengthBetween (from piece) 1 piece
+
+-- | The last fraction that fits between one that does and one that does not.
+lastFit :: (Double -> Bool) -> Double -> Double -> Double
+lastFit fit = go (40 :: Int)
+  where
+    go tries low high
+      | tries <= 0 = low
+      | fit middle = go (tries - 1) middle high
+      | otherwise = go (tries - 1) low middle
+      where
+        middle = (low + high) / 2
+
+-- | The way on a piece from one fraction to another in mm.
+lengthBetween :: Double -> Double -> Piece -> Double
+lengthBetween a b piece = let Mm l = Segment.length (segment piece) in l * (b - a)
+
+-- | As far as a piece can be followed before the run has turned by more than it may within a chord.
+turnsAt :: Limits -> Sight -> Piece -> Double
+turnsAt limits before piece = case segment piece of
+  Straight _ _ -> 1
+  Arc {sweep = Rad s}
+    | s > 0 -> within s (leastHeading before + turning limits)
+    | otherwise -> within s (mostHeading before - turning limits)
+  where
+    within s end
+      | signum s * (heading before + s * (1 - from piece) - end) <= Tolerance.equal = 1
+      | otherwise = max (from piece) (from piece + (end - heading before) / s)
+
+-- | What is seen when a piece has been passed up to a fraction.
+see :: Limits -> Eye -> Sight -> Piece -> Double -> Sight
+see limits eye before piece t =
+  Sight
+    { lowest = low,
+      highest = high,
+      flattest = flat,
+      steepest = steep,
+      heading = after,
+      leastHeading = min (leastHeading before) after,
+      mostHeading = max (mostHeading before) after,
+      gone = way,
+      fits = distance > 0 && low <= direction && direction <= high && flat <= climb && climb <= steep
+    }
+  where
+    way = gone before + lengthBetween (from piece) t piece
+    end = Vec.to (standing eye) (Segment.at t (segment piece))
+    distance = Vec.norm end
+    Rad direction = Vec.turn (out eye) end
+    climb = (levelAt t piece - standingAt eye) / way
+    flat = max (flattest before) (climb - rising limits / way)
+    steep = min (steepest before) (climb + rising limits / way)
+    low = maximum (lowest before : [direction - asin (leftOf limits / distance) | distance > leftOf limits] <> [d | d <- touched (-1) (leftOf limits), after <= d, d <= heading before])
+    high = minimum (highest before : [direction + asin (rightOf limits / distance) | distance > rightOf limits] <> [d | d <- touched 1 (rightOf limits), heading before <= d, d <= after])
+    after = case segment piece of
+      Straight _ _ -> heading before
+      Arc {sweep = Rad s} -> heading before + s * (t - from piece)
+    -- The direction in which a circle walked in a sense bulges by so much: its tangent there is that direction.
+    touched :: Double -> Double -> [Double]
+    touched sense y = case segment piece of
+      Arc {start, centre, sweep = Rad s}
+        | signum s == sense,
+          let Mm r = Segment.radius centre start,
+          let away = Vec.to (standing eye) centre,
+          let sine = sense * (r - y) / Vec.norm away,
+          abs sine <= 1 ->
+          [let Rad there = Vec.turn (out eye) away in there - asin sine]
+      _ -> []

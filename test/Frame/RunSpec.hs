@@ -1,0 +1,182 @@
+-- | The laws of chords along a curve.
+module Frame.RunSpec (spec) where
+
+import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Region (Located (..), Region (Region))
+import Base.Result qualified as Result
+import Data.List (partition)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
+import Frame.FromPath qualified as FromPath
+import Frame.Run (Bounds (..))
+import Frame.Run qualified as Run
+import Generate qualified
+import Generate.Run qualified as Curve
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Lkp01f (lkp01f)
+import Machine.Machine (FeedCode (..))
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
+import Path.Path (Move (..))
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  describe "chords of a curve" $ do
+    it "keep every point of it within what is allowed on its side, and end on it (catches the two sides exchanged)" $
+      property $
+        forAll ((,) <$> chain <*> bounds) $ \(ss, b) ->
+          let ends = chordsOf b ss
+              finish = Segment.end (last ss)
+           in counterexample (show (length ends, worst b ss ends)) $
+                worst b ss ends <= 1e-7
+                  .&&. conjoin [counterexample (show p) (minimum [d | s <- ss, let Mm d = Distance.toPoint p s] <= 1e-7) | p <- ends]
+                  .&&. last ends === finish
+    it "are about as few as any on a fine grid (catches chords that stop where the curve changes its bending)" $
+      property $
+        forAll (chain >>= \ss -> (ss,) <$> roughly (sum [l | s <- ss, let Mm l = Segment.length s])) $ \(ss, b) ->
+          let n = length (chordsOf b ss)
+              fewest = fewestOn b (grid 150 ss)
+           in n <= 15 ==>
+                counterexample (show (n, fewest)) $
+                  classify (fewest >= 4) "four and more" $
+                    fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
+    it "of an arc cut into many are as many as those of the arc, one more or less (catches a chord for each)" $
+      property $
+        forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.005, 0.02, 0.1]) $ \(a, k, y) ->
+          let n = length (chordsOf Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.01} (Curve.parts k a))
+              alone = FromPath.chordCount lkp01f (Mm y) a
+           in counterexample (show (n, alone)) (abs (n - alone) <= 1)
+    it "are of about equal length on an arc (catches a last chord that is what was left over)" $
+      property $
+        forAll ((,) <$> arc <*> choose (2, 200)) $ \(a, k) ->
+          let ends = chordsOf Bounds {left = Mm 0.02, right = Mm 0.02, rise = Mm 0.01, shortest = Mm 0.01} (Curve.parts k a)
+              lengths = [d | (p, q) <- zip (start a : ends) ends, let Mm d = Vec.distance p q]
+           in length ends > 1 ==> counterexample (show lengths) (minimum lengths >= 0.8 * maximum lengths)
+    it "keep to the heights as well (catches heights that are told at the ends of the run only)" $
+      property $
+        forAll ((,,) <$> Curve.open <*> bounds <*> infiniteListOf (choose (-0.2, 0.2))) $ \(ss, b, rises) ->
+          let zs = scanl (+) 0 rises
+              moves = NonEmpty.zipWith (\(z, z') m -> m {heights = (Mm z, Mm z')}) (NonEmpty.fromList (zip zs (drop 1 zs))) (Curve.run ss)
+              ends = [(p, z) | (p, Mm z) <- Run.chordEnds 100000 b moves]
+           in counterexample (show (length ends)) (worstHeight (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
+    it "slow down as far before the end of a curve as anywhere (catches a brake on the last of its arcs only)" $
+      property $
+        forAll Curve.curveCase $ \c ->
+          let job = Curve.jobAlong c
+              slowly e = e {Part.finish = Part.plainFinish {Part.slow = True}}
+              braked' = job {Part.feed = Feed 240 <$ Part.feed job, Part.contour = (Part.contour job) {Part.elements = fmap slowly (Part.elements (Part.contour job))}}
+           in case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) braked')))) >>= Result.output . FromPath.quantise lkp01f of
+                Nothing -> counterexample "no frames" False
+                Just program ->
+                  let frames = map Frame.frame (Frame.planned program)
+                      (quick, slow) = span ((== FeedCode 9) . speed) frames
+                      wayOf f = let Mm d = Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f)) in d
+                   in counterexample (show (map speed frames)) $
+                        not (null quick) && all ((== FeedCode 1) . speed) slow && abs (sum (map wayOf slow) - 1.6) <= 0.05
+  where
+    chain = oneof [Curve.open, Curve.closed]
+    arc = do
+      r <- (10 **) <$> choose (0, 2)
+      s <- choose (0.3, 2 * pi)
+      sign <- elements [1, -1]
+      let at t = Vec.point (r * cos t) (r * sin t)
+      pure (Arc (at 0.7) (at (0.7 + sign * s)) (Vec.point 0 0) (Rad (sign * s)))
+
+-- | The ends of the chords of a chain, from its beginning on.
+chordsOf :: Bounds -> [Segment] -> [Point]
+chordsOf b ss = map fst (Run.chordEnds 100000 b (Curve.run ss))
+
+bounds :: Gen Bounds
+bounds = do
+  a <- elements [0.005, 0.02, 0.1, 1]
+  b <- oneof [pure a, elements [0.005, 0.02, 0.1, 1]]
+  pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
+
+-- | Bounds that ask for a few chords of a curve of a length.
+roughly :: Double -> Gen Bounds
+roughly whole = do
+  a <- (whole *) . (10 **) <$> choose (-3.2, -1.2)
+  b <- oneof [pure a, (a *) <$> choose (0.1, 1)]
+  pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
+
+-- | Of each chord, the stretches of the chain that it stands for: segments with the fractions from which and to which.
+-- Each end is looked for behind the one before.
+stretches :: [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
+stretches ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
+  where
+    go p rest qs = case qs of
+      [] -> []
+      q : more -> let (passed, behind) = upTo q rest in (p, q, passed) : go q behind more
+    upTo q rest = case rest of
+      [] -> ([], [])
+      (s, t) : more
+        | u >= t - 1e-9 && off <= 1e-7 && (u < 1 || off <= 1e-12) -> ([(s, t, u)], (s, u) : more)
+        | otherwise -> let (passed, behind) = upTo q more in ((s, t, 1) : passed, behind)
+        where
+          u = if Vec.distance q (Segment.end s) <= Mm 1e-12 then 1 else Segment.fraction s q
+          Mm off = Vec.distance q (Segment.at u s)
+
+-- | By how much some point of a chain is further from its chord than it may be, at most.
+worst :: Bounds -> [Segment] -> [Point] -> Double
+worst b ss ends = maximum (-1 : concat [offs p q s t u | (p, q, passed) <- stretches ss ends, (s, t, u) <- passed])
+  where
+    offs p q s t u = [offBy b p q (Segment.at (t + (u - t) * k / 8) s) | k <- [0 .. 8]]
+
+-- | By how much a point is further from a chord than it may be.
+offBy :: Bounds -> Point -> Point -> Point -> Double
+offBy Bounds {left = Mm l, right = Mm r} p q x = maximum [aside - l, -aside - r, -ahead, ahead - Vec.norm (Vec.to p q)]
+  where
+    along = Vec.unit (Vec.to p q)
+    aside = Vec.cross along (Vec.to p x)
+    ahead = Vec.dot along (Vec.to p x)
+
+-- | By how much the height of a run differs from that of its chords at the ends of its moves, at most.
+worstHeight :: [Move] -> [(Point, Double)] -> Double
+worstHeight moves ends = maximum (0 : concat (zipWith3 differences (0 : map snd ends) (map snd ends) (stretches (map segment moves) (map fst ends))))
+  where
+    levels = [(segment m, z) | m <- moves, let (_, Mm z) = heights m]
+    differences z z' (_, _, passed) =
+      let ways = scanl1 (+) [l * (u - t) | (s, t, u) <- passed, let Mm l = Segment.length s]
+       in [abs (z + (z' - z) * w / last ways - h) | (w, (s, _, u)) <- zip ways passed, u >= 1, Just h <- [lookup s levels]]
+
+-- | Places along a chain about equally far apart, with the direction there, not reduced to one turn.
+grid :: Int -> [Segment] -> Vector (Point, Double)
+grid n ss = Vector.fromList (concat (zipWith places headings ss) <> [(Segment.end (last ss), last headings)])
+  where
+    headings = scanl (+) 0 [turned s | s <- ss]
+    whole = sum [l | s <- ss, let Mm l = Segment.length s]
+    places h s =
+      let Mm l = Segment.length s
+          k = max 1 (round (fromIntegral n * l / whole)) :: Int
+       in [(Segment.at t s, h + t * turned s) | j <- [0 .. k - 1], let t = fromIntegral j / fromIntegral k]
+    turned s = case s of
+      Straight _ _ -> 0
+      Arc {sweep = Rad a} -> a
+
+-- | The fewest chords between places of a grid, each of which keeps the places between within the bounds and does not
+-- turn by more than a quarter turn.
+fewestOn :: Bounds -> Vector (Point, Double) -> Int
+fewestOn b places = go 0 [0] [1 .. final]
+  where
+    final = Vector.length places - 1
+    -- The places that so many chords reach and no fewer, and those that they do not.
+    go :: Int -> [Int] -> [Int] -> Int
+    go n reached others
+      | null reached || final `elem` reached = n
+      | otherwise = let (next, further) = partition (\j -> any (`chord` j) reached) others in go (n + 1) next further
+    chord i j =
+      j > i
+        && Vector.all (\(x, _) -> offBy b (fst (places Vector.! i)) (fst (places Vector.! j)) x <= 1e-9) between
+        && Vector.maximum turns - Vector.minimum turns <= pi / 2 + 1e-9
+      where
+        between = Vector.slice i (j - i + 1) places
+        turns = Vector.map snd between

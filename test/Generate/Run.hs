@@ -1,0 +1,142 @@
+-- | Random chains of arcs that stand for one curve: open ones that wind, turn back and pass through vertical tangents,
+-- closed ones with waves, and lines and arcs cut into many.
+module Generate.Run
+  ( open,
+    closed,
+    wave,
+    oval,
+    biarcs,
+    parts,
+    elements,
+    run,
+    curveCase,
+    jobAlong,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Region (Region))
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Generate (Case (..))
+import Generate qualified
+import Geometry.Contour (Contour (..), Ends (..))
+import Geometry.Offset (Side (..))
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Part.Part (Element (..), Milling)
+import Part.Part qualified as Part
+import Path.Path (Move (Move))
+import Test.QuickCheck hiding (elements)
+import Test.QuickCheck qualified as QuickCheck
+
+-- | Arcs and lines, few or many, each setting out as the one before arrives; from tight to nearly straight.
+open :: Gen [Segment]
+open = do
+  count <- oneof [choose (1, 6), choose (20, 120)]
+  start <- Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
+  heading <- choose (-pi, pi)
+  reach <- choose (0.05, 20)
+  go (count :: Int) reach start heading 0
+  where
+    go count reach p heading bend
+      | count <= 0 = pure []
+      | otherwise = do
+        l <- choose (0.1 * reach, reach)
+        -- The curvature jumps now and then, and else changes a little.
+        bend' <- frequency [(1, pure 0), (2, choose (-0.3, 0.3)), (6, (bend +) <$> choose (-0.02, 0.02))]
+        let turned = max (-6) (min 6 (bend' * l))
+            s = arcFrom p heading turned l
+        (s :) <$> go (count - 1) reach (Segment.end s) (heading + turned) bend'
+
+-- | An arc or a line from a point in a direction that turns by an angle on a length.
+arcFrom :: Point -> Double -> Double -> Double -> Segment
+arcFrom p heading turned l
+  | abs turned < 1e-9 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
+  | otherwise = Arc {start = p, end = Vec.shift (Vec.rotate (Rad turned) (Vec.to centre p)) centre, centre, sweep = Rad turned}
+  where
+    centre = Vec.shift (Vec.scale (l / turned) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
+
+-- | A closed curve without corners, as biarcs: a circle with waves.
+closed :: Gen [Segment]
+closed = do
+  r <- choose (15, 60)
+  waves <- choose (2, 5)
+  deep <- choose (0, 0.8)
+  count <- choose (12, 150)
+  turned <- choose (-pi, pi)
+  way <- QuickCheck.elements [1, -1]
+  pure (oval r waves (deep / fromIntegral (waves * waves)) turned way count)
+
+-- | The curve @ρ = r·(1 + d·cos kφ)@ as biarcs between so many points, from an angle, in a sense.
+oval :: Double -> Int -> Double -> Double -> Double -> Int -> [Segment]
+oval r waves deep from way count = biarcs [at (from + way * 2 * pi * fromIntegral k / fromIntegral count) | k <- map (`mod` count) [0 .. count]]
+  where
+    w = fromIntegral waves
+    at phi =
+      let rho = r * (1 + deep * cos (w * phi))
+          rho' = -(r * deep * w * sin (w * phi))
+          out = Vec.vec (cos phi) (sin phi)
+       in (Vec.shift (Vec.scale rho out) (Vec.point 3 (-2)), Vec.scale way (Vec.unit (Vec.add (Vec.scale rho' out) (Vec.scale rho (Vec.left out)))))
+
+-- | The wave @y = a·sin (2πx/l)@ from 0 to a place, as biarcs between so many points.
+wave :: Double -> Double -> Double -> Int -> [Segment]
+wave a l far count = biarcs [at (far * fromIntegral k / fromIntegral count) | k <- [0 .. count]]
+  where
+    at x = let p = 2 * pi * x / l in (Vec.point x (a * sin p), Vec.unit (Vec.vec 1 (2 * pi * a / l * cos p)))
+
+-- | Two arcs between each point and the next, with the directions given there.
+biarcs :: [(Point, Vec)] -> [Segment]
+biarcs places = concat (zipWith pair places (drop 1 places))
+  where
+    pair (p, t) (q, u) =
+      let v = Vec.to p q
+          along = Vec.dot v (Vec.add t u)
+          spread = 2 * (1 - Vec.dot t u)
+          d = if spread < 1e-12 then Vec.dot v v / (2 * along) else (sqrt (along * along + spread * Vec.dot v v) - along) / spread
+          m = Vec.between 0.5 (Vec.shift (Vec.scale d t) p) (Vec.shift (Vec.scale (-d) u) q)
+       in [touching p t m, Segment.reverse (touching q (Vec.negate u) m)]
+
+-- | From a point in a direction to another point.
+touching :: Point -> Vec -> Point -> Segment
+touching p t q
+  | abs turned < 1e-9 = Straight p q
+  | otherwise = Arc {start = p, end = q, centre = Vec.shift (Vec.scale (Vec.dot v v / (2 * Vec.dot n v)) n) p, sweep = Rad turned}
+  where
+    v = Vec.to p q
+    n = Vec.left t
+    turned = let Rad half = Vec.turn t v in 2 * half
+
+-- | A segment cut into so many of equal length.
+parts :: Int -> Segment -> [Segment]
+parts n s
+  | n <= 1 = [s]
+  | otherwise = let (a, b) = Segment.cutAt (1 / fromIntegral n) s in a : parts (n - 1) b
+
+-- | Chains as the elements of a contour: of each the arcs behind the first continue.
+elements :: [[Segment]] -> [Element]
+elements = concatMap (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) Nothing) [0 :: Int ..])
+
+-- | A chain as the moves of one run at a height.
+run :: [Segment] -> NonEmpty Move
+run = NonEmpty.fromList . zipWith (\k s -> Move s (Mm 0, Mm 0) Part.Rapid False (Region 0 0) (k > 0)) [0 :: Int ..]
+
+-- | A closed curve with a cutter that fits on one of its sides.
+curveCase :: Gen Case
+curveCase = do
+  chain <- closed
+  side <- QuickCheck.elements [LeftOf, RightOf]
+  r <- choose (0.5, 6)
+  let contour = Contour Closed (NonEmpty.fromList chain)
+  case Offset.equidistant side (Mm r) contour of
+    Right found -> pure Case {contour, side, radius = Mm r, pieces = found}
+    Left _ -> curveCase
+
+-- | The milling of a case whose contour is one curve.
+jobAlong :: Case -> Milling
+jobAlong c = job {Part.contour = (Part.contour job) {Part.elements = NonEmpty.fromList (elements [NonEmpty.toList (segments (contour c))])}}
+  where
+    job = Generate.job c
