@@ -13,8 +13,6 @@ import Data.Foldable (toList)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
-import Data.Text qualified as Text
-import Data.Text.Read qualified as Read
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Curve qualified as Curve
@@ -29,6 +27,7 @@ import Part.Part (Finish)
 import Part.Part qualified as Part
 import Sheet.Sheet
 import Sheet.Unfit (Unfit (..))
+import Text.Read (readMaybe)
 
 -- | One shift: 1 to the left of the walk, -1 to the right; whether its distance is square to the surface; the
 -- distance.
@@ -162,11 +161,10 @@ recalculation s = case distance s of
 
 -- | The shortest number of degrees that is this angle in radians.
 degreesOf :: Double -> Double
-degreesOf angle = case [d | k <- [0 .. 17], Just d <- [rounded k], d * (pi / 180) == angle] of
+degreesOf angle = case [d | k <- [0 .. 16], Just d <- [rounded k], d * (pi / 180) == angle] of
   d : _ -> d
-  [] -> angle / (pi / 180)
+  [] -> near
   where
+    near = angle / (pi / 180)
     rounded :: Int -> Maybe Double
-    rounded k = case Read.signed Read.rational (Text.pack (showEFloat (Just k) (angle / (pi / 180)) "")) of
-      Right (d, _) -> Just d
-      Left _ -> Nothing
+    rounded k = readMaybe (showEFloat (Just k) near "")

@@ -59,8 +59,8 @@ runsOf = go []
       Part.Mill (Located at m) : rest -> do
         (runs, final) <- go (Part.retract m) rest
         Right (Run {stops = before <> Part.approach m, region' = keyword at, milled = (keyword at, m)} : runs, final)
-      Part.Drill (Located at _) : _ -> Left (NoNumbers (keyword at) "drilling")
-      Part.Command (Located at c) : _ -> Left (NoNumbers (keyword at) (commandName c))
+      Part.Drill (Located at _) : _ -> Left (NoNumbers at "drilling")
+      Part.Command (Located at c) : _ -> Left (NoNumbers at (commandName c))
     commandName c = case c of
       Part.SpindleOn _ _ -> "a command to the spindle"
       Part.SpindleOff -> "a command to the spindle"
@@ -68,9 +68,9 @@ runsOf = go []
       Part.Auxiliary _ -> "an auxiliary command"
       Part.ChangeTool _ _ -> "a second tool"
 
--- | The first word of a statement.
+-- | The first word of a statement that mills or turns.
 keyword :: Region -> Region
-keyword (Region a b) = Region a (min b (a + 5))
+keyword (Region a b) = Region a (min b (a + 4))
 
 -- General data
 
