@@ -8,9 +8,11 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
 import Base.Region (Located (..))
+import Cli.CurveTable qualified as CurveTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -28,7 +30,7 @@ import Tape.Tape qualified as Tape
 
 -- | The paper's tables for every milled contour, then times and tape.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
-nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map milled cuttings <> drilled <> [summary])
+nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> drilled <> [summary])
   where
     heading = "Part " <> maybe "" (\(Name n) -> n) (Part.name part) <> maybe "" (\t -> ": " <> t) (Part.title part) <> "\n"
     machine = fst <$> punched
@@ -37,7 +39,7 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map mi
       "Contour " <> contourName' job <> passWord pass <> ": nodes of the " <> pathWord job <> ", numbered from the entry\n\n"
         <> Table.columns
           [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
-          (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : zipWith (section (length cut) (ends' job)) [0 ..] cut <> lastNode (ends' job) cut)
+          (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : sections (ends' job) (Path.runs cut))
         <> "\nlength "
         <> fixed3 (lengthOf cut)
         <> " mm, time "
@@ -54,16 +56,21 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map mi
       Part.Inside -> "equidistant inside"
       Part.LeftSide -> "equidistant on the left"
       Part.RightSide -> "equidistant on the right"
-    section count ends k move =
+    -- The arcs of one curve are one section.
+    sections ends runs = zipWith (section (length runs) ends) [0 ..] runs <> lastNode ends runs
+    section count ends k run =
       let next = case ends of
             Part.Closed -> (k + 1) `mod` count
             Part.Open -> k + 1
-          s = segment move
-       in [Decimal.whole k <> "–" <> Decimal.whole next, kind s, Decimal.whole k, fixed3 (Mm (Vec.x (Segment.start s))), fixed3 (Mm (Vec.y (Segment.start s)))]
-            <> centreOf s
-            <> [fixed3 (Segment.length s), seconds (timeOf machine move)]
-    lastNode ends cut = case (ends, reverse cut) of
-      (Part.Open, final : _) -> [["", "end", Decimal.whole (length cut), fixed3 (Mm (Vec.x (Segment.end (segment final)))), fixed3 (Mm (Vec.y (Segment.end (segment final)))), "", "", "", "", ""]]
+          begin = Segment.start (segment (NonEmpty.head run))
+          moves = NonEmpty.toList run
+       in [Decimal.whole k <> "–" <> Decimal.whole next, kind run, Decimal.whole k, fixed3 (Mm (Vec.x begin)), fixed3 (Mm (Vec.y begin))]
+            <> centreOf run
+            <> [fixed3 (total (map (Segment.length . segment) moves)), seconds (total (map (timeOf machine) moves))]
+    lastNode ends runs = case (ends, reverse runs) of
+      (Part.Open, final : _) ->
+        let finish = Segment.end (segment (NonEmpty.last final))
+         in [["", "end", Decimal.whole (length runs), fixed3 (Mm (Vec.x finish)), fixed3 (Mm (Vec.y finish)), "", "", "", "", ""]]
       _ -> []
     drilled =
       [ "Holes\n\n"
@@ -90,15 +97,18 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> map mi
         ["tape", Decimal.fixed 2 (Tape.metres m tape), "m"]
       ]
 
-kind :: Segment -> Text
-kind s = case s of
-  Straight _ _ -> "line"
-  Arc {sweep = Rad a} -> if a > 0 then "arc ccw" else "arc cw"
+kind :: NonEmpty Move -> Text
+kind run
+  | Path.isCurve run = "curve"
+  | otherwise = case segment (NonEmpty.head run) of
+    Straight _ _ -> "line"
+    Arc {sweep = Rad a} -> if a > 0 then "arc ccw" else "arc cw"
 
-centreOf :: Segment -> [Text]
-centreOf s = case s of
-  Straight _ _ -> ["", "", ""]
-  Arc {start, centre} -> [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
+centreOf :: NonEmpty Move -> [Text]
+centreOf run = case segment (NonEmpty.head run) of
+  Arc {start, centre}
+    | not (Path.isCurve run) -> [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
+  _ -> ["", "", ""]
 
 -- | The time of a move at the feed that the machine gives, or at the one asked when there is no machine.
 -- A rapid move takes no time when there is no machine to say how fast it is.

@@ -11,6 +11,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Draw.Label (Label (Label))
 import Draw.Scene (Cut (..))
+import Draw.Scene qualified as Scene
 import Draw.Sheet qualified as Sheet
 import Draw.Sign qualified as Sign
 import Draw.Svg (Svg)
@@ -22,13 +23,13 @@ import Geometry.Vec qualified as Vec
 -- | A node of the path, the direction away from the contour there, and its number from the entry.
 data Node = Node {place :: Point, outward :: Vec, number :: Int}
 
--- | The points between the moves, both ends included.
+-- | The points between the moves, both ends included; a curve has none between its arcs.
 nodes :: Cut -> NonEmpty Node
-nodes Cut {course, away} = entry :| zipWith3 node [1 ..] segments (drop 1 segments <> [after])
+nodes Cut {course, away} = entry :| zipWith3 node [1 ..] (map NonEmpty.last runs) (map NonEmpty.head (drop 1 runs) <> [after])
   where
-    segments = NonEmpty.toList course
-    first = NonEmpty.head course
-    final = NonEmpty.last course
+    runs = NonEmpty.toList course
+    first = NonEmpty.head (NonEmpty.head course)
+    final = NonEmpty.last (NonEmpty.last course)
     closed = Vec.near (Segment.start first) (Segment.end final)
     -- A closed way goes round, an open one straight on at its ends.
     (before, after) = if closed then (final, first) else (first, final)
@@ -56,7 +57,7 @@ dots cut = [Sign.node (marked n) (place n) | n <- NonEmpty.toList numbered, mark
   where
     numbered = nodes cut
     marked n = isMarked (NonEmpty.length (course cut)) n
-    Mm whole = total (map Segment.length (NonEmpty.toList (course cut)))
+    Mm whole = total (map Segment.length (NonEmpty.toList (Scene.lines cut)))
     roomy = whole / fromIntegral (NonEmpty.length numbered) > 1.5
 
 -- | The numbers of the nodes; where a closed way ends, it has both its numbers.

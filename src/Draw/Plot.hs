@@ -130,9 +130,9 @@ once known segments = case segments of
 
 -- | The way along a contour, with five arrows. On the contour itself it runs between two thin lines.
 cutLine :: Cut -> [Svg]
-cutLine Cut {course, upon} = [Svg.stroke pen segments | upon, pen <- [Sign.edgePen, Sign.bedPen]] <> (Svg.stroke Sign.pathPen segments : arrows)
+cutLine cut@Cut {upon} = [Svg.stroke pen segments | upon, pen <- [Sign.edgePen, Sign.bedPen]] <> (Svg.stroke Sign.pathPen segments : arrows)
   where
-    segments = NonEmpty.toList course
+    segments = NonEmpty.toList (Scene.lines cut)
     whole = total (map Segment.length segments)
     arrows = if whole > Mm 12 then mapMaybe (\part -> arrowFrom segments (times part whole)) [0.1, 0.3, 0.5, 0.7, 0.9] else []
 
@@ -148,7 +148,7 @@ arrowFrom segments distance = case segments of
 
 -- | The cutter where it begins to cut.
 cutter :: Cut -> [Svg]
-cutter Cut {course, reach} = Sign.cutter reach (Segment.start (NonEmpty.head course))
+cutter cut@Cut {reach} = Sign.cutter reach (Segment.start (NonEmpty.head (Scene.lines cut)))
 
 -- | The numbers of all nodes, clear of the lines.
 numbers :: Scene -> [Svg]
@@ -161,7 +161,7 @@ numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p w
 
 -- | The way of a cutter, and the cutter itself.
 cutLines :: Cut -> [Segment]
-cutLines Cut {course, reach} = rim : Sign.cross reach p <> NonEmpty.toList course
+cutLines cut@Cut {reach} = rim : Sign.cross reach p <> NonEmpty.toList (Scene.lines cut)
   where
     rim = Segment.fullCircle Clockwise (Circle p (Mm reach)) (Vec.shift (Vec.vec reach 0) p)
-    p = Segment.start (NonEmpty.head course)
+    p = Segment.start (NonEmpty.head (Scene.lines cut))

@@ -4,6 +4,7 @@ module Draw.Scene
     Shape (..),
     Matter (..),
     Cut (..),
+    lines,
     set,
   )
 where
@@ -14,6 +15,7 @@ import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isNothing, mapMaybe)
+import Data.Semigroup (sconcat)
 import Draw.Sheet (Sheet)
 import Draw.Sheet qualified as Sheet
 import Geometry.Box (Box)
@@ -31,6 +33,7 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path
 import Path.Path (Block (..), Move, Path)
 import Path.Path qualified as Path
+import Prelude hiding (lines)
 
 -- | What is drawn, on paper.
 data Scene = Scene
@@ -60,7 +63,8 @@ data Matter
 
 -- | The way of the cutter's centre along a contour.
 data Cut = Cut
-  { course :: NonEmpty Segment,
+  { -- | between nodes: one line or arc, or the arcs of one curve
+    course :: NonEmpty (NonEmpty Segment),
     -- | the radius of the cutter
     reach :: Double,
     -- | the side of the walk that is away from the contour: +1 when it is its right
@@ -68,6 +72,10 @@ data Cut = Cut
     -- | whether it runs on the contour itself
     upon :: Bool
   }
+
+-- | All segments of a cut.
+lines :: Cut -> NonEmpty Segment
+lines = sconcat . course
 
 -- | Lay a part and a path on a sheet that holds them.
 set :: Part -> Path -> Scene
@@ -153,7 +161,7 @@ cutOf sheet block = case block of
   Cutting {job = Located _ milling, cut} ->
     Just
       Cut
-        { course = fmap (\m -> Sheet.segment sheet (Path.segment m)) cut,
+        { course = fmap (fmap (\m -> Sheet.segment sheet (Path.segment m))) (NonEmpty.groupBy1 (\_ m -> Path.continues m) cut),
           reach = Sheet.onPaper sheet (radius milling),
           away = awayFrom milling,
           upon = isNothing (sideOf milling)

@@ -42,7 +42,7 @@ chordEnds most bounds run
   | otherwise = map (\p -> (place p, Mm (level p))) (if count > most then widest else evened)
   where
     final = NonEmpty.last run
-    pieces = [Piece (Path.segment m) 0 (a, b) | m <- NonEmpty.toList run, let { (Mm a, Mm b) = Path.heights m }, Segment.length (Path.segment m) > Mm 0]
+    pieces = [Piece (Path.segment m) 0 (a, b) | m <- NonEmpty.toList run, let (Mm a, Mm b) = Path.heights m, Segment.length (Path.segment m) > Mm 0]
     widest = walk 1
     count = length (take (most + 1) widest)
     walk tightness = chords (limitsOf bounds tightness) pieces

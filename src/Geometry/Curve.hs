@@ -78,7 +78,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Curve.Base (Base, Ends (..), Flaw (..), Method (..), Piece (..), Row, Span (..))
+import Geometry.Curve.Base (Base, Ends (..), Flaw (..), Method (..), Row)
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
@@ -89,6 +89,7 @@ import Geometry.Curve.Layered (Curve (..), Layer (..), base, breaks, domain, lay
 import Geometry.Curve.Layered qualified as Layered
 import Geometry.Curve.Search (atX, corners, nearest)
 import Geometry.Curve.Search qualified as Search
+import Geometry.Curve.Span (Piece (..), Span (..))
 import Geometry.Jet (Approach (..), Jet)
 import Geometry.Jet qualified as Jet
 import Geometry.Offset (Side (..))
@@ -177,9 +178,9 @@ at = placeFrom After
 placeFrom :: Approach -> Curve -> Double -> Point
 placeFrom approach curve u = Jet.place (jet approach 0 curve u)
 
--- | The direction, of length 1.
+-- | The direction, of length 1, at the place that 'at' gives.
 tangent :: Curve -> Double -> Vec
-tangent = tangentFrom After
+tangent = Search.heading After
 
 -- | The direction before or behind a parameter. On a closed curve the way goes on over the joint.
 tangentFrom :: Approach -> Curve -> Double -> Vec

@@ -10,10 +10,7 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..), degrees, minus, plus)
 import Base.Region (Region)
 import Checked.Syntax (Builtin (..), Choice (..), Operator (..))
-import Data.List.NonEmpty (NonEmpty (..))
-import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
-import Data.Tuple (swap)
 import Geometry.Construct (Touched (..))
 import Geometry.Construct qualified as Construct
 import Geometry.Contour qualified as Contour
@@ -35,7 +32,7 @@ import Part.Data
 import Part.Error (Candidate (..), Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
-import Part.Part (Contour (..), Element (..), outline)
+import Part.Part (Contour (..), Element (..), backwards, outline)
 
 -- Operators
 
@@ -121,7 +118,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (YOf, [Plain (Spatial v)]) -> pure (Quantity (Vec.y (place v)))
   (Reversed, [Plain (LineValue l)]) -> pure (LineValue (Line (to l) (from l)))
   (Reversed, [Plain (CurveValue c)]) -> pure (CurveValue (Curve.reversed c))
-  (Reversed, [Plain (ContourValue c)]) -> pure (ContourValue (reversed c))
+  (Reversed, [Plain (ContourValue c)]) -> pure (ContourValue (backwards c))
   (Reversed, [Plain (ListValue vs)]) -> pure (ListValue (reverse vs))
   (Moved, ps) -> transformed region ps $ \case
     [Spatial v] -> pure (Similarity.translation v)
@@ -310,11 +307,3 @@ image region s v = case v of
   ListValue vs -> ListValue <$> traverse (image region s) vs
   CurveValue c -> let d = Curve.transformed s c in CurveValue d <$ mapM_ (within region . Vec.norm . offset) (Curve.ends d)
   _ -> bug "a transformation of something else"
-
--- | A contour walked the other way.
-reversed :: Contour -> Contour
-reversed c = c {elements = NonEmpty.zipWith (\goesOn e -> e {continues = goesOn}) marks turned, legs = []}
-  where
-    turned = NonEmpty.reverse (fmap (\e -> e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e)}) (elements c))
-    -- What went on with the one before now is gone on with by the one behind.
-    marks = False :| map continues (NonEmpty.init (NonEmpty.reverse (elements c)))

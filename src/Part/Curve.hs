@@ -23,8 +23,6 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Semigroup (sconcat)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Biarc (Track (..))
-import Geometry.Biarc qualified as Biarc
 import Geometry.Curve (Approach (..), Piece (..))
 import Geometry.Curve qualified as Exact
 import Geometry.Fit qualified as Fit
@@ -33,6 +31,8 @@ import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment qualified as Segment
 import Geometry.Similarity (Similarity)
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Track (Track (..))
+import Geometry.Track qualified as Track
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -60,7 +60,7 @@ data Fitting = Fitting {pieces :: NonEmpty Fit.Piece, misses :: [Fit.Deviation],
 
 -- | A curve with the columns of its table.
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> Curve
-curve fields fitting exact = Curve {exact, fields, fitting, laid = Polyarc.fromSegments (sconcat (Biarc.approximate Tolerance.curve (track exact)))}
+curve fields fitting exact = Curve {exact, fields, fitting, laid = Polyarc.fromSegments (sconcat (Track.approximate Tolerance.curve (track exact)))}
 
 -- | A curve without a table.
 plain :: Exact.Curve -> Curve
@@ -70,7 +70,7 @@ track :: Exact.Curve -> Track
 track c =
   Track
     { place = Exact.at c,
-      direction = \side -> Exact.tangentFrom (case side of Biarc.Arriving -> Before; Biarc.Leaving -> After) c,
+      direction = \side -> Exact.tangentFrom (case side of Track.Arriving -> Before; Track.Leaving -> After) c,
       begin = 0,
       breaks = case drop 1 (Exact.breaks c) of
         [] -> Exact.domain c :| []

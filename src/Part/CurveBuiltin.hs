@@ -20,6 +20,7 @@ import Geometry.Fit qualified as Fit
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Track qualified as Track
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
@@ -39,7 +40,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (ClosedSpline, [t]) -> Just (made t (Exact.spline Exact.Periodic))
   (Polyline, [t]) -> Just (made t Exact.polyline)
   (Parabola, [t]) -> Just (made t Exact.parabola)
-  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just (positive d *> chain region (sconcat (Biarc.approximate (Mm d) (Curve.track (exact c)))))
+  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just (positive d *> chain region (sconcat (Track.approximate (Mm d) (Curve.track (exact c)))))
   (Biarcs, [t]) -> Just (arcs t Open)
   (ClosedBiarcs, [t]) -> Just (arcs t Closed)
   (Fit, [t, Choosing UpTo (Quantity d)]) -> Just $ do

@@ -8,6 +8,7 @@ module Part.Part
     plainFinish,
     runs,
     outline,
+    backwards,
     Spot (..),
     Operation (..),
     Milling (..),
@@ -36,10 +37,14 @@ import Base.Quantity (Feed, Mm (..))
 import Base.Region (Located, Region)
 import Checked.Syntax (Corners (..), CutSense (..), LeadForm (..), MachineRef (..), Side (..), Switch (..), Walk (..))
 import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
+import Data.Traversable (mapAccumR)
+import Data.Tuple (swap)
 import Geometry.Contour (Ends (..))
 import Geometry.Contour qualified as Geometry
 import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Walked (Walked)
 import Part.Curve (Curve, Fitting)
@@ -110,6 +115,12 @@ runs :: [Element] -> [NonEmpty Element]
 runs es = case es of
   [] -> []
   e : rest -> let (same, others) = span continues rest in (e :| same) : runs others
+
+-- | A contour walked the other way. An element then continues the one that continued it.
+backwards :: Contour -> Contour
+backwards c = c {elements = NonEmpty.reverse (snd (mapAccumR turned (continues (NonEmpty.head (elements c))) (elements c))), legs = []}
+  where
+    turned next e = (continues e, e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next})
 
 -- | The bare geometry of a contour.
 outline :: Contour -> Geometry.Contour

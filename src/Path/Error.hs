@@ -8,7 +8,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), plus, times)
+import Base.Quantity (Mm (..), Rad (..), degrees, plus, times)
 import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
@@ -50,6 +50,12 @@ data Error
     BelowAxis Region Element
   | -- | an allowance where the cutter has no side: the statement, the contour's element if it asks it
     AllowanceOnContour Region
+  | -- | a blade along a contour of which no element says how far it leans
+    NoBevel Region
+  | -- | a blade that runs on the contour itself
+    BladeOnContour Region
+  | -- | two elements without a corner between them that lean differently: the angles in radians
+    BevelJumps Region Element Element Double Double
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -130,6 +136,24 @@ toReport err = case err of
     (at region "E0411" "nothing can be left standing where the cutter runs on the contour itself")
       { hints = ["Leave the allowance out, or take a side."]
       }
+  NoBevel region ->
+    (at region "E0414" "the blade does not know how far this contour leans")
+      { hints = ["Say it behind the elements of the contour: flange bevel mu, or: edge bevel 2 deg.", "For a surface that does not lean take a mill: tool mill(diameter 20)."]
+      }
+  BladeOnContour region ->
+    (at region "E0414" "a blade has the contour on one side")
+      { hints = ["Say left, right, outside or inside instead of on."]
+      }
+  BevelJumps region first second a b ->
+    (at (origin first) "E0415" ("the bevel jumps from " <> inDegrees a <> " to " <> inDegrees b <> " behind this element"))
+      { label = shape first,
+        others = second' first second <> [Label region "milled here with a blade"],
+        message = ["A blade swivels while it moves; it cannot jump."],
+        hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
+      }
+
+inDegrees :: Double -> Text
+inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
 at :: Region -> Code -> Text -> Report
 at region code = report Report.Error code (InSource region)

@@ -18,7 +18,6 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
-import Data.Traversable (mapAccumR)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour qualified as Contour
@@ -37,6 +36,7 @@ import Path.Error (Error (..), Tool (Tool))
 import Path.Error qualified
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
+import Path.Swivel qualified as Swivel
 
 -- | Lay the path. No path when an operation has none, or when there are operations but the start is
 -- unknown, which is reported already; a part that is only drawn has a path without moves.
@@ -109,9 +109,11 @@ blocksOf number tool at operation = case operation of
 passOf :: Int -> Located Milling -> Bool -> Bool -> Spot -> Mm -> Mm -> Either Error Block
 passOf number job@(Located region milling) isFirst isLast at allowance z = do
   pieces <- along job allowance
+  side' <- leadingSide milling
+  swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
       origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
-      cut = NonEmpty.zipWith (\previous piece -> (move piece) {Path.continues = goesOn previous piece}) (Nothing :| map Just (NonEmpty.toList pieces)) pieces
+      cut = NonEmpty.zipWith (\(previous, (a, b)) piece -> (move piece) {Path.continues = goesOn previous piece, Path.heights = (plus z a, plus z b)}) (NonEmpty.zip (Nothing :| map Just (NonEmpty.toList pieces)) swivels) pieces
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
@@ -137,35 +139,37 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
       setOut direction piece e = direction (if Segment.length (Offset.segment piece) > Tolerance.coincident then Offset.segment piece else Part.segment e)
       begin = maybe entry (Segment.start . Path.segment) (listToMaybe leadIn)
       finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
-      toBegin from = ways from [Part.Stop (Located (keyword region) begin) (Just z) pace]
-      level m = m {Path.heights = (z, z)}
+      -- The axis of a blade stands higher or lower.
+      (inZ, outZ) = (plus z (fst (NonEmpty.head swivels)), plus z (snd (NonEmpty.last swivels)))
+      toBegin from = ways from [Part.Stop (Located (keyword region) begin) (Just inZ) pace]
+      level h m = m {Path.heights = (h, h)}
       (before, behind') = case (Part.levels milling, Part.clearance milling) of
-        (_ : _, Just clear) -> deep clear toBegin begin finish
-        _ -> flat toBegin finish
-  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> map level leadIn, cut, retract = map level leadOut <> behind'}
+        (_ : _, Just clear) -> deep (inZ, outZ) clear toBegin begin finish
+        _ -> flat outZ toBegin finish
+  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> map (level inZ) leadIn, cut, retract = map (level outZ) leadOut <> behind'}
   where
     -- Without depth the ways keep the height at which the cutter stands.
-    flat toBegin finish =
+    flat outZ toBegin finish =
       let before = if isFirst || Part.ends (contour milling) == Part.Open then ways at (Part.approach milling) else []
           from = foldl after at before
-          behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish z) (Part.retract milling) else []
+          behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish outZ) (Part.retract milling) else []
        in (before <> toBegin from, behind)
     -- With depth the cutter goes over to the last approach point (or to the beginning) at the clearance
     -- height, down there, and up again from the first retract point, unless that has a height of its own.
-    deep clear toBegin begin finish =
+    deep (inZ, outZ) clear toBegin begin finish =
       let up = rise at clear region
           stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
           over = ways (foldl after at up) (if null stops then [Part.Stop (Located (keyword region) begin) (Just clear) Part.Rapid] else stops)
           above = foldl after (foldl after at up) over
-          down = [Move (Straight (plane above) (plane above)) (height above, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) False | height above /= z]
+          down = [Move (Straight (plane above) (plane above)) (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) False | height above /= inZ]
           (beside, further) = case Part.retract milling of
-            s : more | Nothing <- Part.level s -> ([s {Part.level = Just z}], more)
+            s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
             stops' -> ([], stops')
-          leave = ways (Spot finish z) beside
-          out = foldl after (Spot finish z) leave
+          leave = ways (Spot finish outZ) beside
+          out = foldl after (Spot finish outZ) leave
           lift' = rise out clear region
           rest = if isLast then ways (foldl after out lift') [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
-       in (up <> over <> down <> toBegin (Spot (plane above) z), leave <> lift' <> rest)
+       in (up <> over <> down <> toBegin (Spot (plane above) inZ), leave <> lift' <> rest)
     lastOf xs = take 1 (reverse xs)
 
 -- | Straight up to a height, if the cutter stands below it.
@@ -274,12 +278,9 @@ oriented region milling = case Part.sense milling of
       Just side'
         | side' == wanted -> Right milling
         | value (side milling) `elem` [LeftSide, RightSide] -> Left (SenseAgainstSide at (region' (side milling)))
-        | otherwise -> Right milling {contour = backwards (contour milling)}
+        | otherwise -> Right milling {contour = Part.backwards (contour milling)}
   where
     region' (Located r _) = r
-    backwards c = c {elements = NonEmpty.reverse (snd (mapAccumR turned (Part.continues (NonEmpty.head (elements c))) (elements c)))}
-    -- Walked backwards an element continues the one that continued it.
-    turned next e = (Part.continues e, e {Part.segment = Segment.reverse (Part.segment e), Part.continues = next})
 
 -- Holes
 

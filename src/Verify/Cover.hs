@@ -68,24 +68,36 @@ near others distance segment = filter (counts others) (filter reaches (Box.withi
     -- No point of a segment is further from its middle than half of its length.
     reaches a = Distance.toPoint (Segment.at 0.5 segment) (line others a) <= plus distance (times 0.5 (Segment.length segment))
 
--- | Whether every point of a segment has one of the others within a distance. A few of them are taken first, those
--- nearest to the middle of what the ones before have left; where the nearest is too far, there is a gap.
+-- | Whether every point of a segment has one of the others within a distance. Many others are walked past one by one:
+-- from where the last one ends to cover the segment, the one that is nearest there covers the next stretch of it.
 isCovered :: Others a -> Mm -> Segment -> Bool
-isCovered others distance segment = go fewAtMost []
+isCovered others distance segment
+  | null (drop fewAtMost all') = together
+  | otherwise = from 0
   where
-    go :: Int -> [Segment] -> Bool
-    go tries few = case Distance.uncovered distance few segment of
-      [] -> True
-      (a, b) : _
-        | tries <= 0 -> null (Distance.uncovered distance (map (line others) (near others distance segment)) segment)
-        | otherwise -> case Box.closest away (Segment.at ((a + b) / 2) segment) (index others) of
-          Just (d, other) | d <= distance -> go (tries - 1) (line others other : few)
-          _ -> False
-        where
-          away other =
-            let d = Distance.toPoint (Segment.at ((a + b) / 2) segment) (line others other)
-             in if d > distance || counts others other then d else Mm (1 / 0)
+    all' = map (line others) (near others distance segment)
+    together = null (Distance.uncovered distance all' segment)
+    from t = case nearestAt t of
+      Nothing -> False
+      Just other -> case [g | g@(_, b) <- Distance.uncovered distance [line others other] segment, b > t] of
+        [] -> True
+        (a, _) : _
+          | a > t + hair -> from a
+          -- It ends right here, and what is nearest a hair further on does not begin before.
+          | otherwise -> maybe False (const together) (nearestAt (min 1 (t + hair)))
+    nearestAt t =
+      let p = Segment.at t segment
+       in case Box.closest (away p) p (index others) of
+            Just (d, other) | d <= distance -> Just other
+            _ -> Nothing
+    away p other =
+      let d = Distance.toPoint p (line others other)
+       in if d > distance || counts others other then d else Mm (1 / 0)
 
--- | So many are tried before all are.
+-- | So many others are taken together.
 fewAtMost :: Int
-fewAtMost = 20
+fewAtMost = 30
+
+-- | A share of a segment too short to matter.
+hair :: Double
+hair = 1e-9

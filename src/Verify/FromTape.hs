@@ -49,6 +49,7 @@ import Verify.Cover qualified as Cover
 import Verify.Passage (Job (..), Trace (..), elementsOf)
 import Verify.Passage qualified as Passage
 import Verify.Proof (Finding (..), Passage (..), Proof (Proof), Witness (..))
+import Verify.Swivel qualified as Swivel
 
 -- | Compare the frames of a tape with the part that a path goes around; the program's own frames
 -- tell where the tape has to begin and end and which feeds belong where.
@@ -59,7 +60,7 @@ prove machine path program frames =
     begin = Frame.start program
     own = map Frame.frame (Frame.planned program)
     strokes = Control.run begin frames
-    traces = map traceOf strokes
+    traces = Swivel.levelled machine path (map traceOf strokes)
     traceOf s = Trace s (Control.segment machine s) (Frame.height machine (from s), Frame.height machine (to s))
     sameCount = length own == length frames
     flat = Path.isFlat path
@@ -71,7 +72,7 @@ prove machine path program frames =
       concat found
         <> take 1 [OffPlane (number s) | flat, s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
         <> missingHoles machine path traces
-        <> take 1 [CutsElsewhere n p | not flat, (n, p) <- strangers machine path (map traceOf (Control.run begin own)) traces]
+        <> take 1 [CutsElsewhere n p | not flat, (n, p) <- strangers machine path (Swivel.levelled machine path (map traceOf (Control.run begin own))) traces]
         <> (if sameCount then wrongFeeds program frames else [])
         <> wrongCommands program frames
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found))]

@@ -38,17 +38,17 @@ spec = do
               finish = Segment.end (last ss)
            in counterexample (show (length ends, worst b ss ends)) $
                 worst b ss ends <= 1e-7
-                  .&&. conjoin [counterexample (show p) (minimum [d | s <- ss, let Mm d = Distance.toPoint p s] <= 1e-7) | p <- ends]
+                  .&&. conjoin [counterexample (show p) (minimum [d | s <- ss, let { Mm d = Distance.toPoint p s }] <= 1e-7) | p <- ends]
                   .&&. last ends === finish
     it "are about as few as any on a fine grid (catches chords that stop where the curve changes its bending)" $
       property $
         forAll (chain >>= \ss -> (ss,) <$> roughly (sum [l | s <- ss, let Mm l = Segment.length s])) $ \(ss, b) ->
           let n = length (chordsOf b ss)
               fewest = fewestOn b (grid 150 ss)
-           in n <= 15 ==>
-                counterexample (show (n, fewest)) $
-                  classify (fewest >= 4) "four and more" $
-                    fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
+           in n <= 15
+                ==> counterexample (show (n, fewest))
+                $ classify (fewest >= 4) "four and more" $
+                  fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
     it "of an arc cut into many are as many as those of the arc, one more or less (catches a chord for each)" $
       property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.005, 0.02, 0.1]) $ \(a, k, y) ->

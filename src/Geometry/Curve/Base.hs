@@ -7,12 +7,10 @@ module Geometry.Curve.Base
     Method (..),
     Ends (..),
     Row (..),
-    Span (..),
     Flaw (..),
     polyline,
     spline,
     parabola,
-    Piece (..),
     ofPieces,
     ofSegments,
     count,
@@ -29,23 +27,23 @@ module Geometry.Curve.Base
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..))
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
+import Geometry.Curve.Span (Piece, Span (..))
+import Geometry.Curve.Span qualified as Span
 import Geometry.Jet (Approach (..), Jet (..))
 import Geometry.Jet qualified as Jet
 import Geometry.Ruler (Ruler)
 import Geometry.Ruler qualified as Ruler
-import Geometry.Segment (Segment (..))
+import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Series qualified as Series
 import Geometry.Similarity (Similarity)
 import Geometry.Similarity qualified as Similarity
-import Geometry.Spline (Cubic (..))
 import Geometry.Spline qualified as Spline
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
@@ -88,14 +86,6 @@ data Ends
 
 -- | A point of the table and its parameter on the curve.
 data Row = Row {at :: Double, place :: Point}
-  deriving stock (Eq, Show)
-
--- | A part of the curve, its own parameter running from 0 to 1.
-data Span
-  = -- | x and y
-    Polynomial Cubic Cubic
-  | -- | an arc, evenly
-    Round Segment
   deriving stock (Eq, Show)
 
 -- | Why there is no such curve. Rows and pieces count from 1.
@@ -202,16 +192,6 @@ parabola points
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
--- | A part of a curve that is put together.
-data Piece
-  = -- | a straight line from one point to another
-    Line Point Point
-  | -- | @y = a·x² + b·x + c@ with a (1/mm), b, c (mm), from one x to another
-    Quadratic Double Double Double Double Double
-  | -- | an arc
-    Circular Segment
-  deriving stock (Eq, Show)
-
 -- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
 ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Base
 ofPieces pieces parameters = do
@@ -219,23 +199,10 @@ ofPieces pieces parameters = do
   maybe (Right ()) (Left . Disordered . (+ 1)) (Vector.findIndex not ordered)
   Right base {rows = Vector.map (\u -> Row {at = u, place = Jet.place (jet 0 base (spot After u base))}) parameters}
   where
-    spans = fmap spanOf pieces
+    spans = fmap Span.ofPiece pieces
     base = chain Vector.empty spans
     n = fromIntegral (NonEmpty.length spans)
     ordered = Vector.imap (\i u -> u >= 0 && u <= n && all (> u) (parameters Vector.!? (i + 1))) parameters
-
-spanOf :: Piece -> Span
-spanOf piece = case piece of
-  Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
-  Quadratic a b c from to ->
-    let d = to - from
-     in Polynomial (Spline.line from to) (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
-  Circular s -> ofSegment s
-
-ofSegment :: Segment -> Span
-ofSegment s = case s of
-  Straight p q -> spanOf (Line p q)
-  Arc {} -> Round s
 
 -- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the chain is closed.
 ofSegments :: NonEmpty Segment -> Either Flaw Base
@@ -243,7 +210,7 @@ ofSegments segments = do
   joined (NonEmpty.toList spans)
   Right base {rows = numbered (if closed base then starts else Vector.snoc starts (Segment.end (NonEmpty.last segments)))}
   where
-    spans = fmap ofSegment segments
+    spans = fmap Span.ofSegment segments
     base = chain Vector.empty spans
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
@@ -251,23 +218,15 @@ ofSegments segments = do
 chain :: Vector Row -> NonEmpty Span -> Base
 chain rows spans = made Joined (Vec.near first final) rows (Vector.fromList (NonEmpty.toList spans))
   where
-    (first, _) = spanEnds (NonEmpty.head spans)
-    (_, final) = spanEnds (NonEmpty.last spans)
-
-spanEnds :: Span -> (Point, Point)
-spanEnds s = case s of
-  Polynomial x y -> let place t = Vec.point (Spline.value x t) (Spline.value y t) in (place 0, place 1)
-  Round g -> (Segment.start g, Segment.end g)
+    (first, _) = Span.ends (NonEmpty.head spans)
+    (_, final) = Span.ends (NonEmpty.last spans)
 
 -- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
 joined :: [Span] -> Either Flaw ()
 joined spans = maybe (Right ()) Left (listToMaybe (lengthless <> apart))
   where
-    lengthless = [NoLength i | (i, s) <- zip [1 ..] spans, stands s]
-    apart = [Disjoint i | (i, s, s') <- zip3 [1 ..] spans (drop 1 spans), not (Vec.near (snd (spanEnds s)) (fst (spanEnds s')))]
-    stands s = case s of
-      Polynomial _ _ -> let (p, q) = spanEnds s in Vec.near p q
-      Round g -> Segment.length g <= Tolerance.coincident
+    lengthless = [NoLength i | (i, s) <- zip [1 ..] spans, Span.isPoint s]
+    apart = [Disjoint i | (i, s, s') <- zip3 [1 ..] spans (drop 1 spans), not (Vec.near (snd (Span.ends s)) (fst (Span.ends s')))]
 
 -- | There are enough points, and none is the next one's place.
 distinct :: Int -> Vector Point -> Either Flaw ()
@@ -309,31 +268,13 @@ spot approach u base = Spot {parameter, number, local = parameter - fromIntegral
 
 -- | The power series of the place up to an order.
 jet :: Int -> Base -> Spot -> Jet
-jet n base s = case spans base Vector.! number s of
-  Polynomial x y -> Jet (Spline.series n x (local s)) (Spline.series n y (local s))
-  Round (Arc {start, centre, sweep = Rad sweep}) ->
-    let out = Vec.to centre start
-        turned = Vec.rotate (Rad (sweep * local s)) out
-        -- Each derivative turns by a quarter and grows by the sweep.
-        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left turned)
-        part direction = map (Vec.dot direction) terms
-     in Jet
-          (Series.plusConstant (Vec.x centre) (Series.fromList n (part (Vec.vec 1 0))))
-          (Series.plusConstant (Vec.y centre) (Series.fromList n (part (Vec.vec 0 1))))
-  Round (Straight p q) ->
-    let d = Vec.to p q
-     in Jet
-          (Series.fromList n [Vec.x p + local s * Vec.dot d (Vec.vec 1 0), Vec.dot d (Vec.vec 1 0)])
-          (Series.fromList n [Vec.y p + local s * Vec.dot d (Vec.vec 0 1), Vec.dot d (Vec.vec 0 1)])
+jet n base s = Span.jet n (spans base Vector.! number s) (local s)
 
 -- | The same walked from its end.
 reversed :: Base -> Base
-reversed base = made method' (closed base) (Vector.imap back (backwards base (rows base))) (Vector.map turned (Vector.reverse (spans base)))
+reversed base = made method' (closed base) (Vector.imap back (backwards base (rows base))) (Vector.map Span.reversed (Vector.reverse (spans base)))
   where
     back i row = row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
-    turned s = case s of
-      Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
-      Round g -> Round (Segment.reverse g)
     method' = case method base of
       Spline (Clamped from to) -> Spline (Clamped (Vec.negate to) (Vec.negate from))
       Spline Natural -> Spline Natural
@@ -356,21 +297,10 @@ unrepeated base = case (rows base Vector.!? 0, rows base Vector.!? (Vector.lengt
 
 -- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
 transformed :: Similarity -> Base -> Base
-transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Similarity.point s (place row)}) (rows base)) (Vector.map image (spans base))
+transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Similarity.point s (place row)}) (rows base)) (Vector.map (Span.transformed s) (spans base))
   where
-    image g = case g of
-      Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
-        let p = Similarity.point s (Vec.point x0 y0)
-            (a1, b1) = components (image' (Vec.vec x1 y1))
-            (a2, b2) = components (image' (Vec.vec x2 y2))
-            (a3, b3) = components (image' (Vec.vec x3 y3))
-         in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
-      Round arc -> Round (Similarity.segment s arc)
-    origin = Vec.point 0 0
-    image' v = Vec.to (Similarity.point s origin) (Similarity.point s (Vec.shift v origin))
-    components v = (Vec.dot v (Vec.vec 1 0), Vec.dot v (Vec.vec 0 1))
     method' = case method base of
-      Spline (Clamped from to) -> Spline (Clamped (Vec.unit (image' from)) (Vec.unit (image' to)))
+      Spline (Clamped from to) -> Spline (Clamped (Vec.unit (Span.image s from)) (Vec.unit (Span.image s to)))
       Spline Natural -> Spline Natural
       Spline Periodic -> Spline Periodic
       Polyline -> Polyline

@@ -76,8 +76,16 @@ byLength base values = case Vector.toList values of
 series :: Int -> Base -> Column -> Spot -> Series
 series n base c spot = case course c of
   BySpan cubics -> Spline.series n (cubics Vector.! number spot) (local spot)
-  ByLength stations cubics -> Series.polynomial (Spline.coefficients (cubics Vector.! i)) fraction
+  ByLength stations cubics
+    | here < Unboxed.head stations -> Series.polynomial (tangentAt 0) fraction
+    | here > Unboxed.last stations -> Series.polynomial (tangentAt 1) fraction
+    | otherwise -> Series.polynomial (Spline.coefficients (cubics Vector.! i)) fraction
     where
+      -- Before the first row and behind the last the column goes on straight.
+      tangentAt t =
+        let ahead = Spline.series 1 (cubics Vector.! i) t
+            rise = Series.coefficient 1 ahead
+         in [Series.value ahead - rise * t, rise]
       Mm here = Ruler.lengthTo (Base.ruler base) (parameter spot)
       i = stretchAt here stations
       from = stations Unboxed.! i
@@ -87,7 +95,7 @@ series n base c spot = case course c of
         _ -> Series.integral here (Jet.speed (Base.jet n base spot))
       fraction = Series.scale (1 / width) (Series.plusConstant (-from) run)
 
--- | The number of the stretch between two of these lengths that a length belongs to; the outer ones reach on.
+-- | The number of the stretch between two of these lengths that a length belongs to, or the outer one on its side.
 stretchAt :: Double -> Unboxed.Vector Double -> Int
 stretchAt s stations = search 0 (Unboxed.length stations - 1)
   where

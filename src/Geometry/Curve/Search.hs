@@ -7,6 +7,7 @@ module Geometry.Curve.Search
     atX,
     corners,
     directionAt,
+    heading,
     closed,
     stretches,
     samples,
@@ -117,18 +118,22 @@ closed curve = Vec.near (end After 0) (end Before (Layered.domain curve))
   where
     end approach u = Jet.place (Layered.jetAt 0 curve (Layered.spot approach u curve))
 
--- | The direction before or behind a place. On a closed curve the way goes on over the joint. Where the curve stands
--- still it is the limit; where a shift has made a point of a whole stretch it is that of the curve below.
+-- | The direction before or behind a place. On a closed curve the way goes on over the joint.
 directionAt :: Approach -> Curve -> Double -> Vec
 directionAt approach curve u
-  | approach == Before && u <= 0 && closed curve = along curve (Layered.spot Before (Layered.domain curve) curve)
-  | approach == After && u >= Layered.domain curve && closed curve = along curve (Layered.spot After 0 curve)
-  | otherwise = along curve (Layered.spot approach u curve)
+  | approach == Before && u <= 0 && closed curve = heading Before curve (Layered.domain curve)
+  | approach == After && u >= Layered.domain curve && closed curve = heading After curve 0
+  | otherwise = heading approach curve u
+
+-- | The direction before or behind a place; at an end, of what there is. Where the curve stands still it is the limit;
+-- where a shift has made a point of a whole stretch it is that of the curve below.
+heading :: Approach -> Curve -> Double -> Vec
+heading approach curve u = case Jet.direction approach (near 1) of
+  Just d -> d
+  Nothing -> case Jet.direction approach (near 4) of
+    Just d -> d
+    Nothing -> case curve of
+      Shifted _ lower _ -> heading approach lower u
+      Plain _ -> Crash.bug "a span that is a point"
   where
-    along c s = case Jet.direction approach (Layered.jetAt 1 c s) of
-      Just d -> d
-      Nothing -> case Jet.direction approach (Layered.jetAt 4 c s) of
-        Just d -> d
-        Nothing -> case c of
-          Shifted _ lower _ -> along lower s
-          Plain _ -> Crash.bug "a span that is a point"
+    near n = Layered.jetAt n curve (Layered.spot approach u curve)

@@ -1,0 +1,60 @@
+-- | The paper's tables of curves that are put together from pieces: the pieces with their coefficients, and by how much
+-- they miss the rows of the table (Ural paper, Tables 2–4).
+module Cli.CurveTable
+  ( fittings,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..))
+import Cli.Table (Align (..))
+import Cli.Table qualified as Table
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Vector qualified as Vector
+import Geometry.Fit qualified as Fit
+import Geometry.Vec qualified as Vec
+import Part.Curve (Fitting (..))
+import Part.Curve qualified as Curve
+import Part.Part (Part)
+import Part.Part qualified as Part
+
+-- | For each such curve of the part a text of two tables.
+fittings :: Part -> [Text]
+fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
+
+fitting :: Name -> Fitting -> Text
+fitting (Name name) Fitting {pieces, misses, points} =
+  "Curve " <> name <> ": " <> counted (length pieces) "section" <> " through " <> counted (Vector.length points) "row" <> "\n\n"
+    <> Table.columns
+      [ToRight, ToRight, ToLeft, ToLeft, ToRight]
+      (["section", "rows", "kind", "equation", "largest deviation"] : zipWith section [1 ..] (NonEmpty.toList pieces))
+    <> "\n"
+    <> Table.columns
+      [ToRight, ToRight, ToRight, ToRight, ToRight]
+      (["row", "x", "y", "section", "deviation"] : map row misses)
+  where
+    section k p = [Decimal.whole k, Decimal.whole (Fit.first p) <> "–" <> Decimal.whole (Fit.final p), kindWord p, equation p, fixed 4 (Fit.largest p)]
+    kindWord p = case Fit.kind (Fit.curve p) of
+      Fit.LineKind -> "line"
+      Fit.ParabolaKind -> "parabola"
+      Fit.ArcKind -> "arc"
+    row d =
+      let p = maybe (Vec.point 0 0) Curve.point (points Vector.!? (Fit.ofRow d - 1))
+       in [Decimal.whole (Fit.ofRow d), Decimal.short 6 (Vec.x p), Decimal.short 6 (Vec.y p), Decimal.whole (Fit.onPiece d), fixed 4 (Fit.miss d)]
+    fixed n (Mm x) = Decimal.fixed n x
+
+-- | With the digits of the paper.
+equation :: Fit.Piece -> Text
+equation p = case Fit.formula p of
+  Fit.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
+  Fit.Polynomial a b c -> "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
+  Fit.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
+  where
+    signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
+
+counted :: Int -> Text -> Text
+counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else Text.singleton 's')

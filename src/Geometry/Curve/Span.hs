@@ -1,0 +1,116 @@
+-- | Spans: what curves are made of, one behind the other.
+module Geometry.Curve.Span
+  ( Span (..),
+    Piece (..),
+    ofPiece,
+    ofSegment,
+    ends,
+    isPoint,
+    jet,
+    reversed,
+    transformed,
+    image,
+  )
+where
+
+import Base.Quantity (Rad (..))
+import Geometry.Jet (Jet (..))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Series (Series)
+import Geometry.Series qualified as Series
+import Geometry.Similarity (Similarity)
+import Geometry.Similarity qualified as Similarity
+import Geometry.Spline (Cubic (..))
+import Geometry.Spline qualified as Spline
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+
+-- | A part of a curve, its own parameter running from 0 to 1.
+data Span
+  = -- | x and y
+    Polynomial Cubic Cubic
+  | -- | an arc, evenly
+    Round Segment
+  deriving stock (Eq, Show)
+
+-- | A part of a curve as it is given.
+data Piece
+  = -- | a straight line from one point to another
+    Line Point Point
+  | -- | @y = a·x² + b·x + c@ with a (1/mm), b, c (mm), from one x to another
+    Quadratic Double Double Double Double Double
+  | -- | an arc
+    Circular Segment
+  deriving stock (Eq, Show)
+
+ofPiece :: Piece -> Span
+ofPiece piece = case piece of
+  Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
+  Quadratic a b c from to ->
+    let d = to - from
+     in Polynomial (Spline.line from to) (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
+  Circular s -> ofSegment s
+
+ofSegment :: Segment -> Span
+ofSegment s = case s of
+  Straight p q -> ofPiece (Line p q)
+  Arc {} -> Round s
+
+-- | Where a span begins and where it ends.
+ends :: Span -> (Point, Point)
+ends s = case s of
+  Polynomial x y -> let place t = Vec.point (Spline.value x t) (Spline.value y t) in (place 0, place 1)
+  Round g -> (Segment.start g, Segment.end g)
+
+-- | Whether a span that was given as a piece has no length. A full circle ends where it begins and has one.
+isPoint :: Span -> Bool
+isPoint s = case s of
+  Polynomial _ _ -> let (p, q) = ends s in Vec.near p q
+  Round g -> Segment.length g <= Tolerance.coincident
+
+-- | The power series of the place up to an order.
+jet :: Int -> Span -> Double -> Jet
+jet n s t = case s of
+  Polynomial x y -> Jet (Spline.series n x t) (Spline.series n y t)
+  Round (Arc {start, centre, sweep = Rad sweep}) ->
+    -- Each derivative turns by a quarter and grows by the sweep.
+    let turned = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
+        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left turned)
+     in along n centre terms
+  Round (Straight p q) -> along n p [Vec.scale t (Vec.to p q), Vec.to p q]
+
+-- | From a point, by these coefficients.
+along :: Int -> Point -> [Vec] -> Jet
+along n p terms = Jet (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
+  where
+    parts = map components (take (n + 1) terms)
+    part :: Double -> [Double] -> Series
+    part c cs = Series.plusConstant c (Series.fromList n cs)
+
+-- | The same walked from its end.
+reversed :: Span -> Span
+reversed s = case s of
+  Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
+  Round g -> Round (Segment.reverse g)
+
+-- | Moved, turned, scaled, mirrored: the coefficients are so.
+transformed :: Similarity -> Span -> Span
+transformed s g = case g of
+  Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
+    let p = Similarity.point s (Vec.point x0 y0)
+        (a1, b1) = components (image s (Vec.vec x1 y1))
+        (a2, b2) = components (image s (Vec.vec x2 y2))
+        (a3, b3) = components (image s (Vec.vec x3 y3))
+     in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
+  Round arc -> Round (Similarity.segment s arc)
+
+-- | A displacement turned, scaled, mirrored.
+image :: Similarity -> Vec -> Vec
+image s v = Vec.to (Similarity.point s origin) (Similarity.point s (Vec.shift v origin))
+  where
+    origin = Vec.point 0 0
+
+components :: Vec -> (Double, Double)
+components v = (Vec.dot v (Vec.vec 1 0), Vec.dot v (Vec.vec 0 1))

@@ -1,0 +1,79 @@
+-- | Strokes of a swivelling blade as if its axis stood in its middle position.
+--
+-- The height of the axis says how far the blade is turned. Where that is what the contour asks for at the place of
+-- the stroke, to a pulse, the stroke counts as one at the height of the pass; elsewhere it stays as it is, and is
+-- not taken for a stroke along the contour.
+module Verify.Swivel
+  ( levelled,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Region (Located (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Box qualified as Box
+import Geometry.Distance qualified as Distance
+import Geometry.Offset (Side (..))
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Milling)
+import Part.Part qualified as Part
+import Path.FromPart qualified as Path (leadingSide)
+import Path.Path (Path)
+import Path.Path qualified as Path
+import Path.Swivel qualified as Swivel
+import Verify.Passage (Trace (..))
+
+-- | The strokes of a tape, those along the contours of a blade at the heights of their passes.
+levelled :: Machine -> Path -> [Trace] -> [Trace]
+levelled machine path = foldr (\p next -> map (onLevel machine p) . next) id blades
+  where
+    blades = [blade milling pass | Path.Cutting {Path.job = Located _ milling, Path.pass} <- Path.blocks path, Just _ <- [Part.gear milling]]
+
+-- | A pass along a contour with a blade: what it reaches, its elements with their numbers, the heights of the axis at
+-- their ends.
+data Blade = Blade {level :: Mm, reach :: Mm, allowed :: Mm, elements :: Box.Index (Int, Segment), axes :: Vector (Mm, Mm)}
+
+blade :: Milling -> Path.Pass -> Blade
+blade milling Path.Pass {Path.reach, Path.atHeight} =
+  Blade
+    { level = atHeight,
+      reach,
+      allowed = uncurry max (Part.deepest (Part.tolerance milling)),
+      elements = Box.index (Box.ofSegment . snd) (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
+      axes = maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Swivel.bevels (Part.elements (Part.contour milling)))
+    }
+  where
+    height angle = plus atHeight (times (sign * angle / 2) (maybe (Mm 0) id (Part.gear milling)))
+    sign = case Path.leadingSide milling of
+      Right (Just RightOf) -> -1
+      Right (Just LeftOf) -> 1
+      Right Nothing -> 1
+      Left _ -> 1
+
+onLevel :: Machine -> Blade -> Trace -> Trace
+onLevel machine b t
+  | fits (Segment.start (line t)) (fst (heights t)) && fits (Segment.end (line t)) (snd (heights t)) = t {heights = (level b, level b)}
+  | otherwise = t
+  where
+    fits p z = case [h | (i, s) <- Box.within (Box.inflate around (Box.ofPoints p [])) (elements b), Distance.toPoint p s <= around, Just h <- [axisAt b i s p]] of
+      [] -> False
+      hs -> minus z (maximum hs) <= slack && minus (minimum hs) z <= slack
+    around = plus (reach b) (plus (allowed b) (Machine.pulse machine))
+    -- The place is off along the contour by the tolerance and a pulse as well.
+    slack = times 1.5 (Machine.pulse machine)
+
+-- | The height of the axis beside a place of an element.
+axisAt :: Blade -> Int -> Segment -> Point -> Maybe Mm
+axisAt b i s p = (\(from, to) -> plus from (times share (minus to from))) <$> axes b Vector.!? i
+  where
+    share
+      | Segment.spans s p = max 0 (min 1 (Segment.fraction s p))
+      | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
+      | otherwise = 1

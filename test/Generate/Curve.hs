@@ -1,0 +1,247 @@
+-- | Random curves and shifts for the laws of curves: open and closed, gentle and doubling back, with vertical
+-- tangents, of few points and of many.
+module Generate.Curve
+  ( Table (..),
+    anyCurve,
+    smooth,
+    gentle,
+    ring,
+    closedRing,
+    winding,
+    polyline,
+    parabola,
+    chain,
+    parameter,
+    parameterOf,
+    tightest,
+    distance,
+    shifts,
+    layered,
+    columnOf,
+    similarity,
+    ok,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.Either (fromRight)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import GHC.Exts qualified as Exts
+import Geometry.Curve (Curve, Distance (..), Ends (..), Growth (..), Joggle (..), Piece (..), Side (..))
+import Geometry.Curve qualified as Curve
+import Geometry.Curve.Base qualified as Base
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape qualified as Shape
+import Geometry.Similarity (Similarity)
+import Geometry.Similarity qualified as Similarity
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Test.QuickCheck
+
+-- | A table of points and how it ends.
+data Table = Table Ends [Point]
+  deriving stock (Eq, Show)
+
+ok :: Show e => Either e a -> a
+ok = either (error . show) id
+
+-- | Of every kind.
+anyCurve :: Gen Curve
+anyCurve = frequency [(2, smooth), (1, polyline), (1, parabola), (1, chain), (1, pieces)]
+
+-- | Splines.
+smooth :: Gen Curve
+smooth = oneof [gentle, ring, ok . splineOf <$> winding]
+
+splineOf :: Table -> Either Curve.Flaw Curve
+splineOf (Table ends points) = Curve.spline ends (Exts.fromList points)
+
+-- | An open spline that turns by less than a right angle, few points or many.
+gentle :: Gen Curve
+gentle = do
+  n <- frequency [(1, choose (2, 3)), (3, choose (4, 12)), (2, choose (30, 60))]
+  begin <- choose (-3.1, 3.1)
+  turns <- vectorOf (n - 1) (choose (-1 / fromIntegral n, 1 / fromIntegral n))
+  Table ends points <- walked begin turns
+  pure (ok (splineOf (Table ends points)))
+
+-- | Points of a walk that turns as it likes: it doubles back, crosses itself, climbs straight up. Now and then the
+-- direction at an end is given.
+winding :: Gen Table
+winding = do
+  n <- choose (2, 20)
+  begin <- elements [0, pi / 2, 1]
+  turns <- vectorOf n (oneof [choose (-0.8, 0.8), elements [0, pi / 2]])
+  walked begin turns
+
+walked :: Double -> [Double] -> Gen Table
+walked begin turns = do
+  steps <- vectorOf (length turns) (choose (8, 20))
+  at <- Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
+  let headings = scanl1 (+) (begin : drop 1 turns)
+      points = scanl (\p (a, s) -> Vec.shift (Vec.polar (Mm s) (Rad a)) p) at (zip headings steps)
+      final = begin + sum (drop 1 turns)
+  bent <- choose (-0.1, 0.1)
+  ends <- elements [Natural, Clamped (Vec.polar (Mm 1) (Rad (begin + bent))) (Vec.polar (Mm 1) (Rad (final - bent)))]
+  pure (Table ends points)
+
+-- | A closed spline about a centre.
+ring :: Gen Curve
+ring = ok . splineOf <$> closedRing
+
+-- | Its table, walked either way, the first point repeated or not.
+closedRing :: Gen Table
+closedRing = do
+  n <- frequency [(1, pure 3), (3, choose (5, 12)), (2, choose (20, 60))]
+  sense <- elements [1, -1]
+  from <- choose (0, 6)
+  a <- choose (30, 60)
+  b <- choose (0, 8)
+  lobes <- elements [2, 3]
+  centre <- Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
+  repeated <- arbitrary
+  let angle k = from + sense * 2 * pi * fromIntegral k / fromIntegral n
+      place k = Vec.shift (Vec.polar (Mm (a + b * cos (lobes * angle k))) (Rad (angle k))) centre
+      points = map place [0 .. n - 1 :: Int]
+  pure (Table Periodic (points <> [p | repeated, p <- take 1 points]))
+
+-- | Straight lines from point to point, now and then straight back.
+polyline :: Gen Curve
+polyline = do
+  n <- choose (1, 8)
+  turns <- vectorOf n (frequency [(5, choose (-1.2, 1.2)), (1, pure pi), (1, pure (pi / 2))])
+  Table _ points <- walked 0 turns
+  closing <- arbitrary
+  let closedUp = points <> [p | closing, length points > 2, p <- take 1 points]
+  pure (fromRight (ok (Curve.polyline (Exts.fromList points))) (Curve.polyline (Exts.fromList closedUp)))
+
+-- | Parabolas, the x rising or falling.
+parabola :: Gen Curve
+parabola = do
+  n <- (\k -> 2 * k + 1) <$> choose (1, 5)
+  sense <- elements [1, -1]
+  steps <- vectorOf n (choose (4, 12))
+  slopes <- vectorOf n (choose (-0.6, 0.6))
+  let xs = scanl1 (+) (map (sense *) steps)
+      ys = scanl1 (+) (zipWith (*) slopes steps)
+  pure (ok (Curve.parabola (Exts.fromList (zipWith Vec.point xs ys))))
+
+-- | Lines and arcs that touch or meet at corners.
+chain :: Gen Curve
+chain = do
+  n <- choose (1, 6)
+  parts <- vectorOf n ((,,) <$> choose (-2, 2) <*> choose (10, 40) <*> frequency [(2, pure 0), (1, choose (-1, 1))])
+  pure (ok (Curve.ofSegments (segments (Vec.point 3 (-4)) 0.3 parts)))
+  where
+    segments p heading parts = case parts of
+      [] -> Straight p (Vec.shift (Vec.polar (Mm 10) (Rad heading)) p) :| []
+      part : rest ->
+        let s = next p heading part
+            (sweep, _, corner) = part
+            after = if abs sweep < 0.2 then heading + corner else heading + sweep + corner
+         in s :| if null rest then [] else NonEmpty.toList (segments (Segment.end s) after rest)
+    next p heading (sweep, l, _)
+      | abs sweep < 0.2 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
+      | otherwise =
+        let centre = Vec.shift (Vec.scale (l / sweep) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
+         in Arc {start = p, end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre, centre, sweep = Rad sweep}
+
+-- | A line, a parabola that touches it and an arc that touches the parabola, with rows anywhere on them.
+pieces :: Gen Curve
+pieces = do
+  a <- choose (-0.02, 0.02)
+  l <- choose (5, 30)
+  w <- choose (5, 30)
+  r <- elements [20, -20, 35]
+  inner <- vectorOf 5 (choose (0.1, 0.59))
+  let top = Vec.point w (a * w * w)
+      slope = atan (2 * a * w)
+      centre = Vec.shift (Vec.scale r (Vec.left (Vec.polar (Mm 1) (Rad slope)))) top
+      sweep = signum r * 0.8
+      arc = Arc {start = top, end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre top)) centre, centre, sweep = Rad sweep}
+  pure (ok (Curve.ofPieces (Line (Vec.point (-l) 0) (Vec.point 0 0) :| [Quadratic a 0 0 0 w, Circular arc]) (Exts.fromList (scanl (+) 0 inner <> [3]))))
+
+-- | A place as a share of the curve, kept away from neither rows nor ends.
+parameter :: Gen Double
+parameter = frequency [(8, choose (0, 1)), (1, elements [0, 1, 0.5])]
+
+parameterOf :: Curve -> Double -> Double
+parameterOf curve share = share * Curve.domain curve
+
+-- | The largest curvature found at many places, in 1/mm.
+tightest :: Curve -> Double
+tightest curve = maximum [abs (Curve.curvature curve (a + (b - a) * k / 12)) | (a, b) <- zip bs (drop 1 bs), k <- [0.01 .. 12]]
+  where
+    bs = Curve.breaks curve
+
+-- | A column of so many values for a curve, from a range, that changes slowly.
+columnOf :: Curve -> Double -> Double -> Gen Curve.Column
+columnOf curve low high = do
+  middle <- choose (low, high)
+  wave <- choose (0, min (high - middle) (middle - low))
+  phase <- choose (0, 6)
+  let n = length (Base.rows (Curve.base curve))
+      repeated = Curve.isClosed curve && not (Base.unrepeated (Curve.base curve))
+      turns = 2 * pi / fromIntegral (if repeated then n - 1 else n)
+      value k = if repeated && k == n - 1 then value 0 else middle + 0.5 * wave * sin (phase + turns * fromIntegral k)
+  pure (Curve.column curve (Exts.fromList (map value [0 .. n - 1])))
+
+-- | A distance no larger than a reach, of every kind.
+distance :: Double -> Curve -> Gen Distance
+distance reach curve =
+  oneof
+    [ Constant . Mm <$> choose (0, reach),
+      Pointwise <$> columnOf curve 0 reach,
+      bevelled,
+      Growing <$> growth,
+      Square <$> columnOf curve (-0.5) 0.5 <*> (Constant . Mm <$> choose (0, 0.8 * reach)),
+      Square <$> columnOf curve (-0.5) 0.5 <*> (Growing <$> growth),
+      joggled
+    ]
+  where
+    bevelled = Bevelled <$> columnOf curve (-0.4) 0.4 <*> columnOf curve 0 reach <*> (Mm <$> choose (0, 0.5 * reach))
+    growth = do
+      h1 <- choose (0, 0.8 * reach)
+      h2 <- choose (0, 0.8 * reach)
+      a <- choose (0.05, 0.4)
+      b <- choose (0.6, 0.95)
+      ends <- elements [Nothing, Just (parameterOf curve a, parameterOf curve b)]
+      pure Growth {from = Mm h1, to = Mm h2, between = ends}
+    joggled = do
+      a <- choose (0.05, 0.2)
+      b <- choose (0.8, 0.95)
+      d <- choose (0.2, 0.8) >>= \share -> pure (share * min 1 reach)
+      k <- choose (0.6, 3)
+      flip' <- elements [1, -1]
+      pure (fromRight (Constant (Mm d)) (Curve.joggled Joggle {begins = parameterOf curve a, ends = parameterOf curve b, depth = Mm (flip' * d), radius = Mm (k * d)} curve))
+
+-- | A shift that fits: well within the radius of curvature.
+shifts :: Curve -> Gen Curve
+shifts curve = do
+  side <- elements [LeftOf, RightOf]
+  d <- distance (min 5 (0.3 / (1e-9 + tightest curve))) curve
+  let s = Curve.shifted side d curve
+  pure (case Curve.fold s of Nothing -> s; Just _ -> Curve.shifted side (Constant (Mm 0)) curve)
+
+-- | A curve with up to so many shifts.
+layered :: Int -> Gen Curve -> Gen Curve
+layered most gen = do
+  curve <- gen
+  n <- choose (0, most)
+  go n curve
+  where
+    go :: Int -> Curve -> Gen Curve
+    go n curve = if n <= 0 then pure curve else shifts curve >>= go (n - 1)
+
+-- | Motions, mirrors, scalings, one behind the other.
+similarity :: Gen Similarity
+similarity = do
+  v <- Vec.vec <$> choose (-50, 50) <*> choose (-50, 50)
+  p <- Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
+  q <- Vec.shift <$> (Vec.polar (Mm 10) . Rad <$> choose (0, 6)) <*> pure p
+  a <- choose (-3, 3)
+  k <- choose (0.3, 3)
+  chosen <- sublistOf [Similarity.translation v, Similarity.rotation (Rad a) p, Similarity.reflection (Shape.Line p q), Similarity.scaling k p]
+  pure (foldr Similarity.after Similarity.identity chosen)

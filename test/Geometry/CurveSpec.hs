@@ -1,0 +1,284 @@
+-- | What curves are before any shift: that they pass where they should, as smoothly as they should, and that they can
+-- be measured and searched.
+module Geometry.CurveSpec (spec) where
+
+import Base.Quantity (Mm (..), Rad (..), minus)
+import Data.Foldable (toList)
+import Data.List.NonEmpty (NonEmpty (..))
+import GHC.Exts qualified as Exts
+import Generate.Curve (Table (..))
+import Generate.Curve qualified as Generate
+import Geometry.Curve (Approach (..), Curve, Ends (..), Flaw (..), Piece (..), Span (..))
+import Geometry.Curve qualified as Curve
+import Geometry.Curve.Base qualified as Base
+import Geometry.Jet (Jet (..))
+import Geometry.Segment (Segment (..))
+import Geometry.Series qualified as Series
+import Geometry.Similarity qualified as Similarity
+import Geometry.Spline qualified as Spline
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  describe "curves through tables" $ do
+    it "pass through every row at its parameter (catches a span that takes the next row's number)" $
+      property $
+        forAll Generate.anyCurve $ \c ->
+          conjoin [close 1e-9 (Curve.at c (Base.at row)) (Base.place row) | row <- toList (Base.rows (Curve.base c))]
+    it "a spline has the same derivatives by the chord on both sides of a row (catches a wrong right side of its system)" $
+      property $
+        forAll Generate.smooth joinsTwice
+    it "a natural spline does not bend at its ends (catches an end that is clamped)" $
+      property $
+        forAll (tableWith (const Natural)) $ \c ->
+          conjoin [counterexample (show v) (Vec.norm v < 1e-9) | (approach, u) <- outer c, let v = secondBy (chord c u) (Curve.jet approach 2 c u)]
+    it "a clamped spline sets out and arrives in its directions, at one mm for a mm of the chord (catches a direction by the parameter)" $
+      property $
+        forAll ((,) <$> choose (-3, 3) <*> choose (-3, 3)) $ \(a, b) ->
+          let from = Vec.polar (Mm 1) (Rad a)
+              to = Vec.polar (Mm 1) (Rad b)
+           in forAll (tableWith (const (Clamped from to))) $ \c ->
+                conjoin [alike 1e-9 v w | ((approach, u), w) <- zip (outer c) [from, to], let v = firstBy (chord c u) (Curve.jet approach 1 c u)]
+    it "a closed spline goes over into itself at its joint (catches a corner of the cyclic system left out)" $
+      property $
+        forAll Generate.ring $ \c ->
+          let n = Curve.domain c
+              arriving = Curve.jet Before 2 c n
+              leaving = Curve.jet After 2 c 0
+           in alike 1e-8 (firstBy (chord c n) arriving) (firstBy (chord c 0) leaving)
+                .&&. alike 1e-8 (secondBy (chord c n) arriving) (secondBy (chord c 0) leaving)
+                .&&. Curve.corners c === []
+    it "a closed table may repeat its first row or not" $
+      property $
+        forAll Generate.closedRing $ \(Table _ points) ->
+          let single = if take 1 points == drop (length points - 1) points then init points else points
+              c = splineOf Periodic single
+              c' = splineOf Periodic (single <> take 1 single)
+           in forAll Generate.parameter $ \t -> close 1e-9 (Curve.at c (Generate.parameterOf c t)) (Curve.at c' (Generate.parameterOf c t))
+    it "parabolas give the parabola that the points lie on (catches fractions of the wrong span)" $
+      property $
+        forAll ((,,) <$> choose (-0.05, 0.05) <*> choose (-2, 2) <*> choose (-9, 9)) $ \(a, b, c) ->
+          forAll (choose (1, 4)) $ \k -> forAll (vectorOf (2 * k + 1) (choose (1, 9))) $ \steps ->
+            forAll (elements [1, -1]) $ \sense -> forAll Generate.parameter $ \t ->
+              let y x = a * x * x + b * x + c
+                  curve = Generate.ok (Curve.parabola (Exts.fromList [Vec.point x (y x) | x <- scanl1 (+) (map (sense *) steps)]))
+                  p = Curve.at curve (Generate.parameterOf curve t)
+               in counterexample (show p) (abs (Vec.y p - y (Vec.x p)) < 1e-9 * (1 + abs (Vec.x p) ^ (2 :: Int)))
+    it "the template's parabolas have the coefficients of the paper, corrected" $
+      coefficients template `shouldSatisfy` and . zipWith agrees [(-0.00722596, 1.1707467, -27.504988), (-0.00460579, 0.8200501, -16.220749)]
+    it "a circle given by 60 points is one to 1e-4 mm, shifted by anything (catches a spline that flattens at its joint)" $
+      property $
+        forAll ((,) <$> choose (-20, 20) <*> choose (0, 60)) $ \(d, u) ->
+          let c = Curve.shifted Curve.LeftOf (Curve.Constant (Mm d)) (circleOf 60 50)
+              Mm r = Vec.distance (Vec.point 0 0) (Curve.at c u)
+           in counterexample (show r) (abs (r - (50 - d)) < 1e-4)
+    it "takes a table of 20,000 points" $ do
+      let c = circleOf 20000 50
+          Mm l = Curve.length c
+      abs (l - 100 * pi) `shouldSatisfy` (< 1e-6)
+
+  describe "the way along a curve" $ do
+    it "is as long as many chords tell (catches a panel that is accepted too early)" $
+      property $
+        forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
+          let u = Generate.parameterOf c t
+              Mm l = Curve.lengthTo c u
+              byChords = chordSum c u
+           in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-5)
+    it "has the length of what is known: lines and arcs" $
+      property $
+        forAll Generate.chain $ \c ->
+          let Mm l = Curve.length c
+              known = sum [spanLength s | s <- toList (Base.spans (Curve.base c))]
+           in counterexample (show (l, known)) (abs (l - known) < 1e-8)
+    it "has the length of a parabola by its closed formula" $
+      property $
+        forAll ((,) <$> choose (1, 50) <*> choose (1, 80)) $ \(p, x) ->
+          let c = Generate.ok (Curve.ofPieces (Quadratic (1 / (2 * p)) 0 0 0 x :| []) (Exts.fromList [0, 1]))
+              Mm l = Curve.length c
+              t = x / p
+           in counterexample (show l) (abs (l - p / 2 * (t * sqrt (1 + t * t) + asinh t)) < 1e-8)
+    it "is walked back to the parameter that it came from (catches a piece too far)" $
+      property $
+        forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
+          let u = Generate.parameterOf c t
+              back = Curve.alongTo c (Curve.lengthTo c u)
+           in counterexample (show (u, back)) (abs (back - u) < 1e-7)
+
+  describe "looking for places" $ do
+    it "nearest: no place of the curve is nearer (catches a foot that is taken for the first one)" $
+      property $
+        forAll (Generate.layered 1 Generate.anyCurve) $ \c -> forAll ((,) <$> choose (-150, 150) <*> choose (-150, 150)) $ \(x, y) ->
+          let p = Vec.point x y
+              u = Curve.nearest p c
+              found = minimum [Vec.distance p (Curve.placeFrom approach c u) | approach <- [Before, After]]
+              sampled = minimum [Vec.distance p (Curve.placeFrom approach c (Generate.parameterOf c (k / 1500))) | k <- [0 .. 1500], approach <- [Before, After]]
+           in counterexample (show (found, sampled)) (minus found sampled <= Mm 1e-9)
+    it "nearest: of a place on the curve it is that place (catches samples that are not made exact)" $
+      property $
+        forAll Generate.gentle $ \c -> forAll Generate.parameter $ \t ->
+          let u = Generate.parameterOf c t
+           in counterexample (show u) (abs (Curve.nearest (Curve.at c u) c - u) < 1e-6)
+    it "at an abscissa: every answer lies there, and no crossing is left out (catches an answer of another span)" $
+      property $
+        forAll (Generate.layered 1 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
+          let x = Vec.x (Curve.at c (Generate.parameterOf c t)) + 1e-4
+              found = Curve.atX x c
+              side u = Vec.x (Curve.at c u) > x
+              bs = Curve.breaks c
+              -- Crossings between close samples, breaks left out.
+              steps = [(a', a' + step) | (a, b) <- zip bs (drop 1 bs), let step = (b - a) / 40, k <- [0 .. 38 :: Int], let a' = a + step * fromIntegral k]
+           in conjoin [counterexample (show u) (abs (Vec.x (Curve.placeFrom approach c u) - x) < 1e-6) | u <- found, let approach = if u `elem` bs && abs (Vec.x (Curve.placeFrom Before c u) - x) < 1e-6 then Before else After]
+                .&&. conjoin [counterexample (show (a, b, found)) (any (\u -> u >= a - 1e-9 && u <= b + 1e-9) found) | (a, b) <- steps, side a /= side b]
+    it "just short of a turn there are two places (catches a turn between two samples)" $
+      property $
+        forAll Generate.ring $ \c -> forAll (choose (0.001, 0.02)) $ \short ->
+          let xs = [Vec.x (Curve.at c (Generate.parameterOf c (k / 5000))) | k <- [0 .. 5000]]
+              x = maximum xs - short
+              sides = map (> x) xs
+           in length (Curve.atX x c) === length (filter id (zipWith (/=) sides (drop 1 sides)))
+    it "at an abscissa that it only touches there is one place (catches the place that is counted twice)" $
+      Curve.atX 50 (circleOf 60 50) `shouldSatisfy` \case
+        [0] -> True
+        [0, u] -> abs (u - 60) < 1e-6
+        _ -> False
+    it "corners: a polyline has them where it turns, a spline nowhere (catches ends that are taken for corners)" $
+      property $
+        forAll Generate.polyline $ \c ->
+          let turned u = let Rad a = Vec.turn (Curve.tangentFrom Before c u) (Curve.tangentFrom After c u) in abs a > 1e-6
+              inner = map fromIntegral [1 .. Curve.spans c - 1]
+           in Curve.corners c === [0 | Curve.isClosed c, turned 0] <> filter turned inner
+    it "corners: a square walked round has four" $
+      Curve.corners (Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 9 0, Vec.point 9 9, Vec.point 0 9, Vec.point 0 0])))
+        `shouldBe` [0, 1, 2, 3]
+    it "a spline that turns straight back has a direction at its turn (catches a division by a speed of zero)" $ do
+      let c = splineOf Natural [Vec.point 0 0, Vec.point 10 0, Vec.point 0 0]
+      (Curve.tangentFrom Before c 1, Curve.tangentFrom After c 1) `shouldSatisfy` \(a, b) -> Vec.dot a (Vec.vec 1 0) > 0.999 && Vec.dot b (Vec.vec 1 0) < -0.999
+
+  describe "curves turned" $ do
+    it "a similarity moves every place of a curve, shifts and all (catches a distance that does not grow with the rest)" $
+      property $
+        forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.similarity $ \s -> forAll Generate.parameter $ \t ->
+          let u = Generate.parameterOf c t
+           in close 1e-6 (Curve.at (Curve.transformed s c) u) (Similarity.point s (Curve.at c u))
+    it "a reversed curve passes the same places the other way (catches a column that is not reversed)" $
+      property $
+        forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
+          let u = Generate.parameterOf c t
+              n = Curve.domain c
+           in close 1e-6 (Curve.placeFrom Before (Curve.reversed c) (n - u)) (Curve.at c u)
+    it "every kind of curve occurs" $
+      checkCoverage $
+        forAll Generate.anyCurve $ \c ->
+          cover 5 (Curve.isClosed c) "closed" $
+            cover 5 (vertical c) "vertical tangent" $
+              cover 5 (Curve.spans c >= 20) "many spans" $
+                cover 5 (Curve.spans c == 1) "one span" $
+                  cover 5 (doublesBack c) "doubles back" True
+
+  describe "tables that make no curve" $ do
+    it "too few points" $ do
+      Curve.polyline (Exts.fromList [Vec.point 0 0]) `shouldBe` Left (TooFew 2)
+      Curve.spline Natural (Exts.fromList []) `shouldBe` Left (TooFew 2)
+      Curve.spline Periodic (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 0 0]) `shouldBe` Left (TooFew 3)
+      Curve.parabola (Exts.fromList [Vec.point 0 0]) `shouldBe` Left (TooFew 3)
+    it "a point twice: the first of the two rows is named" $
+      Curve.spline Natural (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 1 0, Vec.point 2 0]) `shouldBe` Left (Coincident 2)
+    it "parabolas of an even number of points" $
+      Curve.parabola (Exts.fromList [Vec.point k 0 | k <- [1 .. 4]]) `shouldBe` Left (EvenCount 4)
+    it "parabolas that turn back in x: the last row that goes on is named" $
+      Curve.parabola (Exts.fromList [Vec.point 0 0, Vec.point 2 1, Vec.point 1 2]) `shouldBe` Left (NotMonotone 2)
+    it "pieces that do not meet, and one without a length" $ do
+      Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| [Line (Vec.point 1 1) (Vec.point 2 0)]) (Exts.fromList []) `shouldBe` Left (Disjoint 1)
+      Curve.ofPieces (Quadratic 1 2 3 4 4 :| []) (Exts.fromList []) `shouldBe` Left (NoLength 1)
+    it "rows that do not come one behind the other" $
+      Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| []) (Exts.fromList [0, 0.5, 0.4]) `shouldBe` Left (Disordered 2)
+    it "a direction without a length" $
+      Curve.spline (Clamped (Vec.vec 0 0) (Vec.vec 1 0)) (Exts.fromList [Vec.point 0 0, Vec.point 1 0]) `shouldBe` Left NoDirection
+
+-- Helpers -----------------------------------------------------------------------------------
+
+splineOf :: Ends -> [Point] -> Curve
+splineOf ends points = Generate.ok (Curve.spline ends (Exts.fromList points))
+
+circleOf :: Int -> Double -> Curve
+circleOf n r = splineOf Periodic [Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 0 0) | k <- [0 .. n - 1]]
+
+-- | Points of a walk, with other ends.
+tableWith :: (Ends -> Ends) -> Gen Curve
+tableWith f = do
+  Table ends points <- Generate.winding
+  pure (splineOf (f ends) points)
+
+-- | Both ends, seen from the curve.
+outer :: Curve -> [(Approach, Double)]
+outer c = [(After, 0), (Before, Curve.domain c)]
+
+-- | The chord of the span that begins at a parameter, or at the end the last one's.
+chord :: Curve -> Double -> Double
+chord c u = Exts.toList (Base.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
+
+-- | The derivatives by the chord length.
+firstBy, secondBy :: Double -> Jet -> Vec
+firstBy h (Jet a b) = Vec.scale (1 / h) (Vec.vec (Series.coefficient 1 a) (Series.coefficient 1 b))
+secondBy h (Jet a b) = Vec.scale (2 / h / h) (Vec.vec (Series.coefficient 2 a) (Series.coefficient 2 b))
+
+joinsTwice :: Curve -> Property
+joinsTwice c =
+  conjoin
+    [ alike 1e-8 (firstBy (chord c (u - 1)) arriving) (firstBy (chord c u) leaving)
+        .&&. alike 1e-8 (secondBy (chord c (u - 1)) arriving) (secondBy (chord c u) leaving)
+      | u <- map fromIntegral [1 .. Curve.spans c - 1],
+        let arriving = Curve.jet Before 2 c u,
+        let leaving = Curve.jet After 2 c u
+    ]
+
+-- | The length up to a parameter by chords, twice, and what they tend to.
+chordSum :: Curve -> Double -> Double
+chordSum c u = sum [stretch a (min b u) | (a, b) <- zip bs (drop 1 bs), a < u]
+  where
+    bs = Curve.breaks c
+    stretch a b = let fine = chords a b 600 in fine + (fine - chords a b 300) / 3
+    chords a b n =
+      let place k = if k == n then Curve.placeFrom Before c b else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
+       in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
+
+spanLength :: Span -> Double
+spanLength s = case s of
+  Polynomial x y -> let at t = Vec.point (Spline.value x t) (Spline.value y t); Mm d = Vec.distance (at 0) (at 1) in d
+  Round (Arc {start, centre, sweep = Rad a}) -> let Mm r = Vec.distance centre start in r * abs a
+  Round (Straight p q) -> let Mm d = Vec.distance p q in d
+
+-- | Points 3–13 of the blade's template.
+template :: Curve
+template =
+  Generate.ok . Curve.parabola . Exts.fromList $
+    [Vec.point 35.50 4.95, Vec.point 44.95 10.52, Vec.point 53.81 14.57, Vec.point 61.65 16.83, Vec.point 70.85 18.76]
+
+-- | @a, b, c@ of every parabola, from three of its places.
+coefficients :: Curve -> [(Double, Double, Double)]
+coefficients c = [ofThree (Curve.at c u) (Curve.at c (u + 0.3)) (Curve.placeFrom Before c (u + 1)) | u <- map fromIntegral [0 .. Curve.spans c - 1]]
+  where
+    ofThree p q r =
+      let slope s t = (Vec.y t - Vec.y s) / (Vec.x t - Vec.x s)
+          a = (slope q r - slope p q) / (Vec.x r - Vec.x p)
+          b = slope p q - a * (Vec.x p + Vec.x q)
+       in (a, b, Vec.y p - Vec.x p * (b + a * Vec.x p))
+
+agrees :: (Double, Double, Double) -> (Double, Double, Double) -> Bool
+agrees (a, b, c) (a', b', c') = abs (a - a') < 1e-8 && abs (b - b') < 1e-6 && abs (c - c') < 1e-5
+
+vertical :: Curve -> Bool
+vertical c = let dx u = Vec.dot (Curve.tangent c u) (Vec.vec 1 0) in or [dx u * dx v < 0 | let us = [Generate.parameterOf c (k / 60) | k <- [0 .. 60]], (u, v) <- zip us (drop 1 us)]
+
+doublesBack :: Curve -> Bool
+doublesBack c = minimum [Vec.dot (Curve.tangent c 0) (Curve.tangent c (Generate.parameterOf c (k / 60))) | k <- [0 .. 60]] < -0.9
+
+close :: Double -> Point -> Point -> Property
+close tolerance p q = counterexample (show (p, q)) (Vec.distance p q <= Mm tolerance)
+
+alike :: Double -> Vec -> Vec -> Property
+alike tolerance v w = counterexample (show (v, w)) (Vec.norm (Vec.add v (Vec.negate w)) <= tolerance)
