@@ -306,7 +306,7 @@ spec = do
       Map.lookup "Compile" (reachable table)
         `shouldBe` Just
           ( Set.fromList
-              ["Base", "Report", "Surface", "Checked", "Geometry", "Part", "Path", "Machine", "Frame", "Tape", "Control", "Verify"]
+              ["Base", "Report", "Sheet", "Surface", "Checked", "Geometry", "Part", "Path", "Machine", "Frame", "Tape", "Control", "Verify"]
           )
 
   describe "check" $ do

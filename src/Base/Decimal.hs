@@ -12,6 +12,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Data.Char (digitToInt, isDigit)
+import Data.Maybe (fromMaybe)
 import Data.Ratio ((%))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -42,7 +43,7 @@ exact x
   | otherwise = short (mostDigits - 16) x
   where
     written = Text.pack (showFFloat Nothing x "")
-    digits = maybe written id (Text.stripSuffix ".0" written)
+    digits = fromMaybe written (Text.stripSuffix ".0" written)
 
 -- | The double nearest to a number as it is written: digits, and, if wanted, a point and more digits.
 amount :: Text -> Maybe Double

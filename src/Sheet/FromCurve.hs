@@ -43,7 +43,7 @@ piece at curve finish = do
   mapM_ (plain at) turned
   surface <- surfaceOf at (Vector.length base) turned
   rows <- maybe (refused (NoPiece at "a curve of no points" "")) pure (NonEmpty.nonEmpty (zipWith row (Vector.toList base) (maybe (repeat Nothing) (map Just) surface)))
-  let cipher = map recalculation turned <> [Bevelled | Just _ <- [surface], not (any isBevelled turned)]
+  let cipher = map recalculation turned <> [Bevelled | not (any isBevelled turned), Just _ <- [surface]]
   pure
     Piece
       { towards = here (if null cipher then LeftSide else sides),

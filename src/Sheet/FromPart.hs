@@ -22,8 +22,8 @@ import Part.Curve qualified as Curve
 import Part.Joint qualified as Joint
 import Part.Part (Milling, Part)
 import Part.Part qualified as Part
-import Sheet.FromCurve qualified as FromCurve
 import Sheet.FromCurve (here)
+import Sheet.FromCurve qualified as FromCurve
 import Sheet.Sheet
 import Sheet.Unfit (Unfit (..))
 

@@ -10,28 +10,17 @@ import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Control.Monad (unless, when)
 import Control.Monad.State.Strict (StateT, evalStateT, gets, lift, modify', put)
-import Data.Char (isSpace)
 import Data.Either (lefts, rights)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
-import Data.Text qualified as Text
-import Sheet.Error (Error (..), Misfit (..), Spot (..))
+import Sheet.Error (Error (..), Spot (..))
+import Sheet.PieceFromWords qualified as PieceFromWords
 import Sheet.Sheet
+import Sheet.Word (Entry (..), Symbol (..), figure)
+import Sheet.Word qualified as Word
 import Prelude hiding (read)
-
--- | What a word of the sheet is.
-data Symbol
-  = Figure Double
-  | -- | @-0@
-    Mark
-  | -- | a sign without digits
-    Plus
-  | Minus
-  deriving stock (Eq, Show)
-
-data Entry = Entry {spot :: Spot, symbol :: Symbol}
 
 -- | Read a sheet.
 read :: Text -> Result w Error Sheet
@@ -39,30 +28,7 @@ read text
   | not (null (lefts found)) = Result [] (lefts found) Nothing
   | otherwise = either (\e -> Result [] [e] Nothing) (Result [] [] . Just) (evalStateT sheet (Before {left = rights found, final' = Spot (Region 0 0) 1}))
   where
-    found = zipWith entry [1 ..] (wordsOf text)
-
--- Words
-
--- | The words of a text with their places.
-wordsOf :: Text -> [Located Text]
-wordsOf = go 0
-  where
-    go at rest = case Text.break isSpace here of
-      ("", _) -> []
-      (word, after) -> Located (Region from (from + Text.length word)) word : go (from + Text.length word) after
-      where
-        here = Text.dropWhile isSpace rest
-        from = at + Text.length rest - Text.length here
-
-entry :: Int -> Located Text -> Either Error Entry
-entry number (Located at word) = maybe (Left (NotANumber here word)) (Right . Entry here) $ case Text.uncons word of
-  Just ('+', "") -> Just Plus
-  Just ('-', "") -> Just Minus
-  Just ('+', digits) -> Figure <$> Decimal.amount digits
-  Just ('-', digits) -> (\x -> if x == 0 then Mark else Figure (negate x)) <$> Decimal.amount digits
-  _ -> Figure <$> Decimal.amount word
-  where
-    here = Spot at number
+    found = Word.entries text
 
 -- Reading
 
@@ -101,14 +67,6 @@ upToMark what = do
     [] -> do
       mapM_ (\e -> modify' (\b -> b {final' = spot e})) (listToMaybe (reverse inside))
       latest >>= \s -> refuse (EndMissing s what)
-
--- | A number with its place.
-figure :: Entry -> Maybe Number
-figure e = case symbol e of
-  Figure x -> Just (Located (site (spot e)) x)
-  Mark -> Nothing
-  Plus -> Nothing
-  Minus -> Nothing
 
 -- Parts of the sheet
 
@@ -177,7 +135,7 @@ generalWord count = do
 approachPoints :: Reader (NonEmpty Waypoint)
 approachPoints = do
   (inside, mark) <- upToMark "the -0 behind the points of the approach"
-  mapM_ (\e -> refuse (ApproachShifted (spot e) "A sign without a number is no coordinate and no feed.")) (filter ((`elem` [Plus, Minus]) . symbol) inside)
+  mapM_ (\e -> refuse (ApproachShifted (spot e) "A sign without a number is no coordinate and no feed.")) (filter Word.isSign inside)
   case fours [(spot e, n) | e <- inside, Just n <- [figure e]] of
     Just (p : ps) -> do
       mapM_ (\(s, w) -> when (value (feed w) <= 0) (refuse (ApproachShifted s "This feed is not above 0."))) (p : ps)
@@ -254,9 +212,9 @@ onwardPoint = do
 piece :: Reader (Piece, Maybe (Located Link))
 piece = do
   opening <- needed "a piece, or the feed 0 of the last point"
-  (negative, digits) <- cipherOf opening
+  (negative, digits) <- either refuse pure (PieceFromWords.cipherOf opening)
   (inside, mark) <- upToMark "the -0 behind a piece"
-  body <- either refuse pure (pieceOf opening negative digits inside mark)
+  body <- either refuse pure (PieceFromWords.pieceOf opening negative digits inside mark)
   link <- linkOf =<< needed "the link of a piece"
   left' <- needed "the allowance of a piece"
   allowance <- maybe (refuse (LinkMissing (spot left') "allowance")) pure (figure left')
@@ -271,88 +229,3 @@ linkOf e = case symbol e of
   Mark -> refuse (LinkMissing (spot e) "link")
   where
     here = pure . Just . Located (site (spot e))
-
--- | The digits of a cipher, and whether it has a minus sign.
-cipherOf :: Entry -> Reader (Bool, [Digit])
-cipherOf e = case symbol e of
-  Figure 0 -> pure (False, [])
-  Figure c | abs c == fromInteger (round c') && c' < 1e9 -> (c < 0,) <$> traverse digit (show (round c' :: Int))
-    where
-      c' = abs c
-  Figure _ -> unknown "A cipher is a whole number of at most nine digits."
-  Mark -> unknown "Here stands an end mark; a piece begins with its cipher."
-  Plus -> unknown "Here stands a sign without a number; a piece begins with its cipher."
-  Minus -> unknown "Here stands a sign without a number; a piece begins with its cipher."
-  where
-    unknown why = refuse (CipherUnknown (spot e) why)
-    digit c = case c of
-      '1' -> pure One
-      '2' -> pure Two
-      '4' -> pure Four
-      '6' -> pure Six
-      _ -> unknown ("It has the digit " <> Text.singleton c <> ".")
-
--- | The data of a piece: its cipher, the words up to the end mark, the mark. It has no allowance yet.
-pieceOf :: Entry -> Bool -> [Digit] -> [Entry] -> Entry -> Either Error Piece
-pieceOf opening negative digits inside mark = do
-  mapM_ (\e -> Left (PieceMisfit (spot e) (spot opening) LoneSign)) (filter ((`elem` [Plus, Minus]) . symbol) inside)
-  let numbers = [n | e <- inside, Just n <- [figure e]]
-      count = length numbers
-      (points, odd') = (count - before - behind - 1) `divMod` (each + again)
-  when (odd' /= 0) (misfit (CountOff before each behind again count))
-  when (points < 2) (misfit PointsFew)
-  let (heads, afterHeads) = splitAt before numbers
-      (body, afterBody) = splitAt (points * each) afterHeads
-      (tails, afterTails) = splitAt behind afterBody
-      (given, flag) = splitAt (points * again) afterTails
-      right = negative || any ((< 0) . value) (take 1 heads)
-  when (negative && any ((/= 0) . value) (take 1 heads)) $
-    Left (CipherUnknown (spot opening) "The sign before the first distance says the side; a cipher has a minus sign only where there is no such distance.")
-  slow <- maybe (Left (misfitAt (maybe (spot mark) spot (listToMaybe (reverse inside))) FlagOff)) Right (listToMaybe flag >>= flagOf)
-  rows <- maybe (misfit PointsFew) Right (NonEmpty.nonEmpty (map row (groups each body)))
-  let heads' = zipWith (\k h -> if k == (0 :: Int) then fmap abs h else h) [0 ..] heads
-  pure
-    Piece
-      { towards = Located (site (spot opening)) (if right then RightSide else LeftSide),
-        cipher = Located (site (spot opening)) (recalculations digits heads' tails (groups points given)),
-        rows,
-        slow,
-        allowance = Located (site (spot mark)) 0
-      }
-  where
-    before = length (filter (`elem` [One, Two]) digits)
-    each = if Four `elem` digits then 4 else 2
-    behind = length (filter (== One) digits)
-    again = length (filter (== Six) digits)
-    misfitAt s = PieceMisfit s (spot opening)
-    misfit :: Misfit -> Either Error a
-    misfit = Left . misfitAt (spot mark)
-    flagOf n = case value n of
-      0 -> Just (False <$ n)
-      1 -> Just (True <$ n)
-      _ -> Nothing
-
-row :: [Number] -> Row
-row numbers = case numbers of
-  [px, py, mu, flange] -> Row {px, py, surface = Just Surface {mu, flange}}
-  px : py : _ -> Row {px, py, surface = Nothing}
-  _ -> Row {px = nowhere, py = nowhere, surface = Nothing}
-  where
-    -- Groups are of two or of four.
-    nowhere = Located (Region 0 0) 0
-
--- | Stretches of one length.
-groups :: Int -> [a] -> [[a]]
-groups size list = case splitAt size list of
-  ([], _) -> []
-  (one, rest) -> one : groups size rest
-
--- | The recalculations of a cipher: its digits, the distances before the points, those behind them, those for
--- each point.
-recalculations :: [Digit] -> [Number] -> [Number] -> [[Number]] -> [Recalculation]
-recalculations digits heads tails given = case (digits, heads, tails, given) of
-  (One : ds, h : hs, t : ts, _) -> Growing h t : recalculations ds hs ts given
-  (Two : ds, h : hs, _, _) -> Constant h : recalculations ds hs tails given
-  (Four : ds, _, _, _) -> Bevelled : recalculations ds heads tails given
-  (Six : ds, _, _, g : gs) | Just g' <- NonEmpty.nonEmpty g -> Pointwise g' : recalculations ds heads tails gs
-  _ -> []

@@ -8,6 +8,7 @@ import Compile qualified
 import Control.Exception (evaluate)
 import Control.Monad (forM_)
 import Data.ByteString qualified as ByteString
+import Data.Either (fromLeft)
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -46,7 +47,7 @@ spec = do
             Left codes -> (n, codes) `shouldSatisfy` (not . null . snd)
     it "stops as the Minsk-22 did where points or data of a piece are shifted" $ do
       let left = variants (const []) (Text.words rib)
-          codesOf (n, text) = (n, either id (const []) (fromTextCodes text))
+          codesOf (n, text) = (n, fromLeft [] (fromTextCodes text))
           stops code = sort [n | (n, [c]) <- map codesOf left, c == Code code]
       -- The eight numbers of the approach.
       [n | n <- [17 .. 24], n `notElem` stops "E0904"] `shouldBe` []
@@ -59,21 +60,23 @@ spec = do
     modifyMaxSuccess (const 30) . prop "sheet, part, sheet: the numbers are the same" $
       forAll Generate.cut $ \s ->
         let text = ToText.write s
-         in counterexample (Text.unpack text) $ classify (not (null (fst (exported "x.sheet" text)))) "without a part" $ case exported "x.sheet" text of
-              ([], again) -> again === Just text
-              (codes, _) -> counterexample (show codes) (all (`notElem` codes) [Code "E0921", Code "E0922", Code "E0923", Code "E0924", Code "E0925", Code "E0926", Code "E0927"])
+         in counterexample (Text.unpack text) $
+              classify (not (null (fst (exported "x.sheet" text)))) "without a part" $ case exported "x.sheet" text of
+                ([], again) -> again === Just text
+                (codes, _) -> counterexample (show codes) (all (`notElem` codes) [Code "E0921", Code "E0922", Code "E0923", Code "E0924", Code "E0925", Code "E0926", Code "E0927"])
     -- Catches a program whose text says something else than the sheet.
     modifyMaxSuccess (const 10) . prop "sheet, program, sheet: the frames are the same" $
       forAll Generate.cut $ \s ->
         let text = ToText.write s
             program = ToSurface.text s
-         in counterexample (Text.unpack program) $ ioProperty $ do
-              a <- judged "x.sheet" text
-              b <- judged "x.part" program
-              c <- case exported "x.part" program of
-                ([], Just again) -> judged "x.sheet" again
-                _ -> pure a
-              pure (a === b .&&. a === c)
+         in counterexample (Text.unpack program) $
+              ioProperty $ do
+                a <- judged "x.sheet" text
+                b <- judged "x.part" program
+                c <- case exported "x.part" program of
+                  ([], Just again) -> judged "x.sheet" again
+                  _ -> pure a
+                pure (a === b .&&. a === c)
     it "gives the example back, to the letter" $
       exported "x.sheet" rib `shouldBe` ([], Just rib)
     it "gives every good sheet back" $ do
