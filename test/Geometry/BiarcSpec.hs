@@ -66,6 +66,9 @@ spec = do
     it "approximate: every point of the arcs is near the curve (catches an arc the long way round)" $
       property $
         forAll tracked arcsLaw
+    it "approximate: so it is where the curve turns back within a radius far below the tolerance (catches an arc that overshoots)" $
+      property $
+        forAll turning arcsLaw
     it "approximate: no kink but at corners, and a group for each stretch between them (catches a small kink taken for a corner)" $
       property $
         forAll tracked kinkLaw
@@ -245,6 +248,8 @@ data Curve
     Cubic Bool [Node]
   | -- | lines and arcs that go over into one another: lengths and curvatures
     Bends [(Double, Double)]
+  | -- | nearly a cusp: the speed at its tip
+    Cusp Double [Double]
   deriving stock (Show)
 
 type Node = (Point, Double, Double, Double, Double)
@@ -254,6 +259,9 @@ tracked = Tracked <$> curve 1 <*> ((10 **) <$> choose (-3, 0))
 
 large :: Gen Tracked
 large = Tracked <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> breaking 12) <*> pure 1e-5
+
+turning :: Gen Tracked
+turning = Tracked <$> (Cusp <$> choose (0.05, 3) <*> breaking 3) <*> ((10 **) <$> choose (-2, 0))
 
 curve :: Double -> Gen Curve
 curve size =
@@ -294,6 +302,7 @@ closedCurve c = case c of
   Quartic {} -> False
   Cubic closed _ -> closed
   Bends _ -> False
+  Cusp _ _ -> False
 
 -- | The jumps of direction inside the curve.
 jumps :: Curve -> [Double]
@@ -319,6 +328,7 @@ trackOf c = case c of
   Ellipse a b bs -> analytic bs (\u -> Vec.point (a * cos u) (b * sin u)) (\u -> Vec.vec (-(a * sin u)) (b * cos u))
   Lissajous a b bs -> analytic bs (\u -> Vec.point (a * cos (3 * u)) (b * sin (2 * u))) (\u -> Vec.vec (-(3 * a * sin (3 * u))) (2 * b * cos (2 * u)))
   Quartic k bs -> analytic bs (\u -> Vec.point (10 * (u - 1.5)) (k * (u - 1.5) ** 4)) (\u -> Vec.vec 10 (4 * k * (u - 1.5) ^ (3 :: Int)))
+  Cusp e bs -> analytic bs (\u -> let v = u - 1.5 in Vec.point (10 * v * v) (5 * v ^ (3 :: Int) + e * v)) (\u -> let v = u - 1.5 in Vec.vec (20 * v) (15 * v * v + e))
   Cubic closed nodes ->
     let spans = zip nodes (drop 1 nodes <> take 1 nodes)
         n = if closed then length nodes else length nodes - 1
