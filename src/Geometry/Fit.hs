@@ -28,17 +28,17 @@ import Geometry.Tolerance qualified as Tolerance
 -- kinds are simplest in sum, then that the sum of the deviations is least. Two neighbouring rows can always be joined
 -- by a line.
 --
--- A piece that misses by more than /twice/ the tolerance d is not extended, and none is lost by that. Say that a piece A
--- from row i goes on beyond row j and keeps within d, and that B is the best of its kind from i to j, missing by D. The
--- difference of two parabolas, or of two arcs that are single-valued in x, from one point on is monotone behind the
--- second point that they have in common (the sine of an arc's slope is linear in x). B misses by D on one side at some
--- row and on the other side at another, or it has a vertical tangent at an end, with the same result. If D > d,
--- A − B has its second zero between these rows, is at least D − d at the later one, and no smaller at row j; but there it
--- is at most d. So D is at most 2·d.
+-- A piece that misses by more than /twice/ the tolerance d is not extended, and none is lost by that. Say that a
+-- piece A from row i goes on beyond row j and keeps within d, and that B is the best of its kind from i to j, missing
+-- by D. The difference of two parabolas, or of two arcs that are single-valued in x, from one point on is monotone
+-- behind the second point that they have in common (the sine of an arc's slope is linear in x). B misses by D on one
+-- side at some row and on the other side at another, or it has a vertical tangent at an end, with the same result. If
+-- D > d, A − B has its second zero between these rows, is at least D − d at the later one, and no smaller at row j;
+-- but there it is at most d. So D is at most 2·d.
 --
--- With n rows, and pieces over at most m of them at twice the tolerance, n·m pairs of rows are looked at, each in a few
--- passes over the rows between. One piece over the whole table is found at once; the worst is three, about n³/27 times
--- a few passes (300 rows half a second, 1000 rows some seconds).
+-- With n rows, and pieces over at most m of them at twice the tolerance, n·m pairs of rows are looked at, each in a
+-- few passes over the rows between. One piece over the whole table is found at once; the worst is three, about n³/27
+-- times a few passes (300 rows half a second, 1000 rows some seconds).
 fit :: NonEmpty Kind -> Mm -> Table -> NonEmpty Piece
 fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
   where
@@ -87,9 +87,9 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
     advance reached layer =
       IntMap.fromListWith min [(j, max before (minimum (fmap snd ks))) | (i, ps) <- IntMap.toList layer, Just before <- [IntMap.lookup i reached], (j, ks) <- ps]
 
--- | The simplest chain with that largest deviation: first row, last row and kind of each piece. The sum of the deviations
--- is taken in steps of 'Tolerance.equal', so that rounding does not choose; of chains that are alike the one with the
--- earlier rows.
+-- | The simplest chain with that largest deviation: first row, last row and kind of each piece. The sum of the
+-- deviations is taken in steps of 'Tolerance.equal', so that rounding does not choose; of chains that are alike the
+-- one with the earlier rows.
 simplest :: Table -> Layers -> Double -> NonEmpty (Int, Int, Kind)
 simplest t steps deviation = case NonEmpty.nonEmpty (reverse walk) of
   Just chain -> chain
@@ -122,8 +122,9 @@ data Flaw
     EndsEarly Int Int
   deriving stock (Eq, Show)
 
--- | The pieces that the user has chosen: for each the rows, counted from 1, that it goes through. Two are joined by a line, three by
--- a parabola. Each begins with the row with which the one before ends, the first with row 1; the last ends with the last row.
+-- | The pieces that the user has chosen: for each the rows, counted from 1, that it goes through. Two are joined by a
+-- line, three by a parabola. Each begins with the row with which the one before ends, the first with row 1; the last
+-- ends with the last row.
 sections :: Table -> [[Int]] -> Either Flaw (NonEmpty Piece)
 sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections

@@ -400,7 +400,8 @@ arcsLaw w@(Tracked c tolerance) = forAll (vectorOf 40 ((,) <$> choose (0, length
     near = nearest (trackOf c)
     ss = chain w
 
--- | The distance from a point to a curve, and where: about the nearest of many points on each strand nearby, more points.
+-- | The distance from a point to a curve, and where: about the nearest of many points on each strand nearby, more
+-- points.
 nearest :: Track -> Point -> (Double, Double)
 nearest t = \p -> minimum [closer p (14 :: Int) step u | (_, u) <- take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))]
   where
@@ -421,8 +422,9 @@ kinkLaw (Tracked c tolerance) =
   where
     groups = Track.approximate (Mm tolerance) (trackOf c)
 
--- | Against the fewest biarcs of any of some ratios between 65 points of the curve. One biarc ends and the next begins where a
--- joint has the curve's place and direction. On a rough scale a biarc can hold where all shorter ones do not; that may cost one more. Of lines and arcs that may be the joint in the middle; there segments are counted.
+-- | Against the fewest biarcs of any of some ratios between 65 points of the curve. One biarc ends and the next
+-- begins where a joint has the curve's place and direction. On a rough scale a biarc can hold where all shorter ones
+-- do not; that may cost one more. Of lines and arcs that may be the joint in the middle; there segments are counted.
 fewLaw :: Tracked -> Property
 fewLaw w@(Tracked c tolerance) =
   corners c == 0 && not (kinks c) && length ss <= 40 ==> counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + slack + rough :: Double))
