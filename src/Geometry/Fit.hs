@@ -137,7 +137,7 @@ height p x
 
 -- | A piece as an equation.
 data Formula
-  = -- | @y = a·x² + b·x + c@; a is 0 for a line
+  = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that hardly bends
     Polynomial Double Double Double
   | -- | centre and radius
     Circle Point Mm
@@ -148,11 +148,17 @@ formula :: Piece -> Formula
 formula p = case curve p of
   Line -> polynomial 0
   Parabola a -> polynomial a
-  Arc (Rad t) -> let c = centre p t in Circle c (Vec.distance c (from p))
+  Arc (Rad t)
+    | flat t -> polynomial 0
+    | otherwise -> let c = centre p t in Circle c (Vec.distance c (from p))
   where
     Chord w h = chordOf (from p) (to p)
     (x1, y1, x2) = (Vec.x (from p), Vec.y (from p), Vec.x (to p))
     polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
+
+-- | Whether an arc is as good as its chord.
+flat :: Double -> Bool
+flat t = Rad (2 * abs t) <= Tolerance.straight
 
 -- | The centre of an arc: on the perpendicular bisector of its chord.
 centre :: Piece -> Double -> Point
@@ -167,7 +173,7 @@ segment p = case curve p of
   Line -> Just (Straight (from p) (to p))
   Parabola _ -> Nothing
   Arc (Rad t)
-    | Rad (2 * abs t) <= Tolerance.straight -> Just (Straight (from p) (to p))
+    | flat t -> Just (Straight (from p) (to p))
     | otherwise -> Just (Segment.arc (if (t > 0) == (Vec.x (to p) > Vec.x (from p)) then Clockwise else CounterClockwise) (centre p t) (from p) (to p))
 
 -- | From one end of a piece to the other, in x and in y.
@@ -312,7 +318,7 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
       | j > final || null alive = []
       | otherwise =
         let ms = misses alive i j
-            onward = [k | (k, d) <- ms, d <= tolerance + within] <> [k | j == i + 1, k <- alive, k `notElem` map fst ms]
+            onward = if j == i + 1 then alive else [k | (k, d) <- ms, d <= tolerance + within]
             good = [m | m@(_, d) <- ms, d <= within]
          in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow i (j + 1) onward)
     misses ks i j
@@ -326,18 +332,19 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
     advance reached layer =
       IntMap.fromListWith min [(j, max before (minimum (fmap snd ks))) | (i, ps) <- IntMap.toList layer, Just before <- [IntMap.lookup i reached], (j, ks) <- ps]
 
--- | The simplest chain with that largest deviation: first row, last row and kind of each piece.
+-- | The simplest chain with that largest deviation: first row, last row and kind of each piece. The sum of the deviations is taken in
+-- steps of 'Tolerance.equal', so that rounding does not choose; of chains that are alike the one with the earlier rows.
 simplest :: Table -> Layers -> Double -> NonEmpty (Int, Int, Kind)
 simplest t steps deviation = case NonEmpty.nonEmpty (reverse walk) of
   Just chain -> chain
   Nothing -> (0, rows t - 1, LineKind) :| []
   where
-    (_, _, walk) = minimumBy (comparing cost) (IntMap.elems (foldl advance (IntMap.singleton 0 (0 :: Int, 0, [])) steps))
+    (_, _, walk) = minimumBy (comparing cost) (IntMap.elems (foldl advance (IntMap.singleton 0 (0 :: Int, 0 :: Int, [])) steps))
     cost (rank, total, _) = (rank, total)
     advance reached layer =
       IntMap.fromListWith
         (\new old -> if cost new < cost old then new else old)
-        [ (j, (rank + fromEnum k, total + d, (i, j, k) : chain))
+        [ (j, (rank + fromEnum k, total + round (d / Tolerance.equal), (i, j, k) : chain))
           | (i, ps) <- IntMap.toList layer,
             Just (rank, total, chain) <- [IntMap.lookup i reached],
             (j, ks) <- ps,

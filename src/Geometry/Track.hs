@@ -106,9 +106,15 @@ data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, off :: Double
 -- the step where the curve is smooth; the next step to try is taken from that, between the longest that held and
 -- the shortest that did not.
 furthest :: Walk -> Double -> Trial
-furthest w = search (24 :: Int) Nothing Nothing
+furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
   where
     u = at w
+    -- On a rough scale longer biarcs can hold where shorter ones do not.
+    beyond best
+      | final w - u > 16 * (reached best - u) = best
+      | otherwise = case [t | f <- [2.2, 1.8, 1.5, 1.25], let v = u + f * (reached best - u), v < final w, let t = try w v, off t <= aim w] of
+        [] -> best
+        t : _ -> search (8 :: Int) (Just t) Nothing (1.1 * (reached t - u))
     search left held missed step
       | step <= least = fromMaybe forced held
       | off found <= aim w = if enough found then found else search (left - 1) (Just found) missed (longer found)

@@ -114,17 +114,17 @@ spec = do
     it "compile to the tape of the program that import makes, and come back from it" $
       inFolder $ \folder -> do
         let there = (folder </>)
-        partc ["compile", "examples/rib.sheet", "-o", there "a.tape"] `shouldReturn` (ExitSuccess, "", "")
-        partc ["import", "examples/rib.sheet", "-o", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["compile", "examples/spar.sheet", "-o", there "a.tape"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["import", "examples/spar.sheet", "-o", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
         partc ["fmt", "--check", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
         partc ["compile", there "rib.part", "-o", there "b.tape"] `shouldReturn` (ExitSuccess, "", "")
         a <- ByteString.readFile (there "a.tape")
         ByteString.readFile (there "b.tape") `shouldReturn` a
-        sheet <- readFile "examples/rib.sheet"
+        sheet <- readFile "examples/spar.sheet"
         partc ["export-sheet", there "rib.part"] `shouldReturn` (ExitSuccess, sheet, "")
     it "are no programs: no parameters, no layout, not over themselves" $
       inFolder $ \folder -> do
-        ByteString.readFile "examples/rib.sheet" >>= ByteString.writeFile (folder </> "rib.sheet")
+        ByteString.readFile "examples/spar.sheet" >>= ByteString.writeFile (folder </> "rib.sheet")
         forM_ [(["check", "--set", "h=1"], "E0913"), (["fmt"], "E0914"), (["import", "-o", folder </> "rib.sheet"], "E0807"), (["export-sheet", "-o", folder </> "rib.sheet"], "E0807")] $ \(arguments, wanted) -> do
           (code, out, err) <- partc (arguments <> [folder </> "rib.sheet"])
           (code, out) `shouldBe` (ExitFailure 1, "")

@@ -1,6 +1,6 @@
 -- | The laws of biarcs. Each says which bug it would catch. Distances are measured here by other means than in the
 -- program: to an arc by angles, to the curve by the nearest of many of its points.
-module Geometry.BiarcSpec where
+module Geometry.BiarcSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Data.Foldable (toList)
@@ -412,10 +412,10 @@ kinkLaw (Tracked c tolerance) =
     groups = Track.approximate (Mm tolerance) (trackOf c)
 
 -- | Against the fewest biarcs of any of some ratios between 65 points of the curve. One biarc ends and the next begins where a
--- joint has the curve's place and direction. Of lines and arcs that may be the joint in the middle; there segments are counted.
+-- joint has the curve's place and direction. On a rough scale a biarc can hold where all shorter ones do not; that may cost one more. Of lines and arcs that may be the joint in the middle; there segments are counted.
 fewLaw :: Tracked -> Property
 fewLaw w@(Tracked c tolerance) =
-  corners c == 0 && not (kinks c) && length ss <= 40 ==> counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + slack :: Double))
+  corners c == 0 && not (kinks c) && length ss <= 40 ==> counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + slack + rough :: Double))
   where
     ss = chain w
     t = trackOf c
@@ -423,10 +423,11 @@ fewLaw w@(Tracked c tolerance) =
     (found, size, slack) = case c of
       Bends _ -> (length ss, length, 2)
       _ -> (1 + length (filter ends (drop 1 ss)), const 1, 1)
+    rough = if fewest < 5 then 1 else 0
     ends s =
-      let (d, u) = near (Segment.start s)
+      let (_, u) = near (Segment.start s)
           Rad off = Vec.turn (Segment.startDirection s) (direction t Leaving u)
-       in d < 1e-3 * tolerance && abs off < 5e-6
+       in abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9 && abs off < 5e-6
     n = 64 :: Int
     us = IntMap.fromList (zip [0 ..] (parameters n t))
     best = IntMap.fromList (zip [0 ..] (0 : map upTo [1 .. n])) :: IntMap Int

@@ -35,7 +35,7 @@ import Test.QuickCheck hiding (Result (..), again)
 
 spec :: Spec
 spec = do
-  rib <- runIO (readText "examples/rib.sheet")
+  rib <- runIO (readText "examples/spar.sheet")
   describe "a sheet with one number changed" $ do
     -- Catches a shift that is taken for data, and a fault of ours on strange data.
     forM_ [("left out", const []), ("doubled", \w -> [w, w]), ("an end mark", const ["-0"])] $ \(what, change) ->
