@@ -223,11 +223,11 @@ pieceOf m leg = case Part.source leg of
     at = Part.spot leg
     leans = [b | e <- toList (Part.elements (Part.contour m)), Part.origin e == at, Just b <- [Part.bevel e]]
 
--- | A blade swivels on every piece with a bevel, by that bevel.
+-- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all.
 swivelling :: Region -> Piece -> [(Double, Double)] -> Result w Unfit ()
 swivelling at made leans
-  | surfaced made /= not (null leans) = refused (NoCipher at "the blade does not swivel by the bevel of its cipher" "Behind an element with a 4 write: bevel mu")
-  | any (\b -> b < low - slack || b > high + slack) (concat [[a, b] | surfaced made, (a, b) <- leans]) = refused (NoCipher at "the blade swivels by another bevel than that of its cipher" "Behind an element with a 4 write: bevel mu")
+  | surfaced made && null leans = refused (NoCipher at "the blade does not swivel by the bevel of its cipher" "Behind an element with a 4 write: bevel mu")
+  | any (\b -> b < low - slack || b > high + slack) (concat [[a, b] | (a, b) <- leans]) = refused (NoCipher at "the blade swivels by another bevel than that of its cipher" "Behind an element with a 4 write: bevel mu; behind another one: bevel 0")
   | otherwise = pure ()
   where
     bevels = [value (mu s) * pi / 180 | r <- toList (rows made), Just s <- [surface r]]

@@ -195,7 +195,7 @@ item swivels count piece link =
   where
     at = region (cipher piece)
     modifiers =
-      [Located at (Surface.Bevel (Located at (Variable (Name "mu")))) | swivels && surfaced piece]
+      [Located at (Surface.Bevel (if surfaced piece then Located at (Variable (Name "mu")) else bare (Located at 0))) | swivels]
         <> [Located (region (slow piece)) Surface.Slow | value (slow piece)]
         <> [Located (region (allowance piece)) (Surface.ElementAllowance (bare (allowance piece))) | value (allowance piece) /= 0]
     linked (Located r l) = Located r $ case l of
