@@ -163,7 +163,7 @@ outside c = (Contour.signedArea (contour c) > 0) == (side c == RightOf)
 job :: Case -> Milling
 job c =
   Milling
-    { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s (Region 0 0) Part.plainFinish False Nothing) (segments (contour c))) [],
+    { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s (Region 0 0) Part.plainFinish False False Nothing) (segments (contour c))) [],
       Part.work = Part.Milled,
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,

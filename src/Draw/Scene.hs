@@ -138,7 +138,7 @@ shapeOf :: Sheet -> [Milling] -> Part.Contour -> Shape
 shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Sheet.segment sheet) (NonEmpty.toList (Contour.segments bare))}
   where
     bare = Part.outline c
-    matter = case mapMaybe sideOf (filter (\m -> contour m == c) millings) of
+    matter = case mapMaybe sideOf (filter (\m -> Part.outline (contour m) == bare) millings) of
       side : _ | Part.ends c == Closed -> if (side == Offset.LeftOf) == (Contour.signedArea bare > 0) then Beyond else Within
       _ -> Unknown
 

@@ -293,9 +293,14 @@ begun shape a b = case shape of
 
 -- | The segments of one element from a place on it. Those that go on smoothly on the same curve are marked.
 marked :: Walk -> Mm -> [Segment] -> [Element]
-marked Walk {place, finish, bevel} (Mm from) ss = zipWith3 element ss (False : zipWith goesOn ss (drop 1 ss)) (zip marks (drop 1 marks))
+marked Walk {place, shape, finish, bevel} (Mm from) ss = zipWith3 element ss (False : zipWith goesOn ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
-    element s continues (a, b) = Element s place finish continues ((,) <$> leaning bevel a <*> leaning bevel b)
+    element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning bevel a <*> leaning bevel b)
+    isCurve = case shape of
+      OnCurve _ -> True
+      OnLine _ -> False
+      OnCircle _ _ -> False
+      AtPoint _ -> False
     marks = scanl (\s g -> let Mm l = Segment.length g in s + l) from ss
     goesOn a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned <= smooth
     Rad smooth = Tolerance.smoothAngle
@@ -317,6 +322,6 @@ elementsOf walks begin before route = go walks begin before (reverse (taken rout
     go ws at came js = case (ws, js) of
       (w@Walk {place, shape, link} : rest, joint : more) ->
         marked w (begun shape at (leave joint)) (stretch shape came (inserted joint) at (leave joint))
-          <> [Element s (maybe place fst link) plainFinish False Nothing | Just s <- [inserted joint]]
+          <> [Element s (maybe place fst link) plainFinish False False Nothing | Just s <- [inserted joint]]
           <> go rest (enter joint) (inserted joint) more
       _ -> []

@@ -237,7 +237,10 @@ toReport (Error fact calls) = addCalls $ case fact of
   NoMeeting j gap ->
     (joined "E0311" j (things j <> " do not meet: they miss one another by " <> Decimal.mm gap))
       { message = [stop "17533"],
-        hints = ["Correct the numbers; circles that are apart are joined by tangent or fillet, and a line begins at the point before it."]
+        hints =
+          if any isCurve [before j, after j]
+            then ["A curve ends with the last row of its table, a piece where its curve ends. Correct the numbers, or join them by a line: line(end_of(a), start_of(b))."]
+            else ["Correct the numbers; circles that are apart are joined by tangent or fillet, and a line begins at the point before it."]
       }
   ParallelLines j gap ->
     (joined "E0312" j ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
@@ -267,10 +270,15 @@ toReport (Error fact calls) = addCalls $ case fact of
     (joined "E0316" j "the elements touch here, but the walk would have to turn back")
       { hints = ["Change the sense (cw, ccw) of a circle or the direction of a line."]
       }
-  TangentNeedsCircles j ->
-    (joined "E0317" j "a tangent joins circles, not a line that is already there")
-      { hints = ["If the line touches the circle, write smooth; to round the corner, write fillet and a radius."]
-      }
+  TangentNeedsCircles j
+    | any isCurve [before j, after j] ->
+      (joined "E0317" j "a tangent joins circles, not a curve")
+        { hints = ["If its neighbour goes on where the curve ends, write smooth; to round the corner, write fillet and a radius."]
+        }
+    | otherwise ->
+      (joined "E0317" j "a tangent joins circles, not a line that is already there")
+        { hints = ["If the line touches the circle, write smooth; to round the corner, write fillet and a radius."]
+        }
   ConcentricTangent j ->
     (joined "E0318" j "concentric circles have no common tangent")
       { message = [stop "17533"]
@@ -459,6 +467,13 @@ joined code j title =
   (at (link j) code title)
     { others = [Label r (describe w) | (r, w) <- [before j, after j], r /= link j]
     }
+
+isCurve :: (Region, Walked) -> Bool
+isCurve (_, walked) = case walked of
+  OnCurve _ -> True
+  OnLine _ -> False
+  OnCircle _ _ -> False
+  AtPoint _ -> False
 
 things :: Joined -> Text
 things j = describe (snd (before j)) <> " and " <> describe (snd (after j))

@@ -90,6 +90,8 @@ data Element = Element
     -- | it goes on, without a corner, with the curve of the element before: one of the arcs that a curve is
     -- replaced by
     continues :: Bool,
+    -- | it is one of the arcs that a curve is replaced by
+    ofCurve :: Bool,
     -- | how far its surface leans from the axis of the tool at its beginning and its end, in radians, if it is said
     bevel :: Maybe (Double, Double)
   }

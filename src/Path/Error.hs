@@ -193,6 +193,8 @@ worked tool = case work tool of
 
 shape :: Element -> Text
 shape element = case segment element of
+  Straight _ _ | ofCurve element -> "the curve"
+  Arc {start, centre} | ofCurve element -> "the curve, here of radius " <> Decimal.mm (Segment.radius centre start)
   Straight a b -> "the line from " <> Vec.written 3 a <> " to " <> Vec.written 3 b
   Arc {start, centre, sweep = Rad s} ->
     "the " <> (if s > 0 then "counter-clockwise" else "clockwise") <> " arc of radius " <> Decimal.mm (Segment.radius centre start) <> " about " <> Vec.written 3 centre

@@ -38,6 +38,8 @@ data Error
     ManyCoordinates Region
   | -- | a file that cannot be imported: its name as it is written, and why
     ImportMissing Region Text Text
+  | -- | a file of a table that cannot be read: its name as it is written, and why
+    LinesMissing Region Text Text
   | -- | files that import one another, the first again at the end
     ImportCycle Region [Text]
   | -- | a file for a table with nothing in it
@@ -119,6 +121,10 @@ toReport err = case err of
   ManyCoordinates region ->
     (at region "E0111" "a point has two or three coordinates")
       { hints = ["A decimal point is a point: 59.3. A comma separates values.", "A list stands in square brackets: [1, 2, 3, 4]."]
+      }
+  LinesMissing region name why ->
+    (at region "E0112" ("the table " <> quote name <> " cannot be read: " <> why))
+      { hints = ["The name is looked for from the folder of the file that names it."]
       }
   ImportMissing region name why ->
     (at region "E0112" (quote name <> " cannot be imported: " <> why))

@@ -89,7 +89,7 @@ linesIn :: Monad m => Reader m -> Region -> FilePath -> Text -> StateT Progress 
 linesIn reader at file name = do
   content <- lift (reader file)
   case content of
-    Left why -> Nothing <$ modify' (\p -> p {found = ImportMissing at name why : found p})
+    Left why -> Nothing <$ modify' (\p -> p {found = LinesMissing at name why : found p})
     Right text -> do
       progress <- get
       let (errors, rows) = Csv.table (Region.next (texts progress)) text

@@ -10,6 +10,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (Located))
 import Base.Region qualified as Region
+import Data.Char (isDigit)
 import Data.List (transpose)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -118,8 +119,14 @@ table :: Commented -> Int -> [Line] -> [Row]
 table commented indent ls = map row written
   where
     written = [cellsOf l | Located _ l <- ls, readable l]
-    row texts = Row {indent, cells = Whole (Text.stripEnd (Text.intercalate "  " (zipWith (\w -> Text.justifyLeft w ' ') (widths <> repeat 0) texts))), continues = False}
-    widths = map (maximum . map Text.length) (transpose written)
+    row texts = Row {indent, cells = Whole (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))), continues = False}
+    place front width text' = Text.justifyLeft width ' ' (pointed front text')
+    -- Decimal points stand below one another.
+    pointed front text' = if isNumber text' then Text.replicate (front - frontOf text') " " <> text' else text'
+    frontOf = Text.length . Text.takeWhile (\c -> isDigit c || c == '-')
+    isNumber text' = Text.any (\c -> isDigit c || c == '-') (Text.take 1 text')
+    fronts = map (maximum . (0 :) . map frontOf . filter isNumber) (transpose written) <> repeat 0
+    widths = zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose written) <> repeat 0
     cellsOf l = case l of
       Header columns -> [name <> maybe "" ((" " <>) . unitName) unit | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns]
       Entries es -> map cell (NonEmpty.toList es)
@@ -144,7 +151,7 @@ piece commented e ciphers side joggles =
       (first, comma) : rest -> words' [Text "cipher", cipher first comma] : map (uncurry cipher) rest
     cipher (Located region (Cipher (Located _ digit) es)) comma = Beside [PrintExpr.group' commented region (digits digit <> "(") es, Text comma]
     joggle (Located _ (Joggle from to depth radius)) =
-      [words' [Text "joggle from", value from, Text "to", value to], words' [Text "depth", value depth], words' [Text "radius", value radius]]
+      [words' [Text "joggle from", value from, Text "to", value to, Text "depth", value depth, Text "radius", value radius]]
 
 -- | @if c { … } else if d { … } else { … }@: what stands before the condition, how conditions and blocks are
 -- laid out, and whether a block is nothing but another choice.

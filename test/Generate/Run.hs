@@ -118,7 +118,7 @@ parts n s
 
 -- | Chains as the elements of a contour: of each the arcs behind the first continue.
 elements :: [[Segment]] -> [Element]
-elements = concatMap (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) Nothing) [0 :: Int ..])
+elements = concatMap (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing) [0 :: Int ..])
 
 -- | A chain as the moves of one run at a height.
 run :: [Segment] -> NonEmpty Move
