@@ -132,7 +132,9 @@ text Style {size, ink, bold} anchor p words' =
 
 -- | About how wide a text is in a size, rather too much than too little.
 textWidth :: Double -> Text -> Double
-textWidth size words' = 0.6 * size * fromIntegral (DocLayout.realLength words')
+textWidth size words' = 0.6 * size * (fromIntegral (DocLayout.realLength words') + 0.45 * fromIntegral (Text.length (Text.filter wide words')))
+  where
+    wide c = c `elem` ("MWmwЖМФШЩЫЮжмфшщыю" :: String)
 
 -- | A character that XML can not hold becomes a blank.
 printable :: Text -> Text

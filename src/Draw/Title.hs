@@ -111,8 +111,10 @@ fitted :: Style -> Point -> Text -> Svg
 fitted style p words' = Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)
   where
     room = rightmost Sheet.strip - 3 - Vec.x p
-    fits s w = Svg.textWidth s w <= room
-    chosen = max 2 (min (size style) (size style * room / max 1 (Svg.textWidth (size style) words')))
+    fits s w = widthOf s w <= room
+    chosen = max 2 (min (size style) (size style * room / max 1 (widthOf (size style) words')))
+    -- Bold letters are wider.
+    widthOf s w = (if bold style then 1.1 else 1) * Svg.textWidth s w
     short = case filter (fits chosen) (map (<> "…") (reverse (Text.inits words'))) of
       longest : _ -> longest
       [] -> "…"
