@@ -15,6 +15,7 @@ import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Files (readText)
 import Geometry.Fit qualified as Fit
+import Geometry.Piece qualified as Piece
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Lkp01f (lkp01f)
@@ -64,14 +65,14 @@ spec = do
     isNumber n = not (Text.null n) && Text.all (`elem` ['0' .. '9']) n
 
 -- | The coefficients of a polynomial with as many digits as the paper has.
-formula :: Fit.Piece -> Text
-formula p = case Fit.formula p of
-  Fit.Polynomial 0 b c -> Text.unwords [Decimal.fixed 7 b, Decimal.fixed 6 c]
-  Fit.Polynomial a b c -> Text.unwords [Decimal.fixed 8 a, Decimal.fixed 7 b, Decimal.fixed 6 c]
-  Fit.Circle _ _ -> "an arc"
+formula :: Piece.Piece -> Text
+formula p = case Piece.formula p of
+  Piece.Polynomial 0 b c -> Text.unwords [Decimal.fixed 7 b, Decimal.fixed 6 c]
+  Piece.Polynomial a b c -> Text.unwords [Decimal.fixed 8 a, Decimal.fixed 7 b, Decimal.fixed 6 c]
+  Piece.Circle _ _ -> "an arc"
 
 -- | Whether one line, parabola or arc goes through these points within the paper's tolerance.
 single :: [Point] -> Bool
-single points = case Fit.table points of
-  Right t -> length (Fit.fit (Fit.LineKind :| [Fit.ParabolaKind, Fit.ArcKind]) (Mm 0.03) t) == 1
+single points = case Piece.table points of
+  Right t -> length (Fit.fit (Piece.LineKind :| [Piece.ParabolaKind, Piece.ArcKind]) (Mm 0.03) t) == 1
   Left _ -> False

@@ -52,6 +52,6 @@ winding = Generate.partOf (Vec.point (-40) 0) (Part.Mill (Located (Region 0 0) j
     behind = Straight q (out 20 (Segment.endDirection (last along)) q)
     job =
       (Generate.job Case {contour = Contour Open (ahead :| along <> [behind]), side = LeftOf, radius = Mm 5, pieces = Piece (Along 0) ahead :| []})
-        { Part.contour = Part.Contour (Located (Region 0 0) (Name "c")) Open (NonEmpty.fromList (Curve.elements [[ahead], along, [behind]])),
+        { Part.contour = Part.Contour (Located (Region 0 0) (Name "c")) Open (NonEmpty.fromList (Curve.elements [[ahead], along, [behind]])) [],
           Part.approach = []
         }

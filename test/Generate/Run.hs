@@ -60,13 +60,13 @@ arcFrom p heading turned l
   where
     centre = Vec.shift (Vec.scale (l / turned) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
 
--- | A closed curve without corners, as biarcs: a circle with waves.
+-- | A closed curve without corners, as biarcs: a circle with waves. Now and then a small one of arcs that are no longer
+-- than a tolerance.
 closed :: Gen [Segment]
 closed = do
-  r <- choose (15, 60)
+  (r, count) <- frequency [(5, (,) <$> choose (15, 60) <*> choose (12, 150)), (1, (,) <$> choose (5, 9) <*> choose (500, 900))]
   waves <- choose (2, 5)
   deep <- choose (0, 0.8)
-  count <- choose (12, 150)
   turned <- choose (-pi, pi)
   way <- QuickCheck.elements [1, -1]
   pure (oval r waves (deep / fromIntegral (waves * waves)) turned way count)
