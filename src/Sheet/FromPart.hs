@@ -152,10 +152,12 @@ wayOf spot runs final = do
       let z0 = let Mm z = Part.height spot in z
           (z1, begin) = walk z0 [] first'
           approach = points (Vec.x (Part.plane spot), Vec.y (Part.plane spot), z0) begin f
+      mapM_ (refused . unheighted) [s | Run {milled = (_, m)} : _ <- [runs], Just _ <- [Part.gear m], s <- concatMap stops (drop 1 runs) <> final, Nothing <- [Part.level s]]
       onwards <- behind z1 f (zip3 (map region' runs) (rest <> [after]) (map Just fs <> [Nothing]))
       maybe (refused (NoWay Nothing "the program mills nothing")) (pure . (approach,)) (NonEmpty.nonEmpty onwards)
     _ -> refused (NoWay Nothing "the program mills nothing")
   where
+    unheighted s = NoWay (Just (region (Part.place s))) "a swivelling blade leaves its height, and this point does not say one"
     walk z done list = case list of
       [] -> (z, reverse done)
       (s, pace) : rest ->

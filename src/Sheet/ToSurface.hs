@@ -110,9 +110,9 @@ blade sheet = value (gear (general sheet)) /= 0
 
 -- Points on the way
 
--- | Whether the tool never leaves the height 0.
+-- | Whether the tool never leaves the height 0; a blade does when it swivels.
 isFlat :: Sheet -> Bool
-isFlat sheet = all (all ((== 0) . value . z)) (approach sheet : map onward (NonEmpty.toList (arrays sheet)))
+isFlat sheet = not (blade sheet) && all (all ((== 0) . value . z)) (approach sheet : map onward (NonEmpty.toList (arrays sheet)))
 
 -- | A place; without its height when all are 0.
 place :: Bool -> Waypoint -> Expr

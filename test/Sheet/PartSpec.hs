@@ -79,11 +79,14 @@ spec = do
                 pure (a === b .&&. a === c)
     it "gives the example back, to the letter" $
       exported "x.sheet" rib `shouldBe` ([], Just rib)
-    it "gives every good sheet back" $ do
+    it "gives every good sheet back, and its program has the same tape" $ do
       sheets <- filter ((== ".sheet") . takeExtension) <$> walk "test/programs/sheet/good"
       forM_ sheets $ \file -> do
         text <- readText file
         (file, exported "x.sheet" text) `shouldBe` (file, ([], meaning text))
+        tape' <- judged "x.sheet" text
+        again <- traverse (judged "x.part" . ToSurface.text) (output (FromText.read text :: Result () Error Sheet))
+        again `shouldBe` Just tape'
   describe "parts that no sheet can hold are refused" $ do
     files <- runIO (sort . filter ((== ".part") . takeExtension) <$> listDirectory "test/unfit")
     forM_ files $ \file -> it file $ do
