@@ -13,6 +13,7 @@ module Compile
     Loaded (..),
     load,
     alone,
+    isSheet,
     analyse,
     evaluated,
     Punched (..),
@@ -22,12 +23,16 @@ module Compile
   )
 where
 
+import Base.Region (Region, Source)
+import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
 import Base.Result qualified as Result
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
+import Data.Functor.Identity (runIdentity)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Frame.Error qualified as Frame
 import Frame.Frame (Frame, Program)
 import Frame.Frame qualified as Frame
@@ -40,14 +45,50 @@ import Path.Error qualified as Path
 import Path.FromPart qualified as Path
 import Path.Path (Path)
 import Report.Report (Report)
+import Sheet.Error qualified as Sheet
+import Sheet.FromText qualified as Sheet
+import Sheet.ToSurface qualified as Sheet
 import Surface.Assign qualified as Surface
 import Surface.Error qualified as Surface
-import Surface.Import (Loaded (..), alone, load)
+import Surface.Import qualified as Surface
+import Surface.Syntax qualified as Surface
+import System.FilePath (takeExtension)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Verify
+
+-- | All texts, and one program of them; where each import stands, and the file that it names.
+data Loaded = Loaded {source :: Source, surface :: Result Report Report Surface.Program, imports :: [(Region, Text)]}
+
+-- | Read a program and what it imports, or an input sheet: the name of its file, for reports and for the
+-- places of the others; its text.
+load :: Monad m => Surface.Reader m -> FilePath -> Text -> m Loaded
+load reader path text
+  | isSheet path =
+    pure
+      Loaded
+        { source = Region.fromText (Text.pack path) text,
+          surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
+          imports = []
+        }
+  | otherwise = written <$> Surface.load reader path text
+  where
+    written loaded =
+      Loaded
+        { source = Surface.source loaded,
+          surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
+          imports = Surface.imports loaded
+        }
+
+-- | A program of one text that can import nothing.
+alone :: Text -> Text -> Loaded
+alone path text = runIdentity (load (const (pure (Left "only one text is looked at"))) (Text.unpack path) text)
+
+-- | Whether a file is an input sheet, by its name.
+isSheet :: FilePath -> Bool
+isSheet = (== ".sheet") . takeExtension
 
 -- | What a program says, whatever the machine.
 data Analysis = Analysis
@@ -66,7 +107,7 @@ analyse values loaded = do
 -- | From the texts to the exact geometry.
 evaluated :: [(Text, Text)] -> Loaded -> Result Report Report (Checked.Program, Part)
 evaluated values loaded = do
-  written <- mapErrors Surface.toReport Surface.toReport (surface loaded)
+  written <- surface loaded
   assigned <- mapErrors id Surface.toReport (Surface.assign values written)
   checked <- mapErrors id Checked.toReport (Checked.check assigned)
   part <- mapErrors id Part.toReport (Part.evaluate checked)

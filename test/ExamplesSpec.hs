@@ -1,4 +1,4 @@
--- | The programs of examples/: each is proven and gives the frames that are kept beside it.
+-- | The programs and sheets of examples/: each is proven and gives the frames that are kept beside it.
 --
 -- The name of an expectation tells the values of the parameters: @spacer,bolt=12,holes=6.frames@. With PARTC_RECORD
 -- set, expectations are written anew; without it a missing one is a failure.
@@ -26,12 +26,13 @@ import Test.Hspec
 
 spec :: Spec
 spec = describe "examples are proven and give their frames" $ do
-  programs <- runIO (named ".part" "examples")
+  sheets <- runIO (named ".sheet" "examples")
+  programs <- runIO ((sheets <>) <$> named ".part" "examples")
   kept <- runIO (named ".frames" expectations)
   forM_ (nub (programs <> kept)) $ \run -> it run $ do
     let (file, values) = case Text.splitOn "," (Text.pack run) of
           [] -> (run, [])
-          name : assigned -> ("examples" </> Text.unpack name <.> "part", map (fmap (Text.drop 1) . Text.breakOn "=") assigned)
+          name : assigned -> ("examples" </> Text.unpack name <.> (if Text.unpack name `elem` sheets then "sheet" else "part"), map (fmap (Text.drop 1) . Text.breakOn "=") assigned)
     texts <- Compile.load reader file =<< readText file
     let outcome = Compile.analyse values texts `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
         rendered reports = Text.concat [render r <> "\n" | r <- Report.sorted reports]

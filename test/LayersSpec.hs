@@ -52,6 +52,7 @@ table =
     Layer Folder "Checked" (Only ["Surface"]),
     Layer Folder "Geometry" (Only ["Base"]),
     Layer Folder "Part" (Only ["Checked", "Geometry"]),
+    Layer Folder "Sheet" (Only ["Base", "Report", "Surface", "Part", "Geometry"]),
     Layer Folder "Path" (Only ["Part", "Geometry"]),
     Layer Folder "Machine" (Only ["Base", "Report"]),
     Layer Folder "Frame" (Only ["Path", "Machine"]),
@@ -59,7 +60,7 @@ table =
     Layer Folder "Control" (Only ["Frame", "Machine"]),
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
-    Layer Single "Compile" (Only ["Tape", "Control", "Verify"]),
+    Layer Single "Compile" (Only ["Sheet", "Tape", "Control", "Verify"]),
     Layer Folder "Query" (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Path", "Compile"]),
     Layer Folder "Lsp" (Only ["Query"]),
     Layer Folder "Cli" Above,
@@ -305,7 +306,7 @@ spec = do
       Map.lookup "Compile" (reachable table)
         `shouldBe` Just
           ( Set.fromList
-              ["Base", "Report", "Surface", "Checked", "Geometry", "Part", "Path", "Machine", "Frame", "Tape", "Control", "Verify"]
+              ["Base", "Report", "Sheet", "Surface", "Checked", "Geometry", "Part", "Path", "Machine", "Frame", "Tape", "Control", "Verify"]
           )
 
   describe "check" $ do

@@ -26,7 +26,7 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = do
-  programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
+  programs <- runIO (sort . filter ((`elem` [".part", ".sheet"]) . takeExtension) <$> walk "test/programs")
   let kind k = filter (("/" <> k <> "/") `isInfixOf`) programs
   describe "good programs are proven and give their frames" $
     forM_ (kind "good") $ \file -> it file $ do

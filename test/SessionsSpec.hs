@@ -1,7 +1,8 @@
 -- | What the documents show of the command is what it prints.
 --
 -- A block @```console@ holds commands, each behind @$@, and what they print: reports first, then results. They
--- run beside the last whole program above them, @```part@ or @```part wrong@, in a file named for the part. With
+-- run beside the last whole program above them, @```part@ or @```part wrong@, in a file named for the part, or beside
+-- the last input sheet, @```sheet NAME@. With
 -- PARTC_RECORD set, what they print is written into the document anew.
 module SessionsSpec (spec) where
 
@@ -38,16 +39,18 @@ spec = describe "sessions show what partc prints" $ do
 -- | A document between its fences: text and blocks by turns.
 data Piece
   = Plain Text
-  | -- | with the program above
-    Session Text Text
+  | -- | with the file above, by its name
+    Session (FilePath, Text) Text
 
 located :: [Text] -> [Piece]
-located = snd . mapAccumL one "" . zip [0 :: Int ..]
+located = snd . mapAccumL one (".part", "") . zip [0 :: Int ..]
   where
     one program (n, piece)
       | odd n, Just body <- Text.stripPrefix "console\n" piece = (program, Session program body)
-      | odd n, Just body <- programOf piece, Text.isPrefixOf "part " body = (body, Plain piece)
+      | odd n, Just body <- programOf piece, Text.isPrefixOf "part " body = ((nameOf body, body), Plain piece)
+      | odd n, Just named <- Text.stripPrefix "sheet " piece, (name, body) <- Text.breakOn "\n" named = ((Text.unpack name <> ".sheet", Text.drop 1 body), Plain piece)
       | otherwise = (program, Plain piece)
+    nameOf program = Text.unpack (Text.takeWhile (`notElem` [' ', '\n']) (Text.drop 5 program)) <> ".part"
     programOf piece = case Text.stripPrefix "part wrong\n" piece of
       Nothing -> Text.stripPrefix "part\n" piece
       found -> found
@@ -56,12 +59,11 @@ located = snd . mapAccumL one "" . zip [0 :: Int ..]
 again :: Piece -> IO Text
 again piece = case piece of
   Plain text -> pure text
-  Session program body -> inFolder $ \folder -> do
-    ByteString.writeFile (folder </> nameOf program) (Encoding.encodeUtf8 program)
+  Session (name, program) body -> inFolder $ \folder -> do
+    ByteString.writeFile (folder </> name) (Encoding.encodeUtf8 program)
     shown <- traverse (run folder) [c | line <- Text.lines body, Just c <- [Text.stripPrefix "$ " line]]
     pure ("console\n" <> Text.concat shown)
   where
-    nameOf program = Text.unpack (Text.takeWhile (`notElem` [' ', '\n']) (Text.drop 5 program)) <> ".part"
     run folder command = case Text.words command of
       "partc" : arguments -> do
         (_, out, err) <- readCreateProcessWithExitCode (proc "partc" (map Text.unpack arguments)) {cwd = Just folder} ""

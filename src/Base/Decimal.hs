@@ -2,12 +2,18 @@
 module Base.Decimal
   ( fixed,
     short,
+    exact,
+    amount,
+    mostDigits,
     whole,
     mm,
   )
 where
 
 import Base.Quantity (Mm (..))
+import Data.Char (digitToInt, isDigit)
+import Data.Maybe (fromMaybe)
+import Data.Ratio ((%))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Numeric (showFFloat)
@@ -27,6 +33,35 @@ short decimals x
   | otherwise = digits
   where
     digits = fixed decimals x
+
+-- | The fewest decimals that give the same number again when they are read by 'amount'. What needs more than
+-- 'mostDigits', such as a length far below that of an atom, is rounded.
+exact :: Double -> Text
+exact x
+  | x == 0 = "0"
+  | Text.length (Text.filter isDigit digits) <= mostDigits = digits
+  | otherwise = short (mostDigits - 16) x
+  where
+    written = Text.pack (showFFloat Nothing x "")
+    digits = fromMaybe written (Text.stripSuffix ".0" written)
+
+-- | The double nearest to a number as it is written: digits, and, if wanted, a point and more digits.
+amount :: Text -> Maybe Double
+amount text
+  | Text.null before || Text.any (not . isDigit) (before <> fraction) = Nothing
+  | Text.isPrefixOf "." rest && Text.null fraction = Nothing
+  | Text.length before + places > mostDigits = Nothing
+  | digits < 2 ^ (53 :: Int) && places <= 22 = Just (fromInteger digits / fromInteger (10 ^ places))
+  | otherwise = Just (fromRational (digits % (10 ^ places)))
+  where
+    (before, rest) = Text.breakOn "." text
+    fraction = Text.drop 1 rest
+    places = Text.length fraction
+    digits = Text.foldl' (\n c -> 10 * n + toInteger (digitToInt c)) 0 (before <> fraction)
+
+-- | No number is written with more digits.
+mostDigits :: Int
+mostDigits = 40
 
 -- | A whole number.
 whole :: Int -> Text

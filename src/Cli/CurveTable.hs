@@ -16,6 +16,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Geometry.Fit qualified as Fit
+import Geometry.Piece qualified as Piece
 import Geometry.Vec qualified as Vec
 import Part.Curve (Fitting (..))
 import Part.Curve qualified as Curve
@@ -37,22 +38,22 @@ fitting (Name name) Fitting {pieces, misses, points} =
       [ToRight, ToRight, ToRight, ToRight, ToRight]
       (["row", "x", "y", "section", "deviation"] : map row misses)
   where
-    section k p = [Decimal.whole k, Decimal.whole (Fit.first p) <> "–" <> Decimal.whole (Fit.final p), kindWord p, equation p, fixed 4 (Fit.largest p)]
-    kindWord p = case Fit.kind (Fit.curve p) of
-      Fit.LineKind -> "line"
-      Fit.ParabolaKind -> "parabola"
-      Fit.ArcKind -> "arc"
+    section k p = [Decimal.whole k, Decimal.whole (Piece.first p) <> "–" <> Decimal.whole (Piece.final p), kindWord p, equation p, fixed 4 (Piece.largest p)]
+    kindWord p = case Piece.kind (Piece.curve p) of
+      Piece.LineKind -> "line"
+      Piece.ParabolaKind -> "parabola"
+      Piece.ArcKind -> "arc"
     row d =
       let p = maybe (Vec.point 0 0) Curve.point (points Vector.!? (Fit.ofRow d - 1))
        in [Decimal.whole (Fit.ofRow d), Decimal.short 6 (Vec.x p), Decimal.short 6 (Vec.y p), Decimal.whole (Fit.onPiece d), fixed 4 (Fit.miss d)]
     fixed n (Mm x) = Decimal.fixed n x
 
 -- | With the digits of the paper.
-equation :: Fit.Piece -> Text
-equation p = case Fit.formula p of
-  Fit.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
-  Fit.Polynomial a b c -> "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
-  Fit.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
+equation :: Piece.Piece -> Text
+equation p = case Piece.formula p of
+  Piece.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
+  Piece.Polynomial a b c -> "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
+  Piece.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
   where
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
 

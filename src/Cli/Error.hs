@@ -33,6 +33,10 @@ data Error
     OverwritesProgram Text
   | -- | the program punches nothing
     NothingToPunch
+  | -- | a value for a parameter of an input sheet
+    SheetAssigned Text
+  | -- | an input sheet to be laid out as a program
+    SheetLaidOut
   | -- | a code that no report has; the codes that may be meant
     UnknownCode Text [Text]
   deriving stock (Eq, Show)
@@ -70,6 +74,14 @@ toReport err = case err of
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]
+      }
+  SheetAssigned name ->
+    (wrong "E0913" InFile ("an input sheet has no parameters, so ‘" <> name <> "’ cannot be set"))
+      { hints = ["Make a program of it with partc import, and a param in that."]
+      }
+  SheetLaidOut ->
+    (wrong "E0914" InFile "an input sheet is no part program and has no layout")
+      { hints = ["partc import makes a program of it."]
       }
   UnknownCode code close ->
     (wrong "E0809" InFile ("no report has the code ‘" <> code <> "’"))

@@ -10,6 +10,7 @@ import Cli.Error (Error (..))
 import Cli.Error qualified as Cli
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
+import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
@@ -22,7 +23,12 @@ import Surface.Syntax (Program)
 -- | Lay out one program in its place, from standard input to standard output. When only asked, write nothing
 -- but the name of a program that is not laid out.
 fmt :: Reporter -> Bool -> FilePath -> IO Exit
-fmt reporter onlyAsked file = do
+fmt reporter onlyAsked file
+  | Compile.isSheet file = complain reporter (Text.pack file) SheetLaidOut
+  | otherwise = layOut reporter onlyAsked file
+
+layOut :: Reporter -> Bool -> FilePath -> IO Exit
+layOut reporter onlyAsked file = do
   bytes <- Output.readBytes file
   case fmap Encoding.decodeUtf8' bytes of
     Left why -> complain reporter name (CannotRead why)

@@ -32,6 +32,10 @@ data Command
   | -- | program, machine, as JSON lines
     Frames FilePath (Maybe Text) Bool
   | Report FilePath (Maybe Text)
+  | -- | a sheet, the program to write
+    Import FilePath (Maybe FilePath)
+  | -- | a program, the sheet to write
+    ExportSheet FilePath (Maybe FilePath)
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
   | Machines (Maybe Text)
@@ -74,6 +78,8 @@ commands =
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
+      entry "import" "Make a part program of an input sheet" "partc import rib.sheet -o rib.part" (Import <$> sheet <*> optional outputOption),
+      entry "export-sheet" "Make an input sheet of a program" "partc export-sheet rib.part -o rib.sheet" (ExportSheet <$> program <*> optional outputOption),
       entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
       entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes))),
       entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors),
@@ -100,7 +106,10 @@ compileOptions =
     <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
 
 program :: Parser FilePath
-program = Opt.strArgument (Opt.metavar "FILE" <> Opt.help "A part program; - for standard input" <> Opt.action "file")
+program = Opt.strArgument (Opt.metavar "FILE" <> Opt.help "A part program, or an input sheet NAME.sheet; - for a program on standard input" <> Opt.action "file")
+
+sheet :: Parser FilePath
+sheet = Opt.strArgument (Opt.metavar "SHEET" <> Opt.help "An input sheet; - for standard input" <> Opt.action "file")
 
 tape :: Parser FilePath
 tape = Opt.strArgument (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard input" <> Opt.action "file")

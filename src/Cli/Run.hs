@@ -42,6 +42,12 @@ import Part.Part (MachineRef (..))
 import Part.Part qualified as Part
 import Report.Explanation qualified as Explanation
 import Report.Report (Report)
+import Sheet.Error qualified as Sheet
+import Sheet.FromPart qualified as Sheet
+import Sheet.FromText qualified as Sheet
+import Sheet.ToSurface qualified as Sheet
+import Sheet.ToText qualified as Sheet
+import Sheet.Unfit qualified as Unfit
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
 import System.IO (stdin, stdout)
@@ -58,6 +64,8 @@ perform reporter command = case command of
   Verify file target tape -> verify reporter file target tape
   Frames file target json -> frames reporter file target json
   Report file target -> report reporter file target
+  Import file output -> import' reporter file output
+  ExportSheet file output -> exportSheet reporter file output
   Decode target tape -> decode reporter target tape
   Plot file output -> plot reporter file output
   Machines name -> machines reporter name
@@ -79,10 +87,12 @@ withProgram reporter file continue = do
   text <- readProgram file
   case text of
     Left e -> complain reporter (displayName file) e
+    Right _ | Compile.isSheet file, (assigned, _) : _ <- given -> complain reporter (displayName file) (SheetAssigned assigned)
     Right t -> do
       texts <- Compile.load imported (Text.unpack (displayName file)) t
-      continue Loaded {name = displayName file, texts, values = Output.values (Output.settings reporter)}
+      continue Loaded {name = displayName file, texts, values = given}
   where
+    given = Output.values (Output.settings reporter)
     imported there = either (Left . Cli.whyNot) Right <$> readProgram there
 
 -- | The text of a program file.
@@ -294,15 +304,37 @@ decode reporter target tapeFile = case maybe (Left (NoMachineForTape known)) mac
 
 plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 plot reporter file' place = withProgram reporter file' $ \loaded ->
-  settle reporter loaded (analyse loaded) $ \analysis -> do
-    let svg = Plot.plot (part analysis) (path analysis)
-    case place of
-      Just p | p /= "-" -> do
-        clash <- overwrites file' [p]
-        case clash of
-          Just same -> complain reporter (name loaded) (OverwritesProgram (Text.pack same))
-          Nothing -> writeAll reporter [(p, Encoding.encodeUtf8 svg)]
-      _ -> printed reporter svg
+  settle reporter loaded (analyse loaded) $ \analysis ->
+    deliver reporter file' place (Plot.plot (part analysis) (path analysis))
+
+-- | Write a sheet as a program.
+import' :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
+import' reporter file' place = do
+  text <- readProgram file'
+  case text of
+    Left e -> complain reporter (displayName file') e
+    Right t -> do
+      let result = Result.mapErrors id Sheet.toReport (Sheet.read t)
+      stopped <- Output.show' reporter (displayName file') (Region.fromText (displayName file') t) (errors result)
+      case output result of
+        Just sheet | not stopped -> deliver reporter file' place (Sheet.text sheet)
+        _ -> pure Failed
+
+-- | Write a program as a sheet.
+exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
+exportSheet reporter file' place = withProgram reporter file' $ \loaded ->
+  settle reporter loaded (Compile.evaluated (values loaded) (texts loaded) `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry Sheet.fromPart)) $
+    deliver reporter file' place . Sheet.write
+
+-- | Write a text to a file, but not over what it was made from, or to standard output.
+deliver :: Reporter -> FilePath -> Maybe FilePath -> Text -> IO Exit
+deliver reporter file' place text = case place of
+  Just p | p /= "-" -> do
+    clash <- overwrites file' [p]
+    case clash of
+      Just same -> complain reporter (displayName file') (OverwritesProgram (Text.pack same))
+      Nothing -> writeAll reporter [(p, Encoding.encodeUtf8 text)]
+  _ -> printed reporter text
 
 machines :: Reporter -> Maybe Text -> IO Exit
 machines reporter wanted = case wanted of

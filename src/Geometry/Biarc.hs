@@ -71,8 +71,8 @@ lean (p, s) (q, t) = (a, b)
     Rad a = Vec.turn (Vec.to p q) s
     Rad b = Vec.turn (Vec.to p q) t
 
--- | The ratio of the chords that 'join' takes: 1, or what keeps a curve bent to one side: the joint's direction stays at
--- least half of either end's angle away from that end's direction.
+-- | The ratio of the chords that 'join' takes: 1, or what keeps a curve bent to one side: the joint's direction stays
+-- at least half of either end's angle away from that end's direction.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
   | alpha * beta >= 0 || held == gamma = 1
@@ -140,8 +140,8 @@ openDirections ps = case (ps, reverse ps) of
   where
     mirrored a b t = Vec.rotate (Vec.turn t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
--- | The direction at the middle one of three points. On the circle, the angles from the first chord to it and from it to
--- the second one are those of the triangle at the far ends.
+-- | The direction at the middle one of three points. On the circle, the angles from the first chord to it and from it
+-- to the second one are those of the triangle at the far ends.
 passing :: Point -> Point -> Point -> Vec
 passing a b c
   | not (Vec.near a c) && Vec.dot round' ab >= 0 && Vec.dot round' bc >= 0 = round'

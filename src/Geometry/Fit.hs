@@ -1,37 +1,15 @@
--- | Curves through a table of points, y over x: the fewest straight lines, parabolas and circular arcs that stay within a
--- tolerance of every row (the second method of the Ural paper, Tables 1–4, where the pieces are chosen by hand).
---
--- A piece goes through its two end rows; what is left of a parabola or an arc is one number t, and y rises with t at
--- every x between the ends. The largest deviation in y over the rows between is therefore least where two rows
--- miss by the same amount to either side, or where t has come to its limit.
+-- | Curves through a table of points: the fewest straight lines, parabolas and circular arcs that stay within a
+-- tolerance of every row, or those that the user has chosen (the second method of the Ural paper, Tables 1–4).
 module Geometry.Fit
-  ( -- * Tables
-    Table,
-    table,
-    rows,
-    Flaw (..),
-
-    -- * Pieces
-    Piece (..),
-    Curve (..),
-    Kind (..),
-    kind,
-    height,
-    Formula (..),
-    formula,
-    segment,
-
-    -- * Choosing them
-    fit,
+  ( fit,
     sections,
-
-    -- * What they miss by
+    Flaw (..),
     Deviation (..),
     deviations,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..))
 import Data.Foldable (toList)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
@@ -39,245 +17,28 @@ import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
-import Data.Vector qualified as Lazy
-import Data.Vector.Unboxed (Vector)
-import Data.Vector.Unboxed qualified as Vector
-import Geometry.Segment (Segment (Straight))
-import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
+import Data.Vector qualified as Vector
+import Geometry.Piece (Curve (..), Kind (..), Piece (..), Table, best, missed, parabola, row, rows)
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point)
-import Geometry.Vec qualified as Vec
-
--- Tables ----------------------------------------------------------------------------------------
-
--- | At least two rows whose x rises throughout or falls throughout; in mm.
-data Table = Table {xs :: Vector Double, ys :: Vector Double}
-  deriving stock (Eq, Show)
-
--- | What is wrong with a table or with its sections. Rows and sections are counted from 1.
-data Flaw
-  = -- | how many rows there are
-    TooFewRows Int
-  | -- | the first row whose x does not go on the way the first two do
-    OutOfOrder Int
-  | NoSections
-  | -- | a section, and how many rows it names: neither two nor three
-    WrongCount Int Int
-  | -- | a section, and the row that the table does not have
-    NoSuchRow Int Int
-  | -- | a section whose rows do not rise
-    RowsDoNotRise Int
-  | -- | a section, the row with which it begins, and the row where it must
-    NotJoined Int Int Int
-  | -- | the row with which the last section ends, and the last row of the table
-    EndsEarly Int Int
-  deriving stock (Eq, Show)
-
--- | A table of points, if x rises or falls strictly.
-table :: [Point] -> Either Flaw Table
-table points = case points of
-  p : q : _ -> case [k | (k, a, b) <- zip3 [2 ..] points (drop 1 points), not (sameWay (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))] of
-    k : _ -> Left (OutOfOrder k)
-    [] -> Right (Table (Vector.fromList (map Vec.x points)) (Vector.fromList (map Vec.y points)))
-  _ -> Left (TooFewRows (length points))
-  where
-    sameWay a b c d = (b > a && d > c) || (b < a && d < c)
-
--- | How many rows a table has.
-rows :: Table -> Int
-rows t = Vector.length (xs t)
-
--- | A row, counted from 0.
-row :: Table -> Int -> Point
-row t k = Vec.point (xs t Vector.! k) (ys t Vector.! k)
-
--- Pieces ----------------------------------------------------------------------------------------
-
--- | A piece through two rows of the table.
-data Piece = Piece
-  { -- | its first row, counted from 1
-    first :: Int,
-    -- | its last row
-    final :: Int,
-    from :: Point,
-    to :: Point,
-    curve :: Curve,
-    -- | the largest deviation in y at its rows
-    largest :: Mm
-  }
-  deriving stock (Eq, Show)
-
--- | What a piece is beyond its ends.
-data Curve
-  = Line
-  | -- | the factor a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
-    Parabola Double
-  | -- | the angle between chord and arc at the ends, half of what the arc turns by; positive above the chord
-    Arc Rad
-  deriving stock (Eq, Show)
-
--- | The kinds of pieces, the simplest first.
-data Kind = LineKind | ParabolaKind | ArcKind
-  deriving stock (Eq, Ord, Show, Enum, Bounded)
-
--- | What kind of piece it is.
-kind :: Curve -> Kind
-kind c = case c of
-  Line -> LineKind
-  Parabola _ -> ParabolaKind
-  Arc _ -> ArcKind
-
--- | y of a piece at an x between its ends, in mm.
-height :: Piece -> Double -> Double
-height p x
-  | x == Vec.x (from p) = Vec.y (from p)
-  | x == Vec.x (to p) = Vec.y (to p)
-  | otherwise = Vec.y (from p) + rise (chordOf (from p) (to p)) (curve p) (x - Vec.x (from p))
-
--- | A piece as an equation.
-data Formula
-  = -- | @y = a·x² + b·x + c@; a is 0 for a line
-    Polynomial Double Double Double
-  | -- | centre and radius
-    Circle Point Mm
-  deriving stock (Eq, Show)
-
--- | The equation of a piece.
-formula :: Piece -> Formula
-formula p = case curve p of
-  Line -> polynomial 0
-  Parabola a -> polynomial a
-  Arc (Rad t) -> let c = centre p t in Circle c (Vec.distance c (from p))
-  where
-    Chord w h = chordOf (from p) (to p)
-    (x1, y1, x2) = (Vec.x (from p), Vec.y (from p), Vec.x (to p))
-    polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
-
--- | The centre of an arc: on the perpendicular bisector of its chord.
-centre :: Piece -> Double -> Point
-centre p t = Vec.shift (Vec.scale (-(way / (2 * tan t))) (Vec.left (Vec.to (from p) (to p)))) (Vec.between 0.5 (from p) (to p))
-  where
-    Chord w _ = chordOf (from p) (to p)
-    way = signum w
-
--- | The piece as a segment, if it is a line or an arc.
-segment :: Piece -> Maybe Segment
-segment p = case curve p of
-  Line -> Just (Straight (from p) (to p))
-  Parabola _ -> Nothing
-  Arc (Rad t)
-    | Rad (2 * abs t) <= Tolerance.straight -> Just (Straight (from p) (to p))
-    | otherwise -> Just (Segment.arc (if (t > 0) == (Vec.x (to p) > Vec.x (from p)) then Clockwise else CounterClockwise) (centre p t) (from p) (to p))
-
--- | From one end of a piece to the other, in x and in y.
-data Chord = Chord Double Double
-
-chordOf :: Point -> Point -> Chord
-chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
-
--- | How far a piece has risen so far in x from its first end.
-rise :: Chord -> Curve -> Double -> Double
-rise chord@(Chord w h) c x = case c of
-  Line -> x * h / w
-  Parabola a -> x * h / w + a * x * (x - w)
-  Arc (Rad t) -> arcRise chord (tan t) x
-
--- | The same for an arc, from the tangent of its angle with the chord. The circles through (0, 0) and (w, h) are
--- @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, μ the tangent; the arc is the root that is on the chord for μ = 0.
-arcRise :: Chord -> Double -> Double -> Double
-arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
-  where
-    mu = -(signum w * tangent)
-    p = mu * h + w
-    q = mu * x * (x - w) + x * h
-{-# INLINE arcRise #-}
-
--- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its rows.
-best :: Table -> Kind -> Int -> Int -> (Double, Curve)
-best t@(Table xs ys) k i j = case k of
-  LineKind -> (let (_, low, _, high) = extremes i j (\m -> relative Line m) in max (-low) high, Line)
-  _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0)
-  ParabolaKind ->
-    let q m = let x = across m in x * (x - w)
-        off m = relative Line m
-        (worst, s) = least (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
-     in (worst, Parabola s)
-  ArcKind ->
-    let limit = pi / 2 - atan2 (abs h) (abs w)
-        off a m = arcRise chord (tan a) (across m) - up m
-        (worst, s) = least (\p r -> root limit (\a -> off a p + off a r)) off' i j
-        off' a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
-     in (worst, Arc (Rad s))
-  where
-    chord@(Chord w h) = chordOf (row t i) (row t j)
-    across m = Vector.unsafeIndex xs m - Vector.unsafeIndex xs i
-    up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
-    relative c m = rise chord c (across m) - up m
-
--- | The rows strictly between two with the lowest and with the highest value. Without any, the value is 0.
-extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
-extremes i j value
-  | j <= i + 1 = (i, 0, i, 0)
-  | otherwise = let v = value (i + 1) in go (i + 2) (i + 1) v (i + 1) v
-  where
-    go m low vLow high vHigh
-      | m >= j = (low, vLow, high, vHigh)
-      | v < vLow = go (m + 1) m v high vHigh
-      | v > vHigh = go (m + 1) low vLow m v
-      | otherwise = go (m + 1) low vLow high vHigh
-      where
-        v = value m
-{-# INLINE extremes #-}
-
--- | The parameter that makes the largest deviation of the rows between two least, and that deviation. It is where some
--- two rows balance; a row that misses by more takes the place of the one that misses to the same side. The amount by
--- which the two miss rises every time, so there is an end; it takes about four rounds.
-least :: (Int -> Int -> Double) -> (Double -> Int -> Double) -> Int -> Int -> (Double, Double)
-least balance off i j = go (-1) (1 / 0, 0) low0 high0
-  where
-    (low0, _, high0, _) = extremes i j (off 0)
-    go before found one other
-      | worst <= level * (1 + 1e-13) || level <= before = min found (worst, t)
-      | vHigh >= -vLow = go level (min found (worst, t)) low high'
-      | otherwise = go level (min found (worst, t)) low' high
-      where
-        t = balance one other
-        (low, high) = if off t one <= off t other then (one, other) else (other, one)
-        level = max (abs (off t low)) (abs (off t high))
-        (low', vLow, high', vHigh) = extremes i j (off t)
-        worst = max (-vLow) vHigh
-{-# INLINE least #-}
-
--- | Where a rising function is 0, by halving to the last digit; the end of the range where it does not come to 0.
-root :: Double -> (Double -> Double) -> Double
-root limit f
-  | f (-limit) >= 0 = -limit
-  | f limit <= 0 = limit
-  | otherwise = go (-limit) limit
-  where
-    go low high
-      | middle <= low || middle >= high || high - low < 1e-16 = middle
-      | f middle < 0 = go middle high
-      | otherwise = go low middle
-      where
-        middle = (low + high) / 2
-{-# INLINE root #-}
 
 -- Choosing them ---------------------------------------------------------------------------------
 
--- | The fewest pieces of some kinds within a tolerance in y; of those the ones whose largest deviation is least; of those
--- the simplest (each piece as simple as it can be without a larger deviation; the choice of the rows that gives the simplest kinds in sum, then the least sum of deviations). Two
--- neighbouring rows can always be joined by a line.
+-- | The fewest pieces of some kinds within a tolerance in y; of those the ones whose largest deviation is least; of
+-- those the simplest: each piece as simple as it can be without a larger deviation, and the rows so chosen that the
+-- kinds are simplest in sum, then that the sum of the deviations is least. Two neighbouring rows can always be joined
+-- by a line.
 --
--- A piece that misses by more than /twice/ the tolerance is not extended, and none is lost by that: say that a piece A from row
--- i goes on beyond row j and keeps within d, and B is the best of its kind from i to j. The difference of two parabolas, or
--- of two arcs that are single-valued in x, that start from one point is monotone behind the second point in common (the sine of an arc's slope is linear in x). B misses
--- by D on one side at some row and on the other at another (or has a vertical tangent at an end, with the same result), so A − B has its second zero between
--- these rows, is at least D − d at the later one and no smaller at row j; but there it is at most d. So D is at most 2·d.
+-- A piece that misses by more than /twice/ the tolerance d is not extended, and none is lost by that. Say that a
+-- piece A from row i goes on beyond row j and keeps within d, and that B is the best of its kind from i to j, missing
+-- by D. The difference of two parabolas, or of two arcs that are single-valued in x, from one point on is monotone
+-- behind the second point that they have in common (the sine of an arc's slope is linear in x). B misses by D on one
+-- side at some row and on the other side at another, or it has a vertical tangent at an end, with the same result. If
+-- D > d, A − B has its second zero between these rows, is at least D − d at the later one, and no smaller at row j;
+-- but there it is at most d. So D is at most 2·d.
 --
--- With n rows and pieces over m of them at most, at twice the tolerance, this looks at n·m pairs of rows, each in a few passes over the
--- rows between; one piece over the whole table is found at once. At worst about n³/27 times a few passes, for three pieces.
+-- With n rows, and pieces over at most m of them at twice the tolerance, n·m pairs of rows are looked at, each in a
+-- few passes over the rows between. One piece over the whole table is found at once; the worst is three, about n³/27
+-- times a few passes (300 rows half a second, 1000 rows some seconds).
 fit :: NonEmpty Kind -> Mm -> Table -> NonEmpty Piece
 fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
   where
@@ -302,17 +63,17 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
     go seen current = case IntMap.mapMaybe id (IntMap.mapWithKey (\i _ -> direct i) current) of
       done | not (IntMap.null done) -> done :| []
       _ ->
-        let out = IntMap.mapWithKey (\i _ -> filter (\(j, _) -> not (IntMap.member j seen)) (reaches Lazy.! i)) current
+        let out = IntMap.mapWithKey (\i _ -> filter (\(j, _) -> not (IntMap.member j seen)) (reaches Vector.! i)) current
             next = IntMap.fromList [(j, ()) | ps <- IntMap.elems out, (j, _) <- ps]
          in NonEmpty.cons out (go (IntMap.union seen next) next)
     direct i = fmap (\ks -> [(final, ks)]) (NonEmpty.nonEmpty [m | m@(_, d) <- misses kinds i final, d <= within])
-    reaches = Lazy.generate (final + 1) (\i -> grow i (i + 1) kinds)
+    reaches = Vector.generate (final + 1) (\i -> grow i (i + 1) kinds)
     -- Longer and longer pieces from a row, of the kinds that can still become good.
     grow i j alive
       | j > final || null alive = []
       | otherwise =
         let ms = misses alive i j
-            onward = [k | (k, d) <- ms, d <= tolerance + within] <> [k | j == i + 1, k <- alive, k `notElem` map fst ms]
+            onward = if j == i + 1 then alive else [k | (k, d) <- ms, d <= tolerance + within]
             good = [m | m@(_, d) <- ms, d <= within]
          in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow i (j + 1) onward)
     misses ks i j
@@ -326,26 +87,44 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
     advance reached layer =
       IntMap.fromListWith min [(j, max before (minimum (fmap snd ks))) | (i, ps) <- IntMap.toList layer, Just before <- [IntMap.lookup i reached], (j, ks) <- ps]
 
--- | The simplest chain with that largest deviation: first row, last row and kind of each piece.
+-- | The simplest chain with that largest deviation: first row, last row and kind of each piece. The sum of the
+-- deviations is taken in steps of 'Tolerance.equal', so that rounding does not choose; of chains that are alike the
+-- one with the earlier rows.
 simplest :: Table -> Layers -> Double -> NonEmpty (Int, Int, Kind)
 simplest t steps deviation = case NonEmpty.nonEmpty (reverse walk) of
   Just chain -> chain
   Nothing -> (0, rows t - 1, LineKind) :| []
   where
-    (_, _, walk) = minimumBy (comparing cost) (IntMap.elems (foldl advance (IntMap.singleton 0 (0 :: Int, 0, [])) steps))
+    (_, _, walk) = minimumBy (comparing cost) (IntMap.elems (foldl advance (IntMap.singleton 0 (0 :: Int, 0 :: Int, [])) steps))
     cost (rank, total, _) = (rank, total)
     advance reached layer =
       IntMap.fromListWith
         (\new old -> if cost new < cost old then new else old)
-        [ (j, (rank + fromEnum k, total + d, (i, j, k) : chain))
+        [ (j, (rank + fromEnum k, total + round (d / Tolerance.equal), (i, j, k) : chain))
           | (i, ps) <- IntMap.toList layer,
             Just (rank, total, chain) <- [IntMap.lookup i reached],
             (j, ks) <- ps,
             (k, d) <- take 1 (NonEmpty.filter ((<= deviation + Tolerance.equal) . snd) ks)
         ]
 
--- | The pieces that the user has chosen: for each the rows, counted from 1, that it goes through. Two are joined by a line, three by
--- a parabola. Each begins with the row with which the one before ends, the first with row 1; the last ends with the last row.
+-- | What is wrong with the user's sections. Rows and sections are counted from 1.
+data Flaw
+  = NoSections
+  | -- | a section, and how many rows it names: neither two nor three
+    WrongCount Int Int
+  | -- | a section, and the row that the table does not have
+    NoSuchRow Int Int
+  | -- | a section whose rows do not rise
+    RowsDoNotRise Int
+  | -- | a section, the row with which it begins, and the row where it must
+    NotJoined Int Int Int
+  | -- | the row with which the last section ends, and the last row of the table
+    EndsEarly Int Int
+  deriving stock (Eq, Show)
+
+-- | The pieces that the user has chosen: for each the rows, counted from 1, that it goes through. Two are joined by a
+-- line, three by a parabola. Each begins with the row with which the one before ends, the first with row 1; the last
+-- ends with the last row.
 sections :: Table -> [[Int]] -> Either Flaw (NonEmpty Piece)
 sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections
@@ -368,13 +147,6 @@ sections t chosen = case NonEmpty.nonEmpty chosen of
       let p = pieceOf t i j c (Mm 0)
        in p {largest = Mm (maximum (map (\k -> abs (missed p (row t k))) [i .. j]))}
 
--- | The parabola through three points, with respect to the first and the last.
-parabola :: Point -> Point -> Point -> Curve
-parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
-  where
-    Chord w h = chordOf a b
-    Chord x up = chordOf a m
-
 -- What they miss by -----------------------------------------------------------------------------
 
 -- | What a row deviates by.
@@ -387,9 +159,6 @@ data Deviation = Deviation
     miss :: Mm
   }
   deriving stock (Eq, Show)
-
-missed :: Piece -> Point -> Double
-missed p q = height p (Vec.x q) - Vec.y q
 
 -- | The deviation of every row that a piece passes.
 deviations :: Table -> NonEmpty Piece -> [Deviation]

@@ -66,8 +66,8 @@ stretches track = case filter (uncurry (<)) (zip (begin track : NonEmpty.toList 
 -- | The walk along one stretch: its spans from where the walk is to the end, the largest deviation to aim at.
 data Walk = Walk {track :: Track, aim :: Double, final :: Double, at :: Double, pose :: (Point, Vec), ahead :: [(Double, Double)]}
 
--- | The segments along a stretch. Where the end may be near, the whole rest is tried first: that a shorter biarc does not
--- do it does not mean that a longer one does not either.
+-- | The segments along a stretch. Where the end may be near, the whole rest is tried first: that a shorter biarc does
+-- not do it does not mean that a longer one does not either.
 follow :: Track -> Double -> Stretch -> [Segment]
 follow track tolerance stretch = go walk (final walk - start)
   where
@@ -106,9 +106,15 @@ data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, off :: Double
 -- the step where the curve is smooth; the next step to try is taken from that, between the longest that held and
 -- the shortest that did not.
 furthest :: Walk -> Double -> Trial
-furthest w = search (24 :: Int) Nothing Nothing
+furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
   where
     u = at w
+    -- On a rough scale longer biarcs can hold where shorter ones do not.
+    beyond best
+      | final w - u > 16 * (reached best - u) = best
+      | otherwise = case [t | f <- [2.2, 1.8, 1.5, 1.25], let v = u + f * (reached best - u), v < final w, let t = try w v, off t <= aim w] of
+        [] -> best
+        t : _ -> search (8 :: Int) (Just t) Nothing (1.1 * (reached t - u))
     search left held missed step
       | step <= least = fromMaybe forced held
       | off found <= aim w = if enough found then found else search (left - 1) (Just found) missed (longer found)
@@ -167,7 +173,8 @@ try w v
       | otherwise = Trial v pieces (deviation (place (track w)) (aim w) pieces ((u, p) : concat [interleaved ms (spread (place (track w)) 0 part) | (part, ms) <- stations]))
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
--- | Parts of spans, with the number of points to look at: as many as their share of the parameter or of the length asks for.
+-- | Parts of spans, with the number of points to look at: as many as their share of the parameter or of the length
+-- asks for.
 counted :: Walk -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 counted w v parts = case parts of
   [one] -> [(8, one)]
@@ -176,8 +183,8 @@ counted w v parts = case parts of
     chords = [let Mm d = Vec.distance (place (track w) a) (place (track w) b) in d | (a, b) <- parts]
     whole = sum chords
 
--- | Points of a curve over a part of a span, moved back by a share of their distance; not quite evenly, so that a wave does not pass
--- for its samples.
+-- | Points of a curve over a part of a span, moved back by a share of their distance; not quite evenly, so that a
+-- wave does not pass for its samples.
 spread :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
 spread point back (n, (a, b)) = [let u = a + (b - a) * uneven ((fromIntegral k - back) / fromIntegral n) in (u, point u) | k <- [1 .. n]]
   where
@@ -202,8 +209,8 @@ deviation point aim pieces points
     off w = apart pieces (point w)
     largest = maximum (map snd known <> zipWith3 (\a b c -> snd (highest off aim (6 :: Int) a b c)) known (drop 1 known) (drop 2 known))
 
--- | The maximum about the middle one of three neighbouring values, if that is the largest and matters: the vertex of the
--- parabola through them, again and again until it says nothing new.
+-- | The maximum about the middle one of three neighbouring values, if that is the largest and matters: the vertex of
+-- the parabola through them, again and again until it says nothing new.
 highest :: (Double -> Double) -> Double -> Int -> (Double, Double) -> (Double, Double) -> (Double, Double) -> (Double, Double)
 highest off aim left one@(a, da) two@(b, db) three@(c, dc)
   | left <= 0 || db < da || db < dc || db < 0.3 * aim || not (below > 0 && w > a && w < c && w /= b) = two

@@ -26,6 +26,7 @@ import Data.Vector qualified as Vector
 import Geometry.Curve (Approach (..), Piece (..))
 import Geometry.Curve qualified as Exact
 import Geometry.Fit qualified as Fit
+import Geometry.Piece qualified as Piece
 import Geometry.Polyarc (Polyarc)
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment qualified as Segment
@@ -55,7 +56,7 @@ data Curve = Curve
   deriving stock (Eq, Show)
 
 -- | The pieces through a table, and by how much they miss its rows.
-data Fitting = Fitting {pieces :: NonEmpty Fit.Piece, misses :: [Fit.Deviation], points :: Vector Row}
+data Fitting = Fitting {pieces :: NonEmpty Piece.Piece, misses :: [Fit.Deviation], points :: Vector Row}
   deriving stock (Eq, Show)
 
 -- | A curve with the columns of its table.
@@ -101,22 +102,22 @@ along c values = [(s, at s) | s <- Polyarc.joints (laid c)]
     Mm chain = Polyarc.length (laid c)
 
 -- | Pieces as a curve, with the parameters of the rows on it.
-piecesOf :: Vector Point -> NonEmpty Fit.Piece -> (NonEmpty Piece, Vector Double)
+piecesOf :: Vector Point -> NonEmpty Piece.Piece -> (NonEmpty Piece, Vector Double)
 piecesOf rows chosen = (fmap piece chosen, Vector.imap station rows)
   where
-    piece p = case (Fit.formula p, Fit.segment p) of
-      (Fit.Polynomial a b c, Nothing) -> Quadratic a b c (Vec.x (Fit.from p)) (Vec.x (Fit.to p))
+    piece p = case (Piece.formula p, Piece.segment p) of
+      (Piece.Polynomial a b c, Nothing) -> Quadratic a b c (Vec.x (Piece.from p)) (Vec.x (Piece.to p))
       (_, Just s) -> case s of
         Segment.Straight a b -> Line a b
         Segment.Arc {} -> Circular s
-      (Fit.Circle _ _, Nothing) -> Line (Fit.from p) (Fit.to p)
+      (Piece.Circle _ _, Nothing) -> Line (Piece.from p) (Piece.to p)
     numbered = zip [0 :: Int ..] (NonEmpty.toList chosen)
-    station k q = case [(i, p) | (i, p) <- numbered, k + 1 <= Fit.final p] of
+    station k q = case [(i, p) | (i, p) <- numbered, k + 1 <= Piece.final p] of
       (i, p) : _ -> fromIntegral i + share p q
       [] -> fromIntegral (length chosen)
     share p q
-      | Vec.x q == Vec.x (Fit.from p) = 0
-      | Vec.x q == Vec.x (Fit.to p) = 1
-      | otherwise = case Fit.segment p of
-        Just s@Segment.Arc {} -> Segment.fraction s (Vec.point (Vec.x q) (Fit.height p (Vec.x q)))
-        _ -> (Vec.x q - Vec.x (Fit.from p)) / (Vec.x (Fit.to p) - Vec.x (Fit.from p))
+      | Vec.x q == Vec.x (Piece.from p) = 0
+      | Vec.x q == Vec.x (Piece.to p) = 1
+      | otherwise = case Piece.segment p of
+        Just s@Segment.Arc {} -> Segment.fraction s (Vec.point (Vec.x q) (Piece.height p (Vec.x q)))
+        _ -> (Vec.x q - Vec.x (Piece.from p)) / (Vec.x (Piece.to p) - Vec.x (Piece.from p))

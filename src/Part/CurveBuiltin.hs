@@ -17,6 +17,7 @@ import Geometry.Box qualified as Box
 import Geometry.Contour (Ends (..))
 import Geometry.Curve qualified as Exact
 import Geometry.Fit qualified as Fit
+import Geometry.Piece qualified as Piece
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
@@ -46,13 +47,13 @@ apply region builtin arguments = case (builtin, arguments) of
   (Fit, [t, Choosing UpTo (Quantity d)]) -> Just $ do
     positive d
     table <- tableOf t
-    points <- fitted region table (Fit.table (pointsOf table))
-    let chosen = Fit.fit (Fit.LineKind :| [Fit.ParabolaKind, Fit.ArcKind]) (Mm d) points
+    points <- ordered region table (Piece.table (pointsOf table))
+    let chosen = Fit.fit (Piece.LineKind :| [Piece.ParabolaKind, Piece.ArcKind]) (Mm d) points
     pieced region table points chosen
   (Sections, [t, Plain (ListValue lists)]) -> Just $ do
     table <- tableOf t
     chosen <- traverse (traverse (whole region "the number of a row") . numbers) lists
-    points <- fitted region table (Fit.table (pointsOf table))
+    points <- ordered region table (Piece.table (pointsOf table))
     fitted region table (Fit.sections points chosen) >>= pieced region table points
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
     chosen <- traverse (whole region "the number of a row") [n | Quantity n <- ns]
@@ -121,7 +122,7 @@ chain :: Region -> NonEmpty Exact.Segment -> Eval Value
 chain region segments = either (\_ -> Eval.mistake (NoLength region)) (pure . CurveValue . Curve.plain) (Exact.ofSegments segments)
 
 -- | A curve of pieces, with what they miss.
-pieced :: Region -> Table -> Fit.Table -> NonEmpty Fit.Piece -> Eval Value
+pieced :: Region -> Table -> Piece.Table -> NonEmpty Piece.Piece -> Eval Value
 pieced region table points chosen = do
   let (pieces', stations) = Curve.piecesOf (Vector.map point (rows table)) chosen
   c <- either (flawed region table) pure (Exact.ofPieces pieces' stations)
@@ -141,13 +142,19 @@ flawed region table flaw = Eval.mistake $ case flaw of
   Exact.DeepJoggle -> NoLength region
   Exact.LongJoggle _ _ -> NoLength region
 
--- | The same for pieces through a table.
+-- | The same for a table whose x has to go on.
+ordered :: Region -> Table -> Either Piece.Flaw a -> Eval a
+ordered region table = either (Eval.mistake . fact) pure
+  where
+    fact flaw = case flaw of
+      Piece.TooFewRows n -> NoCurve region Nothing (FewPoints n 2)
+      Piece.OutOfOrder k -> NoCurve region (rowAt table k) (Unordered k)
+
+-- | The same for pieces that are chosen by their rows.
 fitted :: Region -> Table -> Either Fit.Flaw a -> Eval a
 fitted region table = either (Eval.mistake . fact) pure
   where
     fact flaw = case flaw of
-      Fit.TooFewRows n -> NoCurve region Nothing (FewPoints n 2)
-      Fit.OutOfOrder k -> NoCurve region (rowAt table k) (Unordered k)
       Fit.NoSections -> NoCurve region Nothing (Split "There is no section.")
       Fit.WrongCount s n -> NoCurve region Nothing (SectionRows s n)
       Fit.NoSuchRow _ k -> NoSuchItem region k (Vector.length (rows table))

@@ -6,7 +6,6 @@ module Surface.Import
   ( Reader,
     Loaded (..),
     load,
-    alone,
   )
 where
 
@@ -14,7 +13,6 @@ import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Control.Monad.State.Strict (StateT, get, gets, lift, modify', put, runStateT)
-import Data.Functor.Identity (runIdentity)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
@@ -23,7 +21,7 @@ import Surface.Csv qualified as Csv
 import Surface.Error (Error (..))
 import Surface.Parser qualified as Parser
 import Surface.Syntax (Line, Lines (..), Program (..), Statement, Statement_ (..))
-import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeDirectory, (</>))
+import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeDirectory, takeExtension, (</>))
 
 -- | Reads a file, or says why it cannot be read.
 type Reader m = FilePath -> m (Either Text Text)
@@ -51,10 +49,6 @@ load reader path text = do
             imports = reverse (named progress)
           }
 
--- | A program of one text that can import nothing.
-alone :: Text -> Text -> Loaded
-alone path text = runIdentity (load (const (pure (Left "only one text is looked at"))) (Text.unpack path) text)
-
 -- | The statements of a file with its imports replaced by what they bring. The files that are being
 -- read stand on a stack.
 imported :: Monad m => Reader m -> [FilePath] -> FilePath -> [Statement] -> StateT Progress m [Statement]
@@ -77,7 +71,10 @@ imported reader stack path = fmap concat . mapM one
       | otherwise = do
         known <- gets (Set.member file . seen)
         if known then pure [] else readIn at file name
-    readIn at file name = do
+    readIn at file name
+      | takeExtension file == ".sheet" = mistake at (ImportMissing at name "it is an input sheet, of which partc import makes a program")
+      | otherwise = readPart at file name
+    readPart at file name = do
       content <- lift (reader file)
       case content of
         Left why -> mistake at (ImportMissing at name why)

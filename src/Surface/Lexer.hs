@@ -5,6 +5,7 @@ module Surface.Lexer
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region (..))
 import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Foldable (find)
@@ -12,7 +13,6 @@ import Data.List (sortOn)
 import Data.Ord (Down (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Data.Text.Read qualified as Read
 import Surface.Token (Numeral (Numeral), Token (..), Token_ (..), Unit, unitName)
 
 -- | What the lexer knows between two tokens.
@@ -78,12 +78,12 @@ quoted rest = case Text.uncons after of
 -- | A number with the unit that may stand behind it on its line.
 numeral :: Text -> (Token_, Int)
 numeral rest
-  | junk || Text.length digits > mostDigits = (BadNumber written, Text.length written)
-  | otherwise = case Read.double digits of
-    Right (value, "") | not (isInfinite value) -> case unitBehind (Text.drop size rest) of
+  | junk = (BadNumber written, Text.length written)
+  | otherwise = case Decimal.amount digits of
+    Just value -> case unitBehind (Text.drop size rest) of
       Just (unit, gap, length') -> (Number (Numeral digits value) (Just unit), size + gap + length')
       Nothing -> (Number (Numeral digits value) Nothing, size)
-    _ -> (BadNumber digits, size)
+    Nothing -> (BadNumber written, Text.length written)
   where
     whole = Text.takeWhile isDigit rest
     fraction = case Text.uncons (Text.drop (Text.length whole) rest) of
@@ -96,10 +96,6 @@ numeral rest
     extraPoint = not (Text.null fraction) && ".." /= Text.take 2 (Text.drop size rest) && "." == Text.take 1 (Text.drop size rest)
     junk = extraPoint || not (Text.null tailWord) && maybe True (\(_, gap, _) -> gap > 0) (unitBehind (Text.drop size rest))
     written = Text.takeWhile (\c -> isWordPart c || c == '.') rest
-
--- | No drawing has numbers with more digits.
-mostDigits :: Int
-mostDigits = 40
 
 -- | A unit at most some spaces away: the unit, the spaces before it, its length.
 unitBehind :: Text -> Maybe (Unit, Int, Int)

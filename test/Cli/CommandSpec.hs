@@ -110,6 +110,31 @@ spec = do
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.part") `shouldReturn` "part  x\nlet a = (1,\n"
+  describe "input sheets" $ do
+    it "compile to the tape of the program that import makes, and come back from it" $
+      inFolder $ \folder -> do
+        let there = (folder </>)
+        partc ["compile", "examples/spar.sheet", "-o", there "a.tape"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["import", "examples/spar.sheet", "-o", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["fmt", "--check", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["compile", there "rib.part", "-o", there "b.tape"] `shouldReturn` (ExitSuccess, "", "")
+        a <- ByteString.readFile (there "a.tape")
+        ByteString.readFile (there "b.tape") `shouldReturn` a
+        sheet <- readFile "examples/spar.sheet"
+        partc ["export-sheet", there "rib.part"] `shouldReturn` (ExitSuccess, sheet, "")
+    it "are no programs: no parameters, no layout, not over themselves" $
+      inFolder $ \folder -> do
+        ByteString.readFile "examples/spar.sheet" >>= ByteString.writeFile (folder </> "rib.sheet")
+        forM_ [(["check", "--set", "h=1"], "E0913"), (["fmt"], "E0914"), (["import", "-o", folder </> "rib.sheet"], "E0807"), (["export-sheet", "-o", folder </> "rib.sheet"], "E0807")] $ \(arguments, wanted) -> do
+          (code, out, err) <- partc (arguments <> [folder </> "rib.sheet"])
+          (code, out) `shouldBe` (ExitFailure 1, "")
+          err `shouldSatisfy` isInfixOf ("error[" <> wanted <> "]")
+    it "that are wrong give no program" $
+      inFolder $ \folder -> do
+        (code, out, err) <- partc ["import", "test/programs/sheet/bad/piece-short.sheet", "-o", folder </> "x.part"]
+        (code, out) `shouldBe` (ExitFailure 1, "")
+        err `shouldSatisfy` isInfixOf "14623"
+        doesFileExist (folder </> "x.part") `shouldReturn` False
   describe "formats" $ do
     it "short: one line a report, and nothing else" $ do
       (_, _, err) <- partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
@@ -142,7 +167,7 @@ spec = do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
   it "every command explains itself with an example" $
-    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "machines", "explain", "lsp", "fmt"] $ \command -> do
+    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "import", "export-sheet", "machines", "explain", "lsp", "fmt"] $ \command -> do
       (code, out, _) <- partc [command, "--help"]
       code `shouldBe` ExitSuccess
       out `shouldSatisfy` isInfixOf ("Example: partc " <> command)

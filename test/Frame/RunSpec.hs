@@ -13,8 +13,10 @@ import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as FromPath
 import Frame.Run (Bounds (..))
 import Frame.Run qualified as Run
+import Generate (Case (contour))
 import Generate qualified
 import Generate.Run qualified as Curve
+import Geometry.Contour (Contour (segments))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -25,6 +27,7 @@ import Machine.Machine (FeedCode (..))
 import Part.Part qualified as Part
 import Path.FromPart qualified as FromPart
 import Path.Path (Move (..))
+import Path.Path qualified as Path
 import Test.Hspec
 import Test.QuickCheck
 
@@ -82,6 +85,16 @@ spec = do
                       wayOf f = let Mm d = Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f)) in d
                    in counterexample (show (map speed frames)) $
                         not (null quick) && all ((== FeedCode 1) . speed) slow && abs (sum (map wayOf slow) - 1.6) <= 0.05
+    it "are runs as well where a contour is walked the other way (catches arcs that continue the wrong neighbour)" $
+      property $
+        forAll ((,) <$> Curve.curveCase <*> choose (2, 9)) $ \(c, k) ->
+          let job = Curve.jobAlong c
+              halves = let (a, b) = splitAt k (NonEmpty.toList (segments (contour c))) in NonEmpty.fromList (Curve.elements [a, b])
+              sensed sense = job {Part.side = (if Generate.outside c then Part.Outside else Part.Inside) <$ Part.side job, Part.sense = Just (Located (Region 0 0) sense), Part.contour = (Part.contour job) {Part.elements = halves}}
+              runsOf sense = case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (sensed sense))))) of
+                Just path -> [map NonEmpty.length (Path.runs (NonEmpty.toList cut)) | Path.Cutting {Path.cut} <- Path.blocks path]
+                Nothing -> []
+           in (runsOf Part.Climb === map reverse (runsOf Part.Conventional)) .&&. map length (runsOf Part.Climb) === [2]
   where
     chain = oneof [Curve.open, Curve.closed]
     arc = do

@@ -6,15 +6,16 @@ module Generate.Program
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Data.Char (isAlphaNum)
 import Data.List.NonEmpty (NonEmpty (..))
+import Data.Maybe (fromMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Data.Text.Read qualified as Read
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax hiding (statements)
@@ -55,7 +56,7 @@ number :: Gen Numeral
 number = numeral <$> frequency [(3, whole), (2, (\a b -> a <> "." <> b) <$> whole <*> whole), (1, Text.pack <$> vectorOf 18 (choose ('0', '9')))]
   where
     whole = Text.pack <$> (choose (1, 4) >>= \k -> vectorOf k (choose ('0', '9')))
-    numeral digits = Numeral digits (either (const 0) fst (Read.double digits))
+    numeral digits = Numeral digits (fromMaybe 0 (Decimal.amount digits))
 
 title :: Gen Text
 title = Text.pack <$> listOf (elements "ab Фл-.,(){}'\t%0")

@@ -1,6 +1,6 @@
 -- | The laws of biarcs. Each says which bug it would catch. Distances are measured here by other means than in the
 -- program: to an arc by angles, to the curve by the nearest of many of its points.
-module Geometry.BiarcSpec where
+module Geometry.BiarcSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Data.Foldable (toList)
@@ -66,6 +66,9 @@ spec = do
     it "approximate: every point of the arcs is near the curve (catches an arc the long way round)" $
       property $
         forAll tracked arcsLaw
+    it "approximate: so it is where the curve turns back within a radius far below the tolerance (catches an arc that overshoots)" $
+      property $
+        forAll turning arcsLaw
     it "approximate: no kink but at corners, and a group for each stretch between them (catches a small kink taken for a corner)" $
       property $
         forAll tracked kinkLaw
@@ -245,6 +248,8 @@ data Curve
     Cubic Bool [Node]
   | -- | lines and arcs that go over into one another: lengths and curvatures
     Bends [(Double, Double)]
+  | -- | nearly a cusp: the speed at its tip
+    Cusp Double [Double]
   deriving stock (Show)
 
 type Node = (Point, Double, Double, Double, Double)
@@ -254,6 +259,9 @@ tracked = Tracked <$> curve 1 <*> ((10 **) <$> choose (-3, 0))
 
 large :: Gen Tracked
 large = Tracked <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> breaking 12) <*> pure 1e-5
+
+turning :: Gen Tracked
+turning = Tracked <$> (Cusp <$> choose (0.05, 3) <*> breaking 3) <*> ((10 **) <$> choose (-2, 0))
 
 curve :: Double -> Gen Curve
 curve size =
@@ -294,6 +302,7 @@ closedCurve c = case c of
   Quartic {} -> False
   Cubic closed _ -> closed
   Bends _ -> False
+  Cusp _ _ -> False
 
 -- | The jumps of direction inside the curve.
 jumps :: Curve -> [Double]
@@ -319,6 +328,7 @@ trackOf c = case c of
   Ellipse a b bs -> analytic bs (\u -> Vec.point (a * cos u) (b * sin u)) (\u -> Vec.vec (-(a * sin u)) (b * cos u))
   Lissajous a b bs -> analytic bs (\u -> Vec.point (a * cos (3 * u)) (b * sin (2 * u))) (\u -> Vec.vec (-(3 * a * sin (3 * u))) (2 * b * cos (2 * u)))
   Quartic k bs -> analytic bs (\u -> Vec.point (10 * (u - 1.5)) (k * (u - 1.5) ** 4)) (\u -> Vec.vec 10 (4 * k * (u - 1.5) ^ (3 :: Int)))
+  Cusp e bs -> analytic bs (\u -> let v = u - 1.5 in Vec.point (10 * v * v) (5 * v ^ (3 :: Int) + e * v)) (\u -> let v = u - 1.5 in Vec.vec (20 * v) (15 * v * v + e))
   Cubic closed nodes ->
     let spans = zip nodes (drop 1 nodes <> take 1 nodes)
         n = if closed then length nodes else length nodes - 1
@@ -390,7 +400,8 @@ arcsLaw w@(Tracked c tolerance) = forAll (vectorOf 40 ((,) <$> choose (0, length
     near = nearest (trackOf c)
     ss = chain w
 
--- | The distance from a point to a curve, and where: about the nearest of many points on each strand nearby, more points.
+-- | The distance from a point to a curve, and where: about the nearest of many points on each strand nearby, more
+-- points.
 nearest :: Track -> Point -> (Double, Double)
 nearest t = \p -> minimum [closer p (14 :: Int) step u | (_, u) <- take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))]
   where
@@ -411,11 +422,12 @@ kinkLaw (Tracked c tolerance) =
   where
     groups = Track.approximate (Mm tolerance) (trackOf c)
 
--- | Against the fewest biarcs of any of some ratios between 65 points of the curve. One biarc ends and the next begins where a
--- joint has the curve's place and direction. Of lines and arcs that may be the joint in the middle; there segments are counted.
+-- | Against the fewest biarcs of any of some ratios between 65 points of the curve. One biarc ends and the next
+-- begins where a joint has the curve's place and direction. On a rough scale a biarc can hold where all shorter ones
+-- do not; that may cost one more. Of lines and arcs that may be the joint in the middle; there segments are counted.
 fewLaw :: Tracked -> Property
 fewLaw w@(Tracked c tolerance) =
-  corners c == 0 && not (kinks c) && length ss <= 40 ==> counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + slack :: Double))
+  corners c == 0 && not (kinks c) && length ss <= 40 ==> counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + slack + rough :: Double))
   where
     ss = chain w
     t = trackOf c
@@ -423,10 +435,11 @@ fewLaw w@(Tracked c tolerance) =
     (found, size, slack) = case c of
       Bends _ -> (length ss, length, 2)
       _ -> (1 + length (filter ends (drop 1 ss)), const 1, 1)
+    rough = if fewest < 5 then 1 else 0
     ends s =
-      let (d, u) = near (Segment.start s)
+      let (_, u) = near (Segment.start s)
           Rad off = Vec.turn (Segment.startDirection s) (direction t Leaving u)
-       in d < 1e-3 * tolerance && abs off < 5e-6
+       in abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9 && abs off < 5e-6
     n = 64 :: Int
     us = IntMap.fromList (zip [0 ..] (parameters n t))
     best = IntMap.fromList (zip [0 ..] (0 : map upTo [1 .. n])) :: IntMap Int

@@ -26,7 +26,7 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = do
-  it "closed curves are proven, whatever the tolerance (catches a contour of short arcs that cannot be measured)" $
+  it "closed curves are proven, whatever the tolerance (catches the two sides of a band exchanged)" $
     property $
       forAll ((,) <$> Curve.curveCase <*> accuracy) $ \(c, tolerance) ->
         punched (Generate.begin c) ((Curve.jobAlong c) {Part.tolerance = tolerance}) $ \path program ->

@@ -9,14 +9,23 @@ syntax iskeyword @,48-57,_,192-255,1024-1279
 syntax match partComment /--.*/ contains=@Spell
 syntax region partText start=/"/ end=/"/ oneline contains=@Spell
 syntax match partNumber /\<\d\+\(\.\d\+\)\?/
-syntax keyword partStatement part machine tool feed tolerance from let contour mill rapid move
-syntax keyword partRepeat for in
+syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
+syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
+syntax keyword partRepeat for in if then else and or not
 syntax keyword partWalk cw ccw open closed
-syntax keyword partLink meet near smooth tangent fillet chamfer
-syntax keyword partMilling outside inside left right on approach retract diameter
-syntax keyword partFunction pi polar circle line distance sin cos tan asin acos atan2 sqrt abs min max floor
+syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel
+syntax keyword partPiece cipher joggle within first last
+syntax keyword partMilling outside inside left right on approach retract allowance
+" Words that may be names as well, where they begin a setting.
+syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|start\|plunge\|peck\)\>/
+syntax keyword partCutter cone blade diameter
+syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical
+syntax keyword partFunction parallel perpendicular circle concentric distance direction_of radius_of length_of x_of y_of spline
+syntax keyword partFunction closed_spline polyline parabola arcs closed_arcs fit sections rows_of point_at_x point_along
+syntax keyword partFunction length_along start_of end_of tangent_of normal_of curvature_of moved rotated mirrored scaled
+syntax keyword partFunction reversed row grid around count_of item_of lift sin cos tan asin acos atan2 sqrt abs min max floor
 syntax match partUnit /\(\d\s*\)\@<=\(mm\|cm\|m\|in\)\(\/min\)\?\>/
-syntax match partUnit /\(\d\s*\)\@<=\(deg\|rad\)\>/
+syntax match partUnit /\(\d\s*\)\@<=\(deg\|rad\|rpm\)\>/
 
 highlight default link partComment Comment
 highlight default link partText String
@@ -25,7 +34,9 @@ highlight default link partStatement Statement
 highlight default link partRepeat Repeat
 highlight default link partWalk Keyword
 highlight default link partLink Keyword
+highlight default link partPiece Keyword
 highlight default link partMilling Keyword
+highlight default link partCutter Keyword
 highlight default link partFunction Function
 highlight default link partUnit Type
 

@@ -1,0 +1,100 @@
+-- | A sheet as text: a line for each kind of number, an empty line before each piece. Reading the text gives
+-- the same numbers.
+module Sheet.ToText
+  ( write,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Region (Located (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Sheet.Sheet
+
+-- | The text of a sheet.
+write :: Sheet -> Text
+write sheet =
+  Text.unlines $
+    generalData (general sheet)
+      <> [""]
+      <> map waypoint (NonEmpty.toList (approach sheet))
+      <> ["-0"]
+      <> concat (zipWith (array (length (others sheet))) [0 ..] (NonEmpty.toList (arrays sheet)))
+
+generalData :: General -> [Text]
+generalData g =
+  [ line [productCipher g, partCipher g, program g],
+    line [diameter g, gear g, bevel g, height g],
+    line [tolerance g] <> " " <> sideText (value (side g)),
+    "0 0 0 0 0 0 0"
+  ]
+  where
+    sideText s = case s of
+      Just LeftSide -> "1"
+      Just RightSide -> "-1"
+      Nothing -> "0"
+
+waypoint :: Waypoint -> Text
+waypoint w = line [x w, y w, z w, feed w]
+
+-- | An array with its number from 0, among others up to a last one.
+array :: Int -> Int -> Array -> [Text]
+array final' count a =
+  concatMap (\(Joined p (Located _ l)) -> piece p (linkText l)) (joined a)
+    <> piece (final a) "0"
+    <> [""]
+    <> map waypoint (NonEmpty.toList (onward a))
+    <> ["-0" | count < final']
+
+piece :: Piece -> Text -> [Text]
+piece p link =
+  ["", cipherText]
+    <> [line' signed | not (null heads)]
+    <> map row (NonEmpty.toList (rows p))
+    <> [line tails | not (null tails)]
+    <> concatMap (map line . tens . NonEmpty.toList) given
+    <> [if value (slow p) then "1" else "0", "-0", link <> " " <> number (value (allowance p))]
+  where
+    recalculations = value (cipher p)
+    digits = Text.concat (map (digitText . digitOf) recalculations)
+    heads = concatMap headOf recalculations
+    tails = [t | Growing _ t <- recalculations]
+    given = [g | Pointwise g <- recalculations]
+    rightwards = value (towards p) == RightSide
+    signedFirst = any ((/= 0) . value) (take 1 heads)
+    cipherText
+      | null recalculations = "0"
+      | rightwards && not signedFirst = "-" <> digits
+      | otherwise = digits
+    signed = zipWith (\k h -> if rightwards && signedFirst && k == (0 :: Int) then negate (value h) else value h) [0 ..] heads
+    line' = Text.unwords . map number
+
+-- | The distance before the points that a recalculation asks for.
+headOf :: Recalculation -> [Number]
+headOf r = case r of
+  Growing h _ -> [h]
+  Constant h -> [h]
+  Bevelled -> []
+  Pointwise _ -> []
+
+row :: Row -> Text
+row r = line ([px r, py r] <> maybe [] (\s -> [mu s, flange s]) (surface r))
+
+linkText :: Link -> Text
+linkText link = case link of
+  Joint -> "+"
+  Intersection -> "-"
+  Rounding r -> (if r > 0 then "+" else "") <> number r
+
+line :: [Number] -> Text
+line = Text.unwords . map (number . value)
+
+number :: Double -> Text
+number = Decimal.exact
+
+-- | Ten numbers a line.
+tens :: [a] -> [[a]]
+tens list = case splitAt 10 list of
+  ([], _) -> []
+  (some, rest) -> some : tens rest

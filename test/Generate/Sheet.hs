@@ -1,0 +1,139 @@
+-- | Random input sheets, whatever curves they may ask for.
+module Generate.Sheet
+  ( sheet,
+    cut,
+    number,
+  )
+where
+
+import Base.Region (Located (..), Region (..))
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Sheet.Sheet
+import Test.QuickCheck hiding (tolerance)
+
+-- | A sheet as reading one gives it, but all of it at one place.
+sheet :: Gen Sheet
+sheet = do
+  general <- generalData
+  approach <- waypoints (0, 3)
+  onwards <- choose (0, 3) >>= \k -> vectorOf k (waypoints (0, 2))
+  before <- traverse array onwards
+  final <- waypoints (0, 2) >>= array . stopped
+  pure $ case before <> [final] of
+    [] -> Sheet {general, approach, first = final, others = []}
+    a : as -> Sheet {general, approach, first = a, others = as}
+  where
+    stopped ps = NonEmpty.fromList (NonEmpty.init ps <> [(NonEmpty.last ps) {feed = here 0}])
+
+-- | One piece, far from its neighbours, that can be cut: an array with a cutter on the pieces themselves, whose curves are
+-- nearly straight and whose distances are small beside them.
+cut :: Gen Sheet
+cut = do
+  s <- sheet
+  count <- choose (1, 3 :: Int)
+  alone <- traverse gentle [1 .. count]
+  ways <- vectorOf (count - 1) (onePoint 60)
+  let arraysOf = zipWith (\p w -> Array {joined = [], final = p, onward = w :| []}) alone (ways <> [(plain 900 900) {feed = here 0}])
+  pure $ case arraysOf of
+    [] -> s
+    a : as -> s {general = (general s) {gear = here 0, bevel = here 0, height = here 0, diameter = here 6, tolerance = here 0.05, side = here Nothing}, approach = plain (-300) 0 :| [], first = a, others = as}
+  where
+    plain a b = Waypoint {x = here a, y = here b, z = here 0, feed = here 60}
+    onePoint f = (\a b -> (plain a b) {feed = here f}) <$> choose (-500, 500) <*> choose (-500, 500)
+
+-- | A nearly straight piece in a strip of its own.
+gentle :: Int -> Gen Piece
+gentle strip = do
+  digits <- resize 3 (listOf (elements [minBound .. maxBound]))
+  n <- choose (2, 8)
+  rows <- NonEmpty.fromList <$> traverse (\k -> row (Four `elem` digits) (fromIntegral k * 40) (fromIntegral strip * 120)) [0 .. n - 1 :: Int]
+  side <- elements [minBound .. maxBound]
+  cipher <- traverse (recalculation n (choose (0, 3))) digits
+  slow <- arbitrary
+  pure Piece {towards = here (if null cipher then LeftSide else side), cipher = here cipher, rows, slow = here slow, allowance = here 0}
+  where
+    row steep px py = do
+      dx <- choose (0, 5)
+      dy <- choose (0, 5)
+      mu <- choose (-4, 4)
+      h <- choose (5, 20)
+      pure Row {px = here (rounded (px + dx)), py = here (rounded (py + dy)), surface = if steep then Just Surface {mu = here (rounded mu), flange = here (rounded h)} else Nothing}
+    rounded v = fromIntegral (round (v * 100 :: Double) :: Int) / 100
+
+here :: a -> Located a
+here = Located (Region 0 0)
+
+-- | A number that a sheet can hold.
+number :: Gen Double
+number = oneof [fromIntegral <$> choose (-500, 500 :: Int), (/ 100) . fromIntegral <$> choose (-50000, 50000 :: Int), choose (-1000, 1000)]
+
+above :: Gen Double
+above = (abs <$> number) `suchThat` (> 0)
+
+generalData :: Gen General
+generalData = do
+  productCipher <- whole
+  partCipher <- whole
+  program <- whole
+  diameter <- here <$> above
+  (gear, bevel, height) <- oneof [pure (0, 0, 0), (,0,0) <$> above, (0,,) <$> above <*> above]
+  tolerance <- here <$> above
+  side <- here <$> elements [Nothing, Just LeftSide, Just RightSide]
+  pure General {productCipher, partCipher, program, diameter, gear = here gear, bevel = here bevel, height = here height, tolerance, side}
+  where
+    whole = here . fromIntegral <$> choose (0, 999999999 :: Int)
+
+-- | Points, the last of which has a feed for pieces.
+waypoints :: (Int, Int) -> Gen (NonEmpty Waypoint)
+waypoints range = do
+  before <- choose range >>= \k -> vectorOf k (waypoint (frequency [(2, above), (1, pure rapidFeed)]))
+  final <- waypoint (above `suchThat` (/= rapidFeed))
+  pure (NonEmpty.fromList (before <> [final]))
+  where
+    waypoint f = Waypoint <$> coordinate <*> coordinate <*> (here <$> oneof [pure 0, number]) <*> (here <$> f)
+
+coordinate :: Gen Number
+coordinate = here <$> number
+
+array :: NonEmpty Waypoint -> Gen Array
+array onward = do
+  count <- choose (0, 3 :: Int)
+  joined <- vectorOf count (Joined <$> piece <*> (here <$> link))
+  final <- piece
+  pure Array {joined, final, onward}
+
+link :: Gen Link
+link = oneof [pure Joint, pure Intersection, Rounding <$> (number `suchThat` (/= 0))]
+
+piece :: Gen Piece
+piece = do
+  digits <- resize 4 (listOf (elements [minBound .. maxBound]))
+  n <- choose (2, 6)
+  rows <- NonEmpty.fromList <$> vectorOf n (row (Four `elem` digits))
+  side <- elements [minBound .. maxBound]
+  cipher <- normal <$> traverse (recalculation n number) digits
+  slow <- arbitrary
+  allowance <- oneof [pure (here 0), coordinate]
+  pure Piece {towards = here (if null cipher then LeftSide else side), cipher = here cipher, rows, slow = here slow, allowance}
+  where
+    row steep = Row <$> coordinate <*> coordinate <*> if steep then Just <$> (Surface <$> coordinate <*> coordinate) else pure Nothing
+    -- The first distance before the points has the side's sign.
+    normal list = case break isGiven list of
+      (before, Growing a b : rest) -> before <> (Growing (fmap abs a) b : rest)
+      (before, Constant a : rest) -> before <> (Constant (fmap abs a) : rest)
+      _ -> list
+    isGiven r = case r of
+      Growing _ _ -> True
+      Constant _ -> True
+      Bevelled -> False
+      Pointwise _ -> False
+
+recalculation :: Int -> Gen Double -> Digit -> Gen Recalculation
+recalculation n size digit = case digit of
+  One -> Growing <$> one <*> one
+  Two -> Constant <$> one
+  Four -> pure Bevelled
+  Six -> Pointwise . NonEmpty.fromList <$> vectorOf n one
+  where
+    one = here <$> size

@@ -1,0 +1,123 @@
+-- | Sheets as parts: what they mean, and parts as sheets.
+module Sheet.PartSpec (spec) where
+
+import Base.Result (Result (..))
+import Base.Result qualified as Result
+import Compile (Analysis (..), Punched (..))
+import Compile qualified
+import Control.Exception (evaluate)
+import Control.Monad (forM_)
+import Data.ByteString qualified as ByteString
+import Data.Either (fromLeft)
+import Data.List (sort)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Files (expected, readText, walk)
+import Generate.Sheet qualified as Generate
+import Machine.Lkp01f (lkp01f)
+import Report.Human qualified as Human
+import Report.Report (Code (..), Report)
+import Report.Report qualified as Report
+import Sheet.Error (Error)
+import Sheet.Error qualified as Error
+import Sheet.FromPart qualified as FromPart
+import Sheet.FromText qualified as FromText
+import Sheet.Sheet (Sheet)
+import Sheet.ToSurface qualified as ToSurface
+import Sheet.ToText qualified as ToText
+import Sheet.Unfit qualified as Unfit
+import System.Directory (listDirectory)
+import System.FilePath (takeExtension, (-<.>), (</>))
+import Tape.Tape (Tape (..))
+import Test.Hspec hiding (after, before)
+import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
+import Test.QuickCheck hiding (Result (..), again)
+
+spec :: Spec
+spec = do
+  rib <- runIO (readText "examples/spar.sheet")
+  describe "a sheet with one number changed" $ do
+    -- Catches a shift that is taken for data, and a fault of ours on strange data.
+    forM_ [("left out", const []), ("doubled", \w -> [w, w]), ("an end mark", const ["-0"])] $ \(what, change) ->
+      it ("is refused, or is another sound program: " <> what) $
+        forM_ (variants change (Text.words rib)) $ \(n, text) -> do
+          result <- judged "x.sheet" text
+          case result of
+            Right _ -> (n, meaning text) `shouldNotBe` (n, meaning rib)
+            Left codes -> (n, codes) `shouldSatisfy` (not . null . snd)
+    it "stops as the Minsk-22 did where points or data of a piece are shifted" $ do
+      let left = variants (const []) (Text.words rib)
+          codesOf (n, text) = (n, fromLeft [] (fromTextCodes text))
+          stops code = sort [n | (n, [c]) <- map codesOf left, c == Code code]
+      -- The eight numbers of the approach.
+      [n | n <- [17 .. 24], n `notElem` stops "E0904"] `shouldBe` []
+      -- The data of the first piece but its cipher, and the points of the second.
+      [n | n <- [27 .. 45] <> [51 .. 54], n `notElem` stops "E0907"] `shouldBe` []
+      -- The twelve numbers of the retract but the last one.
+      [n | n <- [59 .. 70], n `notElem` stops "E0905"] `shouldBe` []
+  describe "a part as a sheet" $ do
+    -- Catches a number that is lost on its way through the part, a sign or a side that turns round.
+    modifyMaxSuccess (const 30) . prop "sheet, part, sheet: the numbers are the same" $
+      forAll Generate.cut $ \s ->
+        let text = ToText.write s
+         in counterexample (Text.unpack text) $
+              classify (not (null (fst (exported "x.sheet" text)))) "without a part" $ case exported "x.sheet" text of
+                ([], again) -> again === Just text
+                (codes, _) -> counterexample (show codes) (all (`notElem` codes) [Code "E0921", Code "E0922", Code "E0923", Code "E0924", Code "E0925", Code "E0926", Code "E0927"])
+    -- Catches a program whose text says something else than the sheet.
+    modifyMaxSuccess (const 10) . prop "sheet, program, sheet: the frames are the same" $
+      forAll Generate.cut $ \s ->
+        let text = ToText.write s
+            program = ToSurface.text s
+         in counterexample (Text.unpack program) $
+              ioProperty $ do
+                a <- judged "x.sheet" text
+                b <- judged "x.part" program
+                c <- case exported "x.part" program of
+                  ([], Just again) -> judged "x.sheet" again
+                  _ -> pure a
+                pure (a === b .&&. a === c)
+    it "gives the example back, to the letter" $
+      exported "x.sheet" rib `shouldBe` ([], Just rib)
+    it "gives every good sheet back" $ do
+      sheets <- filter ((== ".sheet") . takeExtension) <$> walk "test/programs/sheet/good"
+      forM_ sheets $ \file -> do
+        text <- readText file
+        (file, exported "x.sheet" text) `shouldBe` (file, ([], meaning text))
+  describe "parts that no sheet can hold are refused" $ do
+    files <- runIO (sort . filter ((== ".part") . takeExtension) <$> listDirectory "test/unfit")
+    forM_ files $ \file -> it file $ do
+      text <- readText ("test/unfit" </> file)
+      let loaded = Compile.alone (Text.pack file) text
+          outcome = Compile.evaluated [] loaded `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry FromPart.fromPart)
+          rendered r = Human.render Human.Plain (Text.pack file) (Compile.source loaded) r <> "\n"
+      errors outcome `shouldNotBe` []
+      expected (("test/unfit" </> file) -<.> "report") (Text.concat (map rendered (Report.sorted (errors outcome))))
+  where
+    meaning text = fmap ToText.write (output (FromText.read text :: Result () Error Sheet))
+
+-- | The codes of what is wrong with the numbers alone, or the sheet.
+fromTextCodes :: Text -> Either [Code] Sheet
+fromTextCodes text = case FromText.read text :: Result () Error Sheet of
+  Result {errors = [], output = Just s} -> Right s
+  Result {errors} -> Left (map (Report.code . Error.toReport) errors)
+
+-- | A program or a sheet as a sheet, or the codes of what is wrong.
+exported :: Text -> Text -> ([Code], Maybe Text)
+exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.settled outcome)
+  where
+    outcome = Compile.evaluated [] (Compile.alone path' text) `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry FromPart.fromPart) :: Result Report Report Sheet
+
+-- | Each word that the change concerns changed once, with its number.
+variants :: (Text -> [Text]) -> [Text] -> [(Int, Text)]
+variants change words' = [(n, Text.unwords (before <> change w <> after)) | n <- [1 .. length words'], (before, w : after) <- [splitAt (n - 1) words'], change w /= [w]]
+
+-- | The codes of the errors, or the tape.
+judged :: Text -> Text -> IO (Either [Code] Tape)
+judged path' text = case Result.settled outcome of
+  Nothing -> Left (map Report.code (errors outcome)) <$ evaluate (sum (map (Text.length . shown) (errors outcome)))
+  Just p -> Right (tape p) <$ evaluate (let Tape bytes = tape p in ByteString.length bytes)
+  where
+    loaded = Compile.alone path' text
+    outcome = Compile.analyse [] loaded `Result.thenSound` \a -> Compile.punch lkp01f (path a) :: Result Report Report Punched
+    shown = Human.render Human.Plain path' (Compile.source loaded)

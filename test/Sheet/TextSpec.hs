@@ -1,0 +1,48 @@
+-- | Sheets as text and as programs.
+module Sheet.TextSpec (spec) where
+
+import Base.Result (Result (..))
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Generate.Sheet qualified as Generate
+import Sheet.Error (Error)
+import Sheet.FromText qualified as FromText
+import Sheet.Sheet (Sheet)
+import Sheet.ToSurface qualified as ToSurface
+import Sheet.ToText qualified as ToText
+import Surface.Bare qualified as Bare
+import Surface.Error qualified as Surface
+import Surface.Format qualified as Format
+import Surface.Parser qualified as Parser
+import Surface.Syntax qualified as Surface
+import Test.Hspec
+import Test.Hspec.QuickCheck (prop)
+import Test.QuickCheck hiding (Result (..))
+
+spec :: Spec
+spec = do
+  describe "a sheet as text" $ do
+    -- Catches a number that reader and writer put into different places.
+    prop "write, then read: every number comes back to its place" $
+      forAll Generate.sheet $ \s ->
+        let text = ToText.write s
+            Result {errors, output} = FromText.read text :: Result () Error Sheet
+         in counterexample (Text.unpack text) $ errors === [] .&&. fmap ToText.write output === Just text
+    -- Catches a meaning that depends on how the sheet is laid out.
+    prop "spaces and line ends are one" $
+      forAll Generate.sheet $ \s ->
+        let text = ToText.write s
+         in meaning (Text.unwords (Text.words text)) === meaning text .&&. meaning (Text.intercalate "\r\n\t " (Text.words text)) === meaning text
+  describe "a sheet as a program" $ do
+    -- Catches a number that the program rounds, a name or a sign that is read otherwise.
+    prop "the text of the program is the program that the sheet stands for" $
+      forAll Generate.sheet $ \s ->
+        let text = ToSurface.text s
+            Result {errors, output} = Parser.parse 0 text :: Result () Surface.Error Surface.Program
+         in counterexample (Text.unpack text) $
+              errors === [] .&&. fmap (Bare.statements . Surface.statements) output === Just (Bare.statements (Surface.statements (ToSurface.program s)))
+    prop "is in the canonical layout" $
+      forAll Generate.sheet $ \s -> let text = ToSurface.text s in Format.format text === Just text
+  where
+    meaning :: Text -> Maybe Text
+    meaning t = fmap ToText.write (output (FromText.read t :: Result () Error Sheet))
