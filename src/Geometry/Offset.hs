@@ -185,7 +185,7 @@ collision style radius contour pieces
       [ (d, i, j, p)
         | Piece origin s <- NonEmpty.toList pieces,
           let i = numberOf origin,
-          (j, other) <- Box.within (Box.inflate widest (Box.ofSegment s)) index,
+          (j, other) <- Box.select (\box -> Box.meets (Box.inflate widest (Box.ofSegment s)) box && Box.atLeast (`Distance.toPoint` s) box < widest) index,
           let Nearest d p = Distance.segments s other,
           let tooNear more = plus d Tolerance.clearance < plus radius more,
           tooNear (extra style j) && tooNear (shared (snd (Distance.nearest p other)))

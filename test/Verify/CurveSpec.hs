@@ -33,7 +33,7 @@ spec = do
           proven path program
   it "curves between lines and arcs are proven, and have about the frames of the arcs that they stand for (catches a run that takes in its neighbours)" $
     property $
-      forAll (Generate.smoothCase >>= \c -> (c,) <$> infiniteListOf (choose (1, 40))) $ \(c, counts) ->
+      forAll (Generate.smoothCase >>= \c -> (c,) <$> vectorOf 60 (choose (1, 40))) $ \(c, counts) ->
         let job = (Generate.job c) {Part.tolerance = Part.OnPath (Mm 0.02)}
          in punched (Generate.begin c) job $ \_ plain ->
               punched (Generate.begin c) (inParts counts job) $ \path program ->
