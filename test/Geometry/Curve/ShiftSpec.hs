@@ -2,7 +2,9 @@
 module Geometry.Curve.ShiftSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Data.Containers.ListUtils (nubOrd)
 import Data.Foldable (toList)
+import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (isJust, isNothing)
 import GHC.Exts qualified as Exts
@@ -230,9 +232,9 @@ sameShift c d e = forAll (elements [LeftOf, RightOf]) $ \side -> forAll Generate
 share' :: Gen Double
 share' = choose (-0.4, 0.4)
 
--- | The smooth stretches.
+-- | The stretches without a change of formula: on chains, columns change theirs at the rows.
 inner :: Curve -> [(Double, Double)]
-inner c = let bs = Curve.breaks c in zip bs (drop 1 bs)
+inner c = let bs = nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.rows (Curve.base c))))) in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
 
 -- | First and second derivatives by differences of two widths, and what they tend to.
 derivativesLaw :: Curve -> Double -> Double -> Property
