@@ -175,7 +175,7 @@ piece = do
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right"))
   Piece what base ciphers side <$> Parsec.many (located joggle)
   where
-    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> parens (expr `sepBy1` ",")
+    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> (touching *> parens (expr `sepBy1` ","))
     digit t = case shape t of
       Number x Nothing -> Just x
       _ -> Nothing
