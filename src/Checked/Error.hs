@@ -146,12 +146,12 @@ toReport err = case err of
       }
   SenseUnneeded region t ->
     (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
-      { hints = ["A line is walked from its first point to its second; leave the word out."]
+      { hints = ["Leave the word out. " <> w | Just w <- [wayOf t]] <> ["Leave the word out." | Nothing <- [wayOf t]]
       }
   NotWalkable region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
-      { message = ["A contour walks along lines, circles and open contours, and through points."],
-        hints = ["The items of a list are walked with: for p in list { p }" | ListOf _ <- [t]]
+      { message = ["A contour walks along lines, circles, curves and open contours, and through points."],
+        hints = ["The items of a list are walked with: for p in list { p }" | ListOf _ <- [t]] <> ["Lay a curve through its points, for example spline(t) for a table t." | Table _ <- [t]]
       }
   NoPart region ->
     (at region "E0215" "the program does not begin with ‘part’")
@@ -212,7 +212,7 @@ toReport err = case err of
   NoSuchCipher region digit ->
     (at region "E0227" ("there is no cipher " <> digit))
       { message = ["This was control stop 14441 of the Minsk-22 system: the cipher is not provided for."],
-        hints = ["The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel and height), 6 (a distance at each point)."]
+        hints = ["One digit at a time: cipher " <> Text.intercalate ", " [Text.singleton d <> "(…)" | d <- Text.unpack digit] | severalCiphers digit] <> ["The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel and height), 6 (a distance at each point)."]
       }
   CipherMisfit region digit count ->
     (at region "E0228" ("cipher " <> digit <> " does not work with " <> counted count "value"))
@@ -229,7 +229,7 @@ toReport err = case err of
       { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
         hints = case (Name.nearest name columns, columns) of
           (w : _, _) -> ["Did you mean " <> quote w <> "?"]
-          ([], []) -> ["The table of the curve has only the columns x and y: name more of them in its first line."]
+          ([], []) -> ["Only a curve through a table with more columns than x and y has values at its points; the first line of the table names them."]
           ([], _) -> ["Its columns are " <> Text.intercalate ", " columns <> "."]
       }
   WithinNothing region ->
@@ -241,10 +241,22 @@ toReport err = case err of
       { message = ["Every program must come to an end, so a definition uses only what stands above it."]
       }
 
+-- | How something without a choice of sense is walked.
+wayOf :: Type -> Maybe Text
+wayOf t = case t of
+  Line -> Just "A line is walked from its first point to its second."
+  Curve _ -> Just "A curve is walked from its beginning to its end; the other way, write reversed(c)."
+  Contour -> Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
+  _ -> Nothing
+
+-- | Whether a cipher is several written as one number.
+severalCiphers :: Text -> Bool
+severalCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
+
 -- | How a cipher is written.
 cipherForms :: Text -> [Text]
 cipherForms digit = case digit of
-  "1" -> ["1(from, to)", "1(from, to, mu)", "1(from, to, start_point, end_point)"]
+  "1" -> ["1(from, to)", "1(from, to, mu)", "1(from, to, start_point, end_point)", "1(from, to, mu, start_point, end_point)"]
   "2" -> ["2(distance)", "2(distance, mu)"]
   "4" -> ["4(mu, height)", "4(mu, height, allowance)"]
   _ -> ["6(distance)", "6(distance, mu)"]

@@ -39,16 +39,16 @@ data Column = Column {called :: Located Name, kind :: Type, size :: Maybe Double
 -- | The columns and the rows of a table, and its type.
 table :: Checker -> Located Name -> [Surface.Line] -> Infer (Type, Solution -> Columns)
 table checker name written = case written of
-  Located _ (Surface.Header headings) : rows -> do
+  Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
     mapM_ twice (zip [0 ..] columns)
-    mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing (region name) (Name n)))) ["x", "y"]
+    mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing at (Name n)))) ["x", "y"]
     rows' <- catMaybes <$> traverse (row checker columns) (zip [1 ..] rows)
     let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
         order = concatMap (`named` columns) ["x", "y"] <> [i | (i, c) <- zip [0 ..] columns, value (called c) `elem` map (value . called) extra]
     pure
       ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
-        \sol -> Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] [Located at [es !! i | i <- order] | r <- rows', let Located at es = r sol]
+        \sol -> Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] [Located place [es !! i | i <- order] | r <- rows', let Located place es = r sol]
       )
     where
       twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of

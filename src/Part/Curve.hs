@@ -11,6 +11,7 @@ module Part.Curve
     transformed,
     track,
     along,
+    abscissas,
     piecesOf,
   )
 where
@@ -100,6 +101,17 @@ along c values = [(s, at s) | s <- Polyarc.joints (laid c)]
     at s = Exact.columnAt (exact c) column (Exact.alongTo (exact c) (Mm (s * whole / chain)))
     Mm whole = Exact.length (exact c)
     Mm chain = Polyarc.length (laid c)
+
+-- | The least and the greatest x that a curve comes to, by the chain of arcs that stands for it.
+abscissas :: Exact.Curve -> (Mm, Mm)
+abscissas c = (Mm (minimum xs), Mm (maximum xs))
+  where
+    chain = laid (plain c)
+    xs = Vec.x (Polyarc.start chain) : concatMap (map Vec.x . farthest) (NonEmpty.toList (Polyarc.segments chain))
+    farthest s = case s of
+      Segment.Straight _ q -> [q]
+      Segment.Arc {Segment.start = p, Segment.end = q, Segment.centre = m} ->
+        let Mm r = Segment.radius m p in q : filter (Segment.spans s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
 
 -- | Pieces as a curve, with the parameters of the rows on it.
 piecesOf :: Vector Point -> NonEmpty Piece.Piece -> (NonEmpty Piece, Vector Double)

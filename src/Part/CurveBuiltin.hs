@@ -29,7 +29,7 @@ import Geometry.Walked qualified as Walked
 import Part.Curve (Curve (..), Fitting (..), Row (point, written), Table (..))
 import Part.Curve qualified as Curve
 import Part.Data
-import Part.Error (Candidate (..), Fact (..), Trouble (..))
+import Part.Error (Candidate (..), Fact (..), Listing (..), Trouble (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
 
@@ -52,16 +52,15 @@ apply region builtin arguments = case (builtin, arguments) of
     pieced region table points chosen
   (Sections, [t, Plain (ListValue lists)]) -> Just $ do
     table <- tableOf t
-    chosen <- traverse (traverse (whole region "the number of a row") . numbers) lists
+    chosen <- traverse (traverse (rowNumber region table) . numbers) lists
     points <- ordered region table (Piece.table (pointsOf table))
     fitted region table (Fit.sections points chosen) >>= pieced region table points
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
-    chosen <- traverse (whole region "the number of a row") [n | Quantity n <- ns]
-    case filter (> Vector.length (rows t)) chosen of
-      k : _ -> Eval.mistake (NoSuchItem region k (Vector.length (rows t)))
-      [] -> let pick vs = Vector.fromList [vs Vector.! (k - 1) | k <- chosen] in pure (TableValue Table {rows = pick (rows t), columns = fmap (fmap pick) (columns t)})
+    chosen <- traverse (rowNumber region t) [n | Quantity n <- ns]
+    let pick vs = Vector.fromList [vs Vector.! (k - 1) | k <- chosen]
+    pure (TableValue Table {rows = pick (rows t), columns = fmap (fmap pick) (columns t)})
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
-    [] -> Eval.mistake (NoAnswer region "point" "The curve does not come to this x.")
+    [] -> let (low, high) = Curve.abscissas (exact c) in Eval.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
     us -> picked region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
   (PointAlong, [Plain (CurveValue c), Plain (Quantity s)])
     | s < -slack || s > l + slack -> Just (Eval.mistake (NoAnswer region "point" ("The curve is " <> written l <> " long.")))
@@ -131,36 +130,58 @@ pieced region table points chosen = do
 -- | What is wrong with the points of a curve, at the row where it shows.
 flawed :: Region -> Table -> Exact.Flaw -> Eval a
 flawed region table flaw = Eval.mistake $ case flaw of
-  Exact.TooFew n -> NoCurve region Nothing (FewPoints (Vector.length (rows table)) n)
-  Exact.Coincident k -> NoCurve region (rowAt table (k + 1)) (SamePoint (k + 1))
-  Exact.EvenCount n -> NoCurve region Nothing (EvenPoints n)
-  Exact.NotMonotone k -> NoCurve region (rowAt table (k + 1)) (Unordered (k + 1))
-  Exact.Disordered k -> NoCurve region (rowAt table (k + 1)) (Unordered (k + 1))
+  -- Of a closed curve, the last point may be the first again.
+  Exact.TooFew n
+    | there >= n -> noCurve region table Nothing (FewDifferent (there - 1) n)
+    | otherwise -> noCurve region table Nothing (FewPoints there n)
+  Exact.Coincident k -> noCurve region table (rowAt table (k + 1)) (SamePoint (k + 1))
+  Exact.EvenCount n -> noCurve region table Nothing (EvenPoints n)
+  Exact.NotMonotone k -> noCurve region table (rowAt table (k + 1)) (Unordered (k + 1))
+  Exact.Disordered k -> noCurve region table (rowAt table (k + 1)) (Unordered (k + 1))
   Exact.NoDirection -> NoLength region
   Exact.NoLength _ -> NoLength region
   Exact.Disjoint _ -> NoLength region
   Exact.DeepJoggle -> NoLength region
   Exact.LongJoggle _ _ -> NoLength region
+  where
+    there = Vector.length (rows table)
 
 -- | The same for a table whose x has to go on.
 ordered :: Region -> Table -> Either Piece.Flaw a -> Eval a
 ordered region table = either (Eval.mistake . fact) pure
   where
     fact flaw = case flaw of
-      Piece.TooFewRows n -> NoCurve region Nothing (FewPoints n 2)
-      Piece.OutOfOrder k -> NoCurve region (rowAt table k) (Unordered k)
+      Piece.TooFewRows n -> noCurve region table Nothing (FewPoints n 2)
+      Piece.OutOfOrder k -> noCurve region table (rowAt table k) (Unordered k)
 
 -- | The same for pieces that are chosen by their rows.
 fitted :: Region -> Table -> Either Fit.Flaw a -> Eval a
 fitted region table = either (Eval.mistake . fact) pure
   where
     fact flaw = case flaw of
-      Fit.NoSections -> NoCurve region Nothing (Split "There is no section.")
-      Fit.WrongCount s n -> NoCurve region Nothing (SectionRows s n)
-      Fit.NoSuchRow _ k -> NoSuchItem region k (Vector.length (rows table))
-      Fit.RowsDoNotRise s -> NoCurve region Nothing (SectionOrder s)
-      Fit.NotJoined s begins must -> NoCurve region Nothing (SectionJoint s begins must)
-      Fit.EndsEarly final all' -> NoCurve region Nothing (SectionEnd final all')
+      Fit.NoSections -> noCurve region table Nothing NoSection
+      Fit.WrongCount s n -> noCurve region table Nothing (SectionRows s n)
+      Fit.NoSuchRow _ k -> NoSuchRow region (listing region table) k (Vector.length (rows table))
+      Fit.RowsDoNotRise s -> noCurve region table Nothing (SectionOrder s)
+      Fit.NotJoined s begins must -> noCurve region table Nothing (SectionJoint s begins must)
+      Fit.EndsEarly final all' -> noCurve region table Nothing (SectionEnd final all')
+
+noCurve :: Region -> Table -> Maybe Region -> Trouble -> Fact
+noCurve region table = NoCurve region (listing region table)
+
+-- | The points of a list have no rows of their own: they stand where the call does.
+listing :: Region -> Table -> Listing
+listing region table = if rowAt table 1 == Just region then InList else InTable
+
+-- | The number of a row that there is.
+rowNumber :: Region -> Table -> Double -> Eval Int
+rowNumber region table x
+  | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal = Eval.mistake (NotWhole region ("the number of a " <> (case listing region table of InTable -> "row"; InList -> "point")) ("from 1 to " <> Decimal.whole count) x)
+  | n < 1 || n > count = Eval.mistake (NoSuchRow region (listing region table) n count)
+  | otherwise = pure n
+  where
+    n = if abs x > 1e7 then 0 else round x :: Int
+    count = Vector.length (rows table)
 
 rowAt :: Table -> Int -> Maybe Region
 rowAt table k = written <$> rows table Vector.!? (k - 1)

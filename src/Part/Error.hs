@@ -2,6 +2,7 @@
 module Part.Error
   ( Error (..),
     Fact (..),
+    Listing (..),
     Candidate (..),
     Trouble (..),
     joined',
@@ -13,13 +14,14 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), degrees)
+import Base.Quantity (Mm (..), Rad (..), degrees, times)
 import Base.Region (Region)
 import Data.List (nub)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Geometry.Fillet qualified as Fillet
 import Geometry.Polyarc qualified as Polyarc
-import Geometry.Shape (Circle (..), Line (..))
+import Geometry.Shape (Circle (..), Line (..), Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -39,10 +41,16 @@ data Joined = Joined {link :: Region, before :: (Region, Walked), after :: (Regi
 data Candidate = APoint Point | ALine Line | ACircle Circle
   deriving stock (Eq, Show)
 
+-- | What points stand in: the rows of a table, or a list.
+data Listing = InTable | InList
+  deriving stock (Eq, Show)
+
 -- | Why points make no curve.
 data Trouble
   = -- | how many there are, how many are needed
     FewPoints Int Int
+  | -- | of a curve that closes: how many different ones there are, how many are needed
+    FewDifferent Int Int
   | -- | this row is the point of the one before
     SamePoint Int
   | EvenPoints Int
@@ -55,7 +63,7 @@ data Trouble
     SectionJoint Int Int Int
   | -- | the last row of the sections, and of the table
     SectionEnd Int Int
-  | Split Text
+  | NoSection
   deriving stock (Eq, Show)
 
 data Fact
@@ -120,7 +128,7 @@ data Fact
     NoneFits Region Text [Candidate]
   | -- | several answers that are all as asked
     SeveralFit Region Text [Candidate]
-  | -- | there is no such line, circle or point at all: what, and why
+  | -- | there is no such line, circle or point: what, and why
     NoAnswer Region Text Text
   | -- | things that do not touch, by so much
     NotTouching Region Mm
@@ -130,6 +138,8 @@ data Fact
     NotWhole Region Text Text Double
   | -- | the number of an item, and how many there are
     NoSuchItem Region Int Int
+  | -- | the number of a row of a table or a point of a list, and how many there are
+    NoSuchRow Region Listing Int Int
   | StepOfZero Region
   | -- | what must not be negative, and what it is
     Negative Region Text Text
@@ -146,8 +156,8 @@ data Fact
     OpenBegins Region Name
   | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
     WrongCutter Region Text Text Text
-  | -- | the points of a curve: the call, the row, why
-    NoCurve Region (Maybe Region) Trouble
+  | -- | the points of a curve: the call, what they stand in, the row, why
+    NoCurve Region Listing (Maybe Region) Trouble
   | -- | a shift of a curve beyond its radius of curvature: the cipher, the place, the distance, the largest there
     Folds Region Point Mm Mm
   | -- | a shift of a curve with a corner: the cipher, the place, the angle
@@ -156,8 +166,9 @@ data Fact
     SteepBevel Region (Maybe Int) Rad
   | -- | the ends of a change of distance do not follow one another along the curve
     GrowthEnds Region
-  | -- | a coordinate of a joggle that the piece does not have, or has several times: the points
-    JoggleCoordinate Region Mm [Point]
+  | -- | a coordinate of a joggle that the piece does not have, or has several times: the points; from where to where its
+    -- coordinates run
+    JoggleCoordinate Region Mm [Point] (Mm, Mm)
   | -- | the two coordinates of a joggle are one place
     JoggleNowhere Region
   | -- | a joggle's radius does not fit: its radius, the length between its ends, the largest that fits
@@ -207,8 +218,8 @@ toReport (Error fact calls) = addCalls $ case fact of
   NoLength region ->
     at region "E0328" "the contour has no length"
   LinkOfLoneCircle region ->
-    (at region "E0329" "a circle alone closes by itself and needs no link")
-      { hints = ["Leave the link out."]
+    (at region "E0329" "a circle or a closed curve alone needs no link")
+      { hints = ["It closes by itself: leave the link out."]
       }
   RadiusNotPositive region r ->
     (at region "E0304" ("a circle needs a positive radius, this one is " <> Decimal.mm r))
@@ -224,7 +235,7 @@ toReport (Error fact calls) = addCalls $ case fact of
     at region "E0307" ("the contour " <> quote name <> " has no elements")
   LoneElement region walked ->
     (at region "E0308" ("a closed contour cannot consist of " <> describe walked <> " alone"))
-      { hints = ["Only a circle closes by itself; add the other elements, or make the contour open."]
+      { hints = ["Only a circle or a closed curve closes by itself; add the other elements, or make the contour open."]
       }
   NoEnd region walked ->
     (at region "E0309" ("an open contour cannot begin or end on " <> describe walked))
@@ -255,7 +266,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   AmbiguousMeeting j points ->
     (joined "E0314" j (things j <> " meet in more than one point"))
-      { message = ["They meet at " <> Text.intercalate " and at " (map (Vec.written 4) points) <> "."],
+      { message = ["They meet at " <> Text.intercalate (if length points > mostPoints then ", " else " and at ") (map (Vec.written 4) (take mostPoints points)) <> andMore mostPoints points <> "."],
         hints = ["Choose with: meet near " <> Vec.written 4 p | p <- take 1 points]
       }
   NotSmooth j gap ->
@@ -297,7 +308,7 @@ toReport (Error fact calls) = addCalls $ case fact of
           _ -> ["There is one when they are walked " <> Text.intercalate ", or " senses <> "."]
       }
   FilletAtPoint j ->
-    (joined "E0321" j "a fillet or chamfer needs a line or a circle on both sides, not a point")
+    (joined "E0321" j "a fillet or chamfer needs a line, a circle or a curve on both sides, not a point")
       { hints = ["Write the edges as lines: line(p, q)."]
       }
   NoFillet j r largest ->
@@ -305,6 +316,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       { message = [stop "17535"],
         hints =
           ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
+            <> ["With the other sign there is one: fillet " <> signed <> "." | Just signed <- [otherSign j r]]
             <> ["+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses of the neighbours."]
       }
   AmbiguousFillet j centres ->
@@ -357,6 +369,10 @@ toReport (Error fact calls) = addCalls $ case fact of
     (at region "E0339" ("the list has no item " <> Decimal.whole n))
       { message = ["It has " <> Decimal.whole count <> (if count == 1 then " item" else " items") <> ", counted from 1."]
       }
+  NoSuchRow region listing n count ->
+    (at region "E0339" ("the " <> (case listing of InTable -> "table"; InList -> "list") <> " has no " <> nounOf listing <> " " <> Decimal.whole n <> ", it has " <> (if count == 0 then "none" else Decimal.whole count)))
+      { message = ["They count from 1." | n < 1]
+      }
   StepOfZero region ->
     at region "E0340" "a range cannot go in steps of zero"
   DoesNotHold region values ->
@@ -384,15 +400,15 @@ toReport (Error fact calls) = addCalls $ case fact of
     (at region "E0347" ("the contour " <> quote name <> " is open and begins at its first element"))
       { hints = ["Leave ‘start near’ out. To begin at its other end, mill reversed(" <> name <> ") on the other side."]
       }
-  NoCurve region row trouble ->
-    (at (maybe region id row) "E0349" (troubled trouble))
+  NoCurve region listing row trouble ->
+    (at (maybe region id row) "E0349" (troubled (nounOf listing) trouble))
       { others = [Label region "for this curve" | Just r <- [row], r /= region],
-        hints = troubleHint trouble
+        hints = troubleHint (nounOf listing) trouble
       }
   Folds region p asked largest ->
-    (at region "E0350" ("the curve folds over: at " <> Vec.written 3 p <> " its radius of curvature is only " <> downTo largest))
+    (at region "E0350" ("the curve folds over: at " <> Vec.written 3 p <> " its radius of curvature is only " <> below largest))
       { message = ["It is shifted there by " <> Decimal.mm asked <> " towards the inside of the bend; a curve can be shifted by less than its radius."],
-        hints = ["The largest distance that fits there is " <> downTo largest <> "."]
+        hints = ["The largest distance that fits there is less than " <> below largest <> "."]
       }
   ShiftsCorner region p angle ->
     (at region "E0351" ("the curve has a corner of " <> Decimal.short 2 (degrees angle) <> " deg at " <> Vec.written 3 p))
@@ -400,7 +416,7 @@ toReport (Error fact calls) = addCalls $ case fact of
         hints = ["Lay a spline through the points, or make a piece of each part and join them by a link."]
       }
   SteepBevel region row angle ->
-    (at region "E0352" ("a bevel of " <> Decimal.short 3 (degrees angle) <> " deg is none"))
+    (at region "E0352" (Decimal.short 3 (degrees angle) <> " deg is no bevel"))
       { message = ["In row " <> Decimal.whole k <> " of the table." | Just k <- [row]],
         hints = ["The bevel is measured from the axis of the tool; it lies between -90 deg and 90 deg."]
       }
@@ -408,9 +424,9 @@ toReport (Error fact calls) = addCalls $ case fact of
     (at region "E0353" "the change of distance must end behind its beginning, along the walk")
       { hints = ["Give the point first that the walk comes to first."]
       }
-  JoggleCoordinate region x points ->
+  JoggleCoordinate region x points (low, high) ->
     (at region "E0354" (case points of [] -> "the piece does not come to x = " <> Decimal.mm x; _ -> "the piece has more than one point with x = " <> Decimal.mm x))
-      { message = [listed (map APoint points) | not (null points)] <> [stop "15074"],
+      { message = [if null points then "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "." else listed (map APoint points), stop "15074"],
         hints = ["A joggle needs x coordinates that the piece passes once."]
       }
   JoggleNowhere region ->
@@ -420,7 +436,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   JoggleRadius region r there largest ->
     (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " does not fit into " <> Decimal.mm there <> " of the piece"))
       { message = [stop "14174"],
-        hints = ["The largest radius that fits is " <> downTo m <> "." | Just m <- [largest]]
+        hints = [maybe ("No radius fits: the depth must be less than half of this length, " <> downTo (times 0.5 there) <> ".") (\m -> "The largest radius that fits is " <> downTo m <> ".") largest]
       }
   JoggleDepth region r least ->
     (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " cannot go so deep"))
@@ -441,29 +457,55 @@ toReport (Error fact calls) = addCalls $ case fact of
   where
     addCalls r = r {others = others r <> [Label c "in this call" | c <- nub (take 1 calls <> take 1 (reverse calls))]}
 
-troubled :: Trouble -> Text
-troubled trouble = case trouble of
-  FewPoints there needed -> "a curve needs " <> Decimal.whole needed <> " points, these are " <> Decimal.whole there
-  SamePoint k -> "row " <> Decimal.whole k <> " is the same point as the row before it"
-  EvenPoints n -> "parabolas need an odd number of points, these are " <> Decimal.whole n
-  Unordered k -> "x does not go on in row " <> Decimal.whole k <> " as it began"
-  SectionRows s n -> "section " <> Decimal.whole s <> " names " <> Decimal.whole n <> (if n == 1 then " row" else " rows")
-  SectionOrder s -> "the rows of section " <> Decimal.whole s <> " do not rise"
-  SectionJoint s begins must -> "section " <> Decimal.whole s <> " begins with row " <> Decimal.whole begins <> ", not with row " <> Decimal.whole must
-  SectionEnd final all' -> "the last section ends with row " <> Decimal.whole final <> ", the table with row " <> Decimal.whole all'
-  Split why -> why
+-- | What stands in a table or a list.
+nounOf :: Listing -> Text
+nounOf listing = case listing of
+  InTable -> "row"
+  InList -> "point"
 
-troubleHint :: Trouble -> [Text]
-troubleHint trouble = case trouble of
+-- | What is wrong, of rows or points.
+troubled :: Text -> Trouble -> Text
+troubled noun trouble = case trouble of
+  FewPoints there needed -> "a curve needs " <> Decimal.whole needed <> " points, " <> thereAre there
+  FewDifferent there needed -> "a closed curve needs " <> Decimal.whole needed <> " different points, " <> thereAre there
+  SamePoint k -> noun <> " " <> Decimal.whole k <> " is the same point as the one before it"
+  EvenPoints n -> "parabolas need an odd number of points, there are " <> Decimal.whole n
+  Unordered k -> "x does not go on in " <> noun <> " " <> Decimal.whole k <> " as it began"
+  SectionRows s n -> "section " <> Decimal.whole s <> " names " <> Decimal.whole n <> " " <> noun <> (if n == 1 then "" else "s")
+  SectionOrder s -> "the " <> noun <> "s of section " <> Decimal.whole s <> " do not rise"
+  SectionJoint s begins must -> "section " <> Decimal.whole s <> " begins with " <> noun <> " " <> Decimal.whole begins <> ", not with " <> noun <> " " <> Decimal.whole must
+  SectionEnd final all' -> "the last section ends with " <> noun <> " " <> Decimal.whole final <> ", not with the last " <> noun <> ", " <> Decimal.whole all'
+  NoSection -> "a curve of sections needs at least one"
+  where
+    thereAre n = case n of
+      0 -> "there are none"
+      1 -> "there is only one"
+      _ -> "there are only " <> Decimal.whole n
+
+troubleHint :: Text -> Trouble -> [Text]
+troubleHint noun trouble = case trouble of
   FewPoints _ _ -> []
-  SamePoint _ -> ["Leave one of the two rows out."]
-  EvenPoints _ -> ["The first parabola goes through rows 1 to 3, the next through rows 3 to 5, and so on."]
-  Unordered _ -> ["Sort the rows by x. A curve that turns back in x is a spline, arcs or a polyline."]
-  SectionRows _ _ -> ["Two rows are joined by a line, three by a parabola: [[1, 3], [3, 5, 8]]."]
-  SectionOrder _ -> ["Write the rows in the order of the table: [3, 5, 8]."]
-  SectionJoint {} -> ["The first section begins with row 1, every other one with the row that the one before ends with."]
-  SectionEnd _ _ -> ["The last section ends with the last row."]
-  Split _ -> []
+  FewDifferent _ _ -> ["The last point, when it is the first again, does not count."]
+  SamePoint _ -> ["Leave one of the two " <> noun <> "s out."]
+  EvenPoints _ -> ["The first parabola goes through " <> noun <> "s 1 to 3, the next through " <> noun <> "s 3 to 5, and so on."]
+  Unordered _ -> ["Sort the " <> noun <> "s by x. A curve that turns back in x is a spline, arcs or a polyline."]
+  SectionRows _ _ -> [example]
+  SectionOrder _ -> ["Write the " <> noun <> "s in their order: [3, 5, 8]."]
+  SectionJoint {} -> ["The first section begins with " <> noun <> " 1, every other one with the " <> noun <> " that the one before ends with."]
+  SectionEnd _ _ -> []
+  NoSection -> [example]
+  where
+    example = "Two " <> noun <> "s are joined by a line, three by a parabola: [[1, 3], [3, 5, 8]]."
+
+-- | The radius of a fillet with the one sign that fits, in words: R with + is walked clockwise.
+otherSign :: Joined -> Mm -> Maybe Text
+otherSign j r = case (fits Clockwise, fits CounterClockwise) of
+  (True, False) -> Just (Decimal.mm r)
+  (False, True) -> Just ("-" <> Decimal.mm r)
+  (True, True) -> Nothing
+  (False, False) -> Nothing
+  where
+    fits turn = not (null (Fillet.between r turn (snd (before j)) (snd (after j))))
 
 at :: Region -> Code -> Text -> Report
 at region code = report Report.Error code (InSource region)
@@ -501,12 +543,34 @@ listed :: [Candidate] -> Text
 listed candidates = case candidates of
   [] -> "There is none."
   [one] -> "There is only " <> words' one <> "."
+  _ | length candidates > mostCandidates -> "There are " <> Text.intercalate ", " (map words' (take mostCandidates candidates)) <> andMore mostCandidates candidates <> "."
   _ -> "There are " <> Text.intercalate ", " (map words' (init candidates)) <> " and " <> words' (last candidates) <> "."
   where
     words' c = case c of
       APoint p -> Vec.written 4 p
       ALine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
       ACircle (Circle c' r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c'
+
+-- | So many points in which two neighbours meet are told.
+mostPoints :: Int
+mostPoints = 6
+
+-- | So many answers are told: as many circles of one size can touch two circles.
+mostCandidates :: Int
+mostCandidates = 8
+
+-- | How many more there are than are told.
+andMore :: Int -> [a] -> Text
+andMore most answers = case length answers - most of
+  n | n > 0 -> " and " <> Decimal.whole n <> " more"
+  _ -> ""
+
+-- | A length that is not to be reached, with three decimals; one that is whole but for the noise of doubles is told as
+-- whole.
+below :: Mm -> Text
+below (Mm x) = downTo (Mm (x + noise))
+  where
+    Mm noise = Tolerance.coincident
 
 -- | A length that is not to be exceeded, with three decimals.
 downTo :: Mm -> Text

@@ -156,7 +156,7 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
       x <- Value.number <$> Value.evaluate env e
       case Exact.atX x lower of
         [u] -> pure u
-        us -> Eval.mistake (JoggleCoordinate (region e) (Mm x) (map (Exact.at lower) us))
+        us -> Eval.mistake (JoggleCoordinate (region e) (Mm x) (map (Exact.at lower) us) (Curve.abscissas lower))
     lengthOf e = do
       x <- Value.number <$> Value.evaluate env e
       when (x <= 0) (Eval.mistake (NotPositive (region e) "a measure of a joggle" (Decimal.mm (Mm x))))

@@ -63,6 +63,12 @@ data Problem
     NoName Text
   | -- | something behind a complete statement
     Trailing Token_
+  | -- | something in a row of a table that is no cell
+    NotInRow Token_
+  | -- | something among the names of columns that is none
+    NotInHeadings Token_
+  | -- | a piece of which nothing says on which side of its curve it lies
+    NoSide
   | -- | a statement in a block
     Misplaced Text
   | -- | brackets with more than three values
@@ -375,6 +381,9 @@ fromFailure ts finish failure = case failure of
     NoStatement word -> Error.UnknownStatement region word (Keyword.statements <> Keyword.blocks)
     NoName word -> Error.Reserved region word
     Trailing shape' -> Error.Trailing region shape' neighbours
+    NotInRow shape' -> Error.NotInRow region shape' neighbours
+    NotInHeadings shape' -> Error.NotInHeadings region shape' neighbours
+    NoSide -> Error.NoSide region found
     Misplaced word -> Error.Misplaced region word
     ManyCoordinates place -> Error.ManyCoordinates place
     TooDeep -> Error.TooDeep region deepest

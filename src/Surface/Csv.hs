@@ -10,7 +10,7 @@ where
 
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
-import Data.Char (isAlpha, isAlphaNum, isSpace)
+import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Either (partitionEithers)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -29,7 +29,11 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
   header : rest ->
     let separator = separatorOf (value header)
         (wrong, first) = headings separator header
-        (wrongs, others) = unzip (map (numbers separator) rest)
+        columns = case value first of
+          Header hs -> Just (length hs)
+          Entries _ -> Nothing
+          BrokenLine -> Nothing
+        (wrongs, others) = unzip (zipWith (numbers separator columns) [1 ..] rest)
      in (wrong <> concat wrongs, first : others)
 
 -- | The lines with their places, without a mark of the byte order.
@@ -72,15 +76,20 @@ headings separator line = case partitionEithers (map heading (NonEmpty.toList (f
       _ -> Left (BadHeading at text)
     isName word = Text.all (\c -> isAlphaNum c || c == '_') word && Text.any isAlpha (Text.take 1 word) && not (Keyword.isReserved word)
 
-numbers :: Char -> Located Text -> ([Error], Line)
-numbers separator line = case partitionEithers (map number (filled (NonEmpty.toList (fields separator line)))) of
+-- | A row, which has its number from 1, with a cell for each column, if those are known.
+numbers :: Char -> Maybe Int -> Int -> Located Text -> ([Error], Line)
+numbers separator columns k line = case partitionEithers (map number cells) of
+  ([], _) | Just n <- columns, n /= length cells -> ([CellCount (region line) k n (length cells) (decimal n)], Located (region line) BrokenLine)
   ([], e : es) -> ([], Located (region line) (Entries (e :| es)))
   (wrong, _) -> (wrong, Located (region line) BrokenLine)
   where
+    cells = filled (NonEmpty.toList (fields separator line))
+    -- Too many cells of digits alone may be the halves of numbers with a decimal comma.
+    decimal n = separator == ',' && length cells > n && all (Text.all isDigit . Text.dropWhile (`elem` ['-', '+']) . value) cells
     -- Nothing behind the last separator is no cell.
-    filled cells = case reverse cells of
+    filled found = case reverse found of
       Located _ "" : rest@(_ : _ : _) -> reverse rest
-      _ -> cells
+      _ -> found
     number (Located at text) = case Text.uncons text of
       Just ('-', rest) -> Located at . Negate . Located (Region (start at + 1) (end at)) <$> numeral at (Text.stripStart rest)
       Just ('+', rest) -> Located at <$> numeral at rest

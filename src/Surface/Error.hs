@@ -14,7 +14,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
 import Surface.Keyword qualified as Keyword
-import Surface.Token (Token_ (..), describe, unitName)
+import Surface.Token (Token_ (..), columnUnits, describe, unitName)
 
 -- | A fact about the text, and where it stands.
 data Error
@@ -28,6 +28,12 @@ data Error
     Reserved Region Text
   | -- | something behind a complete statement or item
     Trailing Region Token_ Neighbours
+  | -- | something in a row of a table that is no cell
+    NotInRow Region Token_ Neighbours
+  | -- | something among the names of a table's columns that is none
+    NotInHeadings Region Token_ Neighbours
+  | -- | a piece of which nothing says on which side of its curve it lies; what stands there instead
+    NoSide Region Found
   | -- | a statement in the braces of another
     Misplaced Region Text
   | -- | brackets nested deeper than so many
@@ -48,6 +54,9 @@ data Error
     BadHeading Region Text
   | -- | what should be a number of a table, as it is written
     BadCell Region Text
+  | -- | a row in a file: its number from 1, how many columns there are, how many cells it has, and whether its commas may
+    -- be those of decimals
+    CellCount Region Int Int Int Bool
   | -- | a value from outside for a name that is no parameter; the parameters
     NoSuchParam Text [Text]
   | -- | a value from outside that is none: the parameter, its name, the text
@@ -107,6 +116,21 @@ toReport err = case err of
       { message = ["Every statement begins on a line of its own."],
         hints = advice token neighbours
       }
+  NotInRow region token _ | isBroken token && token `notElem` map Stray [';', '|'] -> toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
+  NotInRow region token neighbours ->
+    (at region "E0120" (describe token <> " does not belong in a row of a table"))
+      { hints = rowAdvice token neighbours
+      }
+  NotInHeadings region token _ | isBroken token -> toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
+  NotInHeadings region token _ ->
+    (at region "E0120" (describe token <> " does not belong among the names of columns"))
+      { hints = headingAdvice token
+      }
+  NoSide region found ->
+    (at region "E0101" ("found " <> shown found <> expectation ["‘left’", "‘right’"]))
+      { label = "here",
+        hints = ["Say on which side of its curve the piece lies, to the left or to the right of the walk: piece q = c left"]
+      }
   Misplaced region word ->
     (at region "E0109" (quote word <> " is a statement and does not belong in these braces"))
       { hints =
@@ -140,12 +164,18 @@ toReport err = case err of
       { hints = ["Its first line names the columns, its others have a number for each: x,y and below it 0,40"]
       }
   BadHeading region text ->
-    (at region "E0118" (quote text <> " cannot name a column"))
+    (at region "E0118" (if Text.null text then "a column without a name" else quote text <> " cannot name a column"))
       { hints = ["The first line of the file names the columns, with a unit if there is one: x,y,mu deg"]
       }
   BadCell region text ->
     (at region "E0119" (if Text.null text then "a cell of the table is empty" else quote text <> " is not a number"))
       { hints = ["Every line has a number for each column; the unit stands in the first line."]
+      }
+  CellCount region number columns cells decimal ->
+    (at region "E0226" ("row " <> Decimal.whole number <> " has " <> counted cells "cell" <> ", but the table has " <> counted columns "column"))
+      { hints =
+          ["A row is one line of the file, with a number for each column that the first line names."]
+            <> ["If these are decimal commas, put semicolons between the columns: x;y and below it 0,5;40" | decimal]
       }
   NoSuchParam name known ->
     (report Error "E0114" InFile ("the program has no parameter " <> quote name))
@@ -183,6 +213,38 @@ advice token neighbours = case (token, neighbours) of
   (Symbol "=", _) -> ["To give a name to a value, write: let name = value"]
   (Word word, (Just (Number _ _), _)) | word `notElem` Keyword.reservedWords -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
   _ -> []
+
+-- | What is probably meant by a token that is no cell of a row.
+rowAdvice :: Token_ -> Neighbours -> [Text]
+rowAdvice token neighbours = case (token, neighbours) of
+  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) -> ["A decimal point is a point: 59.3.", spaces]
+  (Symbol ",", _) -> [spaces]
+  (Stray _, _) -> [spaces]
+  (Symbol "(", (Just (Symbol "-"), _)) -> ["The sign stands in the brackets too: (-h)."]
+  (Symbol "+", (_, Just (Number _ _))) -> ["A positive number needs no sign.", computed "2 + 6"]
+  (Symbol s, _) | s `elem` ["*", "/", "-", "+"] -> [computed ("2 " <> s <> " 6")]
+  (Word word, (_, touching)) | not (Keyword.isReserved word) -> [computed (if touching == Just (Symbol "(") then word <> "(…)" else word)]
+  (_, _) -> [spaces, computed "2 * h"]
+  where
+    spaces = "The values of a row stand one after another with spaces between them: 0 40"
+    computed what = "What is no plain number stands in brackets: (" <> what <> ")."
+
+-- | The same among the names of columns.
+headingAdvice :: Token_ -> [Text]
+headingAdvice token = case token of
+  Symbol "/" -> [units]
+  Symbol "," -> [names]
+  Symbol _ -> [names, units]
+  Word word
+    | word `elem` map unitName [minBound .. maxBound] -> [units]
+    | otherwise -> ["It is a word of the language: choose another name, for example " <> word <> "1."]
+  _ -> [names, "In a row below them, what is no plain number stands in brackets: (h)."]
+  where
+    names = "The line with the names of the columns has nothing else: x y mu deg H"
+    units = "A column has one of the units " <> Text.intercalate ", " (map unitName columnUnits) <> ", or none."
+
+counted :: Int -> Text -> Text
+counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
 -- | Whether only one certain word fits: then there is nothing to guess.
 isWord :: [Text] -> Bool

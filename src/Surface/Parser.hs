@@ -123,12 +123,14 @@ cutter =
     one "mill" "diameter" MillCutter
       <|> one "drill" "diameter" DrillCutter
       <|> one "turn" "nose" TurningCutter
-      <|> (keyword "cone" *> parens (ConeCutter <$> measured "diameter" <*> further "bevel" <*> further "height"))
-      <|> (keyword "blade" *> parens (BladeCutter <$> measured "diameter" <*> further "gear"))
+      <|> (keyword "cone" *> parens (ConeCutter <$> measured "diameter" <*> further "bevel" coneForm <*> further "height" coneForm))
+      <|> (keyword "blade" *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm))
   where
     one kind measure make = keyword kind *> parens (make <$> measured measure)
     measured measure = keyword measure *> expr
-    further measure = symbol "," *> measured measure
+    further measure form = (symbol "," <?> form) *> measured measure
+    coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
+    bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
 accuracy :: Parser Accuracy
 accuracy = (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
@@ -157,14 +159,26 @@ contour = do
 lines' :: Parser Lines
 lines' = (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks"))) <|> (WrittenLines <$> block "the table" (const BrokenLine) line)
 
--- | The columns of a table, or a value for each of them.
+-- | The columns of a table, or a value for each of them, and nothing else on the line.
 line :: Parser Line_
-line = (Header <$> onLine column) <|> (Entries <$> onLine cell)
+line = (Header <$> onLine NotInHeadings column) <|> (Entries <$> onLine NotInRow cell) <|> misfit NotInRow
   where
-    onLine p = (:|) <$> p <*> Parsec.many (onThisLine p)
+    onLine problem p = (:|) <$> p <*> Parsec.many (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
-    cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> number))) <|> parens expr
+    cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow)))) <|> parens expr
+
+-- | What stands here does not belong in the line of a table.
+misfit :: (Token_ -> Problem) -> Parser a
+misfit problem = Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
+
+-- | Nothing more stands on the line of a table, but for the end of it.
+lineDone :: (Token_ -> Problem) -> Parser ()
+lineDone problem = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  case next of
+    Just t | not (newLine t) && shape t /= Symbol "}" -> misfit problem
+    _ -> pure ()
 
 -- | @skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@
 piece :: Parser Statement_
@@ -172,9 +186,15 @@ piece = do
   what <- name <* symbol "="
   base <- expr
   ciphers <- Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
-  side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right"))
+  side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> sideless)
   Piece what base ciphers side <$> Parsec.many (located joggle)
   where
+    -- The end of the statement, or a side of something else.
+    sideless = do
+      next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+      case next of
+        Just t | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] -> Parsec.empty
+        _ -> Parsec.customFailure NoSide
     cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> (touching *> parens (expr `sepBy1` ","))
     digit t = case shape t of
       Number x Nothing -> Just x
