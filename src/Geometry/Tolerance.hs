@@ -8,6 +8,7 @@ module Geometry.Tolerance
     smallestFillet,
     sameFillet,
     nearTie,
+    bevel,
     smoothGap,
     smoothTurn,
     slightRest,
@@ -64,6 +65,10 @@ sameFillet = Mm 1e-5
 -- are known to 'curve' at best.
 nearTie :: Mm
 nearTie = Mm 1e-4
+
+-- | A bevel that goes evenly between two places is off by no more.
+bevel :: Rad
+bevel = Rad 5e-5
 
 -- | Curves of measured points count as joined when their ends are no further apart …
 smoothGap :: Mm

@@ -17,6 +17,8 @@ import Data.Containers.ListUtils (nubOrdOn)
 import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Contour (Ends (..))
@@ -292,29 +294,41 @@ begun shape a b = case shape of
   OnCircle _ _ -> Mm 0
   AtPoint _ -> Mm 0
 
--- | The segments of one element from a place on it. Those that go on smoothly on the same curve are marked.
+-- | The segments of one element from a place on it, cut where its bevel is known. Those that go on smoothly on the same
+-- curve are marked.
 marked :: Walk -> Mm -> [Segment] -> [Element]
-marked Walk {place, shape, finish, bevel} (Mm from) ss = zipWith3 element ss (False : zipWith goesOn ss (drop 1 ss)) (zip marks (drop 1 marks))
+marked Walk {place, shape, finish, bevel} (Mm from) whole = zipWith3 element ss (False : zipWith goesOn ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
-    element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning bevel a <*> leaning bevel b)
-    isCurve = case shape of
-      OnCurve _ -> True
-      OnLine _ -> False
-      OnCircle _ _ -> False
-      AtPoint _ -> False
-    marks = scanl (\s g -> let Mm l = Segment.length g in s + l) from ss
+    element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning angles a <*> leaning angles b)
+    (isCurve, round') = case shape of
+      OnCurve c -> (True, if Polyarc.isClosed c then Just (Polyarc.length c) else Nothing)
+      OnLine _ -> (False, Nothing)
+      OnCircle _ _ -> (False, Nothing)
+      AtPoint _ -> (False, Nothing)
+    -- A closed curve may be walked on into its next round.
+    angles = Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [round'], (s, a) <- drop 1 bevel])
+    ss = if Map.size angles > 1 then concat (zipWith (cutAtKeys angles) (along whole) whole) else whole
+    marks = along ss
+    along = scanl (\s g -> let Mm l = Segment.length g in s + l) from
     goesOn a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned <= smooth
     Rad smooth = Tolerance.smoothAngle
 
--- | The angle at a place along an element, from those at some places.
-leaning :: [(Double, Double)] -> Double -> Maybe Double
-leaning bevel s = case (reverse before, behind) of
-  ((a, x) : _, (b, y) : _) | b > a -> Just (x + (y - x) * (s - a) / (b - a))
-  ((_, x) : _, _) -> Just x
-  ([], (_, y) : _) -> Just y
-  ([], []) -> Nothing
+-- | A segment that begins at a place, cut at the places of a table.
+cutAtKeys :: Map Double a -> Double -> Segment -> [Segment]
+cutAtKeys table from s = case Map.lookupGT (from + least) table of
+  Just (at, _) | at < from + l - least, (a, b) <- Segment.cutAt ((at - from) / l) s -> a : cutAtKeys table at b
+  _ -> [s]
   where
-    (before, behind) = span ((<= s) . fst) bevel
+    Mm l = Segment.length s
+    Mm least = Tolerance.coincident
+
+-- | The angle at a place along an element, from those at some places.
+leaning :: Map Double Double -> Double -> Maybe Double
+leaning angles s = case (Map.lookupLE s angles, Map.lookupGE s angles) of
+  (Just (a, x), Just (b, y)) -> Just (if b > a then x + (y - x) * (s - a) / (b - a) else x)
+  (Just (_, x), Nothing) -> Just x
+  (Nothing, Just (_, y)) -> Just y
+  (Nothing, Nothing) -> Nothing
 
 -- | The segments of a way.
 elementsOf :: [Walk] -> Point -> Maybe Segment -> Route -> [Element]

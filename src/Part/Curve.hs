@@ -17,7 +17,7 @@ module Part.Curve
 where
 
 import Base.Name (Name)
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -91,16 +91,31 @@ reversed c = curve [(n, Exact.backwards (exact c) vs) | (n, vs) <- fields c] Not
 transformed :: Similarity -> Curve -> Curve
 transformed s c = curve (fields c) Nothing (Exact.transformed s (exact c))
 
--- | Values for the rows of a curve's table, along the chain that stands for the curve: the place on the chain and the value, at the
--- ends of its segments.
+-- | Bevels for the rows of a curve's table, along the chain that stands for the curve: places on the chain in mm and the angles
+-- there in radians, so near to one another that between them an angle goes evenly, within 'Tolerance.bevel'.
 along :: Curve -> Vector Double -> [(Double, Double)]
-along c values = [(s, at s) | s <- Polyarc.joints (laid c)]
+along c values = (0, at 0) : concat (zipWith between stations (drop 1 stations))
   where
+    stations = Polyarc.joints (laid c)
     column = Exact.column (exact c) values
     -- The chain and the curve differ in length by nothing that tells.
     at s = Exact.columnAt (exact c) column (Exact.alongTo (exact c) (Mm (s * whole / chain)))
     Mm whole = Exact.length (exact c)
     Mm chain = Polyarc.length (laid c)
+    -- In steps that rows cannot hide in.
+    between a b =
+      let count = max 1 (ceiling ((b - a) / stride)) :: Int
+          marks = [a + (b - a) * fromIntegral k / fromIntegral count | k <- [0 .. count]]
+       in concat (zipWith (\p q -> halved (12 :: Int) (p, at p) (q, at q)) marks (drop 1 marks))
+    stride = max 0.1 (chain / (8 * fromIntegral (max 1 (Vector.length values))))
+    halved tries (a, x) (b, y)
+      | tries <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack = [(b, y)]
+      | otherwise = halved (tries - 1) (a, x) (m, z) <> halved (tries - 1) (m, z) (b, y)
+      where
+        m = (a + b) / 2
+        z = at m
+        z' = at ((a + m) / 2)
+    Rad slack = Tolerance.bevel
 
 -- | The least and the greatest x that a curve comes to, by the chain of arcs that stands for it.
 abscissas :: Exact.Curve -> (Mm, Mm)

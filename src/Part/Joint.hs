@@ -208,10 +208,23 @@ chamfer j own (Mm d) = case shapes j of
   (_, AtPoint _) -> Left (FilletAtPoint j)
   (a, b) -> do
     Joint {leave = corner} <- meet j own Nothing
+    reaches (before j) (-d) corner
+    reaches (after j) d corner
     let p = along a (-d) corner
         q = along b d corner
     Right (Joint p q (Just (Straight p q)))
   where
+    -- A curve has to be as long as the chamfer takes from it.
+    reaches (region, shape) s p = case shape of
+      OnCurve c
+        | not (Polyarc.isClosed c), t < -tolerance -> Left (Overrun region shape (Mm (-t)) [link j] Nothing)
+        | not (Polyarc.isClosed c), t > l + tolerance -> Left (Overrun region shape (Mm (t - l)) [link j] Nothing)
+        where
+          Mm at = Polyarc.station c p
+          Mm l = Polyarc.length c
+          Mm tolerance = Tolerance.coincident
+          t = at + s
+      _ -> Right ()
     along shape s p = case shape of
       OnLine l -> Vec.shift (Vec.scale s (Shape.direction l)) p
       OnCircle turn (Circle c (Mm r)) -> Vec.shift (Vec.rotate (Rad (Shape.sense turn * s / r)) (Vec.to c p)) c

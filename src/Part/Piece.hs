@@ -127,14 +127,19 @@ mentions names (Located _ e) = case e of
 -- | A shift, if it tears no corner open and does not fold the curve.
 shiftedBy :: Region -> Offset.Side -> Distance -> Exact.Curve -> Eval Exact.Curve
 shiftedBy at side distance lower = do
-  case [(u, turned) | u <- Exact.corners lower, let turned = turnAt u, turned > Tolerance.kink] of
-    (u, turned) : _ -> Eval.mistake (ShiftsCorner at (Exact.at lower u) turned)
+  let corners = Exact.corners lower
+      whole = Exact.shifted side distance lower
+  -- A curve that is put together stays together.
+  case [u | u <- corners, turnAt u > Tolerance.kink || torn whole u > Tolerance.curve] of
+    u : _ -> Eval.mistake (ShiftsCorner at (Exact.at lower u) (turnAt u))
     [] -> pure ()
-  let whole = Exact.shifted side distance lower
   case Fold.fold whole of
     Just f -> Eval.mistake (Folds at (Fold.place f) (Fold.asked f) (Fold.largest f))
     Nothing -> pure whole
   where
+    torn whole u
+      | u <= 0 = Vec.distance (Exact.placeFrom Exact.Before whole (Exact.domain whole)) (Exact.placeFrom Exact.After whole 0)
+      | otherwise = Vec.distance (Exact.placeFrom Exact.Before whole u) (Exact.placeFrom Exact.After whole u)
     turnAt u = let Rad a = Vec.turn (Exact.tangentFrom Exact.Before lower u) (Exact.tangentFrom Exact.After lower u) in Rad (abs a)
 
 -- | A joggle between two coordinates of the curve (Kolsanova, control stops 15074 and 14174).

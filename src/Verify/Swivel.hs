@@ -36,15 +36,15 @@ levelled machine path = foldr (\p next -> map (onLevel machine p) . next) id bla
   where
     blades = [blade milling pass | Path.Cutting {Path.job = Located _ milling, Path.pass} <- Path.blocks path, Just _ <- [Part.gear milling]]
 
--- | A pass along a contour with a blade: what it reaches, its elements with their numbers, the heights of the axis at
+-- | A pass along a contour with a blade: how far the tool's centre stands from it at most, its elements with their numbers, the heights of the axis at
 -- their ends.
-data Blade = Blade {level :: Mm, reach :: Mm, allowed :: Mm, elements :: Box.Index (Int, Segment), axes :: Vector (Mm, Mm)}
+data Blade = Blade {level :: Mm, furthest :: Mm, allowed :: Mm, elements :: Box.Index (Int, Segment), axes :: Vector (Mm, Mm)}
 
 blade :: Milling -> Path.Pass -> Blade
 blade milling Path.Pass {Path.reach, Path.atHeight} =
   Blade
     { level = atHeight,
-      reach,
+      furthest = (if Part.corners milling == Part.Sharp then times 2 else id) (plus reach (maximum (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling))))),
       allowed = uncurry max (Part.deepest (Part.tolerance milling)),
       elements = Box.index (Box.ofSegment . snd) (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
       axes = maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Swivel.bevels (Part.contour milling))
@@ -62,10 +62,14 @@ onLevel machine b t
   | fits (Segment.start (line t)) (fst (heights t)) && fits (Segment.end (line t)) (snd (heights t)) = t {heights = (level b, level b)}
   | otherwise = t
   where
-    fits p z = case [h | (i, s) <- Box.within (Box.inflate around (Box.ofPoints p [])) (elements b), Distance.toPoint p s <= around, Just h <- [axisAt b i s p]] of
+    -- What the tool touches is nearest to it.
+    fits p z = case [h | (d, i, s) <- beside p, d <= plus (nearest p) (times 2 off), Just h <- [axisAt b i s p]] of
       [] -> False
       hs -> minus z (maximum hs) <= slack && minus (minimum hs) z <= slack
-    around = plus (reach b) (plus (allowed b) (Machine.pulse machine))
+    beside p = [(d, i, s) | (i, s) <- Box.within (Box.inflate around (Box.ofPoints p [])) (elements b), let d = Distance.toPoint p s, d <= around]
+    nearest p = minimum (around : [d | (d, _, _) <- beside p])
+    off = plus (allowed b) (Machine.pulse machine)
+    around = plus (furthest b) off
     -- The place is off along the contour by the tolerance and a pulse as well.
     slack = times 1.5 (Machine.pulse machine)
 
