@@ -17,6 +17,7 @@ import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), degrees, times)
 import Base.Region (Region)
 import Data.List (nub)
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Fillet qualified as Fillet
@@ -401,7 +402,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       { hints = ["Leave ‘start near’ out. To begin at its other end, mill reversed(" <> name <> ") on the other side."]
       }
   NoCurve region listing row trouble ->
-    (at (maybe region id row) "E0349" (troubled (nounOf listing) trouble))
+    (at (fromMaybe region row) "E0349" (troubled (nounOf listing) trouble))
       { others = [Label region "for this curve" | Just r <- [row], r /= region],
         hints = troubleHint (nounOf listing) trouble
       }

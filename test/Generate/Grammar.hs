@@ -121,7 +121,7 @@ literals (Grammar known) = sort (Set.toList (Set.fromList (concatMap inside (Map
 data Mark = Written Text | LineEnd | Touching
   deriving stock (Eq, Show)
 
--- | A random sentence. Statements begin on lines of their own, and the parenthesis of a call touches its name.
+-- | A random sentence. Statements and the lines of tables begin on lines of their own, and the parenthesis of a call touches its name.
 sentence :: Grammar -> Gen Text
 sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (Named "program")
   where
@@ -153,6 +153,7 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       _ -> frequency [(10, pure 0), (2, pure 1), (1, pure 2)]
     around name marked = case name of
       "statement" -> (LineEnd :) <$> marked
+      "line" -> (LineEnd :) <$> marked
       "arguments" -> (Touching :) <$> marked
       "values" -> (Touching :) <$> marked
       "parameters" -> (Touching :) <$> marked
