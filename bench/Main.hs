@@ -37,10 +37,10 @@ main :: IO ()
 main = do
   flange <- Text.readFile "examples/flange.part"
   putStrLn "milliseconds of processor time for each stage, best of several runs; growth is the exponent from the program before"
-  forM_ [("flange", [(18, flange)]), ("polygon", [(n, polygon n) | n <- [100, 1000, 10000]]), ("statements", [(n, statements n) | n <- [1000, 5000, 20000]])] $ \(name, programs) -> do
-    rows <- forM programs $ \(n, text) -> (n,) <$> forM stages (\(_, run) -> timed (if n > 1000 then 3 else 7) text run)
+  forM_ [("flange", [(18, flange)]), ("polygon", [(n, polygon n) | n <- [100, 1000, 10000]]), ("statements", [(n, statements n) | n <- [1000, 5000, 20000]]), ("rows", [(n, rows [] n) | n <- [100, 1000, 10000]]), ("ciphers", [(n, rows ["2(2.5)", "4(mu, H)"] n) | n <- [100, 1000]])] $ \(name, programs) -> do
+    lines' <- forM programs $ \(n, text) -> (n,) <$> forM stages (\(_, run) -> timed (if n > 1000 then 3 else 7) text run)
     Text.putStrLn ("\n" <> Text.justifyLeft 10 ' ' name <> Text.concat (map (Text.justifyRight 9 ' ' . fst) stages))
-    forM_ (zip rows (Nothing : map Just rows)) $ \((n, times), before) -> do
+    forM_ (zip lines' (Nothing : map Just lines')) $ \((n, times), before) -> do
       let own = zipWith (-) times (0 : times)
       Text.putStrLn (Text.justifyRight 10 ' ' (Decimal.whole n) <> Text.concat [Text.justifyRight 9 ' ' (Decimal.fixed 2 (max 0 t)) | t <- own])
       forM_ before $ \(m, times') -> do
@@ -119,6 +119,24 @@ statements n =
             "drill at p" <> i <> " depth 3 mm"
           ]
 
+-- | A closed spline through a table of so many rows, recalculated by some ciphers.
+rows :: [Text] -> Int -> Text
+rows ciphers n =
+  Text.unlines
+    ( ["part wave", "machine lkp-01f", "tool mill(diameter 6 mm)", "feed 60 mm/min", "tolerance 0.02 mm", "from (" <> coordinate (0.7 * r + 40) <> ", 0)", "table t {", "x y mu H"]
+        <> map row [0 .. n - 1]
+        <> ["}", "curve skin = closed_spline(t)"]
+        <> ["piece p = skin cipher " <> Text.intercalate ", " ciphers <> " right" | not (null ciphers)]
+        <> ["contour c closed { " <> (if null ciphers then "skin" else "p") <> " }", "mill c outside { start near (" <> coordinate r <> ", 0) }"]
+    )
+  where
+    r = fromIntegral n :: Double
+    row :: Int -> Text
+    row k =
+      let a = 2 * pi * fromIntegral k / fromIntegral n
+          d = 0.5 * r * (1 + 0.1 * sin (5 * a))
+       in Text.unwords (map coordinate [d * cos a, d * sin a, 2 + sin a, 18 + cos a])
+
 -- | A part with a regular polygon of so many written corners.
 polygon :: Int -> Text
 polygon n =
@@ -138,4 +156,6 @@ polygon n =
     -- Sides of 10 mm.
     r = 5 / sin (pi / fromIntegral n) :: Double
     corner a = "  (" <> coordinate (r * cos a) <> ", " <> coordinate (r * sin a) <> ")"
-    coordinate = Decimal.fixed 6
+
+coordinate :: Double -> Text
+coordinate = Decimal.fixed 6

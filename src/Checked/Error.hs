@@ -78,6 +78,8 @@ data Error
     CipherMisfit Region Text Int
   | -- | a name in a cipher that is neither a column nor a value; the columns
     NoColumn Region Name [Text]
+  | -- | a column where a cipher takes one value for the whole piece: the cipher
+    ColumnForOne Region Text Name
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
@@ -216,6 +218,11 @@ toReport err = case err of
     (at region "E0228" ("cipher " <> digit <> " does not work with " <> counted count "value"))
       { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
         hints = ["Write " <> Text.intercalate ", or " (cipherForms digit) <> "."]
+      }
+  ColumnForOne region digit (Name name) ->
+    (at region "E0228" ("cipher " <> digit <> " takes one value here for the whole piece, and " <> quote name <> " is a column"))
+      { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
+        hints = ["For a distance at each point write 6(" <> name <> ")." | digit == "2"]
       }
   NoColumn region (Name name) columns ->
     (at region "E0229" ("the curve has no column " <> quote name))

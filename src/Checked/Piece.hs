@@ -119,14 +119,14 @@ withColumns at columns = Infer.withLocals [(Located at (Name text), t) | (text, 
 -- | A recalculation of a curve with these columns; nothing when there is none such.
 cipher :: Checker -> [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Solution -> Checked.Cipher))
 cipher checker columns (Located at (Surface.Cipher (Located place digit) given)) = case (digits digit, NonEmpty.toList given) of
-  ("1", [a, b]) -> made (Checked.Growing <$$> len a <**> len b <**> none <**> none)
-  ("1", [a, b, m]) -> made (Checked.Growing <$$> len a <**> len b <**> some (angle m) <**> none)
-  ("1", [a, b, p, q]) -> made (Checked.Growing <$$> len a <**> len b <**> none <**> some (between p q))
-  ("1", [a, b, m, p, q]) -> made (Checked.Growing <$$> len a <**> len b <**> some (angle m) <**> some (between p q))
-  ("2", [h]) -> made (Checked.Constant <$$> len h <**> none)
-  ("2", [h, m]) -> made (Checked.Constant <$$> len h <**> some (angle m))
+  ("1", [a, b]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> none)
+  ("1", [a, b, m]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> none)
+  ("1", [a, b, p, q]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> some (between p q))
+  ("1", [a, b, m, p, q]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> some (between p q))
+  ("2", [h]) -> made (Checked.Constant <$$> one h <**> none)
+  ("2", [h, m]) -> made (Checked.Constant <$$> one h <**> some (angle m))
   ("4", [m, h]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> none)
-  ("4", [m, h, d]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> some (len d))
+  ("4", [m, h, d]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> some (one d))
   ("6", [h]) -> made (Checked.Pointwise <$$> len h <**> none)
   ("6", [h, m]) -> made (Checked.Pointwise <$$> len h <**> some (angle m))
   (d, es)
@@ -135,6 +135,10 @@ cipher checker columns (Located at (Surface.Cipher (Located place digit) given))
   where
     made later = Just . (Located at .) <$> later
     len = along Type.len
+    -- One value for the whole piece.
+    one e = case [(r, n) | (r, n) <- namesIn e, n `elem` map (Name . fst) columns] of
+      (r, n) : _ -> const (Located (region e) (Checked.Number 0)) <$ Infer.mistake (ColumnForOne r (digits digit) n)
+      [] -> expect checker Type.len e
     angle = along Type.angle
     point p = expect checker Type.aPoint p
     between p q = (\a b sol -> (a sol, b sol)) <$> point p <*> point q
@@ -152,13 +156,26 @@ cipher checker columns (Located at (Surface.Cipher (Located place digit) given))
       entry <- Infer.find n
       pure (if isNothing entry && text `notElem` map fst columns && isNothing (Builtin.lookup text) then Just (r, n) else Nothing)
 
--- | The names in a value that is but a name, or a sum or a product of such.
+-- | The names in a value, as far as they are not its own.
 namesIn :: Surface.Expr -> [(Region, Name)]
 namesIn (Located at e) = case e of
+  Surface.Literal _ _ -> []
   Surface.Variable name -> [(at, name)]
+  Surface.Call _ arguments -> concatMap inArgument (NonEmpty.toList arguments)
   Surface.Negate a -> namesIn a
+  Surface.Not a -> namesIn a
   Surface.Binary _ a b -> namesIn a <> namesIn b
-  _ -> []
+  Surface.Range a b c -> namesIn a <> namesIn b <> maybe [] namesIn c
+  Surface.If c a b -> concatMap namesIn [c, a, b]
+  Surface.Pair a b -> namesIn a <> namesIn b
+  Surface.Triple a b c -> concatMap namesIn [a, b, c]
+  Surface.List es -> concatMap namesIn es
+  Surface.Each a name from -> namesIn from <> filter ((/= value name) . snd) (namesIn a)
+  where
+    inArgument a = case a of
+      Surface.Given x -> namesIn x
+      Surface.Chosen _ x -> namesIn x
+      Surface.Ranked _ -> []
 
 joggle :: Checker -> Surface.Joggle -> Infer (Solution -> Checked.Joggle)
 joggle checker (Located at (Surface.Joggle from to depth radius)) = do

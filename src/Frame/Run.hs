@@ -4,6 +4,9 @@
 -- From the beginning of a chord every point of the run is seen in a direction, and the chord has to pass it within
 -- what is allowed on either side: that leaves a sector of directions, which narrows as the run goes on. An arc narrows
 -- it by its end and by the place at which its tangent runs along the edge of the sector, so nothing is sampled.
+--
+-- Where more is allowed on one side than on the other, the chords meet in the middle of what is allowed, beside the run;
+-- only its beginning and its end lie on it.
 module Frame.Run
   ( Bounds (..),
     chordEnds,
@@ -62,12 +65,20 @@ evenings :: Int
 evenings = 5
 
 -- | Bounds in mm, and how far the run may turn within a chord, in radians.
-data Limits = Limits {leftOf :: Double, rightOf :: Double, rising :: Double, turning :: Double, least :: Double}
+data Limits = Limits
+  { leftOf :: Double,
+    rightOf :: Double,
+    -- | how far to the right of the run the chords meet
+    aside :: Double,
+    rising :: Double,
+    turning :: Double,
+    least :: Double
+  }
 
 -- | The chords of an arc turn by so much of what they might when its sagitta is the square of that share.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
-  Limits {leftOf = share (left bounds), rightOf = share (right bounds), rising = share (rise bounds), turning = tightness * pi / 2, least}
+  Limits {leftOf = share (left bounds), rightOf = share (right bounds), aside = (share (left bounds) - share (right bounds)) / 2, rising = share (rise bounds), turning = tightness * pi / 2, least}
   where
     Mm least = shortest bounds
     -- Less than one point from the chord is on it.
@@ -83,12 +94,24 @@ data Place = Place {place :: Point, level :: Double, rest :: [Piece]}
 chords :: Limits -> [Piece] -> [Place]
 chords limits pieces = case pieces of
   [] -> []
-  first : _ -> let next = furthest limits (placeOn first (from first) pieces) in next : chords limits (rest next)
+  first : _ -> go Place {place = Segment.at (from first) (segment first), level = levelAt (from first) first, rest = pieces}
+  where
+    go begin
+      | null (rest begin) = []
+      | otherwise = let next = furthest limits begin in next : go next
 
--- | A place at a fraction of the first of some pieces.
-placeOn :: Piece -> Double -> [Piece] -> Place
-placeOn piece t pieces =
-  Place {place = Segment.at t (segment piece), level = levelAt t piece, rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces}
+-- | A place at a fraction of the first of some pieces, where chords can meet.
+placeOn :: Limits -> Piece -> Double -> [Piece] -> Place
+placeOn limits piece t pieces =
+  Place {place = meeting limits piece t pieces, level = levelAt t piece, rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces}
+
+-- | Where chords meet at a fraction of the first of some pieces: beside it, at its end on it.
+meeting :: Limits -> Piece -> Double -> [Piece] -> Point
+meeting limits piece t pieces
+  | t >= 1 && null (drop 1 pieces) || aside limits == 0 = on
+  | otherwise = Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment piece)))) on
+  where
+    on = Segment.at t (segment piece)
 
 levelAt :: Double -> Piece -> Double
 levelAt t piece = let (a, b) = heights piece in if t >= 1 then b else a + t * (b - a)
@@ -124,7 +147,7 @@ furthest limits begin = case rest begin of
   [] -> begin
   first : _ -> case reached (Eye (place begin) (level begin) (Segment.directionAt (from first) (segment first))) Nothing nothing (rest begin) of
     Just (way, p) | way >= least limits -> p
-    _ -> onward (least limits) begin
+    _ -> onward limits (least limits) begin
   where
     nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, fits = True}
     reached eye best before pieces = case pieces of
@@ -134,22 +157,23 @@ furthest limits begin = case rest begin of
         | otherwise -> reached eye better after more
         where
           t = turnsAt limits before piece
-          after = see limits eye before piece t
+          seen u = see limits eye before piece u (meeting limits piece u pieces)
+          after = seen t
           better
             | fits after = found t
             | fits before && share > from piece = found share
             | otherwise = best
-          share = lastFit (fits . see limits eye before piece) (from piece) t
-          found u = Just (gone before + lengthBetween (from piece) u piece, placeOn piece u pieces)
+          share = lastFit (fits . seen) (from piece) t
+          found u = Just (gone before + lengthBetween (from piece) u piece, placeOn limits piece u pieces)
     isClosed sight = lowest sight > highest sight || flattest sight > steepest sight
 
 -- | The place so many mm further on, or the end.
-onward :: Double -> Place -> Place
-onward way at = case rest at of
+onward :: Limits -> Double -> Place -> Place
+onward limits way at = case rest at of
   [] -> at
   piece : _
-    | way >= left' -> onward (way - left') (placeOn piece 1 (rest at))
-    | otherwise -> placeOn piece (from piece + (1 - from piece) * way / left') (rest at)
+    | way >= left' -> onward limits (way - left') (placeOn limits piece 1 (rest at))
+    | otherwise -> placeOn limits piece (from piece + (1 - from piece) * way / left') (rest at)
     where
       left' = lengthBetween (from piece) 1 piece
 
@@ -180,9 +204,9 @@ turnsAt limits before piece = case segment piece of
       | signum s * (heading before + s * (1 - from piece) - end) <= Tolerance.equal = 1
       | otherwise = max (from piece) (from piece + (end - heading before) / s)
 
--- | What is seen when a piece has been passed up to a fraction.
-see :: Limits -> Eye -> Sight -> Piece -> Double -> Sight
-see limits eye before piece t =
+-- | What is seen when a piece has been passed up to a fraction, and whether a chord to a point beside it fits.
+see :: Limits -> Eye -> Sight -> Piece -> Double -> Point -> Sight
+see limits eye before piece t goal =
   Sight
     { lowest = low,
       highest = high,
@@ -192,12 +216,14 @@ see limits eye before piece t =
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
       gone = way,
-      fits = distance > 0 && low <= direction && direction <= high && flat <= climb && climb <= steep
+      fits = Vec.norm chord > 0 && low <= along && along <= high && flat <= climb && climb <= steep
     }
   where
     way = gone before + lengthBetween (from piece) t piece
     end = Vec.to (standing eye) (Segment.at t (segment piece))
     distance = Vec.norm end
+    chord = Vec.to (standing eye) goal
+    Rad along = Vec.turn (out eye) chord
     Rad direction = Vec.turn (out eye) end
     climb = (levelAt t piece - standingAt eye) / way
     flat = max (flattest before) (climb - rising limits / way)

@@ -188,10 +188,14 @@ collision style radius contour pieces
           (j, other) <- Box.select (\box -> Box.meets (Box.inflate widest (Box.ofSegment s)) box && Box.atLeast (`Distance.toPoint` s) box < widest) index,
           let Nearest d p = Distance.segments s other,
           let tooNear more = plus d Tolerance.clearance < plus radius more,
-          tooNear (extra style j) && tooNear (shared (snd (Distance.nearest p other)))
+          tooNear (extra style j) && tooNear (shared p d (snd (Distance.nearest p other)))
       ]
-    -- What is left where segments join: no more than on any of them.
-    shared foot = minimum (mostExtra : [extra style k | (k, s) <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot s <= Tolerance.coincident])
+    -- What is left where segments join: no more than on any of them, and nothing of its own where a neighbour is nearer.
+    shared p d foot
+      | any (\(_, s) -> plus (Distance.toPoint p s) Tolerance.resolution < d) joined = Mm 0
+      | otherwise = minimum (mostExtra : map (extra style . fst) joined)
+      where
+        joined = [(k, s) | (k, s) <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot s <= Tolerance.coincident]
     mostExtra = maximum (fmap (extra style) (NonEmpty.fromList [0 .. NonEmpty.length (segments contour) - 1]))
     widest = plus radius mostExtra
     numberOf origin = case origin of

@@ -124,9 +124,29 @@ reverse p = fromSegments (NonEmpty.reverse (fmap Segment.reverse (segments p)))
 transformed :: Similarity -> Polyarc -> Polyarc
 transformed s p = fromSegments (fmap (Similarity.segment s) (segments p))
 
--- | The points that two chains have in common, in the order of the first one.
+-- | The points that two chains have in common, in the order of the first one. Chains that stand for curves touch when they come as near
+-- as both are off; where they touch they may cross twice, and that is one point.
 meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
-meetings a b = apart (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
+meetings a b = case touching (crossings a b) of
+  [] | gap a b <= slack -> [place (minimumBy (comparing distance) [Distance.segments s g | s <- NonEmpty.toList a, g <- NonEmpty.toList b])]
+  ps -> ps
+  where
+    slack = plus Tolerance.curve Tolerance.curve
+    whole = fromSegments a
+    touching ps = case ps of
+      p : q : rest
+        | toOther middle <= slack && Vec.distance p q < closest -> touching (middle : rest)
+        where
+          middle = at whole (let (Mm s, Mm t) = (station whole p, station whole q) in Mm ((s + t) / 2))
+      p : rest -> p : touching rest
+      [] -> []
+    toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
+    -- Curves that run along one another for longer do not just touch.
+    closest = Mm 0.5
+
+-- | The points where two chains cross, in the order of the first one.
+crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
+crossings a b = apart (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
   where
     index = Box.index Box.ofSegment (NonEmpty.toList b)
     others s = Box.within (Box.inflate Tolerance.coincident (Box.ofSegment s)) index

@@ -7,6 +7,7 @@ module Geometry.Tolerance
     sameLength,
     smallestFillet,
     sameFillet,
+    nearTie,
     smoothGap,
     smoothTurn,
     slightRest,
@@ -58,6 +59,11 @@ smallestFillet = Mm 1e-3
 -- | Two fillets whose centres are no further apart are one: it touches where two segments of a curve join.
 sameFillet :: Mm
 sameFillet = Mm 1e-5
+
+-- | Of two points whose distances from a third differ by no more, neither is the nearer one: points on curves
+-- are known to 'curve' at best.
+nearTie :: Mm
+nearTie = Mm 1e-4
 
 -- | Curves of measured points count as joined when their ends are no further apart …
 smoothGap :: Mm

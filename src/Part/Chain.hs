@@ -106,6 +106,7 @@ attempt region ends walks = do
   chosen <- case (ends, walks) of
     (Closed, only :| []) -> lone only
     (Closed, _) -> closed walks
+    (Open, Walk {place, shape = OnCurve c} :| []) | Polyarc.isClosed c -> Left (ClosedCurve place)
     (Open, _) -> open walks
   elements <- maybe (Left nothingLeft) Right (NonEmpty.nonEmpty (filter long chosen))
   let contour = Contour.chained segment (\s e -> e {segment = s}) ends elements
@@ -280,8 +281,8 @@ stations c a b
   | Polyarc.isClosed c && (to <= from || Vec.near a b) = (from, plus to (Polyarc.length c))
   | otherwise = (from, to)
   where
-    from = Polyarc.station c a
-    to = Polyarc.station c b
+    from = if Vec.near a (Polyarc.start c) then Mm 0 else Polyarc.station c a
+    to = if Vec.near b (Polyarc.end c) && not (Polyarc.isClosed c) then Polyarc.length c else Polyarc.station c b
 
 -- | The place on a curve at which the walk enters it.
 begun :: Walked -> Point -> Point -> Mm

@@ -114,7 +114,7 @@ picked region what candidate key ways found choice = case (found, choice) of
       [] -> Eval.mistake (NoneFits region what all')
       _ -> Eval.mistake (SeveralFit region what (map candidate fitting))
     Mm tolerance = Tolerance.coincident
-    near (Mm a) (Mm b) = abs (a - b) <= tolerance
+    near (Mm a) (Mm b) = let Mm tie = Tolerance.nearTie in abs (a - b) <= tie
     sideOf l a = let Mm d = Shape.signedDistance l (key a) in d
     depth (Circle c (Mm r)) a = let Mm d = Vec.distance c (key a) in r - d
     ranked rank as = case rank of

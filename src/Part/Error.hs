@@ -151,6 +151,8 @@ data Fact
     DoNotAgree Region (Region, Text) (Region, Text) Text Text
   | -- | a closed contour as an element of another
     ClosedElement Region Name
+  | -- | a closed curve as an open contour
+    ClosedCurve Region
   | -- | a place to begin on a contour that begins at its first element
     OpenBegins Region Name
   | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
@@ -390,6 +392,10 @@ toReport (Error fact calls) = addCalls $ case fact of
   ClosedElement region (Name name) ->
     (at region "E0343" ("the contour " <> quote name <> " is closed and cannot be a part of another"))
       { hints = ["Only an open contour leads on to the next element."]
+      }
+  ClosedCurve region ->
+    (at region "E0343" "this curve is closed, the contour is not")
+      { hints = ["Make the contour closed: contour … closed { … }"]
       }
   OpenBegins region (Name name) ->
     (at region "E0347" ("the contour " <> quote name <> " is open and begins at its first element"))

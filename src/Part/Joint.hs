@@ -7,7 +7,7 @@ module Part.Joint
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), plus)
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
@@ -80,25 +80,30 @@ meet j own near = case shapes j of
   (OnCircle _ c, OnLine l) -> points (Intersect.lineCircle l c)
   (OnCircle _ c, OnCircle _ d) -> points (Intersect.circles c d)
   where
-    on p shape = let gap = distanceTo shape p in if gap <= Tolerance.coincident then Right (through p) else Left (NoMeeting j gap)
+    on p shape = let gap = distanceTo shape p in if gap <= slack shape then Right (through p) else Left (NoMeeting j gap)
+    -- The chain that stands for a curve is off by so much.
+    slack shape = case shape of
+      OnCurve _ -> plus Tolerance.curve Tolerance.coincident
+      OnLine _ -> Tolerance.coincident
+      OnCircle _ _ -> Tolerance.coincident
+      AtPoint _ -> Tolerance.coincident
     points meeting = case meeting of
       Apart gap -> Left (NoMeeting j gap)
       Same -> Left (SameCurve j)
       Touching p -> Right (through p)
       CrossingOnce p -> Right (through p)
-      Crossing p q -> choose [p, q]
+      Crossing p q -> choose Tolerance.coincident [p, q]
     ofCurve a b = case Polyarc.meetings a b of
       [] -> Left (NoMeeting j (Polyarc.gap a b))
       [p] -> Right (through p)
-      ps -> choose ps
+      ps -> choose Tolerance.nearTie ps
     extent c = foldl (\box s -> Box.union box (Box.ofSegment s)) (Box.ofPoints (Polyarc.start c) []) (Polyarc.segments c)
-    choose ps =
+    choose (Mm tolerance) ps =
       through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
         (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
         (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
         _ -> Left (AmbiguousMeeting j ps)
     distance a b = let Mm d = Vec.distance a b in d
-    Mm tolerance = Tolerance.coincident
 
 -- | How far a point lies from an element's curve.
 distanceTo :: Walked -> Point -> Mm

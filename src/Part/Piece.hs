@@ -80,11 +80,7 @@ recalculated env base side lower (Located at cipher) = do
       x <- Value.number <$> Value.evaluate env e
       Mm x <$ Data.within (region e) x
     column e = Exact.column lower <$> alongRows env base e
-    bevels e = do
-      values <- alongRows env base e
-      case find ((>= pi / 2 - 1e-6) . abs . snd) (zip [1 ..] (Vector.toList values)) of
-        Just (k, a) -> Eval.mistake (SteepBevel (region e) (if mentions (map fst (fields base)) e then Just k else Nothing) (Rad a))
-        Nothing -> pure (Exact.column lower values)
+    bevels e = Exact.column lower <$> (alongRows env base e >>= upright base e)
     square mu distance = case mu of
       Nothing -> pure distance
       Just e -> (`Exact.Square` distance) <$> bevels e
@@ -173,5 +169,18 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
 -- | How far the surface of an element leans, along the chain that stands for its curve.
 bevelled :: Environment -> Maybe Curve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
-  Nothing -> (\v -> [(0, Value.number v)]) <$> Value.evaluate env e
-  Just c -> Curve.along c <$> alongRows env c e
+  Nothing -> do
+    a <- Value.number <$> Value.evaluate env e
+    when (abs a >= steepest) (Eval.mistake (SteepBevel (region e) Nothing (Rad a)))
+    pure [(0, a)]
+  Just c -> Curve.along c <$> (alongRows env c e >>= upright c e)
+
+-- | Bevels of less than a right angle.
+upright :: Curve -> Expr -> Vector Double -> Eval (Vector Double)
+upright c e values = case find ((>= steepest) . abs . snd) (zip [1 ..] (Vector.toList values)) of
+  Just (k, a) -> Eval.mistake (SteepBevel (region e) (if mentions (map fst (fields c)) e then Just k else Nothing) (Rad a))
+  Nothing -> pure values
+
+-- | No bevel comes nearer to a right angle, in radians.
+steepest :: Double
+steepest = pi / 2 - 1e-6

@@ -171,7 +171,12 @@ startingNear p c = case NonEmpty.nonEmpty turned of
         Nothing
           | Vec.distance p (Segment.start (Part.segment e)) <= Vec.distance p (Segment.end (Part.segment e)) -> from <> before
           | otherwise -> rest <> before <> [e]
-        Just (a, b) -> e {Part.segment = b} : rest <> before <> [e {Part.segment = a, Part.finish = (Part.finish e) {slow = False}}]
+        Just (a, b) ->
+          let Mm l = Segment.length (Part.segment e)
+              share = if l > 0 then (let Mm front = Segment.length a in front) / l else 0
+              lean = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
+           in e {Part.segment = b, Part.continues = Part.ofCurve e, Part.bevel = (,) <$> lean <*> fmap snd (Part.bevel e)} :
+              rest <> before <> [e {Part.segment = a, Part.finish = (Part.finish e) {slow = False}, Part.bevel = (,) <$> fmap fst (Part.bevel e) <*> lean}]
     -- The segment in two, unless the point is at one of its ends.
     cut s
       | t <= 0 || t >= 1 || Vec.near foot (Segment.start s) || Vec.near foot (Segment.end s) = Nothing

@@ -152,8 +152,13 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
     flat outZ toBegin finish =
       let before = if isFirst || Part.ends (contour milling) == Part.Open then ways at (Part.approach milling) else []
           from = foldl after at before
-          behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish outZ) (Part.retract milling) else []
-       in (before <> toBegin from, behind)
+          behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish outZ) (upright (Part.retract milling)) else []
+       in (before <> toBegin from, behind <> if null behind then [Move (Straight finish finish) (outZ, z) pace' False (keyword region) False | outZ /= z] else [])
+    pace' = Part.At (feed milling)
+    -- A blade is turned upright on the way away.
+    upright stops = case stops of
+      s : more | Nothing <- Part.level s, Just _ <- Part.gear milling -> s {Part.level = Just z} : more
+      _ -> stops
     -- With depth the cutter goes over to the last approach point (or to the beginning) at the clearance
     -- height, down there, and up again from the first retract point, unless that has a height of its own.
     deep (inZ, outZ) clear toBegin begin finish =

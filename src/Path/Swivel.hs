@@ -20,7 +20,7 @@ import Data.Vector qualified as Vector
 import Geometry.Offset (Piece (..), Side (..))
 import Geometry.Offset qualified as Offset
 import Geometry.Segment qualified as Segment
-import Part.Part (Element, Milling)
+import Part.Part (Contour, Element, Ends (..), Milling)
 import Part.Part qualified as Part
 import Path.Error (Error (..))
 
@@ -30,7 +30,7 @@ axis :: Region -> Milling -> Maybe Side -> NonEmpty Piece -> Either Error (NonEm
 axis region milling side pieces = case Part.gear milling of
   Nothing -> Right (fmap (const (Mm 0, Mm 0)) pieces)
   Just gear -> do
-    leans <- maybe (Left (NoBevel region)) Right (bevels (Part.elements (Part.contour milling)))
+    leans <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
     sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
     smooth region elements leans pieces
     Right (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles leans pieces))
@@ -42,11 +42,15 @@ axis region milling side pieces = case Part.gear milling of
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
 
 -- | The bevels of all elements at their beginnings and ends, in radians; none when no element has one.
-bevels :: NonEmpty Element -> Maybe (Vector (Double, Double))
-bevels elements
-  | all (isNothing . Part.bevel) elements = Nothing
-  | otherwise = Just (Vector.fromList (filled Nothing (NonEmpty.toList elements)))
+bevels :: Contour -> Maybe (Vector (Double, Double))
+bevels contour = case break (not . isNothing . Part.bevel) list of
+  (_, []) -> Nothing
+  (open, known)
+    -- A closed contour goes on over its beginning.
+    | Part.ends contour == Closed -> let (after, before) = splitAt (length known) (filled Nothing (known <> open <> take 1 known)) in Just (Vector.fromList (take (length open) before <> after))
+    | otherwise -> Just (Vector.fromList (filled Nothing list))
   where
+    list = NonEmpty.toList (Part.elements contour)
     filled before es = case span (isNothing . Part.bevel) es of
       ([], e : rest) | Just (a, b) <- Part.bevel e -> (a, b) : filled (Just b) rest
       (open, rest) -> between before (nextOf rest) open <> (if null rest then [] else filled before rest)

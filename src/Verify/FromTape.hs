@@ -288,15 +288,18 @@ gougeOf furthest' required index t
       ]
     around = Box.inflate furthest' (Box.ofSegment (line t))
 
--- | What is left on an element where it is nearest to a point; where elements join, no more than on any of them.
+-- | What is left on an element where it is nearest to a point; where elements join, no more than on any of them, and nothing
+-- of its own where another is nearer.
 leftAt :: Box.Index Element -> Element -> Point -> Mm
 leftAt index e p
   | own <= Mm 0 = own
-  | otherwise = minimum (own : [left' other | other <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot (Part.segment other) <= Tolerance.coincident])
+  | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined = Mm 0
+  | otherwise = minimum (own : map left' joined)
   where
     own = left' e
     left' = Part.allowance . Part.finish
-    (_, foot) = Distance.nearest p (Part.segment e)
+    (d, foot) = Distance.nearest p (Part.segment e)
+    joined = [other | other <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot (Part.segment other) <= Tolerance.coincident]
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
 -- or more than is allowed.

@@ -47,7 +47,7 @@ blade milling Path.Pass {Path.reach, Path.atHeight} =
       reach,
       allowed = uncurry max (Part.deepest (Part.tolerance milling)),
       elements = Box.index (Box.ofSegment . snd) (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
-      axes = maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Swivel.bevels (Part.elements (Part.contour milling)))
+      axes = maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Swivel.bevels (Part.contour milling))
     }
   where
     height angle = plus atHeight (times (sign * angle / 2) (maybe (Mm 0) id (Part.gear milling)))

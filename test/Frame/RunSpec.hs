@@ -41,7 +41,7 @@ spec = do
               finish = Segment.end (last ss)
            in counterexample (show (length ends, worst b ss ends)) $
                 worst b ss ends <= 1e-7
-                  .&&. conjoin [counterexample (show p) (minimum [d | s <- ss, let { Mm d = Distance.toPoint p s }] <= 1e-7) | p <- ends]
+                  .&&. conjoin [counterexample (show p) (minimum [d | s <- ss, let { Mm d = Distance.toPoint p s }] <= beside b + 1e-7) | p <- ends]
                   .&&. last ends === finish
     it "are about as few as any on a fine grid (catches chords that stop where the curve changes its bending)" $
       property $
@@ -70,7 +70,7 @@ spec = do
           let zs = scanl (+) 0 rises
               moves = NonEmpty.zipWith (\(z, z') m -> m {heights = (Mm z, Mm z')}) (NonEmpty.fromList (zip zs (drop 1 zs))) (Curve.run ss)
               ends = [(p, z) | (p, Mm z) <- Run.chordEnds 100000 b moves]
-           in counterexample (show (length ends)) (worstHeight (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
+           in counterexample (show (length ends)) (worstHeight b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
     it "slow down as far before the end of a curve as anywhere (catches a brake on the last of its arcs only)" $
       property $
         forAll Curve.curveCase $ \c ->
@@ -121,10 +121,14 @@ roughly whole = do
   b <- oneof [pure a, (a *) <$> choose (0.1, 1)]
   pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
 
+-- | How far beside a chain its chords may meet: in the middle of what is allowed.
+beside :: Bounds -> Double
+beside Bounds {left = Mm l, right = Mm r} = abs (l - r) / 2
+
 -- | Of each chord, the stretches of the chain that it stands for: segments with the fractions from which and to which.
 -- Each end is looked for behind the one before.
-stretches :: [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
-stretches ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
+stretches :: Bounds -> [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
+stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
   where
     go p rest qs = case qs of
       [] -> []
@@ -132,7 +136,7 @@ stretches ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
     upTo q rest = case rest of
       [] -> ([], [])
       (s, t) : more
-        | u >= t - 1e-9 && off <= 1e-7 && (u < 1 || off <= 1e-12) -> ([(s, t, u)], (s, u) : more)
+        | u >= t - 1e-9 && u <= 1 && off <= beside b + 1e-7 && (u < 1 || off <= 1e-12) -> ([(s, t, u)], (s, u) : more)
         | otherwise -> let (passed, behind) = upTo q more in ((s, t, 1) : passed, behind)
         where
           u = if Vec.distance q (Segment.end s) <= Mm 1e-12 then 1 else Segment.fraction s q
@@ -140,21 +144,21 @@ stretches ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
 
 -- | By how much some point of a chain is further from its chord than it may be, at most.
 worst :: Bounds -> [Segment] -> [Point] -> Double
-worst b ss ends = maximum (-1 : concat [offs p q s t u | (p, q, passed) <- stretches ss ends, (s, t, u) <- passed])
+worst b ss ends = maximum (-1 : concat [offs p q s t u | (p, q, passed) <- stretches b ss ends, (s, t, u) <- passed])
   where
     offs p q s t u = [offBy b p q (Segment.at (t + (u - t) * k / 8) s) | k <- [0 .. 8]]
 
 -- | By how much a point is further from a chord than it may be.
 offBy :: Bounds -> Point -> Point -> Point -> Double
-offBy Bounds {left = Mm l, right = Mm r} p q x = maximum [aside - l, -aside - r, -ahead, ahead - Vec.norm (Vec.to p q)]
+offBy b@Bounds {left = Mm l, right = Mm r} p q x = maximum [aside - l, -aside - r, -ahead - beside b, ahead - Vec.norm (Vec.to p q) - beside b]
   where
     along = Vec.unit (Vec.to p q)
     aside = Vec.cross along (Vec.to p x)
     ahead = Vec.dot along (Vec.to p x)
 
 -- | By how much the height of a run differs from that of its chords at the ends of its moves, at most.
-worstHeight :: [Move] -> [(Point, Double)] -> Double
-worstHeight moves ends = maximum (0 : concat (zipWith3 differences (0 : map snd ends) (map snd ends) (stretches (map segment moves) (map fst ends))))
+worstHeight :: Bounds -> [Move] -> [(Point, Double)] -> Double
+worstHeight b moves ends = maximum (0 : concat (zipWith3 differences (0 : map snd ends) (map snd ends) (stretches b (map segment moves) (map fst ends))))
   where
     levels = [(segment m, z) | m <- moves, let (_, Mm z) = heights m]
     differences z z' (_, _, passed) =

@@ -155,6 +155,7 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       "statement" -> (LineEnd :) <$> marked
       "line" -> (LineEnd :) <$> marked
       "arguments" -> (Touching :) <$> marked
+      "values" -> (Touching :) <$> marked
       "parameters" -> (Touching :) <$> marked
       -- The manual asks for brackets here.
       "item" -> marked `suchThat` ((/= [Written "-"]) . take 1)

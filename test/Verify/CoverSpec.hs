@@ -25,7 +25,7 @@ spec =
               begin = Vec.shift out (Segment.start arc)
               stroke = Straight begin (Vec.shift (Vec.scale l (Vec.add (Segment.startDirection arc) (Vec.scale turned (Vec.unit out)))) begin)
               others = Others {index = Box.index Box.ofSegment arcs, line = id, counts = const True, reach = Mm r, allowance = Mm 0.03}
-              beyond p = minimum [d | a <- arcs, let Mm d = Distance.toPoint p a] - r
+              beyond p = minimum [d | a <- arcs, let { Mm d = Distance.toPoint p a }] - r
               sampled = maximum [beyond (Segment.at (k / 400) stroke) | k <- [0 .. 400]]
            in classify (sampled > 0.01) "beyond" $ case Cover.furthest others (Mm 0.01) stroke of
                 Nothing -> counterexample (show sampled) (sampled <= 0.01 + 3e-6)
