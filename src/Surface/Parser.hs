@@ -195,7 +195,7 @@ piece = do
       case next of
         Just t | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] -> Parsec.empty
         _ -> Parsec.customFailure NoSide
-    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> (touching *> parens (expr `sepBy1` ","))
+    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> ((touching *> parens (expr `sepBy1` ",")) <?> "the values of the cipher in brackets that touch its digit")
     digit t = case shape t of
       Number x Nothing -> Just x
       _ -> Nothing
