@@ -55,7 +55,7 @@ import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Meaning (..), P
 import Checked.Syntax (Mention (Mention), Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
-import Control.Monad (filterM, unless, void, when)
+import Control.Monad (filterM, unless, void, when, zipWithM)
 import Control.Monad.State.Strict (State, get, gets, modify', put, runState)
 import Data.Containers.ListUtils (nubOrd)
 import Data.IntMap.Strict (IntMap)
@@ -258,7 +258,7 @@ unify region a b = do
     (Table c, Table d) -> unify region c d
     (Curve c, Curve d) -> unify region c d
     (Fields cs, Fields ds)
-      | map fst cs == map fst ds -> and <$> sequence (zipWith (\(_, c) (_, d) -> unify region c d) cs ds)
+      | map fst cs == map fst ds -> and <$> zipWithM (\(_, c) (_, d) -> unify region c d) cs ds
     _ -> pure (a' == b')
   where
     bind n t

@@ -21,9 +21,9 @@ import Checked.Syntax (Columns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (when)
+import Control.Monad (when, zipWithM)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, isNothing)
+import Data.Maybe (catMaybes, fromMaybe, isNothing)
 import Data.Text (Text)
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit (..))
@@ -56,7 +56,7 @@ table checker name written = case written of
         [] -> pure ()
         where
           columnsBefore = [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
-  Located at Surface.BrokenLine : _ -> missing <$ (const Infer.taint at)
+  Located _ Surface.BrokenLine : _ -> missing <$ Infer.taint
   _ -> missing <$ Infer.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
   where
     missing = (Type.Wrong, const (Columns [] []))
@@ -87,13 +87,13 @@ row checker columns (number, Located at line) = case line of
   Surface.Entries cells
     | length cells /= length columns -> Nothing <$ Infer.mistake (RowLength at number (length columns) (length cells))
     | otherwise -> do
-      cells' <- sequence (zipWith (cell checker) columns (NonEmpty.toList cells))
+      cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
       pure (Just (\sol -> Located at (map ($ sol) cells')))
 
 -- | A bare number has the unit of its column.
 cell :: Checker -> Column -> Surface.Expr -> Infer (Solution -> Checked.Expr)
 cell checker c e = case bare e of
-  Just x -> pure (\sol -> Located (region e) (Checked.Number (x * maybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) id (size c))))
+  Just x -> pure (\sol -> Located (region e) (Checked.Number (x * fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c))))
   Nothing -> expect checker (kind c) e
   where
     bare (Located _ written) = case written of

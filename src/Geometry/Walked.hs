@@ -41,7 +41,7 @@ within box walked = case walked of
   OnLine l ->
     let Box.Box left bottom right top = Box.inflate (Mm 1) box
         along p = let Mm s = alongLine l p in s
-        marks = map along [Vec.point x y | x <- [left, right], y <- [bottom, top]]
+        marks = [along (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
         place s = Vec.shift (Vec.scale s (Shape.direction l)) (Shape.from l)
      in Straight (place (minimum marks)) (place (maximum marks)) :| []
   OnCircle turn circle@(Circle c (Mm r)) -> Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c) :| []

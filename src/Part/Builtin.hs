@@ -10,6 +10,7 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..), degrees, minus, plus)
 import Base.Region (Region)
 import Checked.Syntax (Builtin (..), Choice (..), Operator (..))
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Geometry.Construct (Touched (..))
 import Geometry.Construct qualified as Construct
@@ -166,7 +167,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (Min, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (min a b))
   (Max, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (max a b))
   (Floor, [Plain (Quantity x)]) -> pure (Quantity (fromInteger (floor (x + Tolerance.equal))))
-  _ -> maybe wrong id (CurveBuiltin.apply region builtin arguments)
+  _ -> fromMaybe wrong (CurveBuiltin.apply region builtin arguments)
   where
     none p = not . any p
     isCurve v = case v of

@@ -66,8 +66,8 @@ piece env base ciphers (Located _ side) joggles = do
 recalculated :: Environment -> Curve -> Offset.Side -> Exact.Curve -> Cipher -> Eval Exact.Curve
 recalculated env base side lower (Located at cipher) = do
   distance <- case cipher of
-    Constant h mu -> Exact.Constant <$> fixed h >>= square mu
-    Pointwise h mu -> Exact.Pointwise <$> column h >>= square mu
+    Constant h mu -> fixed h >>= square mu . Exact.Constant
+    Pointwise h mu -> column h >>= square mu . Exact.Pointwise
     Bevelled mu height delta -> Exact.Bevelled <$> bevels mu <*> column height <*> maybe (pure (Mm 0)) fixed delta
     Growing h1 h2 mu span' -> do
       from <- fixed h1

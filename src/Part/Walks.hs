@@ -112,10 +112,11 @@ walksOf at walk v finish link = case (v, walk) of
           Chain.begins = Just (Segment.start (Part.segment e)),
           Chain.stops = Just (Segment.end (Part.segment (NonEmpty.last run))),
           Chain.finish = merged (Part.finish e),
-          Chain.bevel = concat [[(0, b) | Just (b, _) <- [Part.bevel e]] <> [(s, b) | (s, Just (_, b)) <- zip (drop 1 (scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = Segment.length (Part.segment x)])) (map Part.bevel (NonEmpty.toList run))]],
+          Chain.bevel = [(0, b) | Just (b, _) <- [Part.bevel e]] <> [(s, b) | (s, Just (_, b)) <- zip (drop 1 (stationsOf run)) (map Part.bevel (NonEmpty.toList run))],
           Chain.source = Nothing,
           Chain.link = link'
         }
+    stationsOf run = scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = Segment.length (Part.segment x)]
     -- What is asked on the whole counts where its elements ask nothing.
     merged own =
       Finish
@@ -176,7 +177,12 @@ startingNear p c = case NonEmpty.nonEmpty turned of
               share = if l > 0 then (let Mm front = Segment.length a in front) / l else 0
               lean = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
            in e {Part.segment = b, Part.continues = Part.ofCurve e, Part.bevel = (,) <$> lean <*> fmap snd (Part.bevel e)} :
-              rest <> before <> [e {Part.segment = a, Part.finish = (Part.finish e) {slow = False}, Part.bevel = (,) <$> fmap fst (Part.bevel e) <*> lean}]
+              rest <> unhurried (Part.continues e) before <> [e {Part.segment = a, Part.finish = (Part.finish e) {slow = False}, Part.bevel = (,) <$> fmap fst (Part.bevel e) <*> lean}]
+    -- A curve that is cut slows down where it ends, not where it is cut.
+    unhurried goesOn = reverse . backwards goesOn . reverse
+    backwards goesOn es = case es of
+      e : others | goesOn -> e {Part.finish = (Part.finish e) {slow = False}} : backwards (Part.continues e) others
+      _ -> es
     -- The segment in two, unless the point is at one of its ends.
     cut s
       | t <= 0 || t >= 1 || Vec.near foot (Segment.start s) || Vec.near foot (Segment.end s) = Nothing

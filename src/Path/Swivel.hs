@@ -14,7 +14,7 @@ import Base.Quantity (Mm (..))
 import Base.Region (Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isNothing)
+import Data.Maybe (isJust, isNothing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Offset (Piece (..), Side (..))
@@ -43,7 +43,7 @@ axis region milling side pieces = case Part.gear milling of
 
 -- | The bevels of all elements at their beginnings and ends, in radians; none when no element has one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
-bevels contour = case break (not . isNothing . Part.bevel) list of
+bevels contour = case span (isNothing . Part.bevel) list of
   (_, []) -> Nothing
   (open, known)
     -- A closed contour goes on over its beginning.
@@ -72,7 +72,7 @@ shares ls = zip marks (drop 1 marks)
 
 -- | The bevels along the pieces; round a corner the blade turns from one to the other.
 angles :: Vector (Double, Double) -> NonEmpty Piece -> NonEmpty (Double, Double)
-angles leans pieces = NonEmpty.fromList (concatMap group (NonEmpty.groupBy (\p q -> cornerOf p /= Nothing && cornerOf p == cornerOf q) pieces))
+angles leans pieces = NonEmpty.fromList (concatMap group (NonEmpty.groupBy (\p q -> isJust (cornerOf p) && cornerOf p == cornerOf q) pieces))
   where
     cornerOf p = case origin p of
       Offset.Along _ -> Nothing

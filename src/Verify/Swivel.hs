@@ -11,6 +11,7 @@ where
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
@@ -50,7 +51,7 @@ blade milling Path.Pass {Path.reach, Path.atHeight} =
       axes = maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Swivel.bevels (Part.contour milling))
     }
   where
-    height angle = plus atHeight (times (sign * angle / 2) (maybe (Mm 0) id (Part.gear milling)))
+    height angle = plus atHeight (times (sign * angle / 2) (fromMaybe (Mm 0) (Part.gear milling)))
     sign = case Path.leadingSide milling of
       Right (Just RightOf) -> -1
       Right (Just LeftOf) -> 1
