@@ -5,8 +5,8 @@
 -- what is allowed on either side: that leaves a sector of directions, which narrows as the run goes on. An arc narrows
 -- it by its end and by the place at which its tangent runs along the edge of the sector, so nothing is sampled.
 --
--- Where more is allowed on one side than on the other, the chords meet in the middle of what is allowed, beside the run;
--- only its beginning and its end lie on it.
+-- Where more is allowed on one side than on the other, the chords may meet in the middle of what is allowed, beside the run,
+-- if that makes them fewer; only its beginning and its end lie on it then.
 module Frame.Run
   ( Bounds (..),
     chordEnds,
@@ -46,9 +46,13 @@ chordEnds most bounds run
   where
     final = NonEmpty.last run
     pieces = [Piece (Path.segment m) 0 (a, b) | m <- NonEmpty.toList run, let (Mm a, Mm b) = Path.heights m, Segment.length (Path.segment m) > Mm 0]
-    widest = walk 1
-    count = length (take (most + 1) widest)
-    walk tightness = chords (limitsOf bounds tightness) pieces
+    (widest, walk)
+      | left bounds /= right bounds && counted (between 1) < counted (upon 1) = (between 1, between)
+      | otherwise = (upon 1, upon)
+    count = counted widest
+    counted = length . take (most + 1)
+    between tightness = chords (limitsOf bounds tightness) pieces
+    upon tightness = chords (limitsOf bounds tightness) {aside = 0} pieces
     evened = evenest evenings (1 - 1 / fromIntegral count) 1 widest
     -- The tightest limits that need no more chords make the last one as long as the others.
     evenest :: Int -> Double -> Double -> [Place] -> [Place]
