@@ -31,7 +31,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (catMaybes)
+import Data.Maybe (catMaybes, isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
@@ -325,17 +325,24 @@ item defined (Located at i) = case i of
   Surface.Element walk e modifiers link -> do
     (t, e') <- walked defined walk e
     columns <- Piece.columnsOf t
-    modifiers' <- mapM (modified defined columns) modifiers
+    modifiers' <- mapM (modified defined columns) (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
     link' <- traverse (linked defined) link
     pure (\sol -> Located at (Checked.Element (value <$> walk) (e' sol) (map ($ sol) modifiers') (($ sol) <$> link')))
 
--- | What is asked on an element with these columns.
-modified :: Defined -> [(Text, Type)] -> Surface.Modifier -> Infer (Later Checked.Modifier)
+isBevel :: Surface.Modifier -> Bool
+isBevel (Located _ m) = case m of
+  Surface.Bevel _ -> True
+  Surface.AtElementFeed _ -> False
+  Surface.Slow -> False
+  Surface.ElementAllowance _ -> False
+
+-- | What is asked on an element with these columns, as far as they are known.
+modified :: Defined -> Maybe [(Text, Type)] -> Surface.Modifier -> Infer (Later Checked.Modifier)
 modified defined columns (Located at m) = fmap (Located at .) $ case m of
   Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect defined Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect defined Type.len e
-  Surface.Bevel e -> (Checked.Bevel .) <$> Piece.withColumns (region e) columns (expect defined Type.angle e)
+  Surface.Bevel e -> (Checked.Bevel .) <$> Piece.withColumns (region e) (concat columns) (expect defined Type.angle e)
 
 -- | A circle with its sense, or a line, a point, a curve or a contour without one.
 walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Type, Later Checked.Expr)

@@ -102,13 +102,15 @@ cell checker c e = case bare e of
       _ -> Nothing
 
 -- | The columns that the values of a curve's or a table's points stand in.
-columnsOf :: Type -> Infer [(Text, Type)]
+-- | Not known of what is reported already.
+columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
   t' <- Infer.known t
   pure $ case t' of
-    Type.Curve (Type.Fields cs) -> cs
-    Type.Table (Type.Fields cs) -> cs
-    _ -> []
+    Type.Curve (Type.Fields cs) -> Just cs
+    Type.Curve _ -> Nothing
+    Type.Wrong -> Nothing
+    _ -> Just []
 
 -- | With the columns as values; their names win over those of the program.
 withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
@@ -116,9 +118,9 @@ withColumns at columns = Infer.withLocals [(Located at (Name text), t) | (text, 
 
 -- Ciphers
 
--- | A recalculation of a curve with these columns; nothing when there is none such.
-cipher :: Checker -> [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Solution -> Checked.Cipher))
-cipher checker columns (Located at (Surface.Cipher (Located place digit) given)) = case (digits digit, NonEmpty.toList given) of
+-- | A recalculation of a curve with these columns, as far as they are known; nothing when there is none such.
+cipher :: Checker -> Maybe [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Solution -> Checked.Cipher))
+cipher checker known (Located at (Surface.Cipher (Located place digit) given)) = case (digits digit, NonEmpty.toList given) of
   ("1", [a, b]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> none)
   ("1", [a, b, m]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> none)
   ("1", [a, b, p, q]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> some (between p q))
@@ -133,7 +135,10 @@ cipher checker columns (Located at (Surface.Cipher (Located place digit) given))
     | d `elem` ["1", "2", "4", "6"] -> Nothing <$ Infer.mistake (CipherMisfit at d (length es))
     | otherwise -> Nothing <$ Infer.mistake (NoSuchCipher place d)
   where
-    made later = Just . (Located at .) <$> later
+    columns = fromMaybe [] known
+    made later = case known of
+      Just _ -> Just . (Located at .) <$> later
+      Nothing -> Nothing <$ Infer.taint
     len = along Type.len
     -- One value for the whole piece.
     one e = case [(r, n) | (r, n) <- namesIn e, n `elem` map (Name . fst) columns] of
