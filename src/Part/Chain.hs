@@ -38,7 +38,7 @@ import Part.Error (Fact (..), Joined (Joined))
 import Part.Error qualified as Error
 import Part.Joint (Joint (..), Link (..))
 import Part.Joint qualified as Joint
-import Part.Part (Element (Element, origin, segment), Finish, plainFinish)
+import Part.Part (Element (Element, continues, origin, segment), Finish, plainFinish)
 
 -- | An element, its place, the ends that it has of its own, what is asked on it, and the link behind it
 -- with its place.
@@ -128,11 +128,21 @@ lone w@Walk {place, shape, link} = case (shape, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
     Right (marked w (Mm 0) [Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)])
-  (OnCurve c, Nothing) | Polyarc.isClosed c -> Right (marked w (Mm 0) (NonEmpty.toList (Polyarc.segments c)))
+  (OnCurve c, Nothing) | Polyarc.isClosed c -> Right (roundly (marked w (Mm 0) (NonEmpty.toList (Polyarc.segments c))))
   (OnCurve c, Just (at, _)) | Polyarc.isClosed c -> Left (LinkOfLoneCircle at)
   (OnCurve _, _) -> Left (LoneElement place shape)
   (OnLine _, _) -> Left (LoneElement place shape)
   (AtPoint _, _) -> Left (LoneElement place shape)
+
+-- | The elements of a closed curve, of which the first goes on with the last if there is no corner.
+roundly :: [Element] -> [Element]
+roundly elements = case (elements, reverse elements) of
+  (first : rest, final : _ : _) | smoothly (segment final) (segment first) -> first {continues = True} : rest
+  _ -> elements
+
+-- | Whether one segment goes over into another without a corner.
+smoothly :: Segment -> Segment -> Bool
+smoothly a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in Rad (abs turned) <= Tolerance.smoothAngle
 
 -- | An open contour runs from the first point of its first element to the last one of its last.
 open :: NonEmpty Walk -> Either Fact [Element]
@@ -297,7 +307,7 @@ begun shape a b = case shape of
 -- | The segments of one element from a place on it, cut where its bevel is known. Those that go on smoothly on the same
 -- curve are marked.
 marked :: Walk -> Mm -> [Segment] -> [Element]
-marked Walk {place, shape, finish, bevel} (Mm from) whole = zipWith3 element ss (False : zipWith goesOn ss (drop 1 ss)) (zip marks (drop 1 marks))
+marked Walk {place, shape, finish, bevel} (Mm from) whole = zipWith3 element ss (False : zipWith smoothly ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
     element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning angles a <*> leaning angles b)
     (isCurve, round') = case shape of
@@ -310,8 +320,6 @@ marked Walk {place, shape, finish, bevel} (Mm from) whole = zipWith3 element ss 
     ss = if Map.size angles > 1 then concat (zipWith (cutAtKeys angles) (along whole) whole) else whole
     marks = along ss
     along = scanl (\s g -> let Mm l = Segment.length g in s + l) from
-    goesOn a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned <= smooth
-    Rad smooth = Tolerance.smoothAngle
 
 -- | A segment that begins at a place, cut at the places of a table.
 cutAtKeys :: Map Double a -> Double -> Segment -> [Segment]
