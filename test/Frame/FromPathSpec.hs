@@ -42,8 +42,8 @@ spec = do
           let ends = FromPath.bandChords lkp01f (Mm i) (Mm o) a
               Mm r = Segment.radius (centre a) (start a)
               radii = [d | (p, q) <- zip (start a : ends) ends, k <- [0 .. 40 :: Int], let Mm d = Vec.distance (centre a) (Vec.between (fromIntegral k / 40) p q)]
-           in -- Of an arc no larger than a pulse there is nothing to chord.
-              r >= 0.02 ==> counterexample (show (r, minimum radii, maximum radii)) (minimum radii >= r - i - 1e-9 && maximum radii <= r + o + 1e-9 && last ends == end a)
+           in -- A step of a pulse is taken also where it leaves the band.
+              (r + o) * cos (asin (min 1 (0.02 / (2 * r)))) >= r - i ==> counterexample (show (r, minimum radii, maximum radii)) (minimum radii >= r - i - 1e-9 && maximum radii <= r + o + 1e-9 && last ends == end a)
     it "in a band are fewer than on the arc alone (catches corners that stay on the arc)" $
       property $
         forAll ((,) <$> arc <*> choose (0.02, 0.1)) $ \(a, y) ->
