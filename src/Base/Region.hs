@@ -22,6 +22,7 @@ module Base.Region
   )
 where
 
+import Base.Search qualified as Search
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Boxed
@@ -111,15 +112,7 @@ offset Source {own} line column
 
 -- | The last line that begins at or before an offset within its file.
 lineIndex :: File -> Int -> Int
-lineIndex File {starts} at = search 0 (Vector.length starts)
-  where
-    -- The line searched is low or behind it, and before high.
-    search low high
-      | high - low <= 1 = low
-      | starts Vector.! middle <= at = search middle high
-      | otherwise = search low middle
-      where
-        middle = (low + high) `div` 2
+lineIndex File {starts} at = Search.lastBelow (Vector.length starts) at starts
 
 -- | The line in which an offset lies, without its line end.
 lineText :: Source -> Int -> Text

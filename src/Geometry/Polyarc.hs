@@ -14,14 +14,13 @@ module Geometry.Polyarc
     directionAt,
     station,
     stretch,
-    reverse,
-    transformed,
     meetings,
     gap,
   )
 where
 
 import Base.Quantity (Mm (..), plus)
+import Base.Search qualified as Search
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -35,12 +34,10 @@ import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Prelude hiding (length, reverse)
+import Prelude hiding (length)
 
 -- | Segments with a length, each of which ends where the next begins, and the places where they begin.
 data Polyarc = Polyarc {chain :: Vector Segment, stations :: Unboxed.Vector Double}
@@ -76,15 +73,8 @@ isClosed p = Vec.near (start p) (end p)
 locate :: Polyarc -> Mm -> (Int, Double)
 locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - stations p Unboxed.! i) / l)))
   where
-    i = search 0 (Vector.length (chain p))
+    i = Search.lastBelow (Vector.length (chain p)) s (stations p)
     l = stations p Unboxed.! (i + 1) - stations p Unboxed.! i
-    -- The place lies behind the beginning of the segment low, and before that of high.
-    search low high
-      | high - low <= 1 = low
-      | stations p Unboxed.! middle <= s = search middle high
-      | otherwise = search low middle
-      where
-        middle = (low + high) `div` 2
 
 -- | The point at a place; at the nearer end for a place outside.
 at :: Polyarc -> Mm -> Point
@@ -116,13 +106,6 @@ stretch p a b = [piece i | i <- [i1 .. i2], let Mm l = Segment.length (piece i),
       let s = chain p Vector.! i
           front = if i == i2 && t2 < 1 then fst (Segment.cutAt t2 s) else s
        in if i == i1 && t1 > 0 then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front) else front
-
--- | The same chain walked the other way.
-reverse :: Polyarc -> Polyarc
-reverse p = fromSegments (NonEmpty.reverse (fmap Segment.reverse (segments p)))
-
-transformed :: Similarity -> Polyarc -> Polyarc
-transformed s p = fromSegments (fmap (Similarity.segment s) (segments p))
 
 -- | The points that two chains have in common, in the order of the first one. Chains that stand for curves touch when they come as near
 -- as both are off; where they touch they may cross twice, and that is one point.

@@ -13,6 +13,7 @@ module Geometry.Ruler
 where
 
 import Base.Quantity (Mm (..))
+import Base.Search qualified as Search
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
 import Geometry.Root qualified as Root
@@ -96,14 +97,7 @@ extent ruler p = let from = starts ruler Unboxed.! p in (from, starts ruler Unbo
 
 -- | The number of the last of these, in rising order, that is not above a number; never that of the very last one.
 lastBelow :: Double -> Vector Double -> Int
-lastBelow v sorted = search 0 (Unboxed.length sorted - 1)
-  where
-    search low high
-      | high - low <= 1 = low
-      | sorted Unboxed.! middle <= v = search middle high
-      | otherwise = search low middle
-      where
-        middle = (low + high) `div` 2
+lastBelow v sorted = Search.lastBelow (Unboxed.length sorted - 1) v sorted
 
 -- | The length from a piece's beginning to a place in it, from −1 to 1, and the speed there (in mm over a half).
 -- @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre's polynomials.

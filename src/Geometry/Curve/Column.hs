@@ -15,6 +15,7 @@ where
 
 import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..))
+import Base.Search qualified as Search
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
@@ -97,14 +98,7 @@ series n base c spot = case course c of
 
 -- | The number of the stretch between two of these lengths that a length belongs to, or the outer one on its side.
 stretchAt :: Double -> Unboxed.Vector Double -> Int
-stretchAt s stations = search 0 (Unboxed.length stations - 1)
-  where
-    search low high
-      | high - low <= 1 = low
-      | stations Unboxed.! middle <= s = search middle high
-      | otherwise = search low middle
-      where
-        middle = (low + high) `div` 2
+stretchAt s stations = Search.lastBelow (Unboxed.length stations - 1) s stations
 
 -- | The values times a factor, on a base that may be another.
 scaled :: Base -> Double -> Column -> Column
