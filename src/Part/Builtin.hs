@@ -97,7 +97,7 @@ apply region builtin arguments = case (builtin, arguments) of
     | r <= 0 -> Eval.mistake (RadiusNotPositive region (Mm r))
     | otherwise -> do
       within region r
-      found <- picked region "circle" ACircle centre [] [c | ta <- touched a, tb <- touched b, c <- Construct.circles (Mm r) ta tb] choice
+      found <- picked Tolerance.coincident region "circle" ACircle centre [] [c | ta <- touched a, tb <- touched b, c <- Construct.circles (Mm r) ta tb] choice
       circleOf (centre found) r
   (Concentric, [Plain (CircleValue (Circle c (Mm r))), Plain (Quantity d)]) -> circleOf c (r + d)
   (Distance, [Plain (Spatial p), Plain (Spatial q)]) -> measured (Vec.distance (place p) (place q))
@@ -217,7 +217,7 @@ intersection region a b choice = case meeting of
   CrossingOnce p -> chosen [p]
   Crossing p q -> chosen [p, q]
   where
-    chosen ps = picked region "point" APoint id [Walked.alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
+    chosen ps = picked Tolerance.coincident region "point" APoint id [Walked.alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
     meeting = case (a, b) of
       (OnLine l, OnLine m) -> Intersect.lines l m
       (OnLine l, OnCircle _ c) -> Intersect.lineCircle l c

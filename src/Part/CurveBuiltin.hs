@@ -61,7 +61,7 @@ apply region builtin arguments = case (builtin, arguments) of
     pure (TableValue Table {rows = pick (rows t), columns = fmap (fmap pick) (columns t)})
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
     [] -> let (low, high) = Curve.abscissas (exact c) in Eval.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
-    us -> picked region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
+    us -> picked Tolerance.nearTie region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
   (PointAlong, [Plain (CurveValue c), Plain (Quantity s)])
     | s < -slack || s > l + slack -> Just (Eval.mistake (NoAnswer region "point" ("The curve is " <> written l <> " long.")))
     | otherwise -> Just (at (Exact.at (exact c) (Exact.alongTo (exact c) (Mm s))))
@@ -198,7 +198,7 @@ walkedOf v = case v of
 intersection :: Region -> Walked -> Walked -> [Given] -> Eval Value
 intersection region a b choice = case Polyarc.meetings as bs of
   [] -> Eval.mistake (NothingCommon region a b (Polyarc.gap as bs))
-  ps -> picked region "point" APoint id ways ps choice >>= spatial region . offset
+  ps -> picked Tolerance.nearTie region "point" APoint id ways ps choice >>= spatial region . offset
   where
     as = Walked.within (extent b) a
     bs = Walked.within (extent a) b

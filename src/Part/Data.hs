@@ -90,10 +90,10 @@ whole region what x
   where
     n = if abs x > 1e8 then 0 else round x :: Int
 
--- | The one answer that is meant. The function tells the point by which an answer is chosen; the ways
+-- | The one answer that is meant. Distances that differ by no more than the length given are a tie. The function tells the point by which an answer is chosen; the ways
 -- tell how far along something an answer lies, so that there is a first and a last.
-picked :: Region -> Text -> (a -> Candidate) -> (a -> Point) -> [a -> Mm] -> [a] -> [Given] -> Eval a
-picked region what candidate key ways found choice = case (found, choice) of
+picked :: Mm -> Region -> Text -> (a -> Candidate) -> (a -> Point) -> [a -> Mm] -> [a] -> [Given] -> Eval a
+picked (Mm tie) region what candidate key ways found choice = case (found, choice) of
   ([], _) -> Eval.mistake (NoAnswer region what ("No " <> what <> " of this size touches both things on these sides, or goes through them."))
   ([one], []) -> pure one
   (_, []) -> Eval.mistake (Several region what all')
@@ -114,7 +114,7 @@ picked region what candidate key ways found choice = case (found, choice) of
       [] -> Eval.mistake (NoneFits region what all')
       _ -> Eval.mistake (SeveralFit region what (map candidate fitting))
     Mm tolerance = Tolerance.coincident
-    near (Mm a) (Mm b) = let Mm tie = Tolerance.nearTie in abs (a - b) <= tie
+    near (Mm a) (Mm b) = abs (a - b) <= tie
     sideOf l a = let Mm d = Shape.signedDistance l (key a) in d
     depth (Circle c (Mm r)) a = let Mm d = Vec.distance c (key a) in r - d
     ranked rank as = case rank of
