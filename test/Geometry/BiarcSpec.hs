@@ -422,7 +422,8 @@ kinkLaw (Tracked c tolerance) =
   where
     groups = Track.approximate (Mm tolerance) (trackOf c)
 
--- | Against the fewest biarcs of any of some ratios between 65 points of the curve. One biarc ends and the next
+-- | Against the fewest biarcs of any of some ratios between 65 points of the curve that stay near it, which takes many
+-- points to know. One biarc ends and the next
 -- begins where a joint has the curve's place and direction. Of lines and arcs the end may be the joint in the middle;
 -- there segments are counted, and one biarc more is two of them.
 fewLaw :: Tracked -> Property
@@ -447,6 +448,6 @@ fewLaw w@(Tracked c tolerance) =
     cheapest i j =
       let from = (place t (us ! i), direction t Leaving (us ! i))
           to = (place t (us ! j), direction t Arriving (us ! j))
-          between = [place t (us ! i + (us ! j - us ! i) * fromIntegral m / 24) | m <- [1 .. 23 :: Int]]
+          between = [place t (us ! i + (us ! j - us ! i) * fromIntegral m / parts) | (parts, most) <- [(24, 23), (199, 198)], m <- [1 .. most :: Int]]
           sizes = [size b | r <- [0.5, 0.7, 1, 1.4, 2], Just b <- [Biarc.joinWith r from to], all (\p -> minimum (fmap (`apart` p) b) <= tolerance) between]
        in if null sizes then Nothing else Just (minimum sizes)
