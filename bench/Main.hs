@@ -15,6 +15,7 @@ import Compile qualified
 import Control.Exception (evaluate)
 import Control.Monad (forM, forM_)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.IO qualified as Text
@@ -23,7 +24,8 @@ import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as Frame
 import Geometry.Segment qualified as Segment
 import Linear.V3 (V3 (..))
-import Machine.Lkp01f (lkp01f)
+import Machine.BuiltIn qualified as BuiltIn
+import Machine.Machine (Machine, MachineName (..))
 import Part.FromChecked qualified as Part
 import Part.Part qualified as Part
 import Path.Path qualified as Path
@@ -67,7 +69,7 @@ stages =
     proof t =
       let a = sound (analyse t)
           p = sound (Compile.punch lkp01f (path a))
-       in sound (Compile.prove lkp01f (path a) (program p) (sound (Compile.readTape lkp01f (tape p))))
+       in sound (Compile.prove lkp01f (path a) (program p) (sound (Compile.readTape lkp01f (Frame.start (program p)) (tape p))))
     itemsOf s = case Region.value s of
       Surface.Contour _ _ items -> sum [1 | Region.Located _ (Surface.Element _ e _ _) <- items, Region.start (Region.region e) >= 0]
       _ -> 1
@@ -77,6 +79,9 @@ stages =
     sumOf c = let Mm l = total (map (Segment.length . Part.segment) (NonEmpty.toList (Part.elements c))) in l :: Double
     lengthOf p = let Mm l = total (map (Segment.length . Path.segment) (concatMap Path.moves (Path.blocks p))) in l :: Double
     distance (V3 (Pulses x) (Pulses y) (Pulses z)) = abs x + abs y + abs z
+
+lkp01f :: Machine
+lkp01f = fromMaybe (error "no such machine") (BuiltIn.find (MachineName "lkp-01f"))
 
 sound :: Result.Result w e a -> a
 sound r = case Result.settled r of

@@ -12,6 +12,8 @@ mkdir -p "$copy"
   [ ! -f "$f" ] || cmp -s "$f" "$copy/$f" || cp --parents "$f" "$copy"
 done)
 cd "$copy" || exit 1
+# What was removed since is removed here too.
+find app bench src test machines explain -type f | while IFS= read -r f; do [ -f "$top/$f" ] || rm -f "$f"; done
 
 chosen=()
 if [ $# -gt 0 ]; then for n in "$@"; do chosen+=("test/mutants/$n.mutant"); done; else chosen=(test/mutants/*.mutant); fi

@@ -20,10 +20,20 @@ module Compile
     punch,
     readTape,
     prove,
+
+    -- * Machines
+    Descriptions,
+    described,
+    isDescription,
+    machineFor,
+    machineIn,
+    Unknown (..),
+    onMachine,
   )
 where
 
-import Base.Region (Region, Source)
+import Base.Quantity (Pulses)
+import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
 import Base.Result qualified as Result
@@ -37,13 +47,19 @@ import Frame.Error qualified as Frame
 import Frame.Frame (Frame, Program)
 import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as Frame
-import Machine.Machine (Machine)
+import Linear.V3 (V3)
+import Machine.BuiltIn qualified as BuiltIn
+import Machine.Error qualified as Machine
+import Machine.FromText qualified as Machine
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
 import Part.Error qualified as Part
 import Part.FromChecked qualified as Part
 import Part.Part (Part)
 import Path.Error qualified as Path
 import Path.FromPart qualified as Path
 import Path.Path (Path)
+import Path.Path qualified as Path
 import Report.Report (Report)
 import Sheet.Error qualified as Sheet
 import Sheet.FromText qualified as Sheet
@@ -52,15 +68,16 @@ import Surface.Assign qualified as Surface
 import Surface.Error qualified as Surface
 import Surface.Import qualified as Surface
 import Surface.Syntax qualified as Surface
-import System.FilePath (takeExtension)
+import System.FilePath (takeDirectory, takeExtension, (</>))
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Verify
 
--- | All texts, and one program of them; where each import stands, and the file that it names.
-data Loaded = Loaded {source :: Source, surface :: Result Report Report Surface.Program, imports :: [(Region, Text)]}
+-- | All texts, and one program of them; where each import stands, and the file that it names; the descriptions of
+-- machines that it names.
+data Loaded = Loaded {source :: Source, surface :: Result Report Report Surface.Program, imports :: [(Region, Text)], descriptions :: Descriptions}
 
 -- | Read a program and what it imports, or an input sheet: the name of its file, for reports and for the
 -- places of the others; its text.
@@ -71,16 +88,21 @@ load reader path text
       Loaded
         { source = Region.fromText (Text.pack path) text,
           surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
-          imports = []
+          imports = [],
+          descriptions = []
         }
-  | otherwise = written <$> Surface.load reader path text
-  where
-    written loaded =
+  | otherwise = do
+    loaded <- Surface.load reader path text
+    descriptions <- traverse (described reader (takeDirectory path)) (maybe [] filesNamed (output (Surface.surface loaded)))
+    pure
       Loaded
         { source = Surface.source loaded,
           surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
-          imports = Surface.imports loaded
+          imports = Surface.imports loaded,
+          descriptions
         }
+  where
+    filesNamed written = [file | Located _ (Surface.Machine (Located _ (Surface.Described file))) <- Surface.statements written]
 
 -- | A program of one text that can import nothing.
 alone :: Text -> Text -> Loaded
@@ -120,14 +142,55 @@ data Punched = Punched {program :: Program, tape :: Tape}
 punch :: Machine -> Path -> Result Report Report Punched
 punch machine path = do
   program <- mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
-  pure Punched {program, tape = Tape.write machine (map Frame.frame (Frame.planned program))}
+  pure Punched {program, tape = Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program))}
 
--- | From a tape back to its frames.
-readTape :: Machine -> Tape -> Result Report Report [Frame]
-readTape machine tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine tape))
+-- | From a tape back to its frames; where the cutter stands before the first.
+readTape :: Machine -> V3 Pulses -> Tape -> Result Report Report [Frame]
+readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine begin tape))
 
 -- | Compare a tape's frames with the part; errors when it is not proven.
 prove :: Machine -> Path -> Program -> [Frame] -> Result Report Report Proof
 prove machine path program frames = Result.failing (Verify.toReports machine proof) proof
   where
     proof = Verify.prove machine path program frames
+
+-- Machines ----------------------------------------------------------------------------------------
+
+-- | Description files by the names that were asked for: their texts, or why they cannot be read.
+type Descriptions = [(Text, Either Text Text)]
+
+-- | Read a description beside a folder.
+described :: Monad m => Surface.Reader m -> FilePath -> Text -> m (Text, Either Text Text)
+described reader folder file = (file,) <$> reader (folder </> Text.unpack file)
+
+-- | Whether a name is that of a description file rather than of a machine that is built in.
+isDescription :: Text -> Bool
+isDescription name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
+
+-- | Why there is no such machine.
+data Unknown
+  = -- | none has this name
+    NoSuchMachine
+  | -- | its description cannot be read
+    NoDescription Text
+  | -- | its description has mistakes: its text, and the reports
+    BadDescription Text [Report]
+
+-- | A machine by its name, or by the name of its description.
+machineFor :: Descriptions -> Text -> Either Unknown Machine
+machineFor descriptions name
+  | isDescription name = machineIn descriptions name
+  | otherwise = maybe (Left NoSuchMachine) Right (BuiltIn.find (MachineName name))
+
+-- | The machine of a description.
+machineIn :: Descriptions -> Text -> Either Unknown Machine
+machineIn descriptions file = case lookup file descriptions of
+  Nothing -> Left (NoDescription "it was not looked for")
+  Just (Left why) -> Left (NoDescription why)
+  Just (Right text) -> case mapErrors id Machine.toReport (Machine.read text) of
+    Result {errors = [], output = Just machine} -> Right machine
+    Result {errors} -> Left (BadDescription text errors)
+
+-- | A machine set up for a path: on a lathe its axes may point the other way.
+onMachine :: Path -> Machine -> Machine
+onMachine path machine = if Path.isTurned path then Machine.forTurning machine else machine

@@ -16,7 +16,8 @@ import Data.List (nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (expected, readText)
-import Machine.Lkp01f (lkp01f)
+import Frame.Frame qualified as Frame
+import Machines qualified
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
@@ -34,15 +35,15 @@ spec = describe "examples are proven and give their frames" $ do
           [] -> (run, [])
           name : assigned -> ("examples" </> Text.unpack name <.> (if Text.unpack name `elem` sheets then "sheet" else "part"), map (fmap (Text.drop 1) . Text.breakOn "=") assigned)
     texts <- Compile.load reader file =<< readText file
-    let outcome = Compile.analyse values texts `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
+    let outcome = Compile.analyse values texts `Result.thenSound` \a -> let m = Machines.ownOr Machines.lkp01f texts a in Compile.punch m (path a) `Result.thenSound` \p -> pure (a, m, p)
         rendered reports = Text.concat [render r <> "\n" | r <- Report.sorted reports]
         render = Human.render Human.Plain (Text.pack file) (Compile.source texts) :: Report -> Text
     case Result.settled outcome of
       Nothing -> expectationFailure (Text.unpack (rendered (errors outcome)))
-      Just (a, p) -> do
-        fs <- maybe (fail "the tape cannot be read") pure (output (Compile.readTape lkp01f (tape p)))
-        map Report.title (errors (Compile.prove lkp01f (path a) (program p) fs)) `shouldBe` []
-        expected (expectations </> run <.> "frames") (FrameTable.frames lkp01f (Compile.source texts) (program p) <> rendered (warnings outcome))
+      Just (a, m, p) -> do
+        fs <- maybe (fail "the tape cannot be read") pure (output (Compile.readTape m (Frame.start (program p)) (tape p)))
+        map Report.title (errors (Compile.prove m (path a) (program p) fs)) `shouldBe` []
+        expected (expectations </> run <.> "frames") (FrameTable.frames m (Compile.source texts) (program p) <> rendered (warnings outcome))
   where
     expectations = "examples/expected"
 

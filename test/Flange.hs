@@ -5,6 +5,7 @@ module Flange
     program,
     tape,
     frames,
+    expect,
     exactNodes,
   )
 where
@@ -17,7 +18,7 @@ import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
 import Frame.Frame (Frame, Program)
 import Frame.Frame qualified as Frame
-import Machine.Lkp01f (lkp01f)
+import Machines (lkp01f)
 import System.IO.Unsafe (unsafePerformIO)
 import Tape.Tape (Tape)
 

@@ -28,7 +28,9 @@ import Base.Result qualified as Result
 import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Frame.Frame (Frame (..))
+import Data.Map.Strict qualified as Map
+import Frame.Frame (Frame)
+import Frame.Frame qualified as Frame
 import Geometry.Contour (Contour (..), Ends (..))
 import Geometry.Contour qualified as Contour
 import Geometry.Fillet (Fillet (..))
@@ -42,7 +44,7 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
 import Linear.V3 (V3 (..))
-import Machine.Machine (FeedCode (..), Machine)
+import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element (..), Milling (Milling), Operation (..), Part (Part), Stop (Stop))
 import Part.Part qualified as Part
@@ -180,7 +182,8 @@ job c =
       Part.allowances = Mm 0 :| [],
       Part.corners = Part.Round,
       Part.sense = Nothing,
-      Part.spin = Part.Clockwise
+      Part.spin = Part.Clockwise,
+      Part.byControl = Nothing
     }
   where
     here = Located (Region 0 0)
@@ -240,17 +243,22 @@ move m s = case s of
   Straight a b -> Straight (movePoint m a) (movePoint m b)
   Arc a b c (Rad sweep) -> Arc (movePoint m a) (movePoint m b) (movePoint m c) (Rad (if mirrored m then -sweep else sweep))
 
--- | Frames that keep the machine's invariants.
+-- | Frames that keep the machine's invariants: straight ones, and ones that only command.
 frames :: Machine -> Gen [Frame]
-frames machine = listOf frame
+frames machine = listOf (oneof (moving : [commanding | not (null commands)]))
   where
-    frame = oneof [moving, commanding]
     moving = do
       d <- increment' `suchThat` (/= 0)
-      s <- elements (map fst (NonEmpty.toList (Machine.feeds machine)))
-      Frame d s <$> choose (0, 7)
-    commanding = Frame 0 (FeedCode 0) <$> choose (1, 7)
+      code <- elements codes
+      os <- frequency ((3, pure []) : [(1, given) | not (null commands)])
+      pure (Frame.still os) {Frame.motion = Frame.Straightway, Frame.increment = d, Frame.speed = code}
+    commanding = Frame.still <$> given
+    given = sequenceA [(o,) <$> choose (1, most) | (o, most) <- take 1 commands]
+    commands = [(o, most) | Machine.Order {Machine.order = o, Machine.value = Machine.Argument} <- Machine.auxiliary (Machine.orders machine), Just most <- [Machine.orderCapacity machine o]]
+    codes = case Machine.codes (Machine.feeds machine) of
+      Machine.Listed table -> Map.keys table
+      Machine.Direct a b -> map Machine.FeedCode [a, (a + b) `div` 2, b]
     increment' = V3 <$> part Machine.X <*> part Machine.Y <*> part Machine.Z
     part axis = do
-      let Pulses c = Machine.capacity machine axis
-      Pulses <$> oneof [pure 0, choose (-c, c), elements [c, -c, 1, -1]]
+      let Pulses c = min 1000000 (Machine.capacity machine axis)
+      Pulses <$> oneof [pure 0, choose (-c, c), elements [c, -c, min c 1, -min c 1]]

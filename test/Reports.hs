@@ -11,11 +11,12 @@ import Base.Result qualified as Result
 import Compile (Analysis (..))
 import Compile qualified
 import Control.Monad (void)
-import Machine.Lkp01f (lkp01f)
+import Machines qualified
 import Report.Report (Report)
 
 -- | All errors and warnings, up to the limits of the machine.
 onProgram :: Source -> [Report]
 onProgram source = errors outcome <> warnings outcome
   where
-    outcome = Compile.analyse [] (Compile.alone (Region.mainFile source) (Region.text source)) `Result.thenSound` \a -> void (Compile.punch lkp01f (path a))
+    loaded = Compile.alone (Region.mainFile source) (Region.text source)
+    outcome = Compile.analyse [] loaded `Result.thenSound` \a -> void (Compile.punch (Machines.ownOr Machines.lkp01f loaded a) (path a))

@@ -9,7 +9,7 @@ import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
-import Machine.Lkp01f (lkp01f)
+import Machines (lkp01f)
 import Report.Report qualified as Report
 import Test.Hspec
 

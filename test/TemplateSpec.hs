@@ -14,11 +14,12 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Files (readText)
+import Frame.Frame qualified as Frame
 import Geometry.Fit qualified as Fit
 import Geometry.Piece qualified as Piece
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Lkp01f (lkp01f)
+import Machines (lkp01f)
 import Part.Curve (Fitting (..))
 import Part.Curve qualified as Curve
 import Part.Part qualified as Part
@@ -53,7 +54,7 @@ spec = do
     page <- readText "docs/template.md"
     program' <- readText file
     page `shouldSatisfy` Text.isInfixOf (snd (Text.breakOn "part template" program'))
-    frames <- maybe (fail "no tape") pure (Result.settled (Compile.punch lkp01f (path analysis) `Result.thenSound` \p -> Compile.readTape lkp01f (tape p)))
+    frames <- maybe (fail "no tape") pure (Result.settled (Compile.punch lkp01f (path analysis) `Result.thenSound` \p -> Compile.readTape lkp01f (Frame.start (program p)) (tape p)))
     page `shouldSatisfy` Text.isInfixOf (Decimal.whole (length frames) <> " frames")
   where
     file = "examples/template.part"

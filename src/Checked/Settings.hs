@@ -132,6 +132,7 @@ check expect stop statement written = do
         Surface.Allowances es -> (\es' sol o -> o {allowances = Just (fmap ($ sol) es')}) <$> mapM (expect Type.len) es
         Surface.CornerStyle style -> pure (\_ o -> o {corners = style})
         Surface.CutBy sense -> pure (\_ o -> o {sense = Just (Located at sense)})
+        Surface.CompensationBy who -> pure (\_ o -> o {compensation = Just (Located at who)})
         Surface.StartNear e -> (\e' sol o -> o {startNear = Just (e' sol)}) <$> expect Type.aPoint e
         Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> expect Type.feed e
         Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> expect Type.len e
@@ -149,6 +150,7 @@ none =
       allowances = Nothing,
       corners = Checked.Round,
       sense = Nothing,
+      compensation = Nothing,
       startNear = Nothing,
       plunge = Nothing,
       peck = Nothing
@@ -166,6 +168,7 @@ name s = case s of
   Surface.CornerStyle _ -> "corners"
   Surface.CutBy Surface.Climb -> "climb"
   Surface.CutBy Surface.Conventional -> "conventional"
+  Surface.CompensationBy _ -> "compensation"
   Surface.StartNear _ -> "start near"
   Surface.Plunge _ -> "plunge"
   Surface.Peck _ -> "peck"
@@ -180,7 +183,7 @@ subject s = case s of
 -- | The settings that a statement takes.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
-  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge"]
+  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge", "compensation"]
   "turn" -> ways <> passes
   _ -> ["peck", "plunge"]
   where

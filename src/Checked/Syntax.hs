@@ -33,6 +33,7 @@ module Checked.Syntax
     Choice (..),
     Closure (..),
     Corners (..),
+    Compensation (..),
     CutSense (..),
     Lead (..),
     LeadForm (..),
@@ -50,7 +51,7 @@ import Base.Region (Located, Region)
 import Checked.Dimension (Dimension)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
-import Surface.Syntax (Choice (..), Closure (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Side (..), Switch (..), Walk (..))
+import Surface.Syntax (Choice (..), Closure (..), Compensation (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Side (..), Switch (..), Walk (..))
 
 -- | A program. Statements that contain a mistake are left out.
 data Program = Program
@@ -164,6 +165,7 @@ data Settings = Settings
     allowances :: Maybe (NonEmpty Expr),
     corners :: Corners,
     sense :: Maybe (Located CutSense),
+    compensation :: Maybe (Located Compensation),
     startNear :: Maybe Expr,
     plunge :: Maybe Expr,
     peck :: Maybe Expr

@@ -8,8 +8,10 @@ module Cli.Error
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
-import Base.Region (Region)
+import Base.Region (Position (..), Region)
+import Base.Region qualified as Region
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (Place (..), Report (..), report)
@@ -27,8 +29,10 @@ data Error
     NoMachineForTape [Text]
   | -- | a name that no machine has, where the program says it, the machines there are
     UnknownMachine (Maybe Region) Text [Text]
-  | -- | a description file where none can be read yet
-    DescriptionFile Region
+  | -- | a description that cannot be read: where the program names it, its name, why
+    DescriptionMissing (Maybe Region) Text Text
+  | -- | a description with mistakes: where the program names it, its name, its text, what is wrong
+    DescriptionWrong (Maybe Region) Text Text [Report]
   | -- | the output would replace the program
     OverwritesProgram Text
   | -- | the program punches nothing
@@ -68,9 +72,16 @@ toReport err = case err of
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
         hints = ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
       }
-  DescriptionFile region ->
-    wrong "E0806" (InSource region) "machine descriptions cannot be read from files yet"
-  OverwritesProgram path -> wrong "E0807" InFile ("the output would replace the program " <> path)
+  DescriptionMissing place file why ->
+    (wrong "E0806" (maybe InFile InSource place) ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why))
+      { hints = ["A description is looked for beside the program that names it, or where the command line says."]
+      }
+  DescriptionWrong place file text reports ->
+    (wrong "E0810" (maybe InFile InSource place) ("the machine’s description ‘" <> file <> "’ has mistakes"))
+      { message = [placed file text r | r <- Report.sorted reports],
+        hints = ["partc machines " <> file <> " shows them in full."]
+      }
+  OverwritesProgram path -> wrong "E0807" InFile ("the output would replace " <> path <> ", of which it is made")
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]
@@ -89,6 +100,14 @@ toReport err = case err of
       }
   where
     wrong = report Report.Error
+
+-- | A report in one line, with its place in a text.
+placed :: Text -> Text -> Report -> Text
+placed file text r = case place r of
+  InSource region ->
+    let Position {line, column} = Region.position (Region.fromText file text) (Region.start region)
+     in Decimal.whole line <> ":" <> Decimal.whole column <> ": " <> title r
+  _ -> title r
 
 -- | Why a file can not be had, as the end of a sentence.
 whyNot :: Error -> Text

@@ -15,69 +15,139 @@ import Cli.Table qualified as Table
 import Data.Aeson (object, (.=))
 import Data.Aeson.Encoding (encodingToLazyByteString)
 import Data.Aeson.Encoding qualified as Aeson
+import Data.Aeson.Key qualified as Key
 import Data.ByteString.Lazy qualified as LazyByteString
+import Data.Containers.ListUtils (nubOrd)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
-import Frame.Frame (Frame (..), Planned (..), Program, Role (..))
+import Frame.Feed qualified as Feed
+import Frame.Frame (Frame (..), Motion (..), Planned (..), Program, Role (..))
 import Frame.Frame qualified as Frame
+import Geometry.Shape (Turn (..))
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 import Linear.V3 (V3 (..))
-import Machine.Machine (FeedCode (..), Machine)
-import Machine.Machine qualified as Machine
+import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 
--- | One frame a line, with the line of the program that it came from.
+-- | A column of a table of frames: its head, and what stands in it.
+data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
+
+-- | A frame with its number, from 1, and the position where it ends.
+data Numbered = Numbered {number :: Int, planned :: Planned, to :: V3 Pulses}
+
+-- | One frame a line, with the line of the program that it came from. Only columns that say something.
 frames :: Machine -> Source -> Program -> Text
-frames machine source program =
-  Table.columns
-    ([ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight] <> [ToRight | rises] <> [ToRight | commands])
-    ((["frame", "for", "dx", "dy", "dz", "speed", "mm/min", "to x", "to y"] <> ["to z" | rises] <> ["line"] <> ["aux" | commands]) : map row (numbered program))
+frames machine source program = table columns rows
   where
-    -- Columns that say something.
-    rises = any (\p -> let Frame (V3 _ _ z) _ _ = frame p in z /= 0) (Frame.planned program)
-    commands = any ((/= 0) . auxiliary . frame) (Frame.planned program)
-    row (n, planned, at) =
-      let Frame (V3 dx dy dz) (FeedCode s) aux = frame planned
-          p = Frame.position machine at
-       in [Decimal.whole n, roleWord (role planned), pulses dx, pulses dy, pulses dz, Decimal.whole s, feedWord machine (FeedCode s), coordinate (Vec.x p), coordinate (Vec.y p)]
-            <> [let Mm z = Frame.height machine at in coordinate z | rises]
-            <> [lineWord source planned]
-            <> [if aux == 0 then "" else Decimal.whole aux | commands]
-    pulses (Pulses n) = Decimal.whole n
+    rows = numbered program
+    all' = map (frame . planned) rows
+    rises = any (\f -> let V3 _ _ z = increment f in z /= 0) all'
+    columns =
+      [Column ToRight "frame" (Decimal.whole . number), Column ToLeft "for" (roleWord . role . planned)]
+        <> map (before (frame . planned)) (motionColumns all')
+        <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight "mm/min" feedOf]
+        <> map (before (frame . planned)) (brakeColumn all')
+        <> [Column ToRight "to x" (coordinate . Vec.x . place), Column ToRight "to y" (coordinate . Vec.y . place)]
+        <> [Column ToRight "to z" (\n -> let Mm z = Frame.height machine (to n) in coordinate z) | rises]
+        <> [Column ToRight "line" (lineWord source . planned)]
+        <> map (before (frame . planned)) (orderColumns all')
+    place n = Frame.position machine (to n)
+    feedOf n = maybe "" feedWord (Feed.given machine (frame (planned n)) (Feed.wayOf machine (frame (planned n))))
     coordinate = Decimal.fixed 3
 
 -- | Frames as JSON lines: increments in pulses, positions in mm.
 framesJson :: Machine -> Source -> Program -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
   where
-    row (n, planned, at) =
-      let Frame (V3 (Pulses dx) (Pulses dy) (Pulses dz)) (FeedCode s) aux = frame planned
-          p = Frame.position machine at
+    row n =
+      let f = frame (planned n)
+          V3 (Pulses dx) (Pulses dy) (Pulses dz) = increment f
+          V2 (Pulses i) (Pulses j) = centre f
+          FeedCode s = speed f
+          p = Frame.position machine (to n)
        in jsonLine
-            [ "frame" .= n,
-              "role" .= roleWord (role planned),
-              "increment" .= [dx, dy, dz],
-              "speed" .= s,
-              "feed" .= ((\(Feed f) -> f) <$> Machine.feedOf machine (FeedCode s)),
-              "auxiliary" .= aux,
-              "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine at in z],
-              "file" .= (let Position {file} = Region.position source (start (origin planned)) in file),
-              "line" .= lineOf source planned
-            ]
+            ( [ "frame" .= number n,
+                "role" .= roleWord (role (planned n)),
+                "motion" .= motionWord (motion f),
+                "increment" .= [dx, dy, dz]
+              ]
+                <> ["centre" .= [i, j] | isArc f]
+                <> [ "speed" .= s,
+                     "feed" .= ((\(Feed v) -> v) <$> Feed.given machine f (Feed.wayOf machine f)),
+                     "braking" .= braking f,
+                     "commands" .= object [Key.fromText o .= v | (OrderName o, v) <- orders f],
+                     "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine (to n) in z],
+                     "file" .= (let Position {file} = Region.position source (start (origin (planned n))) in file),
+                     "line" .= lineOf source (planned n)
+                   ]
+            )
     jsonLine pairs = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs)))) <> "\n"
 
+-- | The frames that were read from a tape.
+decoded :: Machine -> [Frame] -> Text
+decoded machine fs = table columns (zip [1 :: Int ..] fs)
+  where
+    columns =
+      [Column ToRight "frame" (Decimal.whole . fst)]
+        <> map (before snd) (motionColumns fs)
+        <> [Column ToRight "speed" (speedWord . snd), Column ToRight "mm/min" (\(_, f) -> maybe "" feedWord (Feed.given machine f (Feed.wayOf machine f)))]
+        <> map (before snd) (brakeColumn fs <> orderColumns fs)
+
+table :: [Column a] -> [a] -> Text
+table columns rows = Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
+
+-- | A column of something that is got from something else.
+before :: (b -> a) -> Column a -> Column b
+before get c = c {cell = cell c . get}
+
+-- | What moves where: the kind of motion and the centre where there are arcs or rapid motions.
+motionColumns :: [Frame] -> [Column Frame]
+motionColumns fs =
+  [Column ToLeft "motion" (motionWord . motion) | any ((`notElem` [Still, Straightway]) . motion) fs]
+    <> [Column ToRight "dx" (\f -> let V3 x _ _ = increment f in pulses x), Column ToRight "dy" (\f -> let V3 _ y _ = increment f in pulses y), Column ToRight "dz" (\f -> let V3 _ _ z = increment f in pulses z)]
+    <> concat [[Column ToRight "i" (ofCentre (\(V2 i _) -> i)), Column ToRight "j" (ofCentre (\(V2 _ j) -> j))] | any isArc fs]
+  where
+    pulses (Pulses n) = Decimal.whole n
+    ofCentre get f = if isArc f then pulses (get (centre f)) else ""
+
+-- | Which frames slow down, where some do.
+brakeColumn :: [Frame] -> [Column Frame]
+brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | any braking fs]
+
+-- | A column for every word of commands that is used.
+orderColumns :: [Frame] -> [Column Frame]
+orderColumns fs = [Column ToRight name (maybe "" Decimal.whole . lookup o . orders) | o@(OrderName name) <- nubOrd (concatMap (map fst . orders) fs)]
+
+isArc :: Frame -> Bool
+isArc f = case motion f of
+  Round _ -> True
+  Still -> False
+  Rapid -> False
+  Straightway -> False
+
+motionWord :: Motion -> Text
+motionWord m = case m of
+  Still -> ""
+  Rapid -> "rapid"
+  Straightway -> "line"
+  Round Clockwise -> "arc cw"
+  Round CounterClockwise -> "arc ccw"
+
 -- | The frames with their numbers and the positions where they end.
-numbered :: Program -> [(Int, Planned, V3 Pulses)]
-numbered program = zip3 [1 ..] (Frame.planned program) (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) (Frame.planned program))))
+numbered :: Program -> [Numbered]
+numbered program = zipWith3 Numbered [1 ..] ps (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) ps)))
+  where
+    ps = Frame.planned program
 
 -- | The line, with the file when it is not the program's own.
 lineWord :: Source -> Planned -> Text
-lineWord source planned = (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source planned)
+lineWord source p = (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)
   where
-    Position {file} = Region.position source (start (origin planned))
+    Position {file} = Region.position source (start (origin p))
 
 lineOf :: Source -> Planned -> Int
-lineOf source planned = line (Region.position source (start (origin planned)))
+lineOf source p = line (Region.position source (start (origin p)))
 
 roleWord :: Role -> Text
 roleWord r = case r of
@@ -88,15 +158,8 @@ roleWord r = case r of
   Drilling -> "drill"
   Commanding -> "command"
 
-feedWord :: Machine -> FeedCode -> Text
-feedWord machine code = maybe "" (\(Feed f) -> Decimal.short 2 f) (Machine.feedOf machine code)
+speedWord :: Frame -> Text
+speedWord f = let FeedCode s = speed f in Decimal.whole s
 
--- | The frames that were read from a tape.
-decoded :: Machine -> [Frame] -> Text
-decoded machine fs =
-  Table.columns
-    [ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
-    (["frame", "dx", "dy", "dz", "speed", "mm/min", "auxiliary"] : zipWith row [1 ..] fs)
-  where
-    row n (Frame (V3 (Pulses dx) (Pulses dy) (Pulses dz)) (FeedCode s) aux) =
-      [Decimal.whole n, Decimal.whole dx, Decimal.whole dy, Decimal.whole dz, Decimal.whole s, feedWord machine (FeedCode s), if aux == 0 then "" else Decimal.whole aux]
+feedWord :: Feed -> Text
+feedWord (Feed f) = Decimal.short 2 f

@@ -16,11 +16,12 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Frame.Feed qualified as Feed
 import Frame.Frame qualified as Frame
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Choice (..), Machine)
+import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Part.Part qualified as Part
@@ -93,9 +94,9 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveT
     lengthOf = total . map wayOf
     tapeRows (m, Punched {program, tape}) =
       [ ["frames", Decimal.whole (length (Frame.planned program)), ""],
-        ["rows of tape", Decimal.whole (Tape.rowCount tape), ""],
-        ["tape", Decimal.fixed 2 (Tape.metres m tape), "m"]
+        [maybe "characters" (const "rows of tape") (Tape.metres m tape), Decimal.whole (Tape.rowCount tape), ""]
       ]
+        <> [["tape", Decimal.fixed 2 metres, "m"] | Just metres <- [Tape.metres m tape]]
 
 kind :: NonEmpty Move -> Text
 kind run
@@ -111,17 +112,16 @@ centreOf run = case segment (NonEmpty.head run) of
   _ -> ["", "", ""]
 
 -- | The time of a move at the feed that the machine gives, or at the one asked when there is no machine.
--- A rapid move takes no time when there is no machine to say how fast it is.
+-- A rapid move takes no time where nothing says how fast it is: without a machine, and on one whose control knows it by itself.
 timeOf :: Maybe Machine -> Move -> Seconds
-timeOf machine move = case (pace move, machine) of
-  (Rapid, Nothing) -> Seconds 0
-  (Rapid, Just m) -> maybe (Seconds 0) (travelTime l) (Machine.feedOf m (Machine.rapidCode m))
-  (At (Located _ asked), Nothing) -> travelTime l asked
-  (At (Located _ asked), Just m) -> case Machine.chooseFeed m asked of
-    Given _ given -> travelTime l given
-    NoSuchFeed _ _ -> travelTime l asked
+timeOf machine move = maybe (Seconds 0) (travelTime l) (feedOf (pace move))
   where
     l = wayOf move
+    feedOf p = case (p, machine) of
+      (Rapid, Nothing) -> Nothing
+      (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (Feed.rapid m)
+      (At (Located _ asked), Nothing) -> Just asked
+      (At (Located _ asked), Just m) -> Just (Feed.about m asked)
 
 -- | The length of a move, in the plane and in height.
 wayOf :: Move -> Mm

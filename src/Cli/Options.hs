@@ -15,10 +15,13 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Draw.Punched (Range)
+import Draw.Punched qualified as Punched
 import Options.Applicative (Parser, ParserInfo)
 import Options.Applicative qualified as Opt
 import Report.Explanation qualified as Explanation
 import Report.Report (Code (..))
+import Text.Read (readMaybe)
 
 -- | What to do, and how to talk about it.
 data Invocation = Invocation {settings :: Settings, command :: Command}
@@ -38,7 +41,10 @@ data Command
     ExportSheet FilePath (Maybe FilePath)
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
-  | Machines (Maybe Text)
+  | -- | machine, what to show, tape
+    DrawTape (Maybe Text) Range FilePath
+  | -- | a machine, its description's text
+    Machines (Maybe Text) Bool
   | Explain (Maybe Text)
   | LanguageServer
   | -- | only ask whether the programs are laid out; the programs
@@ -77,10 +83,11 @@ commands =
       entry "frames" "List the frames of a program" "partc frames flange.part -t lkp-01f --json" (Frames <$> program <*> optional target <*> Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")),
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
+      entry "tape" "Draw the rows of a tape with their meaning" "partc tape -t lkp-01f flange.tape --frames 1..3" (DrawTape <$> optional target <*> rangeOption <*> tape),
       entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
       entry "import" "Make a part program of an input sheet" "partc import rib.sheet -o rib.part" (Import <$> sheet <*> optional outputOption),
       entry "export-sheet" "Make an input sheet of a program" "partc export-sheet rib.part -o rib.sheet" (ExportSheet <$> program <*> optional outputOption),
-      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME"))),
+      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME" <> Opt.help "A machine that is built in, or a description NAME.machine")) <*> Opt.switch (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")),
       entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes))),
       entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors),
       entry "fmt" "Bring programs into the canonical layout, in place" "partc fmt flange.part" (Fmt <$> Opt.switch (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out") <*> (NonEmpty.fromList <$> some program))
@@ -115,7 +122,20 @@ tape :: Parser FilePath
 tape = Opt.strArgument (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard input" <> Opt.action "file")
 
 target :: Parser Text
-target = Opt.strOption (Opt.long "target" <> Opt.short 't' <> Opt.metavar "MACHINE" <> Opt.help "The machine, instead of the program's own")
+target = Opt.strOption (Opt.long "target" <> Opt.short 't' <> Opt.metavar "MACHINE" <> Opt.help "The machine, instead of the program's own: a name, or a description such as ./mine.machine")
+
+rangeOption :: Parser Range
+rangeOption =
+  (uncurry Punched.Frames <$> Opt.option fromTo (Opt.long "frames" <> Opt.metavar "A..B" <> Opt.help "Only these frames"))
+    <|> (uncurry Punched.Rows <$> Opt.option fromTo (Opt.long "rows" <> Opt.metavar "A..B" <> Opt.help "Only these rows"))
+    <|> pure Punched.Everything
+
+-- | @3@, @3..8@
+fromTo :: Opt.ReadM (Int, Int)
+fromTo = Opt.eitherReader $ \word -> case traverse (readMaybe . Text.unpack) (Text.splitOn ".." (Text.pack word)) of
+  Just [a] | a >= 1 -> Right (a, a)
+  Just [a, b] | 1 <= a, a <= b -> Right (a, b)
+  _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
 
 outputOption :: Parser FilePath
 outputOption = Opt.strOption (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help "The file to write, or a folder; - for standard output" <> Opt.action "file")

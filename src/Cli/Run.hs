@@ -6,7 +6,7 @@ module Cli.Run
 where
 
 import Base.Crash (bug)
-import Base.Region (Located (..), Source)
+import Base.Region (Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
@@ -21,16 +21,20 @@ import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
+import Cli.Target qualified as Target
 import Compile (Analysis (part, path), Punched (..))
 import Compile qualified
 import Control.Exception (evaluate)
-import Control.Monad (void)
+import Control.Monad (filterM, void)
 import Data.ByteString (ByteString)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
+import Draw.Punched qualified as Punched
+import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Lsp.Server (Host (Host, input, load))
 import Lsp.Server qualified as Lsp
@@ -38,7 +42,6 @@ import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
-import Part.Part (MachineRef (..))
 import Part.Part qualified as Part
 import Report.Explanation qualified as Explanation
 import Report.Report (Report)
@@ -49,8 +52,9 @@ import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
 import Sheet.Unfit qualified as Unfit
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
-import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeFileName, (<.>), (</>))
+import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeDirectory, takeFileName, (<.>), (</>))
 import System.IO (stdin, stdout)
+import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 
 -- | Run a command.
@@ -68,7 +72,8 @@ perform reporter command = case command of
   ExportSheet file output -> exportSheet reporter file output
   Decode target tape -> decode reporter target tape
   Plot file output -> plot reporter file output
-  Machines name -> machines reporter name
+  Machines name asText -> machines reporter name asText
+  DrawTape target range tape -> drawTape reporter target range tape
   Explain code -> explain reporter code
   LanguageServer -> languageServer reporter
   Fmt onlyAsked files -> maximum <$> traverse (Fmt.fmt reporter onlyAsked) (NonEmpty.toList files)
@@ -81,16 +86,18 @@ data Loaded = Loaded {name :: Text, texts :: Compile.Loaded, values :: [(Text, T
 source :: Loaded -> Source
 source = Compile.source . texts
 
--- | Read a program and what it imports, and go on with it.
-withProgram :: Reporter -> FilePath -> (Loaded -> IO Exit) -> IO Exit
-withProgram reporter file continue = do
+-- | Read a program and what it imports, and the descriptions of the machines that it or the command line names, and go
+-- on with it.
+withProgram :: Reporter -> FilePath -> [Text] -> (Loaded -> IO Exit) -> IO Exit
+withProgram reporter file targets continue = do
   text <- readProgram file
   case text of
     Left e -> complain reporter (displayName file) e
     Right _ | Compile.isSheet file, (assigned, _) : _ <- given -> complain reporter (displayName file) (SheetAssigned assigned)
     Right t -> do
       texts <- Compile.load imported (Text.unpack (displayName file)) t
-      continue Loaded {name = displayName file, texts, values = given}
+      descriptions <- descriptionsFor targets (Compile.descriptions texts)
+      continue Loaded {name = displayName file, texts = texts {Compile.descriptions}, values = given}
   where
     given = Output.values (Output.settings reporter)
     imported there = either (Left . Cli.whyNot) Right <$> readProgram there
@@ -143,23 +150,21 @@ analyse loaded = Compile.analyse (values loaded) (texts loaded)
 
 -- Machines
 
--- | The machines to work for: those of the command line, or the program's own.
-chosen :: [Text] -> Analysis -> Result w Report [Machine]
-chosen targets analysis = mapErrors' $ case (targets, Part.machine (part analysis)) of
-  ([], Nothing) -> Result.failed (NoMachine known)
-  ([], Just (Located region (Named n))) -> pure <$> look (Just region) n
-  ([], Just (Located region (Described _))) -> Result.failed (DescriptionFile region)
-  (some, _) -> traverse (look Nothing) some
+-- | The descriptions that the command line names, with those of the program.
+descriptionsFor :: [Text] -> [(Text, Either Text Text)] -> IO Compile.Descriptions
+descriptionsFor targets own = (<> own) <$> traverse (Compile.described readText "") (filter Compile.isDescription targets)
   where
-    mapErrors' = Result.mapErrors id Cli.toReport
-    look region n = maybe (Result.failed (UnknownMachine region n known)) pure (BuiltIn.find (MachineName n))
+    readText file = either (Left . Cli.whyNot) Right <$> readProgram file
 
-known :: [Text]
-known = [n | MachineName n <- map Machine.name BuiltIn.machines]
+-- | The machines to work for.
+chosen :: Loaded -> [Text] -> Analysis -> Result w Report [Machine]
+chosen loaded = Target.chosen (Compile.descriptions (texts loaded))
 
 -- | The machine of the command line, for commands that have no program.
-machineNamed :: Text -> Either Error Machine
-machineNamed n = maybe (Left (UnknownMachine Nothing n known)) Right (BuiltIn.find (MachineName n))
+withMachine :: Reporter -> Text -> Text -> (Machine -> IO Exit) -> IO Exit
+withMachine reporter about wanted continue = do
+  descriptions <- descriptionsFor [wanted] []
+  either (complain reporter about) continue (Target.named descriptions wanted)
 
 -- Commands
 
@@ -170,7 +175,7 @@ proven unproven' analysis machine = do
   if unproven'
     then Result.warned [Cli.warningReport Unproven]
     else do
-      read' <- Compile.readTape machine (tape punched)
+      read' <- Compile.readTape machine (Frame.start (program punched)) (tape punched)
       _ <- Compile.prove machine (path analysis) (program punched) read'
       pure ()
   pure (machine, punched)
@@ -180,10 +185,10 @@ moving :: Punched -> Result w Report Punched
 moving punched = if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure punched
 
 compile :: Reporter -> CompileOptions -> IO Exit
-compile reporter options = withProgram reporter (file options) $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` \a -> chosen (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
+compile reporter options = withProgram reporter (file options) (targets options) $ \loaded ->
+  settle reporter loaded (analyse loaded `Result.thenSound` \a -> chosen loaded (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
-    clash <- overwrites (file options) (map fst places)
+    clash <- overwrites (ownFiles (file options) loaded) (map fst places)
     case clash of
       Just place -> complain reporter (name loaded) (OverwritesProgram (Text.pack place))
       Nothing -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
@@ -199,18 +204,21 @@ destination options count machine = case place options of
   where
     MachineName machineName = Machine.name machine
     base = if file options == "-" then "stdin" else dropExtension (takeFileName (file options))
-    standard = base <.> Text.unpack machineName <.> "tape"
+    standard = base <.> Text.unpack machineName <.> Text.unpack (Machine.suffix (Machine.medium machine))
     replaceDirectory' f = replaceDirectory f (directory (file options))
     directory f = take (length f - length (takeFileName f)) f
 
--- | The first output that is the program itself.
-overwrites :: FilePath -> [FilePath] -> IO (Maybe FilePath)
-overwrites "-" _ = pure Nothing
-overwrites program' places = do
-  there <- doesFileExist program'
-  self <- if there then canonicalizePath program' else pure program'
+-- | The files that a program is made of: its own, those that it imports, the descriptions of its machines.
+ownFiles :: FilePath -> Loaded -> [FilePath]
+ownFiles file' loaded = file' : map (Text.unpack . snd) (Compile.imports (texts loaded)) <> concat [[Text.unpack d, takeDirectory file' </> Text.unpack d] | (d, _) <- Compile.descriptions (texts loaded)]
+
+-- | The first output that is one of the files that it is made of.
+overwrites :: [FilePath] -> [FilePath] -> IO (Maybe FilePath)
+overwrites sources places = do
+  present <- filterM doesFileExist sources
+  selves <- traverse canonicalizePath present
   others <- traverse canonicalizePath places
-  pure (lookup self (zip others places))
+  pure (listToMaybe [place | (other, place) <- zip others places, other `elem` selves])
 
 writeAll :: Reporter -> [(FilePath, ByteString)] -> IO Exit
 writeAll reporter files = case files of
@@ -223,7 +231,7 @@ writeAll reporter files = case files of
 
 -- | Mistakes only: nothing past the path and the machine's limits.
 check :: Reporter -> FilePath -> IO Exit
-check reporter file' = withProgram reporter file' $ \loaded ->
+check reporter file' = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (checked (values loaded) (texts loaded)) (const (pure Done))
 
 -- | All that can be said against a program without its tape: up to the limits of the machine that it names.
@@ -232,7 +240,7 @@ checked values' texts' = Compile.analyse values' texts' `Result.thenSound` \a ->
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
-      Just _ -> chosen [] a >>= traverse (\m -> Compile.punch m (path a))
+      Just _ -> Target.chosen (Compile.descriptions texts') [] a >>= traverse (\m -> Compile.punch m (path a))
 
 -- | Answer an editor until it leaves. What is open in the editor is read there rather than from the disk.
 languageServer :: Reporter -> IO Exit
@@ -244,13 +252,13 @@ languageServer reporter = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output
       Abrupt -> Failed
 
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
-verify reporter file' target tapeFile = withProgram reporter file' $ \loaded ->
+verify reporter file' target tapeFile = withProgram reporter file' (maybe [] pure target) $ \loaded ->
   settle reporter loaded (prepared target loaded) $ \(analysis, machine, punched) -> do
     given <- maybe (pure (Right (tape punched))) (fmap (fmap Tape) . readBytes) tapeFile
     case given of
       Left e -> complain reporter (maybe "" displayName tapeFile) e
       Right t -> do
-        let read' = Compile.readTape machine t
+        let read' = Compile.readTape machine (Frame.start (program punched)) t
             tapeName = maybe (name loaded) displayName tapeFile
         broken <- Output.show' reporter tapeName (source loaded) (errors read')
         case output read' of
@@ -266,44 +274,50 @@ verify reporter file' target tapeFile = withProgram reporter file' $ \loaded ->
 prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
 prepared target loaded =
   analyse loaded `Result.thenSound` \a -> do
-    ms <- chosen (maybe [] pure target) a
+    ms <- chosen loaded (maybe [] pure target) a
     case ms of
       m : _ -> (a,m,) <$> (Compile.punch m (path a) >>= moving)
-      [] -> Result.failed (Cli.toReport (NoMachine known))
+      [] -> Result.failed (Cli.toReport (NoMachine Target.known))
 
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
-frames reporter file' target json = withProgram reporter file' $ \loaded ->
+frames reporter file' target json = withProgram reporter file' (maybe [] pure target) $ \loaded ->
   settle reporter loaded (prepared target loaded) $ \(_, machine, punched) -> do
     printed reporter ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
 
 report :: Reporter -> FilePath -> Maybe Text -> IO Exit
-report reporter file' target = withProgram reporter file' $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine a) $ \(a, punched) ->
+report reporter file' target = withProgram reporter file' (maybe [] pure target) $ \loaded ->
+  settle reporter loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine loaded a) $ \(a, punched) ->
     printed reporter (NodeTable.nodes punched a)
   where
-    onMachine a = case (target, Part.machine (part a)) of
+    onMachine loaded a = case (target, Part.machine (part a)) of
       (Nothing, Nothing) -> pure Nothing
       _ ->
-        chosen (maybe [] pure target) a >>= \case
+        chosen loaded (maybe [] pure target) a >>= \case
           m : _ -> (\p -> Just (m, p)) <$> Compile.punch m (path a)
           [] -> pure Nothing
 
 decode :: Reporter -> Maybe Text -> FilePath -> IO Exit
-decode reporter target tapeFile = case maybe (Left (NoMachineForTape known)) machineNamed target of
-  Left e -> complain reporter (displayName tapeFile) e
-  Right machine -> do
+decode reporter target tapeFile = withTape reporter target tapeFile $ \machine fs -> printed reporter (FrameTable.decoded machine fs)
+
+-- | Draw a tape, or some of it.
+drawTape :: Reporter -> Maybe Text -> Punched.Range -> FilePath -> IO Exit
+drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine fs -> printed reporter (Punched.picture machine range (Tape.rows machine 0 fs))
+
+-- | Read a tape for itself: the cutter is taken to stand at zero before it.
+withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
+withTape reporter target tapeFile continue = case target of
+  Nothing -> complain reporter (displayName tapeFile) (NoMachineForTape Target.known)
+  Just wanted -> withMachine reporter (displayName tapeFile) wanted $ \machine -> do
     bytes <- readBytes tapeFile
     case bytes of
       Left e -> complain reporter (displayName tapeFile) e
       Right b -> do
-        let result = Compile.readTape machine (Tape b)
+        let result = Compile.readTape machine 0 (Tape b)
         _ <- Output.show' reporter (displayName tapeFile) (Region.fromText (displayName tapeFile) "") (errors result)
-        case output result of
-          Just fs -> printed reporter (FrameTable.decoded machine fs)
-          Nothing -> pure Failed
+        maybe (pure Failed) (continue machine) (output result)
 
 plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
-plot reporter file' place = withProgram reporter file' $ \loaded ->
+plot reporter file' place = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (analyse loaded) $ \analysis ->
     deliver reporter file' place (Plot.plot (part analysis) (path analysis))
 
@@ -322,7 +336,7 @@ import' reporter file' place = do
 
 -- | Write a program as a sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
-exportSheet reporter file' place = withProgram reporter file' $ \loaded ->
+exportSheet reporter file' place = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (Compile.evaluated (values loaded) (texts loaded) `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry Sheet.fromPart)) $
     deliver reporter file' place . Sheet.write
 
@@ -330,18 +344,26 @@ exportSheet reporter file' place = withProgram reporter file' $ \loaded ->
 deliver :: Reporter -> FilePath -> Maybe FilePath -> Text -> IO Exit
 deliver reporter file' place text = case place of
   Just p | p /= "-" -> do
-    clash <- overwrites file' [p]
+    clash <- overwrites [file'] [p]
     case clash of
       Just same -> complain reporter (displayName file') (OverwritesProgram (Text.pack same))
       Nothing -> writeAll reporter [(p, Encoding.encodeUtf8 text)]
   _ -> printed reporter text
 
-machines :: Reporter -> Maybe Text -> IO Exit
-machines reporter wanted = case wanted of
+-- | The list of machines, or one of them: its sheet or the text of its description. The mistakes of a description stand at
+-- their places in it.
+machines :: Reporter -> Maybe Text -> Bool -> IO Exit
+machines reporter wanted asText = case wanted of
   Nothing -> printed reporter (MachineSheet.machineList BuiltIn.machines)
-  Just n -> case machineNamed n of
-    Left e -> complain reporter "" e
-    Right m -> printed reporter (MachineSheet.machineSheet m)
+  Just n -> do
+    descriptions <- descriptionsFor [n] []
+    case (Target.named descriptions n, lookup n descriptions) of
+      (Left (DescriptionWrong _ file' text reports), _) -> Failed <$ Output.show' reporter file' (Region.fromText file' text) reports
+      (Left e, _) -> complain reporter "" e
+      (Right _, Just (Right text)) | asText -> printed reporter text
+      (Right m, _)
+        | asText -> maybe (pure Failed) (printed reporter) (BuiltIn.text (Machine.name m))
+        | otherwise -> printed reporter (MachineSheet.machineSheet m)
 
 explain :: Reporter -> Maybe Text -> IO Exit
 explain reporter wanted = case wanted of

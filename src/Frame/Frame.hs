@@ -1,29 +1,66 @@
--- | Frames: what a controller is told, in whole pulses.
+-- | Frames: what a controller is told, in whole pulses along the axes of the part.
 module Frame.Frame
   ( Frame (..),
+    Motion (..),
+    still,
+    isMoving,
     Planned (..),
     Role (..),
     Program (..),
     position,
     height,
+    centreOf,
+    segment,
     end,
     Broken (..),
     invariants,
   )
 where
 
-import Base.Quantity (Mm (..), Pulses (..))
+import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Region)
-import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isNothing)
+import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
+import Geometry.Shape qualified as Shape
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 import Linear.V3 (V3 (..))
-import Machine.Machine (Axis (..), FeedCode (..), Machine)
+import Machine.Machine (Arcs (..), Axis (..), FeedCode (..), Machine, Measure (..), OrderName)
 import Machine.Machine qualified as Machine
 
--- | What stands on the tape: an increment of each axis, the feed code, the auxiliary command.
-data Frame = Frame {increment :: V3 Pulses, speed :: FeedCode, auxiliary :: Int}
+-- | What stands on the tape.
+data Frame = Frame
+  { motion :: Motion,
+    increment :: V3 Pulses,
+    -- | of an arc: from its beginning to its centre; else 0
+    centre :: V2 Pulses,
+    -- | 0 where nothing moves, and where a rapid move is a motion of its own
+    speed :: FeedCode,
+    -- | it slows down to its speed
+    braking :: Bool,
+    -- | commands with their numbers, in the order of the layout's words; each at most once
+    orders :: [(OrderName, Int)]
+  }
   deriving stock (Eq, Show)
+
+data Motion
+  = Still
+  | -- | only on machines that have a motion for it; elsewhere it is straight at the highest speed
+    Rapid
+  | Straightway
+  | -- | an arc in the plane; with no increment a full circle
+    Round Turn
+  deriving stock (Eq, Show)
+
+-- | A frame that only commands.
+still :: [(OrderName, Int)] -> Frame
+still given = Frame {motion = Still, increment = 0, centre = 0, speed = FeedCode 0, braking = False, orders = given}
+
+isMoving :: Frame -> Bool
+isMoving f = motion f /= Still
 
 -- | A frame with the reason for it.
 data Planned = Planned
@@ -45,13 +82,31 @@ data Program = Program {start :: V3 Pulses, planned :: [Planned]}
 
 -- | A position in mm, in the plane.
 position :: Machine -> V3 Pulses -> Point
-position machine (V3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * p) (fromIntegral y * p)
+position machine (V3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
   where
-    Mm p = Machine.pulse machine
+    Mm px = Machine.pulseOf machine X
+    Mm py = Machine.pulseOf machine Y
 
 -- | The height of a position in mm.
 height :: Machine -> V3 Pulses -> Mm
-height machine (V3 _ _ (Pulses z)) = let Mm p = Machine.pulse machine in Mm (fromIntegral z * p)
+height machine (V3 _ _ (Pulses z)) = let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
+
+-- | The centre of an arc that begins at a position.
+centreOf :: Machine -> V3 Pulses -> Frame -> Point
+centreOf machine (V3 x y z) f = let V2 i j = centre f in position machine (V3 (x + i) (y + j) z)
+
+-- | What a frame does in the plane from a position, in mm. The radius of an arc may differ at its ends by rounding;
+-- the segment goes about the centre of the frame and ends where the frame ends.
+segment :: Machine -> V3 Pulses -> Frame -> Segment
+segment machine at f = case motion f of
+  Round turn
+    | begin == finish -> Segment.Arc {Segment.start = begin, Segment.end = finish, Segment.centre = middle, Segment.sweep = Rad (Shape.sense turn * 2 * pi)}
+    | otherwise -> Segment.arc turn middle begin finish
+  _ -> Straight begin finish
+  where
+    begin = position machine at
+    finish = position machine (at + increment f)
+    middle = centreOf machine at f
 
 -- | Where the cutter stands after the last frame.
 end :: Program -> V3 Pulses
@@ -61,8 +116,14 @@ end program = start program + sum (map (increment . frame) (planned program))
 data Broken
   = -- | an increment that its field does not hold
     OverCapacity Int Axis Pulses
+  | -- | a centre that its field does not hold, or that is none
+    BadCentre Int
   | -- | a feed code that the machine does not have, or none where the frame moves
     NoSuchSpeed Int FeedCode
+  | -- | a motion that the machine does not have, or that its increments contradict
+    NoSuchMotion Int
+  | -- | a command that the machine does not have, or one given twice
+    NoSuchOrder Int OrderName
   | -- | a frame that moves nothing and commands nothing
     Idle Int
   deriving stock (Eq, Show)
@@ -71,13 +132,38 @@ data Broken
 invariants :: Machine -> [Frame] -> [Broken]
 invariants machine = concat . zipWith rules [1 ..]
   where
-    rules n f = concatMap (fieldOf n f) [X, Y, Z] <> speedOf n f <> [Idle n | still f && auxiliary f == 0]
-    fieldOf n f axis = let d = component axis (increment f) in [OverCapacity n axis d | abs d > Machine.capacity machine axis]
-    speedOf n f
-      | still f = [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-      | otherwise = [NoSuchSpeed n (speed f) | speed f `notElem` map fst (NonEmpty.toList (Machine.feeds machine))]
-    still f = increment f == 0
+    rules n f = concatMap (fieldOf n f) [X, Y, Z] <> speedOf n f <> motionOf n f <> ordersOf n f <> [Idle n | not (isMoving f) && null (orders f)]
+    -- What a field of positions holds depends on where the tape stands; there the increments are free.
+    fieldOf n f axis = let d = component axis (increment f) in [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, abs d > Machine.capacity machine axis]
+    speedOf n f = case motion f of
+      Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
+      Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
+      _ -> [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
+    motionOf n f = case motion f of
+      Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
+      Rapid -> [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
+      Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
+      Round turn -> case Machine.arcs machine of
+        NoArcs -> [NoSuchMotion n]
+        Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
+          [NoSuchMotion n | (increment f == 0 && not whole) || rises f || (parts && not (inQuadrant turn f))]
+            <> [BadCentre n | centre f == 0 || maximum (abs <$> centre f) > Machine.centreCapacity machine]
+    rises f = let V3 _ _ z = increment f in z /= 0
+    ordersOf n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
     component axis (V3 x y z) = case axis of
       X -> x
       Y -> y
       Z -> z
+
+-- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one, and it goes from
+-- one to the other without leaving it.
+inQuadrant :: Turn -> Frame -> Bool
+inQuadrant turn f = a * c >= 0 && b * d >= 0 && forwards (a * d - b * c)
+  where
+    V2 i j = centre f
+    V3 x y _ = increment f
+    (a, b) = (-i, -j)
+    (c, d) = (x - i, y - j)
+    forwards cross = case turn of
+      CounterClockwise -> cross > 0
+      Clockwise -> cross < 0

@@ -21,6 +21,10 @@ module Geometry.Tolerance
     parameter,
     still,
     straight,
+    byControl,
+    controlLength,
+    controlBend,
+    controlCut,
     oneArc,
     halfTurn,
     kink,
@@ -140,3 +144,21 @@ finestStep = 1e-6
 -- | A curve is replaced by arcs that stay so near to it.
 curve :: Mm
 curve = Mm 1e-5
+
+-- | A control rounds what it is sent to its pulses. A length that has to be larger than the cutter's radius there is larger
+-- by this.
+byControl :: Mm
+byControl = Mm 0.01
+
+-- | A shorter element, rounded to pulses, might seem to a control to turn towards the cutter.
+controlLength :: Mm
+controlLength = Mm 0.05
+
+-- | LinuxCNC takes a corner that turns by less for none and goes straight over from the one way to the other. A way in has
+-- to turn by twice as much.
+controlBend :: Rad
+controlBend = Rad 0.05
+
+-- | What a control may cut away at a corner that it takes for none.
+controlCut :: Mm
+controlCut = Mm 2e-3

@@ -284,11 +284,16 @@ milling state work at e side settings = do
               allowances,
               corners = Checked.corners settings,
               sense = Checked.sense settings,
-              spin = spin' state
+              spin = spin' state,
+              byControl
             }
       _ -> bug "a value that is no contour where one was checked"
   where
     env = environment state
+    byControl = case Checked.compensation settings of
+      Just (Located asked Checked.ByController) -> Just asked
+      Just (Located _ Checked.ByCompiler) -> Nothing
+      Nothing -> Nothing
     needed = case work of
       Milled -> [MillingCutter]
       Turned -> [TurningCutter]

@@ -166,7 +166,9 @@ data Milling = Milling
     corners :: Corners,
     sense :: Maybe (Located CutSense),
     -- | of the spindle
-    spin :: Walk
+    spin :: Walk,
+    -- | where it is asked that the control keeps the cutter beside the contour; else the compiler does
+    byControl :: Maybe Region
   }
   deriving stock (Eq, Show)
 

@@ -2,6 +2,7 @@
 module Path.Error
   ( Error (..),
     Tool (..),
+    Unsent (..),
     toReport,
   )
 where
@@ -13,6 +14,7 @@ import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element (..), Side (..), Work (..))
@@ -56,6 +58,24 @@ data Error
     BladeOnContour Region
   | -- | two elements without a corner between them that lean differently: the angles in radians
     BevelJumps Region Element Element Double Double
+  | -- | the control is to keep the cutter beside the contour, but what it is sent cannot say something that is asked
+    NotForControl Region Unsent
+  | -- | the way onto a contour or away from it is too short for a control: the move, the place that asks for the control,
+    -- whether it is the way in, its length, the cutter's radius
+    ShortForControl Region Region Bool Mm Mm
+  | -- | the way onto a contour comes from where a control cannot take it: the move, the place that asks for the control, where
+    -- it ends
+    WrongWayForControl Region Region Point
+  | -- | a control cannot follow a concave arc of this radius; a lead has no element
+    TightForControl Region Region (Maybe Element) Mm Mm
+  | -- | an element of this length, too short for a control
+    TinyForControl Region Element Mm
+  | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
+    SlightForControl Region Element Element Rad Mm
+  deriving stock (Eq, Show)
+
+-- | What a control that is sent the edge of the part does not do.
+data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -151,6 +171,60 @@ toReport err = case err of
         message = ["A blade swivels while it moves; it cannot jump."],
         hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
       }
+  NotForControl region what ->
+    (at region "E0416" "the control cannot keep the cutter beside the contour here")
+      { message = [unsent what],
+        hints = [unsentHint what]
+      }
+  ShortForControl region asked isIn length' radius' ->
+    (at region "E0417" (if length' > Mm 0 then "the straight way " <> word <> " the contour is " <> Decimal.mm length' <> " long, but a control needs one longer than the cutter's radius, " <> Decimal.mm radius' else "there is no straight way " <> word <> " the contour on which a control could " <> act))
+      { others = [Label asked "asked here"],
+        message = ["On it the control goes over " <> (if isIn then "from the centre of the cutter to the edge of the part." else "from the edge of the part to the centre of the cutter.")],
+        hints = [if isIn then "Let the last approach point lie further away, at the height of the pass." else "Put a retract point beside the end of the contour, further away; without a height of its own."]
+      }
+    where
+      word = if isIn then "onto" else "away from"
+      act = if isIn then "begin to keep the cutter beside it" else "stop keeping the cutter beside it"
+  WrongWayForControl region asked p ->
+    (at region "E0418" "a control cannot take this way onto the contour")
+      { others = [Label asked "asked here"],
+        message = ["It ends at " <> Vec.written 3 p <> ", and comes there out of the part or against the direction of the walk."],
+        hints = ["Let the last approach point lie beside the beginning of the contour or behind it, or lead in along an arc."]
+      }
+  TightForControl region asked element old radius' ->
+    (at (maybe region origin element) "E0419" ("a control cannot keep a cutter of diameter " <> Decimal.mm (times 2 radius') <> " in a concave radius of " <> Decimal.mm old))
+      { label = maybe "the lead" shape element,
+        others = [Label asked "asked here"],
+        message = ["The radius has to be larger than the cutter's by " <> Decimal.mm Tolerance.byControl <> "."],
+        hints = ["Take a smaller cutter" <> maybe ", or a larger lead." (const ".") element]
+      }
+  TinyForControl asked element length' ->
+    (at (origin element) "E0419" ("an element of " <> Decimal.mm length' <> " is too short for a control to follow"))
+      { label = shape element,
+        others = [Label asked "asked here"],
+        message = ["Rounded to pulses it could seem to turn into the part. Elements have to be " <> Decimal.mm Tolerance.controlLength <> " long."]
+      }
+  SlightForControl asked first second (Rad turned) deep ->
+    (at (origin first) "E0419" ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element"))
+      { label = shape first,
+        others = second' first second <> [Label asked "asked here"],
+        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none."],
+        hints = ["Join the elements smoothly, for instance with a fillet."]
+      }
+
+unsent :: Unsent -> Text
+unsent what = case what of
+  OnContour -> "The cutter runs on the contour itself and has no side."
+  Swivelling -> "A blade swivels while it cuts, and the control would not know how far."
+  SharpCorners -> "The control goes round corners on arcs."
+  LeavingMaterial -> "The control is told the diameter of the cutter, and leaves nothing standing."
+
+unsentHint :: Unsent -> Text
+unsentHint what = case what of
+  OnContour -> "Take a side, or leave out compensation controller."
+  Swivelling -> "Leave out compensation controller, or take a mill."
+  SharpCorners -> "Leave out corners sharp."
+  LeavingMaterial -> "Mill the passes that leave something in a statement of their own, without compensation controller."
 
 inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"

@@ -32,6 +32,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Stop, Work (..))
 import Part.Part qualified as Part
+import Path.Compensation (Ways (Ways))
+import Path.Compensation qualified as Compensation
 import Path.Error (Error (..), Tool (Tool))
 import Path.Error qualified
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
@@ -134,7 +136,9 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
       entry = Segment.start (Offset.segment (NonEmpty.head pieces))
       exit = Segment.end (Offset.segment (NonEmpty.last pieces))
       leadIn = leading region milling LeadingIn (setOut Segment.startDirection (NonEmpty.head pieces) (NonEmpty.head (elements (contour milling)))) entry
-      leadOut = leading region milling LeadingOut (setOut Segment.endDirection (NonEmpty.last pieces) (NonEmpty.last (elements (contour milling)))) exit
+      leadOut = case leading region milling LeadingOut (setOut Segment.endDirection (NonEmpty.last pieces) (NonEmpty.last (elements (contour milling)))) exit of
+        [] -> Compensation.onward (keyword region) milling pieces
+        moves -> moves
       -- A cutter that fills a hollow stands still in it; then the contour tells the direction.
       setOut direction piece e = direction (if Segment.length (Offset.segment piece) > Tolerance.coincident then Offset.segment piece else Part.segment e)
       begin = maybe entry (Segment.start . Path.segment) (listToMaybe leadIn)
@@ -146,7 +150,10 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
       (before, behind') = case (Part.levels milling, Part.clearance milling) of
         (_ : _, Just clear) -> deep (inZ, outZ) clear toBegin begin finish
         _ -> flat outZ toBegin finish
-  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> map (level inZ) leadIn, cut, retract = map (level outZ) leadOut <> behind'}
+      inwards = map (level inZ) leadIn
+      outwards = map (level outZ) leadOut
+  sent <- Compensation.sent (keyword region) milling side' Ways {Compensation.before, Compensation.inwards, Compensation.cut, Compensation.outwards, Compensation.behind = behind'}
+  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> inwards, cut, retract = outwards <> behind', sent}
   where
     -- Without depth the ways keep the height at which the cutter stands.
     flat outZ toBegin finish =

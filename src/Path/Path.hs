@@ -3,11 +3,13 @@ module Path.Path
   ( Path (..),
     Block (..),
     Pass (..),
+    Sent (..),
     Move (..),
     moves,
     runs,
     isCurve,
     isFlat,
+    isTurned,
     end,
   )
 where
@@ -16,9 +18,11 @@ import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Offset (Side)
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Part.Part (Command, Drilling, Milling, Pace, Spot (..))
+import Part.Part qualified as Part
 
 -- | Where the cutter starts, and what it does then.
 data Path = Path {start :: Located Spot, blocks :: [Block]}
@@ -34,7 +38,9 @@ data Block
         approach :: [Move],
         -- | along the contour
         cut :: NonEmpty Move,
-        retract :: [Move]
+        retract :: [Move],
+        -- | if the control keeps the cutter beside the contour
+        sent :: Maybe Sent
       }
   | Holing (Located Drilling) [Move]
   | Commanding (Located Command)
@@ -43,6 +49,24 @@ data Block
 -- | One pass along a contour: the number of the milling statement as it is carried out, from 0; the distance of
 -- the cutter's centre from the contour; what of it is left to be cut; the height.
 data Pass = Pass {number :: Int, reach :: Mm, left :: Mm, atHeight :: Mm}
+  deriving stock (Eq, Show)
+
+-- | What a control is sent instead of the moves of a pass when it keeps the cutter beside the contour by itself: the edge
+-- of the part. What it makes of that are the moves of the pass, with the same ends but for where compensation begins.
+data Sent = Sent
+  { -- | moves of the cutter's centre up to where compensation is switched on
+    before :: [Move],
+    side :: Side,
+    -- | straight, from where the centre stands to where the edge begins
+    entry :: Move,
+    -- | in the order of the walk: the lead in, the elements of the contour, the lead out. The control goes round outer
+    -- corners on arcs
+    edge :: NonEmpty Move,
+    -- | straight, from the end of the edge to where the centre arrives when compensation is off
+    exit :: Move,
+    -- | moves of the centre behind that
+    behind :: [Move]
+  }
   deriving stock (Eq, Show)
 
 -- | One move, in the plane and in height, and the place in the program that asks for it. A move straight up or
@@ -84,6 +108,10 @@ isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
   where
     z = height' (start path)
     height' (Located _ (Spot _ h)) = h
+
+-- | Whether the part is turned on a lathe.
+isTurned :: Path -> Bool
+isTurned path = or [Part.work milling == Part.Turned | Cutting {job = Located _ milling} <- blocks path]
 
 -- | Where the cutter stands at the end.
 end :: Path -> Spot

@@ -47,9 +47,10 @@ forward Carry {same, old, new} (Region from to)
   | from >= old = Just (Region (from - old + new) (to - old + new))
   | otherwise = Nothing
 
--- | Where an offset of the new text was in the old one.
+-- | Where an offset of the new text was in the old one. Where something was only taken out, what begins there is what
+-- stood behind it.
 back :: Carry -> Int -> Maybe Int
 back Carry {same, old, new} at
-  | at <= same = Just at
   | at >= new = Just (at - new + old)
+  | at <= same = Just at
   | otherwise = Nothing

@@ -1,7 +1,7 @@
 {-# LANGUAGE TemplateHaskell #-}
 
--- | The files of the folder @explain/@, as they were when the program was built. This is the only
--- module with Template Haskell; what the files mean is read in "Report.Explanation".
+-- | The files of the folder @explain/@, as they were when the program was built. What
+-- they mean is read in "Report.Explanation".
 module Report.Embedded
   ( files,
   )

@@ -201,6 +201,7 @@ arrayOf (at, m) = do
       <> ["a lead" | Just _ <- [Part.leadIn m, Part.leadOut m]]
       <> ["an allowance of all of a contour" | Part.allowances m /= Mm 0 :| []]
       <> ["a sharp corner" | Part.corners m == Part.Sharp]
+      <> ["a compensation by the control" | Just _ <- [Part.byControl m]]
   case NonEmpty.nonEmpty (Part.legs contour) of
     _ | Part.ends contour == Part.Closed -> refused (NoPiece name "a closed contour" "A sheet joins its pieces to open contours.")
     Nothing -> refused (NoPiece name "a contour that is moved, turned, or made of others" "Write its pieces down where they are walked.")

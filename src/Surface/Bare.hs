@@ -128,6 +128,7 @@ setting s = case s of
   Allowances es -> Allowances (fmap expr es)
   CornerStyle style -> CornerStyle style
   CutBy sense -> CutBy sense
+  CompensationBy who -> CompensationBy who
   StartNear p -> StartNear (expr p)
   Plunge e -> Plunge (expr e)
   Peck e -> Peck (expr e)

@@ -30,7 +30,7 @@ blocks = ["for", "if"]
 beginsItem :: Text -> Bool
 beginsItem word = word `elem` (["for", "if", "cw", "ccw", "approach", "retract"] <> settings)
   where
-    settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "start", "plunge", "peck"]
+    settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "compensation", "start", "plunge", "peck"]
 
 -- | Whether a word can not be the name of a value.
 isReserved :: Text -> Bool

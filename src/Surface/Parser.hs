@@ -269,6 +269,7 @@ settingForms =
     ("corners", CornerStyle <$> ((Round <$ keyword "round") <|> (Sharp <$ keyword "sharp"))),
     ("climb", pure (CutBy Climb)),
     ("conventional", pure (CutBy Conventional)),
+    ("compensation", CompensationBy <$> ((ByCompiler <$ keyword "compiler") <|> (ByController <$ keyword "controller"))),
     ("start", keyword "near" *> (StartNear <$> expr)),
     ("plunge", Plunge <$> expr),
     ("peck", Peck <$> expr)

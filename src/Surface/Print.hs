@@ -268,6 +268,8 @@ setting commented indent (Located _ s) = case s of
   CornerStyle Sharp -> worded "corners" (Text "sharp")
   CutBy Climb -> whole indent (Text "climb")
   CutBy Conventional -> whole indent (Text "conventional")
+  CompensationBy ByCompiler -> worded "compensation" (Text "compiler")
+  CompensationBy ByController -> worded "compensation" (Text "controller")
   StartNear p -> worded "start near" (value p)
   Plunge e -> worded "plunge" (value e)
   Peck e -> worded "peck" (value e)

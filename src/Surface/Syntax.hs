@@ -40,6 +40,7 @@ module Surface.Syntax
     LeadForm (..),
     Corners (..),
     CutSense (..),
+    Compensation (..),
     Stop (..),
     Pace (..),
   )
@@ -302,6 +303,8 @@ data Setting_
     CornerStyle Corners
   | -- | @climb@ and @conventional@
     CutBy CutSense
+  | -- | @compensation controller@
+    CompensationBy Compensation
   | -- | @start near p@
     StartNear Expr
   | -- | @plunge 20 mm/min@: the feed downwards
@@ -325,6 +328,10 @@ data Corners = Round | Sharp
 
 -- | How the teeth of a mill meet the material.
 data CutSense = Climb | Conventional
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | Who works out the path of the cutter beside the contour.
+data Compensation = ByCompiler | ByController
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | A point to go to, and how fast.

@@ -1,137 +1,122 @@
--- | One interpretation of a frame's layout: it writes the rows of a frame and reads them back.
+-- | What the rows of a tape mean, in words.
 module Tape.Layout
-  ( frameRows,
-    rowsPerFrame,
-    readFrame,
-    Fault (..),
-    Reason (..),
+  ( Row (..),
+    row,
+    wordMeaning,
+    shown,
   )
 where
 
-import Base.Quantity (Pulses (..))
-import Data.Bits (complement, setBit, shiftL, testBit, (.&.), (.|.))
-import Data.List (elemIndex)
-import Data.List.NonEmpty qualified as NonEmpty
+import Base.Decimal qualified as Decimal
+import Data.Text (Text)
+import Data.Text qualified as Text
 import Data.Word (Word8)
-import Frame.Frame (Frame (..))
-import Linear.V3 (V3 (..))
-import Machine.Machine (Axis (..), Content (..), DigitCode (..), FeedCode (..), Field, Layout, Machine, Service (..))
+import Machine.Machine (Content (..), Machine, MotionCodes (..), NumberForm (..), OrderName (..), Service (..), Sign (..), Word' (..))
 import Machine.Machine qualified as Machine
+import Tape.Plan (Mark (Mark), Piece (..), Plan, Sense (..), Stretch (..))
+import Tape.Plan qualified as Plan
+import Tape.Symbol qualified as Symbol
 
--- | Why a row can not be read, and its number from 1 within the frame.
-data Fault = Fault {row :: Int, field :: Maybe Content, reason :: Reason}
+-- | A row of a tape as a person wants it explained.
+data Row = Row
+  { holes :: Word8,
+    -- | the frame that it belongs to, from 1
+    frame :: Maybe Int,
+    -- | what a text shows for it
+    symbol :: Maybe Char,
+    sense :: Sense,
+    meaning :: Text
+  }
   deriving stock (Eq, Show)
 
-data Reason
-  = -- | a hole outside the tracks of the tape
-    ForeignTrack
-  | -- | holes that are no digit
-    NoDigit Word8
-  | MarkerMissing
-  | -- | a hole in the service track where there is none
-    ServiceHole
-  | MinusZero
-  | -- | a hole in a row that has to be blank
-    NotBlank
-  | -- | a feed code that the machine does not have
-    UnknownSpeed Int
-  | SpeedWithoutMove Int
-  | MoveWithoutSpeed
-  | -- | nothing moves and nothing is commanded
-    IdleFrame
-  deriving stock (Eq, Show)
+row :: Plan -> Maybe Int -> Mark -> Row
+row p n (Mark h _ s) = Row {holes = h, frame = n, symbol = Symbol.symbolAt (Plan.symbols p) h, sense = s, meaning = meaningOf p s}
 
--- | How many rows a frame takes, its gap included and the shift of even frames not.
-rowsPerFrame :: Layout -> Int
-rowsPerFrame layout = sum (map Machine.digits (Machine.fields layout)) + Machine.gap layout
-
--- | The rows of a frame that keeps the invariants.
-frameRows :: Machine -> Frame -> [Word8]
-frameRows machine frame = concatMap fieldRows (Machine.fields layout) <> replicate (Machine.gap layout) 0
+-- | What a row is for, in words.
+meaningOf :: Plan -> Sense -> Text
+meaningOf p s = case s of
+  Blank Leader -> "leader"
+  Blank Gap -> "gap"
+  Blank Shift -> "shift of an even frame"
+  Blank Trailer -> "trailer"
+  Opening c -> "opening " <> shown c
+  Closing c -> "closing " <> shown c
+  Constant c -> "always " <> shown c
+  Separator c -> "between words " <> shown c
+  CheckSymbol d -> "check digit " <> Decimal.whole d
+  InWord c _ (Address a) -> Machine.contentWord c <> ", address " <> shown a
+  InWord c n (Lead d) -> Machine.contentWord c <> ", " <> leadWord c n d <> " " <> Decimal.whole d
+  InWord c _ (SignSymbol '-') -> Machine.contentWord c <> ", minus"
+  InWord c _ (SignSymbol _) -> Machine.contentWord c <> ", plus"
+  InWord c _ Point -> Machine.contentWord c <> ", point"
+  InWord c n (Digit d k sv hole) ->
+    Machine.contentWord c <> placeWord (formOf c) k <> " " <> Decimal.whole d <> kindWord c n k <> (if hole then holeWord sv else "")
   where
-    layout = Machine.layout machine
-    fieldRows f = zipWith (\digit service -> holes digit .|. mark (contentValue (Machine.content f) frame) service) (decimal f) (services f)
-    decimal f = digitsOf (Machine.digits f) (abs (contentValue (Machine.content f) frame))
-    holes digit = digitWords (Machine.code layout) !! digit
-    mark v service = if punched v service then setBit 0 (serviceBit machine) else 0
-    punched v service = case service of
-      MinusHole -> v < 0
-      AuxiliaryBit k -> testBit (auxiliary frame) k
-      Marker -> True
-      NoHole -> False
+    formOf c = case [form w | w <- Plan.ws p, content w == c] of
+      f : _ -> Just f
+      [] -> Nothing
+    leadWord c n d = (if isLeading c d then "leading " else "following ") <> (if n < 0 then "backwards" else "forwards")
+    isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
-services :: Field -> [Service]
-services = NonEmpty.toList . Machine.service
-
--- | The number in a field of a frame.
-contentValue :: Content -> Frame -> Int
-contentValue content (Frame (V3 (Pulses x) (Pulses y) (Pulses z)) (FeedCode s) _) = case content of
-  Increment X -> x
-  Increment Y -> y
-  Increment Z -> z
-  Speed -> s
-
--- | The decimal digits of a number, the high one first.
-digitsOf :: Int -> Int -> [Int]
-digitsOf count n = [n `div` 10 ^ k `mod` 10 | k <- [count - 1, count - 2 .. 0]]
-
--- | The service track is the last one.
-serviceBit :: Machine -> Int
-serviceBit machine = Machine.tracks machine - 1
-
--- | What the rows of a frame say so far.
-data Reading = Reading {increments :: V3 Pulses, speedCode :: Int, command :: Int}
-
--- | Read the rows of one frame, its gap included; there are as many as the layout wants.
-readFrame :: Machine -> [Word8] -> Either Fault Frame
-readFrame machine rows = do
-  (reading, rest) <- readFields (Reading 0 0 0) (zip [1 ..] rows) (Machine.fields layout)
-  mapM_ blank rest
-  consistent reading
+-- | The name of a digit's place, with a blank before it; none where there is but one digit.
+placeWord :: Maybe NumberForm -> Int -> Text
+placeWord f k = case f of
+  Just NumberForm {digits = 1} -> ""
+  Just NumberForm {decimals} -> named (k - decimals)
+  Nothing -> ""
   where
-    layout = Machine.layout machine
-    readFields reading numbered fields' = case fields' of
-      [] -> Right (reading, numbered)
-      f : more -> do
-        let (mine, others) = splitAt (Machine.digits f) numbered
-        reading' <- readField machine f mine reading
-        readFields reading' others more
-    blank (n, r) = if r == 0 then Right () else Left (Fault n Nothing NotBlank)
-    consistent (Reading d s aux)
-      | s /= 0 && d == 0 = Left (speedFault (SpeedWithoutMove s))
-      | s == 0 && d /= 0 = Left (speedFault MoveWithoutSpeed)
-      | d == 0 && aux == 0 = Left (speedFault IdleFrame)
-      | s /= 0 && FeedCode s `notElem` map fst (NonEmpty.toList (Machine.feeds machine)) = Left (speedFault (UnknownSpeed s))
-      | otherwise = Right Frame {increment = d, speed = FeedCode s, auxiliary = aux}
-    speedFault = Fault (rowsPerFrame layout - Machine.gap layout) (Just Speed)
+    named e
+      | e < 0 = " " <> Text.replicate 1 (fraction (negate e))
+      | otherwise = " " <> whole e
+    whole e = case e of
+      0 -> "units"
+      1 -> "tens"
+      2 -> "hundreds"
+      3 -> "thousands"
+      4 -> "ten thousands"
+      5 -> "hundred thousands"
+      6 -> "millions"
+      _ -> "10^" <> Decimal.whole e
+    fraction e = case e of
+      1 -> "tenths"
+      2 -> "hundredths"
+      3 -> "thousandths"
+      _ -> "10^-" <> Decimal.whole e
 
--- | Read the rows of one field into what is known of the frame.
-readField :: Machine -> Field -> [(Int, Word8)] -> Reading -> Either Fault Reading
-readField machine f rows reading = do
-  digits <- traverse digit rows
-  marks <- traverse mark (zip rows (services f))
-  let n = foldl (\total d -> 10 * total + d) 0 digits
-      minus = or [True | (MinusHole, True) <- marks]
-      aux = sum [1 `shiftL` k | (AuxiliaryBit k, True) <- marks]
-  if minus && n == 0
-    then Left (at (take 1 rows) MinusZero)
-    else Right (store (if minus then negate n else n) reading {command = command reading + aux})
-  where
-    bit = serviceBit machine
-    at numbered reason = Fault (sum (map fst numbered)) (Just (Machine.content f)) reason
-    digit r@(_, holes)
-      | holes >= setBit 0 (bit + 1) = Left (at [r] ForeignTrack)
-      | otherwise = case elemIndex (holes .&. complement (setBit 0 bit)) (digitWords (Machine.code (Machine.layout machine))) of
-        Just d -> Right d
-        Nothing -> Left (at [r] (NoDigit (holes .&. complement (setBit 0 bit))))
-    mark (r@(_, holes), service) = case (service, testBit holes bit) of
-      (Marker, False) -> Left (at [r] MarkerMissing)
-      (NoHole, True) -> Left (at [r] ServiceHole)
-      (_, hole) -> Right (service, hole)
-    store n now = case Machine.content f of
-      Increment axis -> now {increments = increments now + along axis (Pulses n)}
-      Speed -> now {speedCode = n}
-    along axis n = case axis of
-      X -> V3 n 0 0
-      Y -> V3 0 n 0
-      Z -> V3 0 0 n
+-- | Behind the last digit of a motion its name.
+kindWord :: Content -> Int -> Int -> Text
+kindWord c n k = case c of
+  Motion codes | k == 0 -> ", " <> motionWord codes n
+  _ -> ""
+
+motionWord :: MotionCodes -> Int -> Text
+motionWord codes n
+  | n == straight codes = "straight"
+  | Just n == rapid codes = "rapid"
+  | Just n == clockwise codes = "clockwise"
+  | Just n == counterClockwise codes = "counter-clockwise"
+  | otherwise = "unknown"
+
+holeWord :: Service -> Text
+holeWord s = case s of
+  MinusHole -> ", minus"
+  OrderBit (OrderName o) k -> ", " <> o <> " bit " <> Decimal.whole k
+  Marker -> ", marker"
+  BrakingHole -> ", braking"
+  NoHole -> ""
+
+-- | A symbol in a sentence.
+shown :: Char -> Text
+shown c = case c of
+  '\n' -> "LF"
+  ' ' -> "space"
+  _ -> "‘" <> Text.singleton c <> "’"
+
+-- | A word with its number, for a line of text.
+wordMeaning :: Machine -> Content -> Int -> Text
+wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
+  (Motion codes, _) -> motionWord codes n
+  (FrameNumber, _) -> "number " <> Decimal.whole n
+  (_, NumberForm {digits = 0} : _) -> Machine.contentWord c
+  (_, NumberForm {decimals} : _) | decimals > 0 -> Machine.contentWord c <> " " <> Decimal.fixed decimals (fromIntegral n / 10 ^ decimals)
+  _ -> Machine.contentWord c <> " " <> Decimal.whole n

@@ -1,128 +1,229 @@
--- | Frames onto tape and tape into frames.
+-- | Frames onto tape and tape into frames: the leader, the frames with what stands between them, the end.
 module Tape.Punch
   ( write,
+    rows,
     read,
     Damage (..),
-    Cause (..),
+    Reason (..),
     toReport,
   )
 where
 
-import Base.Decimal qualified as Decimal
+import Base.Quantity (Pulses)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder qualified as Builder
 import Data.ByteString.Lazy qualified as LazyByteString
-import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame (Frame)
-import Machine.Machine (Machine)
+import Linear.V3 (V3)
+import Machine.Machine (Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
-import Report.Report (Place (..), Report (..), report)
-import Report.Report qualified as Report
-import Tape.Layout (Fault (..), Reason (..))
+import Tape.Damage (Damage (..), Reason (..), toReport)
+import Tape.Layout (Row)
 import Tape.Layout qualified as Layout
+import Tape.Numeral (Fault (..))
+import Tape.Plan (Mark (..), Plan, Sense (..), Stretch (..))
+import Tape.Plan qualified as Plan
+import Tape.Reading qualified as Reading
+import Tape.State (State)
+import Tape.State qualified as State
+import Tape.Symbol (Symbol)
+import Tape.Symbol qualified as Symbol
 import Tape.Tape (Tape (..))
 import Prelude hiding (read)
 
--- | Punch frames that keep the invariants of the machine.
-write :: Machine -> [Frame] -> Tape
-write machine frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (blank <> body <> blank)))
+-- Writing -----------------------------------------------------------------------------------------
+
+-- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
+write :: Machine -> V3 Pulses -> [Frame] -> Tape
+write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (foldMap (foldMap (Builder.word8 . holes) . snd) (stretches plan start frames))))
   where
-    blank = rowsOf (replicate (Machine.leader machine) 0)
-    body = mconcat (zipWith (\n f -> rowsOf (shift machine n) <> rowsOf (Layout.frameRows machine f)) [1 ..] frames)
-    rowsOf = foldMap Builder.word8
-    shift m n = replicate (shiftRows m n) 0
+    plan = Plan.fromMachine machine
+
+-- | The rows of the same tape, each with what it means.
+rows :: Machine -> V3 Pulses -> [Frame] -> [Row]
+rows machine start frames = [Layout.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
+  where
+    plan = Plan.fromMachine machine
+
+-- | The marks of a tape, those of each frame with its number.
+stretches :: Plan -> V3 Pulses -> [Frame] -> [(Maybe Int, [Mark])]
+stretches plan start frames =
+  (Nothing, Plan.blanks Leader (leader medium) <> map (Plan.constant Opening) (symbolsOf plan (opening medium))) :
+  go (State.first (State.rising frames) start) frames
+  where
+    medium = Machine.medium (Plan.machine plan)
+    go state todo = case todo of
+      [] -> [(Nothing, map (Plan.constant Closing) (symbolsOf plan (closing medium)) <> Plan.blanks Trailer (leader medium))]
+      f : more ->
+        let shift = Plan.blanks Shift (shiftRows medium (State.ordinal state))
+            marks = shift <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)
+         in (Just (State.ordinal state), marks) : go (Plan.after plan state f) more
 
 -- | The blank rows before a frame, by its number from 1.
-shiftRows :: Machine -> Int -> Int
-shiftRows machine n = if even n then Machine.evenShift (Machine.layout machine) else 0
+shiftRows :: Medium -> Int -> Int
+shiftRows medium n = if even n then evenShift medium else 0
 
--- | Where a tape can not be read: the row from 1, the frame from 1 if it is in one, and why.
-data Damage = Damage {row :: Int, frame :: Maybe Int, cause :: Cause}
-  deriving stock (Eq, Show)
+symbolsOf :: Plan -> Text.Text -> [Symbol]
+symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
 
-data Cause
-  = -- | a hole in the leader, and how many rows it must have
-    LeaderNotBlank Int
-  | -- | a tape that ends within its leader
-    NoFrames Int
-  | -- | a hole in the blank rows before an even frame
-    ShiftNotBlank
-  | -- | the tape ends within a frame
-    CutOff
-  | -- | blank rows behind the last frame: as they are, as they must be
-    TrailerLength Int Int
-  | InFrame Fault
-  deriving stock (Eq, Show)
+-- Reading -----------------------------------------------------------------------------------------
 
--- | Read a tape. Frames lie on a fixed grid, counted from the end of the leader: a blank row is a digit 0.
-read :: Machine -> Tape -> Either Damage [Frame]
-read machine (Tape rows) = case ByteString.findIndex (/= 0) front of
-  Just k -> Left (Damage (k + 1) Nothing (LeaderNotBlank leader))
+-- | Read a tape that begins where the cutter stands.
+--
+-- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows that the code passes
+-- over are left out first, and blank rows are passed over between frames.
+read :: Machine -> V3 Pulses -> Tape -> Either Damage [Frame]
+read machine start (Tape raw) = case frontOf source of
+  Left fault -> Left (damage Nothing fault)
+  Right at -> case Reading.expect plan (kept source) at (symbolsOf plan (opening (grid source))) of
+    Left fault -> Left (damage Nothing fault)
+    -- Only the frames tell whether the height has to be said.
+    Right behind -> case (attempt behind True, attempt behind False) of
+      (Right frames, _) | State.rising frames -> Right frames
+      (Left high, Right frames) | State.rising frames -> Left high
+      (_, Right frames) -> Right frames
+      (Left high, Left low) -> Left (if row high > row low then high else low)
+      (Right _, Left low) -> Left low
+  where
+    plan = Plan.fromMachine machine
+    source = sourceOf plan raw
+    attempt behind rises = either (\(n, fault) -> Left (damage n fault)) Right (framesFrom source behind (State.first rises start))
+    damage n (Fault at c why) = Damage (1 + origin source at) n c why
+
+-- | The rows to be read.
+data Source = Source
+  { plan :: Plan,
+    raw :: ByteString,
+    -- | without those that are passed over
+    kept :: ByteString,
+    -- | those that are passed over
+    skipped :: ByteString,
+    -- | the medium, as far as blank rows are kept
+    grid :: Medium
+  }
+
+sourceOf :: Plan -> ByteString -> Source
+sourceOf plan raw = Source {plan, raw, kept, skipped, grid}
+  where
+    medium = Machine.medium (Plan.machine plan)
+    skipped = case spare medium of
+      Counted -> ByteString.empty
+      Skipped -> ByteString.pack (Machine.skips (Machine.code (Plan.machine plan)))
+    kept = if ByteString.null skipped then raw else ByteString.filter (`ByteString.notElem` skipped) raw
+    grid = if ByteString.elem 0 skipped then medium {leader = 0, gap = 0, evenShift = 0} else medium
+
+-- | The row of the tape for a row that is kept.
+origin :: Source -> Int -> Int
+origin source at
+  | ByteString.null (skipped source) = at
+  | otherwise = go at 0
+  where
+    go k from = case ByteString.findIndex (`ByteString.notElem` skipped source) (ByteString.drop from (raw source)) of
+      Nothing -> max 0 (ByteString.length (raw source) - 1)
+      Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
+
+-- | The row behind the leader. Further blank rows are passed over before the symbols at the beginning; where there are none
+-- they may be the trailer.
+frontOf :: Source -> Either Fault Int
+frontOf source
+  | blankRun < ByteString.length front = Left (Fault blankRun Nothing (LeaderNotBlank asked))
+  | blankRun < wanted || passed < asked && ByteString.null (kept source) = Left (Fault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
+  | passed < asked = Left (Fault 0 Nothing (LeaderNotBlank asked))
+  | spare (grid source) == Skipped && not (Text.null (opening (grid source))) = Right (blankFrom source wanted)
+  | otherwise = Right wanted
+  where
+    wanted = leader (grid source)
+    asked = leaderAsked source
+    front = ByteString.take wanted (kept source)
+    blankRun = ByteString.length (ByteString.takeWhile (== 0) front)
+    passed = if skipsBlanks source then ByteString.count 0 (ByteString.takeWhile (`ByteString.elem` skipped source) (raw source)) else asked
+
+-- | The blank rows before the first frame and behind the last.
+leaderAsked :: Source -> Int
+leaderAsked source = leader (Machine.medium (Plan.machine (plan source)))
+
+-- | Whether blank rows are passed over everywhere.
+skipsBlanks :: Source -> Bool
+skipsBlanks source = ByteString.elem 0 (skipped source)
+
+-- | The first row from one on that is not blank.
+blankFrom :: Source -> Int -> Int
+blankFrom source at = at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
+
+-- | The frames from a row on.
+framesFrom :: Source -> Int -> State -> Either (Maybe Int, Fault) [Frame]
+framesFrom source = go []
+  where
+    p = plan source
+    go done at state = case endAt source at of
+      Ended -> Right (reverse done)
+      Torn fault -> Left (Nothing, fault)
+      Onward -> do
+        let n = State.ordinal state
+            numbered = either (\fault -> Left (Just n, fault)) Right
+        begin <- numbered (blankRows source ShiftNotBlank (shiftRows (grid source) n) at)
+        let first = case spare (grid source) of
+              Counted -> begin
+              Skipped -> blankFrom source begin
+        case Reading.readFrame p state (kept source) first of
+          Left fault -> Left (maybe (Just n, fault) (Nothing,) (tornAt source at))
+          Right (f, end) -> do
+            behind <- numbered (blankRows source GapNotBlank (gap (grid source)) end)
+            go (f : done) behind (Plan.after p state f)
+
+-- | The row behind blank ones.
+blankRows :: Source -> Reason -> Int -> Int -> Either Fault Int
+blankRows source why n at = case ByteString.findIndex (/= 0) stretch of
+  Just k -> Left (Fault (at + k) Nothing why)
   Nothing
-    | ByteString.length front < leader -> Left (Damage (max 1 (ByteString.length front)) Nothing (NoFrames leader))
-    | otherwise -> go 1 leader (ByteString.drop leader rows)
+    | ByteString.length stretch < n -> Left (Fault (ByteString.length (kept source) - 1) Nothing CutOff)
+    | otherwise -> Right (at + n)
   where
-    leader = Machine.leader machine
-    front = ByteString.take leader rows
-    size = Layout.rowsPerFrame (Machine.layout machine)
-    go :: Int -> Int -> ByteString -> Either Damage [Frame]
-    go n at rest
-      | ByteString.all (== 0) rest =
-        if ByteString.length rest == leader
-          then Right []
-          else Left (Damage (at + ByteString.length rest) Nothing (TrailerLength (ByteString.length rest) leader))
-      | otherwise = do
-        let shift = shiftRows machine n
-            (before, behind) = ByteString.splitAt shift rest
-            (mine, others) = ByteString.splitAt size behind
-            begin = at + shift
-        case ByteString.findIndex (/= 0) before of
-          Just k -> Left (Damage (at + k + 1) (Just n) ShiftNotBlank)
-          Nothing -> Right ()
-        if ByteString.length mine < size then Left (Damage (begin + ByteString.length mine) (Just n) CutOff) else Right ()
-        f <- either (\fault -> Left (Damage (begin + Layout.row fault) (Just n) (InFrame fault))) Right (Layout.readFrame machine (ByteString.unpack mine))
-        (f :) <$> go (n + 1) (begin + size) others
+    stretch = ByteString.take n (ByteString.drop at (kept source))
 
--- | The words for a damaged tape.
-toReport :: Damage -> Report
-toReport (Damage row frame cause) =
-  (report Report.Error "E0601" (InTape row) ("row " <> Decimal.whole row <> place <> ": " <> because))
-    { message = explanation
-    }
-  where
-    place = maybe "" (\n -> " (frame " <> Decimal.whole n <> fieldWord <> ")") frame
-    fieldWord = case cause of
-      InFrame fault -> maybe "" ((", " <>) . Machine.contentWord) (Layout.field fault)
-      _ -> ""
-    because = case cause of
-      LeaderNotBlank _ -> "the leader is not blank"
-      NoFrames _ -> "the tape is empty or ends within its leader"
-      ShiftNotBlank -> "a hole in the blank rows before an even frame"
-      CutOff -> "the tape ends within a frame"
-      TrailerLength _ _ -> "the end of the tape is not as it should be"
-      InFrame fault -> reasonWord (Layout.reason fault)
-    explanation = case cause of
-      NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
-      LeaderNotBlank wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
-      TrailerLength found wanted ->
-        [ "Behind the last frame stand " <> Decimal.whole found <> " blank rows, and it should be " <> Decimal.whole wanted
-            <> ": frames are missing, or the tape is torn."
-        ]
-      _ -> []
+-- | Whether the tape ends where a frame may begin.
+data End = Ended | Torn Fault | Onward
 
-reasonWord :: Reason -> Text
-reasonWord reason = case reason of
-  ForeignTrack -> "a hole outside the tracks of this tape"
-  NoDigit holes -> "the holes " <> binary holes <> " are no digit"
-  MarkerMissing -> "the frame marker is missing"
-  ServiceHole -> "a hole in the service track where there must be none"
-  MinusZero -> "a minus on zero"
-  NotBlank -> "a hole in the gap behind the frame"
-  UnknownSpeed s -> "the machine has no speed " <> Decimal.whole s
-  SpeedWithoutMove s -> "the speed is " <> Decimal.whole s <> " but nothing moves"
-  MoveWithoutSpeed -> "the frame moves but its speed is 0"
-  IdleFrame -> "the frame moves nothing and commands nothing"
+endAt :: Source -> Int -> End
+endAt source at = case spare (grid source) of
+  Counted
+    | ByteString.length (kept source) - at == Text.length closer + leader (grid source), Just _ <- tailAt source at -> Ended
+    | at >= ByteString.length (kept source) -> torn
+    | otherwise -> Onward
+  Skipped -> case tailAt source at of
+    Nothing -> if blankFrom source at >= ByteString.length (kept source) then torn else Onward
+    Just found
+      | blanksBehind source found >= leaderAsked source -> Ended
+      | otherwise -> torn
   where
-    binary w = Text.pack [if w `div` (2 ^ k) `mod` 2 == 1 then '1' else '0' | k <- [3, 2, 1, 0 :: Int]]
+    closer = closing (grid source)
+    torn = maybe Onward Torn (tornAt source at)
+
+-- | The blank rows at the end of the tape, by those that are kept there.
+blanksBehind :: Source -> Int -> Int
+blanksBehind source found
+  | skipsBlanks source = ByteString.count 0 (ByteString.takeWhileEnd (`ByteString.elem` skipped source) (raw source))
+  | otherwise = found
+
+-- | The blank rows behind the closing symbols, where these and nothing else stand at a row.
+tailAt :: Source -> Int -> Maybe Int
+tailAt source at = case Reading.expect (plan source) (kept source) first cs of
+  Right behind | ByteString.all (== 0) (ByteString.drop behind (kept source)) -> Just (ByteString.length (kept source) - behind)
+  _ -> Nothing
+  where
+    cs = symbolsOf (plan source) (closing (grid source))
+    first = case spare (grid source) of
+      Counted -> at
+      Skipped -> if null cs then at else blankFrom source at
+
+-- | Why a tape ends other than it should, if it ends at a row.
+tornAt :: Source -> Int -> Maybe Fault
+tornAt source at = case tailAt source at of
+  Just found -> Just (Fault final Nothing (TrailerLength (blanksBehind source found) (leaderAsked source)))
+  Nothing
+    | blankFrom source at >= ByteString.length (kept source) -> Just (Fault final Nothing (NoClosing (closing (grid source))))
+    | otherwise -> Nothing
+  where
+    final = max 0 (ByteString.length (kept source) - 1)

@@ -19,8 +19,8 @@ newtype Tape = Tape ByteString
 rowCount :: Tape -> Int
 rowCount (Tape rows) = ByteString.length rows
 
--- | The length of a tape on a machine's pitch, in metres.
-metres :: Machine -> Tape -> Double
-metres machine tape = fromIntegral (rowCount tape) * pitch / 1000
-  where
-    Mm pitch = Machine.pitch machine
+-- | The length of a tape on a machine's pitch, in metres; none for a text.
+metres :: Machine -> Tape -> Maybe Double
+metres machine tape = case Machine.pitch (Machine.medium machine) of
+  Nothing -> Nothing
+  Just (Mm pitch) -> Just (fromIntegral (rowCount tape) * pitch / 1000)

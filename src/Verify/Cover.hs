@@ -4,21 +4,27 @@ module Verify.Cover
   ( Others (..),
     Beyond (..),
     furthest,
+    distanceTo,
   )
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
+import Data.List (sort)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
+import Prelude hiding (lines)
 
 -- | What may lie within reach, by an index of it.
 data Others a = Others
   { index :: Box.Index a,
-    line :: a -> Segment,
+    -- | what has to be within reach of it: all of these
+    lines :: a -> NonEmpty Segment,
     -- | whether it counts at all
     counts :: a -> Bool,
     reach :: Mm,
@@ -43,7 +49,7 @@ furthest others least segment
     witness m = case near others (plus (reach others) m) segment of
       [] -> Nothing
       around ->
-        let place = case Distance.uncovered (minus (plus (reach others) m) (times 2 Tolerance.resolution)) (map (line others) around) segment of
+        let place = case uncovered (minus (plus (reach others) m) (times 2 Tolerance.resolution)) (map (lines others) around) segment of
               (a, b) : _ -> Segment.at ((a + b) / 2) segment
               [] -> Segment.start segment
          in Just Beyond {most = m, place, around}
@@ -66,7 +72,7 @@ near :: Others a -> Mm -> Segment -> [a]
 near others distance segment = filter (counts others) (filter reaches (Box.within (Box.inflate distance (Box.ofSegment segment)) (index others)))
   where
     -- No point of a segment is further from its middle than half of its length.
-    reaches a = Distance.toPoint (Segment.at 0.5 segment) (line others a) <= plus distance (times 0.5 (Segment.length segment))
+    reaches a = distanceTo (Segment.at 0.5 segment) (lines others a) <= plus distance (times 0.5 (Segment.length segment))
 
 -- | Whether every point of a segment has one of the others within a distance. Many others are walked past one by one:
 -- from where the last one ends to cover the segment, the one that is nearest there covers the next stretch of it.
@@ -75,11 +81,11 @@ isCovered others distance segment
   | null (drop fewAtMost all') = together
   | otherwise = from 0
   where
-    all' = map (line others) (near others distance segment)
-    together = null (Distance.uncovered distance all' segment)
+    all' = map (lines others) (near others distance segment)
+    together = null (uncovered distance all' segment)
     from t = case nearestAt t of
       Nothing -> False
-      Just other -> case [g | g@(_, b) <- Distance.uncovered distance [line others other] segment, b > t] of
+      Just other -> case [g | g@(_, b) <- uncovered distance [lines others other] segment, b > t] of
         [] -> True
         (a, _) : _
           | a > t + hair -> from a
@@ -91,8 +97,32 @@ isCovered others distance segment
             Just (d, other) | d <= distance -> Just other
             _ -> Nothing
     away p other =
-      let d = Distance.toPoint p (line others other)
+      let d = distanceTo p (lines others other)
        in if d > distance || counts others other then d else Mm (1 / 0)
+
+-- | How far a point is from that of some lines from which it is furthest.
+distanceTo :: Point -> NonEmpty Segment -> Mm
+distanceTo p = maximum . fmap (Distance.toPoint p)
+
+-- | The stretches of a segment, as fractions of its length, for which none of the others has all of its lines within
+-- a distance.
+uncovered :: Mm -> [NonEmpty Segment] -> Segment -> [(Double, Double)]
+uncovered distance others segment = foldl inBoth (Distance.uncovered distance [s | s :| [] <- others] segment) [gaps ss | ss@(_ :| _ : _) <- others]
+  where
+    gaps ss = inEither (sort (concatMap (\s -> Distance.uncovered distance [s] segment) (NonEmpty.toList ss)))
+
+-- | What two lists of stretches have in common; each is in order and does not overlap itself.
+inBoth :: [(Double, Double)] -> [(Double, Double)] -> [(Double, Double)]
+inBoth as bs = case (as, bs) of
+  ((a, b) : as', (c, d) : bs') -> [(max a c, min b d) | max a c < min b d] <> if b <= d then inBoth as' bs else inBoth as bs'
+  _ -> []
+
+-- | Stretches in the order of their beginnings, those that overlap as one.
+inEither :: [(Double, Double)] -> [(Double, Double)]
+inEither stretches = case stretches of
+  (a, b) : (c, d) : rest | c <= b -> inEither ((a, max b d) : rest)
+  s : rest -> s : inEither rest
+  [] -> []
 
 -- | So many others are taken together.
 fewAtMost :: Int

@@ -3,6 +3,10 @@
 module Verify.Passage
   ( Job (..),
     Trace (..),
+    tracesOf,
+    isSame,
+    isUpright,
+    places,
     Found (..),
     elementsOf,
     find,
@@ -12,7 +16,11 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus, total)
 import Base.Region (Region)
-import Control.StraightLine (Stroke)
+import Control.Compensation (Moved)
+import Control.Compensation qualified as Compensation
+import Control.Monad (foldM)
+import Control.Walk (Stroke)
+import Control.Walk qualified as Control
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -25,18 +33,49 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 
--- | A stroke in mm.
+-- | What the cutter's centre does in a stroke, or in one of several parts of it, in mm.
 data Trace = Trace
   { stroke :: Stroke,
+    -- | which part, from 0
+    part :: Int,
     -- | in the plane; without length when it goes straight up or down
     line :: Segment,
+    -- | the ways between which the control goes there
+    ways :: NonEmpty Segment,
     -- | at its beginning and its end
     heights :: (Mm, Mm)
   }
+
+-- | What the cutter's centre does in a stroke on a machine. If there are several parts, it rises in the last one.
+tracesOf :: Machine -> Moved -> [Trace]
+tracesOf machine m = [Trace {stroke = s, part = n, line = leg, ways = Control.between leg, heights = if n < final then (low, low) else (low, high)} | (n, leg) <- zip [0 ..] (NonEmpty.toList legs)]
+  where
+    s = Compensation.stroke m
+    legs = Compensation.legs m
+    final = NonEmpty.length legs - 1
+    (low, high) = Control.height machine s
+
+-- | Whether two are the same part of the same stroke.
+isSame :: Trace -> Trace -> Bool
+isSame a b = Control.number (stroke a) == Control.number (stroke b) && part a == part b
+
+-- | Whether a stroke goes straight up or down. A full circle ends where it begins, too.
+isUpright :: Trace -> Bool
+isUpright t = case line t of
+  Straight a b -> a == b
+  Arc {} -> False
+
+-- | The places of a stroke at which it is looked at, as shares of its length, the last one its end: two of a straight one, and so many of
+-- an arc that a contour that is followed does not turn by more than an eighth of a half turn from one to the next, nor is a quarter of a closed one passed.
+places :: Trace -> [Double]
+places t = case line t of
+  Straight _ _ -> [0.5, 1]
+  Arc {sweep = Rad s} -> let n = max 4 (ceiling (abs s / (pi / 8))) :: Int in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
 
 -- | A contour to be found on the tape.
 data Job = Job
@@ -77,7 +116,11 @@ find job at traces = case if measurable job then mapMaybe followed starts else [
     followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
     starts = begun Nothing traces
     -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
-    staysBeside rest = let (along, _) = untilExit job rest in not (null along) && all (beside job ruler . Segment.end . line) along
+    staysBeside rest = let (along, _) = untilExit job rest in not (null along) && all (\t -> all (\k -> beside job ruler (Segment.at k (line t))) (final t)) along
+    -- A straight stroke may cut across.
+    final t = case line t of
+      Straight _ _ -> [1]
+      Arc {} -> places t
     -- The strokes that set out from the beginning, with the one that arrived there: none when the cutter stood
     -- there already, or came from another height.
     begun before ts = case ts of
@@ -98,7 +141,7 @@ endsNear job p = isNear job p . Segment.end . line
 untilExit :: Job -> [Trace] -> ([Trace], [Trace])
 untilExit job traces = (leaving <> along <> arrival, behind)
   where
-    (leaving, away) = span (endsNear job (entry job)) traces
+    (leaving, away) = span (\t -> endsNear job (entry job) t && isNear job (entry job) (Segment.at 0.5 (line t))) traces
     (along, back) = break (endsNear job (exit job)) away
     (arrival, behind) = span (endsNear job (exit job)) back
 
@@ -185,15 +228,14 @@ follows job ruler = go 0 0 (entry job)
       | otherwise = case traces of
         [] -> Nothing
         t : rest -> do
-          (gone', mark') <- step gone mark (Segment.at 0.5 (line t))
-          (gone'', mark'') <- step gone' mark' (Segment.end (line t))
-          (along, behind) <- go gone'' mark'' (Segment.end (line t)) rest
+          (gone', mark') <- foldM step (gone, mark) [Segment.at k (line t) | k <- places t]
+          (along, behind) <- go gone' mark' (Segment.end (line t)) rest
           Just (t : along, behind)
     -- How far on the furthest place is that the cutter touches.
-    ahead mark p = maximum (0 : map (difference mark) (places p))
+    ahead mark p = maximum (0 : map (difference mark) (touched p))
     -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
-    step gone mark p = do
-      delta <- listToMaybe' (filter (>= negate (slack ruler)) (map (difference mark) (places p)))
+    step (gone, mark) p = do
+      delta <- listToMaybe' (filter (>= negate (slack ruler)) (map (difference mark) (touched p)))
       Just (gone + delta, mark + delta)
     listToMaybe' ds = listToMaybe [minimumBy (comparing abs) ds | not (null ds)]
     difference mark s
@@ -201,7 +243,7 @@ follows job ruler = go 0 0 (entry job)
       | otherwise = s - mark
     round' x = floor (x + 0.5) :: Int
     -- What the cutter touches is nearest to it.
-    places p = case Box.closest (Distance.toPoint p . snd) p (marks ruler) of
+    touched p = case Box.closest (Distance.toPoint p . snd) p (marks ruler) of
       Just (nearest, _) ->
         let far = min near (plus nearest (plus (allowance job) (allowance job)))
          in [ before + max 0 (min 1 (footOf s p)) * len

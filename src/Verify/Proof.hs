@@ -4,6 +4,9 @@ module Verify.Proof
     Passage (..),
     Witness (..),
     Finding (..),
+    Speed (..),
+    Refusal (..),
+    refusedFrame,
     isProven,
     toReports,
   )
@@ -13,11 +16,15 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
+import Control.Compensation (Unkept (..))
+import Data.Text (Text)
 import Data.Text qualified as Text
+import Frame.Frame (Broken)
+import Frame.Frame qualified as Frame
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V3 (V3 (..))
-import Machine.Machine (FeedCode (..), Machine)
+import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 import Machine.Machine qualified as Machine
 import Report.Report (Place (..), Report (label, message), report)
 import Report.Report qualified as Report
@@ -72,11 +79,32 @@ data Finding
     HoleMissing Region Point
   | -- | a frame that goes below the top of the part where, or deeper than, the program does not: where
     CutsElsewhere Int Point
-  | -- | the frame, the code on the tape, the code that belongs there, what asks for it
-    WrongFeed Int FeedCode FeedCode Region
-  | -- | the frame, the auxiliary command on the tape, the one that belongs there
-    WrongCommand Int Int Int
+  | -- | the frame, its speed on the tape, the one that belongs there, what asks for it
+    WrongFeed Int Speed Speed Region
+  | -- | the frame, the command, its number on the tape and the one that belongs there, as far as there are any
+    WrongCommand Int OrderName (Maybe Int) (Maybe Int)
+  | -- | a frame that the control would not take
+    Refused Refusal
+  | -- | the frame at the end of which the cutter is too fast to come down to what follows: how fast it is, how fast it
+    -- may be
+    TooFast Int Feed Feed
   | NotClosed (V3 Pulses)
+  deriving stock (Eq, Show)
+
+-- | How fast a frame goes: in a rapid motion, or by its code; whether it slows down to that.
+data Speed = Speed {rapidly :: Bool, code :: FeedCode, braking :: Bool}
+  deriving stock (Eq, Show)
+
+-- | Why a control would refuse a frame.
+data Refusal
+  = -- | a rule of the frames
+    ByRule Broken
+  | -- | the end of an arc is so much further from its centre than its beginning
+    UnequalRadii Int Mm
+  | -- | an arc whose end lies in the direction of its beginning from the centre, or at the centre
+    NoSweep Int
+  | -- | the cutter cannot be kept beside the contour
+    NotKept Unkept
   deriving stock (Eq, Show)
 
 isProven :: Proof -> Bool
@@ -117,12 +145,17 @@ toReport machine finding = case finding of
       { message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."]
       }
   WrongFeed n found wanted region ->
-    (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: speed " <> code found))
-      { message = ["Here belongs speed " <> code wanted <> "."]
+    (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: " <> speed machine found))
+      { message = ["Here belongs " <> speed machine wanted <> "."]
       }
-  WrongCommand n found wanted ->
-    (wrong "E0708" InFile (frameWord n <> " gives the auxiliary command " <> Decimal.whole found))
-      { message = [if wanted == 0 then "The program commands nothing there." else "The program commands " <> Decimal.whole wanted <> " there."]
+  WrongCommand n (OrderName name) found wanted ->
+    (wrong "E0708" InFile (frameWord n <> maybe (" lacks the command " <> name) (\v -> " gives the command " <> name <> " " <> Decimal.whole v) found))
+      { message = [maybe "The program gives no such command there." (\v -> "The program gives " <> name <> " " <> Decimal.whole v <> " there.") wanted]
+      }
+  Refused refusal -> let (n, why, more) = refusalWords refusal in (wrong "E0712" InFile (frameWord n <> " " <> why)) {message = more}
+  TooFast n (Feed is) (Feed may) ->
+    (wrong "E0713" InFile (frameWord n <> " is too fast at its end: " <> Decimal.short 2 is <> " mm/min"))
+      { message = ["To come down to the feeds that follow, or to the end of the tape, it may have " <> Decimal.short 2 may <> " mm/min there."]
       }
   NotClosed (V3 x y z) ->
     wrong "E0707" InFile ("the tape does not end where it should: it misses by " <> Text.intercalate ", " [pulses d <> " in " <> axis | (axis, d) <- [("x", x), ("y", y), ("z", z)], d /= 0])
@@ -130,5 +163,57 @@ toReport machine finding = case finding of
     wrong = report Report.Error
     frameWord n = "frame " <> Decimal.whole n
     micro (Mm x) = Decimal.fixed 4 x <> " mm"
-    pulses (Pulses n) = Decimal.whole n <> (if abs n == 1 then " pulse" else " pulses")
-    code c@(FeedCode n) = Decimal.whole n <> maybe "" (\(Feed f) -> " (" <> Decimal.short 2 f <> " mm/min)") (Machine.feedOf machine c)
+
+-- | The frame that is refused.
+refusedFrame :: Refusal -> Int
+refusedFrame refusal = let (n, _, _) = refusalWords refusal in n
+
+-- | The number of a frame, why a control refuses it, and what there is to say besides.
+refusalWords :: Refusal -> (Int, Text, [Text])
+refusalWords refusal = case refusal of
+  ByRule broken -> case broken of
+    Frame.OverCapacity n axis d -> (n, "moves " <> axisWord axis <> " by " <> pulses d <> ", more than its field holds", [])
+    Frame.BadCentre n -> (n, "has no centre for its arc", ["It is missing, or it is more than its fields hold."])
+    Frame.NoSuchSpeed n (FeedCode c) -> (n, "has the feed code " <> Decimal.whole c <> ", which the machine does not know there", [])
+    Frame.NoSuchMotion n -> (n, "asks for a motion that the machine does not have", ["That is an arc where there are none, or one that rises or leaves its quadrant or is a full circle where it must not, or a motion that goes nowhere."])
+    Frame.NoSuchOrder n (OrderName o) -> (n, "gives the command " <> o <> " twice, or with a number that it does not have", [])
+    Frame.Idle n -> (n, "neither moves nor commands anything", [])
+  UnequalRadii n (Mm d) ->
+    ( n,
+      "is an arc that ends " <> Decimal.fixed 4 (abs d) <> " mm " <> (if d > 0 then "further from" else "nearer to") <> " its centre than it begins",
+      ["The two may differ by 2 pulses."]
+    )
+  NotKept unkept -> unkeptWords unkept
+  NoSweep n -> (n, "is an arc without a sweep", ["Its end lies in the same direction from the centre as its beginning, at another distance."])
+  where
+    axisWord a = case a of
+      Machine.X -> "x"
+      Machine.Y -> "y"
+      Machine.Z -> "z"
+
+-- | The same of a control that keeps the cutter beside the contour.
+unkeptWords :: Unkept -> (Int, Text, [Text])
+unkeptWords unkept = case unkept of
+  ShortEntry n l r -> (n, "switches compensation on in a move that is too short", ["It is " <> lengthOf l <> " long, and has to be longer than the cutter's radius, " <> lengthOf r <> "."])
+  RoundEntry n -> (n, "switches compensation on in an arc", ["That takes a straight move."])
+  RoundExit n -> (n, "leaves compensation in an arc", ["That takes a straight move."])
+  TightArc n old r -> (n, "is an arc of radius " <> lengthOf old <> " about whose inside the cutter has no room to roll", ["Its radius is " <> lengthOf r <> "."])
+  Unreached n -> (n, "is too short for a corner into which the cutter does not fit", ["The cutter would cut into the move beside it."])
+  OnTwice n -> (n, "switches compensation on while it is on", [])
+  ToolChanged n -> (n, "changes the tool while compensation is on", [])
+  NeverReleased n -> (n, "ends the tape while compensation is on", [])
+  where
+    lengthOf (Mm x) = Decimal.fixed 3 x <> " mm"
+
+-- | A speed as a person writes it.
+speed :: Machine -> Speed -> Text
+speed machine s = (if rapidly s then "rapid" else told) <> (if braking s then ", braking" else "")
+  where
+    told = "speed " <> Decimal.whole number <> maybe "" (\v -> " (" <> Decimal.short 2 v <> unit <> ")") (Machine.valueOf machine (code s))
+    FeedCode number = code s
+    unit = case Machine.feedMeasure (Machine.feeds machine) of
+      Machine.AlongPath -> " mm/min"
+      Machine.LeadingAxis -> " pulses a second"
+
+pulses :: Pulses -> Text
+pulses (Pulses n) = Decimal.whole n <> (if abs n == 1 then " pulse" else " pulses")

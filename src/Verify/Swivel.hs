@@ -17,7 +17,7 @@ import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Offset (Side (..))
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -30,6 +30,7 @@ import Path.Path (Path)
 import Path.Path qualified as Path
 import Path.Swivel qualified as Swivel
 import Verify.Passage (Trace (..))
+import Verify.Passage qualified as Passage
 
 -- | The strokes of a tape, those along the contours of a blade at the heights of their passes.
 levelled :: Machine -> Path -> [Trace] -> [Trace]
@@ -60,9 +61,14 @@ blade milling Path.Pass {Path.reach, Path.atHeight} =
 
 onLevel :: Machine -> Blade -> Trace -> Trace
 onLevel machine b t
-  | fits (Segment.start (line t)) (fst (heights t)) && fits (Segment.end (line t)) (snd (heights t)) = t {heights = (level b, level b)}
+  | and [fits (Segment.at k (line t)) (plus low (times k (minus high low))) | k <- 0 : looked] = t {heights = (level b, level b)}
   | otherwise = t
   where
+    (low, high) = heights t
+    -- An arc stays at its height, whatever the contour asks for between its ends.
+    looked = case line t of
+      Straight _ _ -> [1]
+      Arc {} -> Passage.places t
     -- What the tool touches is nearest to it.
     fits p z = case [h | (d, i, s) <- beside p, d <= plus (nearest p) (times 2 off), Just h <- [axisAt b i s p]] of
       [] -> False
@@ -72,7 +78,7 @@ onLevel machine b t
     off = plus (allowed b) (Machine.pulse machine)
     around = plus (furthest b) off
     -- The place is off along the contour by the tolerance and a pulse as well.
-    slack = times 1.5 (Machine.pulse machine)
+    slack = times 1.5 (max (Machine.pulse machine) (Machine.pulseOf machine Machine.Z))
 
 -- | The height of the axis beside a place of an element.
 axisAt :: Blade -> Int -> Segment -> Point -> Maybe Mm

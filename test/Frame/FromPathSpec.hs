@@ -1,22 +1,34 @@
 -- | The laws of frames.
 module Frame.FromPathSpec (spec) where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
-import Data.List.NonEmpty qualified as NonEmpty
-import Frame.Frame (Frame (..), Planned (frame))
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Frame.Error qualified as Error
+import Frame.Frame (Frame (increment), Planned (frame))
 import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as FromPath
+import Frame.Made qualified as Made
 import Generate qualified
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Machine.Lkp01f (lkp01f)
-import Path.Path (Block (..), Move (segment))
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Machines qualified
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
+import Path.Path (Move (segment), Path)
 import Path.Path qualified as Path
+import Report.Report (Code (..))
+import Report.Report qualified as Report
 import Test.Hspec
 import Test.QuickCheck
+import Verify.FromTape qualified as Verify
+import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = do
@@ -51,36 +63,85 @@ spec = do
            in n >= 8 && y < 0.05 * (let Mm r = Segment.radius (centre a) (start a) in r) ==> length (FromPath.bandChords lkp01f (Mm y) (Mm y) a) < n
     it "of arc 1–2 of the Ural paper are nine" $
       FromPath.chordCount lkp01f (Mm 0.02) (Segment.Arc (Vec.point 18 0) (Vec.point (18 * cos 0.7982) (18 * sin 0.7982)) (Vec.point 0 0) (Rad 0.7982)) `shouldBe` 9
+    it "are no shorter for a tolerance of nothing than rounding asks (catches chords of a pulse)" $ do
+      let round' = Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
+          quarter = fmap (length . Frame.planned) (Made.program lkp01f (Made.along (Part.At (Located (Region 0 0) (Feed 60))) [round']))
+      quarter `shouldSatisfy` maybe False (< 60)
+  describe "tapes" $
+    it "are proven whatever the tolerance (catches what comes to the tolerance and a pulse)" $
+      property $
+        forAllBlind machine $ \m -> forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c -> forAll accuracy $ \a ->
+          case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = a})))) of
+            Nothing -> counterexample "no path" False
+            Just path -> case Made.program m path of
+              -- A tolerance may be larger than the cutter.
+              Nothing -> label "none" True
+              Just p -> Proof.findings (Verify.prove m path p (map frame (Frame.planned p))) === []
   describe "increments" $ do
     it "of a closed contour add to zero (catches rounded increments instead of rounded positions)" $
       property $
-        forAll Generate.closedCase $ \c -> case Generate.milled (Mm 0.02) c >>= Result.output . FromPath.quantise lkp01f of
-          Nothing -> counterexample "no frames" False
-          Just program -> sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0] === 0
+        forAllBlind machine $ \m -> forAll Generate.closedCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \_ program ->
+          sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0] === 0
     it "lead to within half a pulse of every node (catches rounding that adds up)" $
       property $
-        forAll Generate.openCase $ \c -> case Generate.milled (Mm 0.02) c of
-          Nothing -> counterexample "no path" False
-          Just path -> case Result.output (FromPath.quantise lkp01f path) of
-            Nothing -> counterexample "no frames" False
-            Just program ->
-              let positions = map (Frame.position lkp01f) (scanl (+) (Frame.start program) (map (increment . frame) (Frame.planned program)))
-                  nodes = map (Segment.end . segment) (concatMap cutOf (Path.blocks path))
-                  off n = minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
-               in conjoin [counterexample (show (n, off n)) (off n <= 0.01 + 1e-9) | n <- nodes]
+        forAllBlind machine $ \m -> forAll Generate.openCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \path program ->
+          let positions = map (Frame.position m) (scanl (+) (Frame.start program) (map (increment . frame) (Frame.planned program)))
+              Mm grain = Machine.pulse m
+              off n = minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
+           in conjoin [counterexample (show (n, off n)) (off n <= grain / 2 + 1e-9) | n <- Made.nodesOf path]
     it "keep the machine's invariants (catches a move that does not fit its field)" $
       property $
         forAll (choose (-3e4, 3e4)) $ \x -> forAll (choose (-3e4, 3e4)) $ \y ->
           let frames = longMove x y
            in Frame.invariants lkp01f frames === [] .&&. counterexample (show (length frames)) (length frames <= 1 + ceiling (max (abs x) (abs y) / 199.98 :: Double))
+  describe "frames" $ do
+    it "keep the machine's invariants on every machine (catches a frame that its machine cannot be told)" $
+      property $
+        forAllBlind machine $ \m -> forAll anyCase $ \c -> forAllBlind Generate.settings $ \set -> case Result.output (FromPart.lay (Generate.partOf (Vec.point (-200) 0) (Part.Mill (Located (Region 0 0) (set (Generate.job c)))))) of
+          Nothing -> property Discard
+          Just path -> with m (Just path) $ \_ program -> Frame.invariants m (map frame (Frame.planned program)) === []
+    it "stay within the tolerance and a pulse of the path, and pass all of it (catches a chord on the wrong side, a lost piece)" $
+      property $
+        forAllBlind machine $ \m -> forAll anyCase $ \c -> forAll (elements [0.005, 0.02, 0.1]) $ \y -> with m (Generate.milled (Mm y) c) $ \path program ->
+          let exact = concatMap (map segment . Path.moves) (Path.blocks path)
+              walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
+              Mm grain = Machine.pulse m
+           in counterexample (show (Made.worstOff exact walk, Made.worstOff walk exact)) $
+                Made.worstOff exact walk <= y + grain .&&. Made.worstOff walk exact <= y + grain
+    it "of a machine without an axis are refused there (catches a division by its digits)" $
+      [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]] `shouldBe` [["E0507"], []]
+    it "beyond the field of a position are refused (catches a position cut off to its digits)" $
+      errorsOn short (Generate.straightPath 150 0) `shouldBe` ["E0508"]
+    it "of more contours than there may be are refused (catches a limit that nobody reads)" $
+      [errorsOn (Machines.named "lki-u") (contoursOf n) | n <- [30, 31]] `shouldBe` [[], ["E0506"]]
+  where
+    anyCase = oneof [Generate.openCase, Generate.closedCase, Generate.smoothCase]
+    short = let m = Machines.named "iso6983" in m {Machine.layout = (Machine.layout m) {Machine.items = fmap fiveDigits (Machine.items (Machine.layout m))}}
+    fiveDigits i = case i of
+      Machine.AWord w | Machine.Along _ <- Machine.content w -> Machine.AWord w {Machine.form = (Machine.form w) {Machine.digits = 5}}
+      _ -> i
+    upAndDown = let down = Path.Move (Straight (Vec.point 0 0) (Vec.point 0 0)) (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (Feed 60))) False (Region 0 0) False in Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [down]]
 
--- | The moves along a contour.
-cutOf :: Block -> [Move]
-cutOf block = case block of
-  Travelling _ _ -> []
-  Holing _ _ -> []
-  Commanding _ -> []
-  Cutting {cut} -> NonEmpty.toList cut
+-- | The path around so many squares.
+contoursOf :: Int -> Path
+contoursOf n = Made.pathOf (Text.unlines (["part p", "tool mill(diameter 4 mm)", "feed 60 mm/min", "tolerance 0.02 mm", "from (-10, 0)"] <> concat [["contour c" <> k <> " open { (" <> k <> ", 0) (" <> k <> ", 9) }", "mill c" <> k <> " left { }"] | i <- [1 .. n], let k = Text.pack (show (20 * i))]))
+
+errorsOn :: Machine -> Path -> [Text]
+errorsOn m path = [c | Code c <- map (Report.code . Error.toReport m) (Result.errors (Made.made m path))]
+
+machine :: Gen Machine
+machine = elements Machines.known
+
+-- | A law of the frames of a path on a machine.
+with :: Testable t => Machine -> Maybe Path -> (Path -> Frame.Program -> t) -> Property
+with m found law = counterexample (show (Machine.name m)) $ case found of
+  Nothing -> counterexample "no path" False
+  Just path -> case Made.program m path of
+    Nothing -> counterexample ("no frames: " <> show (Result.errors (Made.made m path))) False
+    Just program -> property (law path program)
+
+lkp01f :: Machine
+lkp01f = Machines.named "lkp-01f"
 
 chordsOf :: Double -> Segment -> [Segment]
 chordsOf y a = let ends = start a : FromPath.chords lkp01f (Mm y) a in zipWith Straight ends (drop 1 ends)
@@ -94,6 +155,9 @@ arc = do
   sign <- elements [1, -1]
   let at t = Vec.point (r * cos t) (r * sin t)
   pure (Arc (at a) (at (a + sign * s)) (Vec.point 0 0) (Rad (sign * s)))
+
+accuracy :: Gen Part.Accuracy
+accuracy = elements ([Part.OnPath (Mm y) | y <- [0, 0.001, 0.005, 0.02, 0.1]] <> [Part.Band (Mm 0) (Mm 0.05), Part.Band (Mm 0.05) (Mm 0)])
 
 sagitta :: Gen Double
 sagitta = elements [0.005, 0.02, 0.1, 1]

@@ -22,8 +22,8 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Lkp01f (lkp01f)
-import Machine.Machine (FeedCode (..))
+import Machine.Machine (FeedCode (..), Machine)
+import Machines qualified
 import Part.Part qualified as Part
 import Path.FromPart qualified as FromPart
 import Path.Path (Move (..))
@@ -197,3 +197,6 @@ fewestOn b places = go 0 [0] [1 .. final]
       where
         between = Vector.slice i (j - i + 1) places
         turns = Vector.map snd between
+
+lkp01f :: Machine
+lkp01f = Machines.named "lkp-01f"

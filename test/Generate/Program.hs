@@ -49,7 +49,7 @@ name :: Gen Name
 name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
   where
     plain = ["a", "b", "p", "lug", "радиус", "Ёж", "x1", "_", "half_turn", "a_rather_long_name_for_a_thing"]
-    words' = ["by", "at", "depth", "step", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "lead", "cipher", "joggle", "radius", "cone", "blade", "gear", "bevel1", "to", "rpm1", "min", "byte"]
+    words' = ["by", "at", "depth", "step", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "compensation", "controller", "compiler", "lead", "cipher", "joggle", "radius", "cone", "blade", "gear", "bevel1", "to", "rpm1", "min", "byte"]
     made = (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019"))) `suchThat` (not . Keyword.isReserved)
 
 number :: Gen Numeral
@@ -132,6 +132,7 @@ setting n =
       Allowances <$> nonEmpty 3 (expr n),
       CornerStyle <$> every,
       CutBy <$> every,
+      CompensationBy <$> every,
       StartNear <$> expr n,
       Plunge <$> expr n,
       Peck <$> expr n

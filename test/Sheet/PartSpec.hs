@@ -14,7 +14,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (expected, readText, walk)
 import Generate.Sheet qualified as Generate
-import Machine.Lkp01f (lkp01f)
+import Machines (lkp01f)
 import Report.Human qualified as Human
 import Report.Report (Code (..), Report)
 import Report.Report qualified as Report

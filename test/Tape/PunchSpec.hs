@@ -1,102 +1,250 @@
--- | The tape's code and layout: written and read back, and damaged in every possible way.
+-- | Tapes of all machines: written and read back, and damaged in every possible way.
 module Tape.PunchSpec (spec) where
 
-import Data.Bits (complementBit)
+import Base.Quantity (Pulses (..))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
-import Data.Either (isLeft)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isJust, isNothing)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
 import Data.Word (Word8)
-import Flange qualified
-import Frame.Frame (Frame (..))
-import Generate qualified
+import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame qualified as Frame
+import Generate.Machine qualified as Generate
+import Geometry.Shape (Turn (..))
+import Linear.V2 (V2 (..))
 import Linear.V3 (V3 (..))
-import Machine.Code5121 (code5121)
-import Machine.Lkp01f (lkp01f)
-import Machine.Machine (DigitCode (..), FeedCode (..))
-import Tape.Layout (Fault (Fault), Reason (..))
+import Machine.Machine (Arcs (..), AxisForm (..), FeedCode (..), Item (..), Machine, Measure (..), OrderName (..), Presence (..), Spare (..))
+import Machine.Machine qualified as Machine
+import Machines (iso6983, kontur2p, kontur3p, lkiFm, lkiU, lkiUn, lkp01f, n55)
+import Report.Report qualified as Report
+import Tape.Holes qualified as Holes
+import Tape.Journey (journey, machines, start)
 import Tape.Layout qualified as Layout
-import Tape.Punch (Cause (..), Damage (..))
+import Tape.Punch (Damage (..), Reason (..))
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape (..))
+import Tape.Tape qualified as Tape
 import Test.Hspec
-import Test.QuickCheck
+import Test.QuickCheck hiding (label)
 
 spec :: Spec
 spec = do
-  it "the code 5121 is Table 6 of the paper, with 0000 for 0" $
-    digitWords code5121 `shouldBe` [0x0, 0x1, 0x5, 0x6, 0x7, 0x8, 0x9, 0xA, 0xB, 0xF]
-  it "a frame is punched hole by hole as the page of the machine says" $
-    let Tape rows = Punch.write lkp01f [Frame (V3 (-1234) 56 (-7)) (FeedCode 5) 5]
-     in ByteString.unpack rows `shouldBe` blank 25 <> [0x11, 0x15, 0x06, 0x17] <> [0x00, 0x00, 0x08, 0x09] <> [0x10, 0x00, 0x0A] <> [0x18] <> blank 3 <> blank 25
-  it "two blank rows stand before every even frame" $
-    let f = Frame (V3 1 0 0) (FeedCode 1) 0
-        Tape rows = Punch.write lkp01f [f, f, f]
-     in [k | (k, 0x11) <- zip [0 :: Int ..] (ByteString.unpack rows)] `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
-  it "decode after encode gives the frames (catches a field that writer and reader see differently)" $
-    property $
-      forAll (Generate.frames lkp01f) $ \fs -> Punch.read lkp01f (Punch.write lkp01f fs) === Right fs
-  describe "damage to the flange's tape" $ do
-    it "every hole more or less is reported, or gives a frame that encodes to just that tape (catches a reader that guesses)" $
-      let accepted = [(row, bit) | (row, bit, t) <- singleErrors Flange.tape, Right fs <- [Punch.read lkp01f t], Punch.write lkp01f fs /= t]
-       in accepted `shouldBe` []
-    it "a report names the row that was changed, or the speed's row of its frame" $
-      let wrong = [(row, bit, d) | (row, bit, t) <- singleErrors Flange.tape, Left d <- [Punch.read lkp01f t], not (blames row d)]
-       in wrong `shouldBe` []
-    it "a lost marker, a hole in a gap, a digit that is none, a foreign track each have their reason" $ do
-      reasonAt (firstFrame + 12) (`complementBit` 4) `shouldBe` Just MarkerMissing
-      reasonAt (firstFrame + 14) (const 1) `shouldBe` Just NotBlank
-      reasonAt (firstFrame + 6) (const 2) `shouldBe` Just (NoDigit 2)
-      reasonAt (firstFrame + 6) (const 0x30) `shouldBe` Just ForeignTrack
-      reasonAt (firstFrame + 1) (const 0x10) `shouldBe` Just MinusZero
-      reasonAt (firstFrame + 7) (const 0x10) `shouldBe` Just ServiceHole
-    it "a tape that is cut anywhere is reported (catches an end that is taken for granted)" $
-      [k | k <- [0 .. ByteString.length flangeRows - 1], not (isLeft (Punch.read lkp01f (Tape (ByteString.take k flangeRows))))] `shouldBe` []
-    it "a row lost or doubled anywhere but among blank rows is reported" $
-      [ k
-        | k <- [0 .. ByteString.length flangeRows - 1],
-          ByteString.index flangeRows k /= 0,
-          change <- [ByteString.take k flangeRows <> ByteString.drop (k + 1) flangeRows, ByteString.take (k + 1) flangeRows <> ByteString.drop k flangeRows],
-          not (isLeft (Punch.read lkp01f (Tape change)))
-      ]
-        `shouldBe` []
+  describe "random machines" randomMachines
+  describe "the machines' pages" pages
+  describe "one hole changed" oneHole
+  describe "damage" damage
 
-flangeRows :: ByteString
-flangeRows = let Tape rows = Flange.tape in rows
+randomMachines :: Spec
+randomMachines = do
+  it "decode after encode gives the frames (catches a word that writer and reader see differently)" $
+    checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+      covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)
+  it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
+    forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+      ByteString.pack (map Layout.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
+  it "one row changed is refused or gives frames that are written just so (catches a reader that guesses)" $
+    withMaxSuccess 1000 . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+      let rows = rowsOf (Punch.write m at fs)
+       in not (ByteString.null rows) ==> forAll (choose (0, ByteString.length rows - 1)) $ \k ->
+            forAll (oneof [arbitrary, elements [0, 0xFF], elements (ByteString.unpack rows)]) $ \w ->
+              let rows' = changed (k + 1) (const w) rows
+               in case Punch.read m at (Tape rows') of
+                    Left d -> counterexample (show d) (1 <= Punch.row d && Punch.row d <= ByteString.length rows)
+                    Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
+  it "an axis that points the other way turns its numbers and the arcs about (catches a sign that is forgotten)" $
+    forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+      let turned = m {Machine.axes = fmap (\f -> if axis f == Machine.X then f {reversed = not (reversed f)} else f) (Machine.axes m)}
+       in isJust (Machine.axisForm m Machine.X) ==> Punch.write turned (mirroredPlace at) (map mirroredFrame fs) === Punch.write m at fs
 
--- | Rows before the first frame.
-firstFrame :: Int
-firstFrame = 25
+-- | Blank and erased rows, where the reader passes over them, do not count.
+spared :: Machine -> ByteString -> ByteString
+spared m rows = case Machine.spare (Machine.medium m) of
+  Counted -> rows
+  Skipped -> ByteString.filter (`notElem` (0 : Machine.skips (Machine.code m))) rows
+
+covered :: Testable p => Machine -> [Frame] -> p -> Property
+covered m fs =
+  cover 20 (Machine.measure (Machine.layout m) == Positions) "positions"
+    . cover 20 (Machine.measure (Machine.layout m) == Increments) "increments"
+    . cover 20 (any reversed (NonEmpty.toList (Machine.axes m))) "reversed axes"
+    . cover 5 (not (null [() | Frame {motion = Round _} <- fs])) "arcs"
+    . cover 1 (not (null [() | Frame {motion = Round _, increment = 0} <- fs])) "full circles"
+    . cover 3 (Machine.arcs m `elem` [Arcs True False, Arcs True True]) "quadrants"
+    . cover 10 (not (null [() | Frame {motion = Rapid} <- fs])) "rapid moves"
+    . cover 20 (not (all (null . orders) fs)) "commands"
+    . cover 1 (any Frame.braking fs) "braking"
+    . cover 20 (not (null [() | CheckDigit _ <- NonEmpty.toList (Machine.items (Machine.layout m))])) "check digits"
+    . cover 10 (isJust (Machine.evenTrack (Machine.code m))) "parity"
+    . cover 20 (Machine.spare (Machine.medium m) == Skipped) "spare rows"
+    . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
+    . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "feeds said once"
+
+mirroredPlace :: V3 Pulses -> V3 Pulses
+mirroredPlace (V3 x y z) = V3 (negate x) y z
+
+mirroredFrame :: Frame -> Frame
+mirroredFrame f = f {increment = mirroredPlace (increment f), centre = V2 (negate i) j, motion = turnedBack (motion f)}
+  where
+    V2 i j = centre f
+    turnedBack m = case m of
+      Round Clockwise -> Round CounterClockwise
+      Round CounterClockwise -> Round Clockwise
+      Still -> Still
+      Rapid -> Rapid
+      Straightway -> Straightway
+
+pages :: Spec
+pages = do
+  it "5121: four digits, four, three and one, signs and commands in the service track" $
+    written lkp01f [straight (-1234) 56 (-7) 5 [(OrderName "aux", 5)]]
+      `shouldBe` blank 25 <> [0x11, 0x15, 0x06, 0x17] <> [0x00, 0x00, 0x08, 0x09] <> [0x10, 0x00, 0x0A] <> [0x18] <> blank 3 <> blank 25
+  it "5121: two blank rows stand before every even frame" $
+    [k | (k, 0x11) <- zip [0 :: Int ..] (written lkp01f (replicate 3 (straight 1 0 0 1 [])))] `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
+  it "a marker, the kind, increments, centre, feed with the braking hole, check digit" $
+    written lkiU [(straight 12 0 (-3) 40 []) {Frame.braking = True}]
+      `shouldBe` blank 25 <> [0x1F, 1] <> [0, 0, 0, 0, 1, 5] <> blank 6 <> [0x10, 0, 0, 0, 0, 6] <> blank 12 <> [0x17, 0] <> [0xF] <> blank 3 <> blank 25
+  it "БЦК-5: the frame that is printed" $
+    take 14 (drop 25 (written kontur3p [(straight 0 6000 0 27 []) {orders = [(OrderName "spindle", 8)]}]))
+      `shouldBe` [9, 18, 5, 6, 0, 0, 0, 21, 2, 7, 22, 0, 8, 16]
+  it "ISO-7bit: X has holes 4 5 7 8, 3 has 1 2 5 6, + has 1 2 4 6" $
+    [w | w <- written n55 [straight 3 0 0 60 []], w `elem` [0xD8, 0x33, 0x2B]] `shouldBe` [0xD8, 0x2B, 0x33]
+  it "a text: positions in mm, each when it changes or was not said yet" $
+    text iso6983 (V3 100 200 300) [straight 5000 0 0 60 [], straight 0 (-200) 0 60 [], (straight 10 10 0 70 []) {motion = Round Clockwise, centre = V2 10 0}, Frame.still [(OrderName "release", 0)]]
+      `shouldBe` ["%", "G21 G17 G90 G94 G40 G49 G80", "G1 X5.100 Y0.200 F60", "G1 Y0.000", "G2 X5.110 Y0.010 I0.010 J0.000 F70", "G40", "%"]
+  it "a tape has metres, a text has none" $ do
+    Tape.metres lkp01f (Tape (ByteString.replicate 1000 0)) `shouldBe` Just 2.54
+    Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
+
+oneHole :: Spec
+oneHole = do
+  it "is refused or gives frames that are written just so, on every machine (catches a reader that guesses)" $
+    [ (Machine.name m, place) | m <- machines, (place, t) <- Holes.changes m (tapeOf m), Right fs <- [Punch.read m start t], Punch.write m start fs /= t
+    ]
+      `shouldBe` []
+  it "is refused wherever it is, by check digits with weights and by parity (catches two digits that count the same)" $
+    [(Machine.name m, Holes.unseen s) | m <- [kontur2p, kontur3p, n55], let { s = Holes.share m start (journey m) }, Holes.found s /= Holes.tried s] `shouldBe` []
+  it "is refused on a tape with check digits, but for signs and marks in the service track (catches a check digit that is not looked at)" $
+    [(Machine.name m, row, track) | m <- [lkiU, lkiUn], (row, track) <- Holes.unseen (Holes.share m start (journey m)), track /= 5] `shouldBe` []
+  it "is blamed on its frame, or on the next one where that depends on it (catches rows that are counted wrong)" $
+    [ (Machine.name m, place, d)
+      | m <- machines,
+        let lengths = frameRows m,
+        (place@(row, _), t) <- Holes.changes m (tapeOf m),
+        Left d <- [Punch.read m start t],
+        Just n <- [frameAt lengths row],
+        k <- [frameAt lengths (Punch.row d)],
+        k /= Just n && k /= Just (n + 1)
+    ]
+      `shouldBe` []
+
+-- | The frame of every row of a machine's journey.
+frameRows :: Machine -> [Maybe Int]
+frameRows m = map Layout.frame (Punch.rows m start (journey m))
+
+frameAt :: [Maybe Int] -> Int -> Maybe Int
+frameAt frames row = case drop (row - 1) frames of
+  n : _ -> n
+  [] -> Nothing
+
+damage :: Spec
+damage = do
+  it "of 5121: a lost marker, a hole in a gap, a digit that is none, a foreign track, minus zero, an unknown speed" $ do
+    let at = reasonAt lkp01f [straight 10 0 0 5 [], straight 1 2 3 5 []]
+    at 37 (const 0x08) `shouldBe` Just MarkerMissing
+    at 39 (const 1) `shouldBe` Just GapNotBlank
+    at 31 (const 2) `shouldBe` Just (NoDigit 5 2)
+    at 31 (const 0x30) `shouldBe` Just ForeignTrack
+    at 31 (const 0x10) `shouldBe` Just ServiceHole
+    at 30 (const 0x10) `shouldBe` Just MinusZero
+    at 41 (const 1) `shouldBe` Just ShiftNotBlank
+    at 37 (const 0x10) `shouldBe` Just MoveWithoutSpeed
+    at 28 (const 0) `shouldBe` Nothing
+    at 3 (const 1) `shouldBe` Just (LeaderNotBlank 25)
+  it "of a lettered frame: its sum, its priority, its order" $ do
+    let at = reasonAt kontur3p [straight 0 6000 0 27 []]
+    at 26 (const 0) `shouldBe` Just (AddsTo 27 10)
+    at 28 (const 6) `shouldBe` Just (AddsTo 31 10)
+    faultOf kontur3p (blank 25 <> [4, 18, 1, 6, 0, 0, 0, 21, 2, 7, 16]) `shouldBe` Just (AddsTo 27 10)
+    faultOf kontur3p (blank 25 <> lettered [18, 1, 6, 0, 0, 0, 21, 2, 7, 16]) `shouldBe` Just (WrongPriority 1 5)
+    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16]) `shouldBe` Just (WordOutOfPlace 'Е')
+    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 16]) `shouldBe` Just MoveWithoutSpeed
+    faultOf kontur3p (blank 25 <> lettered [16]) `shouldBe` Just IdleFrame
+  it "of lines: a feed said twice, a frame number, an unknown motion, parity, a missing sign" $ do
+    faultLine "N001X+000001F0060" `shouldBe` Just MoveWithoutMotion
+    faultLine "N002G01X+000001F0060" `shouldBe` Just (WrongNumber 2 1)
+    faultLine "N001G04X+000001F0060" `shouldBe` Just (UnknownMotion 4)
+    faultLine "N001G01X+000001" `shouldBe` Just MoveWithoutSpeed
+    faultLine "N001G01X000001F0060" `shouldBe` Just NoSign
+    faultLine "N001G01X-000000Y+000001F0060" `shouldBe` Just MinusZero
+    faultLine "N001G01Y+000001X+000001F0060" `shouldBe` Just (WordOutOfPlace 'X')
+    faultLine "N001G01X+000001F0060\nN002G01X+000001F0060" `shouldBe` Just (SpeedRepeated 60)
+    faultLine "N001" `shouldBe` Just IdleFrame
+    reasonAt n55 [straight 1 0 0 60 []] 30 (const 0x31) `shouldBe` Just BadParity
+  it "of the end: a torn tape, a trailer of another length, a text without its end" $ do
+    let rows = rowsOf (tapeOf lkp01f)
+        lines' = rowsOf (tapeOf iso6983)
+        reasonOf m = either (Just . Punch.reason) (const Nothing) . Punch.read m start . Tape
+    reasonOf lkp01f (ByteString.take 60 rows) `shouldBe` Just CutOff
+    reasonOf lkp01f (rows <> "\0") `shouldBe` Just (TrailerLength 26 25)
+    reasonOf lkp01f "" `shouldBe` Just (NoFrames 25)
+    reasonOf n55 "" `shouldBe` Just (NoFrames 25)
+    reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines') `shouldBe` Just (NoClosing "%\n")
+  it "does not lie in blank rows between frames or in erased ones, where they are passed over" $ do
+    let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
+        (front, behind) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
+    Punch.read n55 start (Tape (spread n55 0xFF)) `shouldBe` Right (journey n55)
+    Punch.read n55 start (Tape (spread n55 0)) `shouldBe` Right (journey n55)
+    Punch.read lkiU start (Tape (front <> ByteString.replicate 7 0 <> behind <> ByteString.replicate 7 0)) `shouldBe` Right (journey lkiU)
+  it "is told with its row, its frame and its word" $
+    Report.title (Punch.toReport (Damage 31 (Just 1) (Just (Machine.Along Machine.Y)) (NoDigit 5 2))) `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
+
+-- | A frame with a check digit in front and a gap behind.
+lettered :: [Word8] -> [Word8]
+lettered ws = fromIntegral ((10 - sum (map ((`mod` 16) . fromIntegral) ws :: [Int]) `mod` 10) `mod` 10) : ws
+
+-- | Why a lettered tape is refused that ends with this frame.
+faultOf :: Machine -> [Word8] -> Maybe Reason
+faultOf m rows = either (Just . Punch.reason) (const Nothing) (Punch.read m start (Tape (ByteString.pack (rows <> blank 28))))
+
+-- | Why lines of characters are refused.
+faultLine :: Text.Text -> Maybe Reason
+faultLine lines' = faultOf n55 (blank 25 <> map even' (ByteString.unpack (Encoding.encodeUtf8 ("%\n" <> lines' <> "\n"))))
+  where
+    even' w = if odd (length [() | k <- [0 .. 6 :: Int], w `div` (2 ^ k) `mod` 2 == 1]) then w + 128 else w
+
+straight :: Int -> Int -> Int -> Int -> [(OrderName, Int)] -> Frame
+straight x y z s given = Frame {motion = Straightway, increment = V3 (Pulses x) (Pulses y) (Pulses z), centre = 0, speed = FeedCode s, braking = False, orders = given}
+
+tapeOf :: Machine -> Tape
+tapeOf m = Punch.write m start (journey m)
+
+rowsOf :: Tape -> ByteString
+rowsOf (Tape rows) = rows
+
+written :: Machine -> [Frame] -> [Word8]
+written m fs = ByteString.unpack (rowsOf (Punch.write m start fs))
+
+text :: Machine -> V3 Pulses -> [Frame] -> [Text.Text]
+text m at fs = Text.lines (Encoding.decodeUtf8 (rowsOf (Punch.write m at fs)))
 
 blank :: Int -> [Word8]
 blank n = replicate n 0
 
--- | Every tape that differs in one hole, with its row from 1 and the bit.
-singleErrors :: Tape -> [(Int, Int, Tape)]
-singleErrors (Tape rows) = [(k + 1, bit, Tape (changed k (`complementBit` bit) rows)) | k <- [0 .. ByteString.length rows - 1], bit <- [0 .. 5]]
-
 changed :: Int -> (Word8 -> Word8) -> ByteString -> ByteString
-changed k f rows = case ByteString.splitAt k rows of
+changed n f rows = case ByteString.splitAt (n - 1) rows of
   (a, b) -> case ByteString.uncons b of
     Just (w, c) -> a <> ByteString.cons (f w) c
     Nothing -> rows
 
--- | The reason that is reported when a row, from 1, is changed.
-reasonAt :: Int -> (Word8 -> Word8) -> Maybe Reason
-reasonAt n f = case Punch.read lkp01f (Tape (changed (n - 1) f flangeRows)) of
-  Left (Damage at _ (InFrame fault)) | at == n -> Just (Layout.reason fault)
+-- | The reason that is reported in a row when that row, from 1, is changed.
+reasonAt :: Machine -> [Frame] -> Int -> (Word8 -> Word8) -> Maybe Reason
+reasonAt m fs n f = case Punch.read m start (Tape (changed n f (rowsOf (Punch.write m start fs)))) of
+  Left d | Punch.row d == n || isSum (Punch.reason d) -> Just (Punch.reason d)
   _ -> Nothing
-
--- | The row itself; the first row of the number for a minus; the speed's row where a frame's
--- fields no longer agree; the end of the tape for a hole in the trailer.
-blames :: Int -> Damage -> Bool
-blames changedRow (Damage at _ cause) = case cause of
-  InFrame (Fault _ _ r) -> case r of
-    SpeedWithoutMove _ -> at >= changedRow && at - changedRow < 12
-    MoveWithoutSpeed -> at >= changedRow && at - changedRow < 12
-    IdleFrame -> at >= changedRow && at - changedRow < 12
-    MinusZero -> abs (at - changedRow) < 4
-    _ -> at == changedRow || inTrailer
-  CutOff -> inTrailer
-  _ -> at == changedRow || inTrailer
   where
-    inTrailer = changedRow > ByteString.length flangeRows - 25
+    isSum r = case r of
+      AddsTo _ _ -> True
+      MoveWithoutSpeed -> True
+      _ -> False

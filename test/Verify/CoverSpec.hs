@@ -2,6 +2,7 @@
 module Verify.CoverSpec (spec) where
 
 import Base.Quantity (Mm (..))
+import Data.List.NonEmpty (NonEmpty (..))
 import Generate.Run qualified as Curve
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
@@ -12,6 +13,7 @@ import Test.Hspec
 import Test.QuickCheck
 import Verify.Cover (Beyond (..), Others (..))
 import Verify.Cover qualified as Cover
+import Prelude hiding (lines)
 
 spec :: Spec
 spec =
@@ -24,7 +26,7 @@ spec =
               out = Vec.scale r (Vec.left (Segment.startDirection arc))
               begin = Vec.shift out (Segment.start arc)
               stroke = Straight begin (Vec.shift (Vec.scale l (Vec.add (Segment.startDirection arc) (Vec.scale turned (Vec.unit out)))) begin)
-              others = Others {index = Box.index Box.ofSegment arcs, line = id, counts = const True, reach = Mm r, allowance = Mm 0.03}
+              others = Others {index = Box.index Box.ofSegment arcs, lines = (:| []), counts = const True, reach = Mm r, allowance = Mm 0.03}
               beyond p = minimum [d | a <- arcs, let { Mm d = Distance.toPoint p a }] - r
               sampled = maximum [beyond (Segment.at (k / 400) stroke) | k <- [0 .. 400]]
            in classify (sampled > 0.01) "beyond" $ case Cover.furthest others (Mm 0.01) stroke of

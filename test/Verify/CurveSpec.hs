@@ -13,7 +13,8 @@ import Generate.Run qualified as Curve
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point)
-import Machine.Lkp01f (lkp01f)
+import Machine.Machine (Machine)
+import Machines qualified
 import Part.Part (Milling)
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
@@ -64,6 +65,9 @@ spec = do
     proven path program = let found = findings path program (map Frame.frame (Frame.planned program)) in found === []
     findings path program fs = Proof.findings (Verify.prove lkp01f path program fs)
     frameCount = length . Frame.planned
+
+lkp01f :: Machine
+lkp01f = Machines.named "lkp-01f"
 
 -- | What holds for the path and the frames of a milling from a point.
 punched :: Testable p => Point -> Milling -> (Path -> Program -> p) -> Property

@@ -8,7 +8,7 @@ import Compile (Analysis (..))
 import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
 import Flange qualified
-import Frame.Frame (Frame (..))
+import Frame.Frame (Frame (increment, orders, speed))
 import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as FromPath
 import Generate qualified
@@ -16,8 +16,8 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Linear.V3 (V3 (..))
-import Machine.Lkp01f (lkp01f)
-import Machine.Machine (FeedCode (..))
+import Machine.Machine (FeedCode (..), Machine, OrderName (..))
+import Machines qualified
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
 import Path.Path (Path)
@@ -116,6 +116,9 @@ spec = do
     -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
     ways laid = [Segment.end (Path.segment m) | b <- take 1 (Path.blocks laid), m <- Path.moves b, Segment.length (Path.segment m) > Mm 0]
 
+lkp01f :: Machine
+lkp01f = Machines.named "lkp-01f"
+
 proofOf :: [Frame] -> Proof
 proofOf = Verify.prove lkp01f (path Flange.analysis) Flange.program
 
@@ -182,7 +185,7 @@ doubledFirst fs = case fs of
 -- | With an auxiliary command in the last frame.
 commanded :: [Frame] -> [Frame]
 commanded fs = case reverse fs of
-  f : rest -> reverse (f {auxiliary = 7} : rest)
+  f : rest -> reverse (f {orders = [(OrderName "aux", 7)]} : rest)
   [] -> []
 
 isNotFollowed :: Finding -> Bool

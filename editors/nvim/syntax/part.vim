@@ -17,7 +17,7 @@ syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel
 syntax keyword partPiece cipher joggle within first last
 syntax keyword partMilling outside inside left right on approach retract allowance
 " Words that may be names as well, where they begin a setting.
-syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|start\|plunge\|peck\)\>/
+syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\)\>/
 syntax keyword partCutter cone blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical
 syntax keyword partFunction parallel perpendicular circle concentric distance direction_of radius_of length_of x_of y_of spline

@@ -1,0 +1,286 @@
+-- | Arcs in whole pulses.
+--
+-- The ends of an arc are rounded as absolute positions. About them and a centre that is a lattice point the control
+-- walks: from the radius at the beginning to that at the end, evenly at best, all at once at worst. Of the lattice
+-- points near the true centre, and near the one that is equally far from both rounded ends, that is taken whose arc
+-- deviates least.
+--
+-- A control that ends arcs at the axes through their centres asks for more: the cuts lie, in whole pulses, exactly on these
+-- axes. So the centre is chosen first, for the whole arc, and the cuts are laid on its axes from there: what follows from
+-- whole numbers cannot be on the wrong side of an axis by rounding.
+module Frame.Arc
+  ( Step (..),
+    Room (..),
+    steps,
+  )
+where
+
+import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
+import Data.List (nub)
+import Data.Ord (comparing)
+import Frame.Pulses qualified as Pulses
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
+import Geometry.Shape qualified as Shape
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
+import Linear.V3 (V3 (..))
+import Machine.Machine (Arcs (..), Axis (..), Machine)
+import Machine.Machine qualified as Machine
+
+-- | A stop, and how it is reached: straight, or about a centre, which is counted from where the step begins.
+data Step = Step {stop :: V3 Pulses, about :: Maybe (Turn, V2 Pulses)}
+  deriving stock (Eq, Show)
+
+-- | How far the steps of an arc may leave it, rounding included.
+data Room = Room
+  { -- | those that are arcs, when the control goes evenly from the radius of their beginning to that of their end
+    roundly :: Mm,
+    -- | towards its centre, whatever they are and however the control goes
+    inwards :: Mm,
+    -- | away from its centre
+    outwards :: Mm
+  }
+  deriving stock (Eq, Show)
+
+-- | An arc to be walked.
+data Task = Task
+  { machine :: Machine,
+    room :: Room,
+    -- | how it is walked in chords, from a position
+    chorded :: V3 Pulses -> Segment -> [V3 Pulses],
+    height :: Mm
+  }
+
+-- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
+-- chords.
+steps :: Machine -> Room -> (V3 Pulses -> Segment -> [V3 Pulses]) -> Mm -> V3 Pulses -> Segment -> [Step]
+steps machine room chorded height = walk deepest Task {machine, room, chorded, height}
+
+-- | How often an arc is halved before it goes as chords.
+deepest :: Int
+deepest = 5
+
+walk :: Int -> Task -> V3 Pulses -> Segment -> [Step]
+walk left task begin s = case s of
+  Straight _ _ -> straight
+  Arc {sweep}
+    | isFlat (machine task) s && goesStraight task s (flat begin : map (flat . stop) straight) -> straight
+    | left <= 0 || not (holds task begin s) -> map alone (chorded task begin s)
+    | otherwise -> case best [a | c <- centres task begin finish s, Just a <- [attempt task begin finish s (sense sweep) c]] of
+      Just found -> found
+      Nothing ->
+        let (front, back) = Segment.cutAt 0.5 s
+            middle = place task (Segment.end front)
+         in walk (left - 1) task begin front <> walk (left - 1) task middle back
+  where
+    finish = place task (Segment.end s)
+    alone p = Step {stop = p, about = Nothing}
+    straight = map alone (Pulses.split (machine task) begin ((Segment.start s, height task), (Segment.end s, height task)))
+    sense (Rad a) = if a > 0 then CounterClockwise else Clockwise
+
+place :: Task -> Point -> V3 Pulses
+place task p = Pulses.rounded (machine task) (p, height task)
+
+-- | Whether an arc deviates from its chord by less than half a pulse.
+isFlat :: Machine -> Segment -> Bool
+isFlat machine s = Segment.bulge s < times 0.5 (Machine.pulse machine)
+
+-- | Whether straight steps from a position to the next ones stay as near to an arc as they have to: half a pulse of sagitta
+-- and the rounding of the ends add to more than a pulse.
+goesStraight :: Task -> Segment -> [V2 Pulses] -> Bool
+goesStraight task exact stops = case exact of
+  Straight _ _ -> True
+  Arc {start, centre} ->
+    let r = Segment.radius centre start
+        nearest = minimum (map (Distance.toPoint centre) ways)
+        furthest = maximum (map (Vec.distance centre) places)
+        left p = minimum (map (Distance.toPoint p) ways)
+        -- An arc that is dropped has nothing beside it.
+        missed = maximum [left (Segment.at (k / 8) exact) | k <- [0 .. 8]]
+     in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task) && missed <= max (inwards (room task)) (outwards (room task))
+  where
+    places = map (point task) stops
+    ways = zipWith Straight places (drop 1 places)
+
+-- | Whether the field of a centre holds the radius. A centre further away than its field holds would fit in parts of the
+-- arc only.
+holds :: Task -> V3 Pulses -> Segment -> Bool
+holds task (V3 x y _) s = case s of
+  Straight _ _ -> True
+  Arc {start, centre} -> all (< Machine.centreCapacity (machine task)) [abs (i - x), abs (j - y), ceiling (r / grain)]
+    where
+      V3 i j _ = place task centre
+      Mm r = Segment.radius centre start
+      Mm grain = minimum [Machine.pulseOf (machine task) axis | axis <- [X, Y]]
+
+-- | The lattice points to try as centres.
+centres :: Task -> V3 Pulses -> V3 Pulses -> Segment -> [V2 Pulses]
+centres task begin finish s = case s of
+  Straight _ _ -> []
+  Arc {centre} -> nub (concatMap around (centre : [level centre | begin /= finish]))
+  where
+    around c = let V3 i j _ = place task c in [V2 (i + di) (j + dj) | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
+    a = point task (flat begin)
+    b = point task (flat finish)
+    -- Equally far from both ends.
+    level c = let u = Vec.unit (Vec.to a b) in Vec.shift (Vec.scale (Vec.dot u (Vec.to c (Vec.between 0.5 a b))) u) c
+
+-- | So many pulses about a place the centre is looked for.
+neighbours :: Pulses
+neighbours = 2
+
+-- | Steps that have been tried, and how far they deviate.
+data Attempt = Attempt {way :: [Step], off :: Double}
+
+-- | The fewest steps; of several the truest.
+best :: [Attempt] -> Maybe [Step]
+best attempts = case attempts of
+  [] -> Nothing
+  first : others -> Just (way (foldl (\x y -> if comparing cost y x == LT then y else x) first others))
+  where
+    cost a = (length (way a), off a)
+
+-- | The arc about a lattice point, if the machine can walk it and it is true enough.
+attempt :: Task -> V3 Pulses -> V3 Pulses -> Segment -> Turn -> V2 Pulses -> Maybe Attempt
+attempt task begin finish s turn c = case s of
+  Straight _ _ -> Nothing
+  Arc {start, centre, sweep = Rad exact}
+    | null stops || (begin == finish && length stops == 1 && not (wholes && abs exact >= 2 * pi - Tolerance.equal)) -> Nothing
+    | all sound legs && and (zipWith near legs deviations) && abs (sum (map (swept task turn c) legs) - exact) <= slack -> Just (Attempt (map step legs) deviation)
+    | otherwise -> Nothing
+    where
+      stops = stopsAbout (machine task) (onAxes task (Segment.radius centre start) centre c) turn c (flat begin) (flat finish)
+      legs = zip (flat begin : stops) stops
+      deviations = map (deviate task s turn c) legs
+      deviation = maximum (map evenly deviations)
+      near leg d = isStraight leg || Mm (evenly d) <= roundly (room task) && Mm (innermost d) <= inwards (room task) && Mm (outermost d) <= outwards (room task)
+      Mm grain = Machine.pulse (machine task)
+      Mm r = Segment.radius centre start
+      -- An end moves by a pulse at most, and so does the centre beside it.
+      slack = min (pi / 2) (4 * grain / r)
+  where
+    wholes = case Machine.arcs (machine task) of
+      NoArcs -> False
+      Arcs {Machine.fullCircle} -> fullCircle
+    V3 _ _ z = finish
+    -- A piece that a cut left nearly straight is straight.
+    isStraight leg@(from, to) = isFlat (machine task) (arcOf task turn c leg) && goesStraight task s [from, to]
+    step leg@(from, V2 x y)
+      | isStraight leg = Step {stop = V3 x y z, about = Nothing}
+      | otherwise = Step {stop = V3 x y z, about = Just (turn, c - from)}
+    sound leg@(from, to) = from /= c && to /= c && maximum (abs <$> (c - from)) <= Machine.centreCapacity (machine task) && within (to - from) && level leg
+    within (V2 dx dy) = case Machine.measure (Machine.layout (machine task)) of
+      Machine.Positions -> True
+      Machine.Increments -> abs dx <= Machine.capacity (machine task) X && abs dy <= Machine.capacity (machine task) Y
+    -- The radii at the ends of a frame differ by no more than two pulses.
+    level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to); Mm p = Machine.pulse (machine task) in abs (a - b) <= 2 * p
+
+-- | Where the axes through a lattice point near the centre of a circle cross it, in pulses from there: to the right, to the left,
+-- upwards, downwards.
+data Crossings = Crossings {rightwards :: Pulses, leftwards :: Pulses, up :: Pulses, down :: Pulses}
+
+onAxes :: Task -> Mm -> Point -> V2 Pulses -> Crossings
+onAxes task (Mm r) true c = Crossings {rightwards = crossing X 1 dx dy, leftwards = -(crossing X (-1) dx dy), up = crossing Y 1 dy dx, down = -(crossing Y (-1) dy dx)}
+  where
+    off = Vec.to true (point task c)
+    dx = Vec.dot (Vec.vec 1 0) off
+    dy = Vec.dot (Vec.vec 0 1) off
+    crossing axis sign along across =
+      let Mm p = Machine.pulseOf (machine task) axis
+       in Pulses (max 1 (round ((sqrt (max 0 (r * r - across * across)) - sign * along) / p)))
+
+-- | Where the frames of an arc end, given its centre: at its end, and before that, for a control
+-- that asks it, wherever the arc crosses the axes through the centre. None if it cannot be in one turn.
+stopsAbout :: Machine -> Crossings -> Turn -> V2 Pulses -> V2 Pulses -> V2 Pulses -> [V2 Pulses]
+stopsAbout machine crossings turn c begin finish = case Machine.arcs machine of
+  NoArcs -> []
+  Arcs {Machine.quadrants}
+    | quadrants -> map (c +) (toAxes (5 :: Int) (begin - c))
+    | otherwise -> [finish]
+  where
+    goal = finish - c
+    toAxes left from
+      | inQuadrant turn from goal = [goal]
+      | left <= 0 || from == 0 || goal == 0 = []
+      | otherwise = let next = nextAxis turn crossings from in next : toAxes (left - 1) next
+
+-- | Whether an arc about zero goes from one place to another within a quadrant.
+inQuadrant :: Turn -> V2 Pulses -> V2 Pulses -> Bool
+inQuadrant turn (V2 a b) (V2 c d) = a * c >= 0 && b * d >= 0 && Shape.sense turn * fromIntegral (a * d - b * c) > 0
+
+-- | The next place on an axis on the way about zero.
+nextAxis :: Turn -> Crossings -> V2 Pulses -> V2 Pulses
+nextAxis turn at (V2 x y) = case turn of
+  CounterClockwise
+    | x > 0 && y >= 0 -> V2 0 (up at)
+    | x <= 0 && y > 0 -> V2 (leftwards at) 0
+    | x < 0 -> V2 0 (down at)
+    | otherwise -> V2 (rightwards at) 0
+  Clockwise
+    | x > 0 && y <= 0 -> V2 0 (down at)
+    | x <= 0 && y < 0 -> V2 (leftwards at) 0
+    | x < 0 -> V2 0 (up at)
+    | otherwise -> V2 (rightwards at) 0
+
+-- What is walked ----------------------------------------------------------------------------------
+
+flat :: V3 Pulses -> V2 Pulses
+flat (V3 x y _) = V2 x y
+
+-- | A lattice point in mm.
+point :: Task -> V2 Pulses -> Point
+point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
+  where
+    Mm px = Machine.pulseOf (machine task) X
+    Mm py = Machine.pulseOf (machine task) Y
+
+-- | One frame's arc about a centre; a full circle where it ends where it begins.
+arcOf :: Task -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Segment
+arcOf task turn c (from, to)
+  | from == to = Segment.Arc {start = a, end = a, centre = m, sweep = Rad (Shape.sense turn * 2 * pi)}
+  | otherwise = Segment.arc turn m a (point task to)
+  where
+    m = point task c
+    a = point task from
+
+swept :: Task -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Double
+swept task turn c leg = case arcOf task turn c leg of
+  Straight _ _ -> 0
+  Arc {sweep = Rad a} -> a
+
+-- | How far a frame's arc leaves the exact circle, in mm.
+data Deviation = Deviation
+  { -- | with the radius of its beginning all the way, or going evenly to that of its end
+    evenly :: Double,
+    -- | towards the centre at most, however the control goes from one radius to the other
+    innermost :: Double,
+    -- | and away from it
+    outermost :: Double
+  }
+
+-- | It is looked at in eighths, and where it is furthest from and nearest to the exact centre.
+deviate :: Task -> Segment -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Deviation
+deviate task exact turn c leg = case (exact, arcOf task turn c leg) of
+  (Arc {start = p, centre = true}, Arc {start = a, end = b, centre = m, sweep = Rad s}) ->
+    let Mm r = Segment.radius true p
+        Mm ra = Vec.distance m a
+        Mm rb = Vec.distance m b
+        out = Vec.to m a
+        aside = Vec.to true m
+        Rad toward = Vec.turn out aside
+        share angle = let t = angle * signum s in (if t < 0 then t + 2 * pi else t) / abs s
+        extremes = if Vec.norm aside > 0 then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)] else []
+        beyond radius t = let Mm d = Vec.distance true (Vec.shift (Vec.rotate (Rad (t * s)) (Vec.scale (radius / ra) out)) m) in d - r
+        places = extremes <> [k / 8 | k <- [0 .. 8]]
+        (first, final) = (map (beyond ra) places, map (beyond rb) places)
+     in Deviation
+          { evenly = maximum (zipWith max (map abs first) [abs (beyond (ra + t * (rb - ra)) t) | t <- places]),
+            innermost = -(minimum (first <> final)),
+            outermost = maximum (first <> final)
+          }
+  _ -> Deviation 0 0 0

@@ -1,0 +1,69 @@
+-- | Places in whole pulses: every position is rounded by itself, as an absolute position, so rounding never adds up.
+module Frame.Pulses
+  ( Place,
+    rounded,
+    heightAt,
+    isLevel,
+    split,
+    component,
+  )
+where
+
+import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
+import Data.List.NonEmpty (NonEmpty)
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Linear.V3 (V3 (..))
+import Machine.Machine (Axis (..), Machine, Measure (..))
+import Machine.Machine qualified as Machine
+import Path.Path (Move (..))
+
+-- | In the plane, and the height.
+type Place = (Point, Mm)
+
+-- | The nearest whole number of pulses on each axis; half a pulse goes up.
+rounded :: Machine -> Place -> V3 Pulses
+rounded machine (p, Mm z) = V3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
+  where
+    pulses axis x = let Mm step = Machine.pulseOf machine axis in Pulses (floor (x / step + 0.5))
+
+-- | The height at a fraction of a move.
+heightAt :: Double -> Move -> Mm
+heightAt t m
+  | t >= 1 = snd (heights m)
+  | otherwise = plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
+
+-- | Whether all moves keep one height, in whole pulses.
+isLevel :: Machine -> NonEmpty Move -> Bool
+isLevel machine ms = all (== minimum levels) levels
+  where
+    levels = foldMap (\m -> [level (fst (heights m)), level (snd (heights m))]) ms
+    level z = component Z (rounded machine (Vec.point 0 0, z))
+
+-- | The stops of a straight move, given the position where it begins in pulses and its exact ends: equal parts,
+-- each rounded by itself, as few as fit into the fields. Fields of positions hold a move of any length.
+split :: Machine -> V3 Pulses -> (Place, Place) -> [V3 Pulses]
+split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout machine) of
+  Positions -> [finish]
+  Increments -> first (filter fits (map parts [fewest .. fewest + spareParts]))
+  where
+    finish = rounded machine (b, zb)
+    fewest = maximum (1 : [needed axis d | (axis, d) <- axes (finish - begin)])
+    -- A machine without the axis is told so elsewhere.
+    needed axis (Pulses d) = let Pulses c = Machine.capacity machine axis in if d == 0 || c == 0 then 1 else (abs d + c - 1) `div` c
+    parts n = [rounded machine (Vec.between t a b, plus za (times t (minus zb za))) | k <- [1 .. n - 1], let { t = fromIntegral k / fromIntegral n }] <> [finish]
+    fits stops = and [abs d <= Machine.capacity machine axis | step <- zipWith (-) stops (begin : stops), (axis, d) <- axes step]
+    axes v = [(axis, d) | axis <- [X, Y, Z], let d = component axis v, d /= 0]
+    first xs = case xs of
+      x : _ -> x
+      [] -> [finish]
+
+-- | Rounding makes a part longer by a pulse at most: so many parts more are always enough on an axis with two digits.
+spareParts :: Int
+spareParts = 1000
+
+component :: Axis -> V3 a -> a
+component axis (V3 x y z) = case axis of
+  X -> x
+  Y -> y
+  Z -> z

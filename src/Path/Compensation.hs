@@ -1,0 +1,179 @@
+-- | What a control is sent that keeps the cutter beside the contour by itself (@G41@, @G42@).
+--
+-- It gets the edge of the part and makes the equidistant of it: the same moves as those of the path, if it is sent
+-- the right thing and nothing that it refuses. What controls do was measured on LinuxCNC 2.9:
+--
+-- * The first move under compensation goes straight from where the centre stands to where the offset of the programmed line and that
+--   of the next element meet. So the programmed line has to be the tangent from there to the cutter as it
+--   stands at its first place on the path, and the next element begins where it meets that line.
+-- * Round outer corners the control goes on arcs; the last corner of a closed contour it does only when something follows.
+-- * After the end it goes straight from the end of the offset to where it is sent.
+module Path.Compensation
+  ( Ways (..),
+    sent,
+    onward,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), plus, times)
+import Base.Region (Region)
+import Control.Monad (when)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Contour qualified as Contour
+import Geometry.Offset (Side (..))
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec qualified as Vec
+import Part.Part (Element, Milling)
+import Part.Part qualified as Part
+import Path.Error (Error (..), Unsent (..))
+import Path.Path (Move (..), Sent (Sent))
+import Path.Path qualified as Path
+
+-- | The moves of the centre in one pass: the way to the beginning, the lead in, those along the contour, the lead out, the way
+-- on.
+data Ways = Ways {before :: [Move], inwards :: [Move], cut :: NonEmpty Move, outwards :: [Move], behind :: [Move]}
+
+-- | What the control is sent for a pass, if it is to keep the cutter beside the contour; or why it can not. The place is that of
+-- the statement's first word.
+sent :: Region -> Milling -> Maybe Side -> Ways -> Either Error (Maybe Sent)
+sent keyword milling side ways = case Part.byControl milling of
+  Nothing -> Right Nothing
+  Just asked -> do
+    possible asked milling
+    s <- maybe (Left (NotForControl asked OnContour)) Right side
+    followable keyword asked milling s ways
+    let edge = programmed milling s ways
+    (before', entry, edge') <- entering keyword asked milling s (before ways) edge
+    (exit, behind') <- leaving keyword asked milling (NonEmpty.last edge') (behind ways)
+    Right (Just Sent {Path.before = before', Path.side = s, Path.entry = entry, Path.edge = edge', Path.exit = exit, Path.behind = behind'})
+
+-- | Nothing is asked that the edge of the part does not tell.
+possible :: Region -> Milling -> Either Error ()
+possible asked milling
+  | Just _ <- Part.gear milling = refused Swivelling
+  | Part.corners milling == Part.Sharp = refused SharpCorners
+  | any (> Mm 0) (Part.allowances milling) || any ((> Mm 0) . Part.allowance . Part.finish) (Part.elements (Part.contour milling)) = refused LeavingMaterial
+  | otherwise = Right ()
+  where
+    refused = Left . NotForControl asked
+
+-- | Every element and lead is one that a control can follow.
+followable :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
+followable keyword asked milling side ways = mapM_ long elements >> mapM_ wide elements >> mapM_ wideLead (inwards ways <> outwards ways) >> mapM_ bent (Contour.joints (Part.outline (Part.contour milling)))
+  where
+    elements = NonEmpty.toList (Part.elements (Part.contour milling))
+    radius@(Mm r) = Part.radius milling
+    long e = let l = Segment.length (Part.segment e) in when (l < Tolerance.controlLength) (Left (TinyForControl asked e l))
+    wide e = mapM_ (\old -> Left (TightForControl keyword asked (Just e) old radius)) (tooTight radius side (Part.segment e))
+    wideLead m = mapM_ (\old -> Left (TightForControl keyword asked Nothing old radius)) (tooTight radius side (uncovered radius side (segment m)))
+    bent (i, a, b) =
+      let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+          Rad least = Tolerance.controlBend
+          deep = Mm (r * (1 - cos turned))
+       in when (abs turned < least && deep > Tolerance.controlCut) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+    element :: Int -> Element
+    element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
+
+-- | The radius of an arc about whose inside the cutter has no room to roll.
+tooTight :: Mm -> Side -> Segment -> Maybe Mm
+tooTight radius side s = case s of
+  Straight _ _ -> Nothing
+  Arc {start, centre, sweep = Rad angle}
+    | signum angle == leftward side, old <- Segment.radius centre start, old < plus radius Tolerance.byControl -> Just old
+    | otherwise -> Nothing
+
+-- | +1 when the cutter is on the left.
+leftward :: Side -> Double
+leftward side = case side of
+  LeftOf -> 1
+  RightOf -> -1
+
+-- The edge
+
+-- | The edge of the part in the order of the walk, with the leads beside which the cutter goes.
+programmed :: Milling -> Side -> Ways -> NonEmpty Move
+programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
+  [] -> elements `followedBy` map lead outwards
+  l : more -> l :| more <> NonEmpty.toList elements <> map lead outwards
+  where
+    lead m = m {segment = uncovered (Part.radius milling) side (segment m)}
+    elements = NonEmpty.zipWith element (False :| repeat True) (Part.elements (Part.contour milling))
+    element isLater e = Move {segment = Part.segment e, heights = heights (NonEmpty.head cut), pace = maybe (Part.At (Part.feed milling)) Part.At (Part.ownFeed (Part.finish e)), braked = Part.slow (Part.finish e), origin = Part.origin e, continues = isLater && Part.continues e}
+    followedBy (e :| es) more = e :| es <> more
+
+-- | What a cutter touches whose centre moves along a segment.
+uncovered :: Mm -> Side -> Segment -> Segment
+uncovered (Mm r) side s = case s of
+  Straight a b -> let n = Vec.scale (-leftward side * r) (Vec.left (Vec.unit (Vec.to a b))) in Straight (Vec.shift n a) (Vec.shift n b)
+  Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
+    let Mm old = Segment.radius centre start
+        new = if signum angle == leftward side then old + r else old - r
+        moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
+     in Arc {start = moved start, end = moved end, centre, sweep}
+
+-- | Behind a closed contour that begins at an outer corner, a little further along its first element: a control goes round a
+-- corner only when something follows.
+onward :: Region -> Milling -> NonEmpty Offset.Piece -> [Move]
+onward keyword milling pieces = case (Part.byControl milling, Offset.origin (NonEmpty.last pieces)) of
+  (Just _, Offset.Around _) -> [Move (fst (Segment.cutAt share first)) (Mm 0, Mm 0) (Part.At (Part.feed milling)) False keyword False | l > 0]
+  _ -> []
+  where
+    first = Offset.segment (NonEmpty.head pieces)
+    Mm l = Segment.length first
+    share = min 1 (l / 2) / l
+
+-- The ways in and out
+
+-- | The moves up to where compensation is switched on, the straight on which that happens, and the edge from where that
+-- arrives. A long way in is divided: near the contour its direction is surely another than that of the edge.
+entering :: Region -> Region -> Milling -> Side -> [Move] -> NonEmpty Move -> Either Error ([Move], Move, NonEmpty Move)
+entering keyword asked milling side ways edge = case reverse ways of
+  m@Move {segment = Straight from to', heights = (z, z')} : earlier
+    | z == z',
+      Vec.distance from to' > Tolerance.coincident -> do
+      let whole@(Mm long) = Vec.distance from to'
+          on = if whole > times 3 radius then Vec.between (1 - 2 * r / long) from to' else from
+      begin <- meeting m on to'
+      let way = [m {segment = Straight from on, braked = False} | on /= from]
+      Right (reverse earlier <> way, m {segment = Straight on begin}, beginningAt begin)
+  _ -> Left (ShortForControl keyword asked True (Mm 0) radius)
+  where
+    radius@(Mm r) = Part.radius milling
+    first = NonEmpty.head edge
+    -- Where the tangent from a point to the cutter at its first place meets the line of the first element.
+    meeting m on to' = do
+      let Mm d = Vec.distance on to'
+          ahead = Segment.startDirection (segment first)
+          tangent = Vec.rotate (Rad (-leftward side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
+          Rad turned = Vec.turn tangent ahead
+          bend = leftward side * turned
+          begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
+          Rad least = Tolerance.controlBend
+      when (d <= r) (Left (ShortForControl (origin m) asked True (Mm d) radius))
+      when (bend < 2 * least || bend > furthestTurn) (Left (WrongWayForControl (origin m) asked to'))
+      let l = Vec.distance on begin
+      when (l <= plus radius Tolerance.byControl) (Left (ShortForControl (origin m) asked True l radius))
+      Right begin
+    beginningAt begin = case segment first of
+      Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
+      Arc {start} -> first {segment = Straight begin start, braked = False, continues = False} :| NonEmpty.toList edge
+
+-- | A way in turns by no more onto the first element: 175°. There that is lengthened backwards by 23 radii.
+furthestTurn :: Double
+furthestTurn = 35 / 36 * pi
+
+-- | The straight on which compensation is switched off, and the moves behind it.
+leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
+leaving keyword asked milling final ways = case ways of
+  m@Move {segment = Straight _ to', heights = (z, z')} : later | z == z' -> do
+    let l = Vec.distance from to'
+    when (l <= plus radius Tolerance.byControl) (Left (ShortForControl (origin m) asked False l radius))
+    Right (m {segment = Straight from to'}, later)
+  _ -> Left (ShortForControl keyword asked False (Mm 0) radius)
+  where
+    radius = Part.radius milling
+    from = Segment.end (segment final)

@@ -1,0 +1,266 @@
+-- | The rows of one frame read back, by the steps that wrote them.
+--
+-- What is read becomes a frame, and the frame is written again: rows that the layout would not have written are
+-- faults, whatever they are.
+module Tape.Reading
+  ( Fault (..),
+    readFrame,
+    expect,
+    difference,
+  )
+where
+
+import Base.Quantity (Pulses (..))
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.List (find)
+import Data.Maybe (fromMaybe, isJust)
+import Data.Word (Word8)
+import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame qualified as Frame
+import Geometry.Shape (Turn (..))
+import Linear.V2 (V2 (..))
+import Linear.V3 (V3 (..))
+import Machine.Machine (Axis (..), Content (..), FeedCode (..), Measure (..), MotionCodes (..), NumberForm (..), Presence (..), Word' (..))
+import Machine.Machine qualified as Machine
+import Tape.Damage (Reason (..))
+import Tape.Layout qualified as Layout
+import Tape.Numeral (Fault (..))
+import Tape.Numeral qualified as Numeral
+import Tape.Plan (Mark (..), Piece (..), Plan, Sense (..), Step (..))
+import Tape.Plan qualified as Plan
+import Tape.State (State (..))
+import Tape.State qualified as State
+import Tape.Symbol (Symbol)
+import Tape.Symbol qualified as Symbol
+
+-- | What the words of a frame say, each with the row of its number.
+data Reading = Reading
+  { found :: [(Content, Said)],
+    commands :: [(Machine.OrderName, Int)],
+    braked :: Bool,
+    -- | what the symbols add to so far
+    total :: Int,
+    -- | the row of the check digit, and of what the sum has to be a multiple
+    check :: Maybe (Int, Int)
+  }
+
+data Said = Said {at :: Int, number :: Int}
+
+-- | The frame that begins at a row, and the row behind it.
+readFrame :: Plan -> State -> ByteString -> Int -> Either Fault (Frame, Int)
+readFrame plan state rows begin = do
+  (reading, end) <- readSteps plan rows begin
+  case check reading of
+    Just (k, modulus) | total reading `mod` max 1 modulus /= 0 -> Left (Fault k Nothing (AddsTo (total reading) modulus))
+    _ -> Right ()
+  f <- frameOf plan state begin reading
+  lawful plan begin reading f
+  written plan rows begin end (Plan.frameMarks plan state f)
+  Right (f, end)
+
+-- | The words of a frame in order.
+readSteps :: Plan -> ByteString -> Int -> Either Fault (Reading, Int)
+readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
+  where
+    go behindWord todo now k = case todo of
+      [] -> Right (now, k)
+      Fixed cs : more -> do
+        next <- expect plan rows k cs
+        go False more (now {total = total now + weights cs}) next
+      Checked modulus : more -> do
+        d <- Numeral.digit plan Nothing rows k
+        go False more (now {total = total now + weightOf d, check = Just (k, modulus)}) (k + 1)
+      Worded w cs : more
+        | stands -> do
+          n <- Numeral.numeral plan (content w) (form w) rows (k + length prefix)
+          go True more (store w n now {total = total now + weights prefix + Numeral.total n}) (Numeral.next n)
+        | presence w == Always -> Left (mismatch plan (Just (content w)) rows k prefix)
+        | otherwise -> go behindWord more now k
+        where
+          prefix = if behindWord then Plan.between plan <> cs else cs
+          stands = matches rows k prefix && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows (k + length prefix))
+    weights cs = sum (map Symbol.weight cs)
+    weightOf = Symbol.digitWeight (Plan.symbols plan)
+    store w n now =
+      now
+        { found = (content w, Said (Numeral.start n) (Numeral.value n)) : found now,
+          commands = [(o, Numeral.value n) | Command o <- [content w]] <> Numeral.bits n <> commands now,
+          braked = braked now || Numeral.brakes n
+        }
+
+-- | Whether these symbols stand here.
+matches :: ByteString -> Int -> [Symbol] -> Bool
+matches rows k cs = case cs of
+  [] -> True
+  c : more -> k < ByteString.length rows && ByteString.index rows k == Symbol.holes c && matches rows (k + 1) more
+
+-- | The row behind symbols that have to stand here.
+expect :: Plan -> ByteString -> Int -> [Symbol] -> Either Fault Int
+expect plan rows k cs = if matches rows k cs then Right (k + length cs) else Left (mismatch plan Nothing rows k cs)
+
+-- | The first of some symbols that does not stand where it should.
+mismatch :: Plan -> Maybe Content -> ByteString -> Int -> [Symbol] -> Fault
+mismatch plan c rows k cs = case cs of
+  [] -> Fault k c NotBlank
+  s : more
+    | k >= ByteString.length rows -> Fault (ByteString.length rows - 1) c CutOff
+    | ByteString.index rows k == Symbol.holes s -> mismatch plan c rows (k + 1) more
+    | otherwise -> Fault k c (insteadOf plan (ByteString.index rows k) s)
+
+-- | Why a row is not the symbol that it should be.
+insteadOf :: Plan -> Word8 -> Symbol -> Reason
+insteadOf plan w s = case Numeral.blemish plan w of
+  Just why -> why
+  Nothing -> case Symbol.symbolAt (Plan.symbols plan) w of
+    _ | w == 0 -> Missing (Symbol.name s)
+    Nothing -> if Symbol.holes s == 0 then NotBlank else NoSymbol (Machine.tracks (Machine.medium (Plan.machine plan))) w
+    Just c
+      | or [Symbol.name a == c | Worded _ (a : _) <- Plan.steps plan] -> WordOutOfPlace c
+      | otherwise -> Unexpected c (Symbol.name s)
+
+-- The frame ---------------------------------------------------------------------------------------
+
+-- | The word that was read.
+saidOf :: Reading -> Content -> Maybe Said
+saidOf reading c = lookup c (found reading)
+
+-- | A fault of a word, or of the frame as a whole.
+faultOf :: Int -> Reading -> Content -> Reason -> Fault
+faultOf begin reading c why = case saidOf reading c of
+  Just s -> Fault (at s) (Just c) why
+  Nothing -> Fault begin Nothing why
+
+-- | The frame that the words make.
+frameOf :: Plan -> State -> Int -> Reading -> Either Fault Frame
+frameOf plan state begin reading = do
+  mapM_ (numbered plan state) (saidOf reading FrameNumber)
+  let moved = fmap Pulses (V3 (distance X) (distance Y) (distance Z))
+      V3 i j _ = State.signs axes * V3 (spoken (Centre X)) (spoken (Centre Y)) 0
+  m <- motionOf plan begin reading moved
+  code <- speedOf plan state begin reading m
+  pure
+    Frame
+      { motion = m,
+        increment = moved,
+        centre = fmap Pulses (V2 i j),
+        speed = FeedCode code,
+        braking = braked reading,
+        orders = [(o, v) | (o, zero) <- Plan.commands plan, let vs = [v' | (o', v') <- commands reading, o' == o], not (null vs), let v = sum vs, v /= 0 || zero]
+      }
+  where
+    axes = Plan.axes plan
+    spoken c = maybe 0 number (saidOf reading c)
+    distance a = case saidOf reading (Along a) of
+      Nothing -> 0
+      Just s ->
+        let n = State.along a (State.signs axes) * number s
+            Pulses here = State.along a (place state)
+         in case State.measure axes of
+              Increments -> n
+              Positions -> n - here
+
+-- | Frames are counted.
+numbered :: Plan -> State -> Said -> Either Fault ()
+numbered plan state s = case find ((== FrameNumber) . content) (Plan.ws plan) of
+  Just w
+    | let n = ordinal state `mod` 10 ^ digits (form w),
+      n /= number s ->
+      Left (Fault (at s) (Just FrameNumber) (WrongNumber (number s) n))
+  _ -> Right ()
+
+motionOf :: Plan -> Int -> Reading -> V3 Pulses -> Either Fault Motion
+motionOf plan begin reading moved = case [(w, codes) | w <- Plan.ws plan, Motion codes <- [content w]] of
+  [] -> Right (if moved == 0 then Still else Straightway)
+  (w, codes) : _ -> case saidOf reading (content w) of
+    Nothing
+      | moved == 0 -> Right Still
+      | otherwise -> Left (Fault begin Nothing MoveWithoutMotion)
+    Just s
+      | number s == straight codes -> if presence w == Always && moved == 0 then Right Still else moving s Straightway
+      | Just (number s) == rapid codes -> moving s Rapid
+      | Just (number s) == clockwise codes -> Right (Round (turned Clockwise CounterClockwise))
+      | Just (number s) == counterClockwise codes -> Right (Round (turned CounterClockwise Clockwise))
+      | otherwise -> wrong s (UnknownMotion (number s))
+    where
+      wrong s why = Left (Fault (at s) (Just (content w)) why)
+      moving s m = if moved == 0 then wrong s MotionWithoutMove else Right m
+  where
+    turned a b = if State.mirrored (Plan.axes plan) then b else a
+
+speedOf :: Plan -> State -> Int -> Reading -> Motion -> Either Fault Int
+speedOf plan state begin reading m = case (saidOf reading FeedWord, m) of
+  (Nothing, Still) -> Right 0
+  (Nothing, Rapid) -> Right 0
+  (Nothing, _) -> case feed state of
+    Just (FeedCode n) | changing -> Right n
+    _ -> wrong MoveWithoutSpeed
+  (Just s, Still) -> if number s == 0 then Right 0 else wrong (SpeedWithoutMove (number s))
+  (Just s, Rapid) -> if number s == 0 then Right 0 else wrong (SpeedWithoutMove (number s))
+  (Just s, _)
+    | changing && feed state == Just (FeedCode (number s)) -> wrong (SpeedRepeated (number s))
+    | isJust (Machine.valueOf (Plan.machine plan) (FeedCode (number s))) -> Right (number s)
+    | number s == 0 -> wrong MoveWithoutSpeed
+    | otherwise -> wrong (UnknownSpeed (number s))
+  where
+    changing = or [presence w == WhenChanged | w <- Plan.ws plan, content w == FeedWord]
+    wrong why = Left (faultOf begin reading FeedWord why)
+
+-- | The frame keeps the rules of frames.
+lawful :: Plan -> Int -> Reading -> Frame -> Either Fault ()
+lawful plan begin reading f
+  | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading FeedWord IdleFrame)
+  | otherwise = case Frame.invariants (Plan.machine plan) [f] of
+    [] -> Right ()
+    broken : _ -> Left (blame broken (Rule broken))
+  where
+    blame broken = case broken of
+      Frame.OverCapacity _ a _ -> faultOf begin reading (Along a)
+      Frame.BadCentre _ -> faultOf begin reading (Centre X)
+      Frame.NoSuchSpeed _ _ -> faultOf begin reading FeedWord
+      Frame.NoSuchMotion _ -> maybe (Fault begin Nothing) (faultOf begin reading) (motionWord plan)
+      Frame.NoSuchOrder _ o -> faultOf begin reading (Command o)
+      Frame.Idle _ -> faultOf begin reading FeedWord
+
+motionWord :: Plan -> Maybe Content
+motionWord plan = case [content w | w <- Plan.ws plan, Motion _ <- [content w]] of
+  c : _ -> Just c
+  [] -> Nothing
+
+-- | The rows of a frame are those that its marks are. A check digit that would be another one follows from the other rows:
+-- they are blamed first.
+written :: Plan -> ByteString -> Int -> Int -> [Mark] -> Either Fault ()
+written plan rows begin end = go begin (Right ())
+  where
+    go k before marks = case marks of
+      [] -> if k == end then before else Left (Fault (min k (end - 1)) Nothing (Otherwise "the end of the frame"))
+      m : more
+        | k >= end -> Left (Fault (max begin (end - 1)) (wordOf m) (Otherwise (Layout.meaning (Layout.row plan Nothing m))))
+        | ByteString.index rows k == holes m -> go (k + 1) before more
+        | CheckSymbol _ <- sense m -> go (k + 1) (Left (fault k m)) more
+        | otherwise -> Left (fault k m)
+    fault k m = Fault k (wordOf m) (difference plan (ByteString.index rows k) m)
+
+-- | The word that a mark is of.
+wordOf :: Mark -> Maybe Content
+wordOf m = case sense m of
+  InWord c _ _ -> Just c
+  Blank _ -> Nothing
+  Opening _ -> Nothing
+  Closing _ -> Nothing
+  Constant _ -> Nothing
+  Separator _ -> Nothing
+  CheckSymbol _ -> Nothing
+
+-- | Why a row is not the one that should stand there.
+difference :: Plan -> Word8 -> Mark -> Reason
+difference plan w m = fromMaybe specific (Numeral.blemish plan w)
+  where
+    table = Plan.symbols plan
+    wanted = Layout.meaning (Layout.row plan Nothing m)
+    specific = case sense m of
+      InWord _ _ (Digit d _ _ hole)
+        | Symbol.digitAt table w == Just d -> if hole then MarkerMissing else ServiceHole
+      InWord _ n (Lead d) | Just found <- Symbol.digitAt table w, n /= 0 -> WrongPriority found d
+      Blank _ -> NotBlank
+      _ -> Otherwise wanted

@@ -1,0 +1,163 @@
+-- | What a layout remembers from frame to frame.
+module Tape.State
+  ( State (..),
+    first,
+    rising,
+    Axes (..),
+    axes,
+    along,
+    number,
+    zeroCommands,
+    hasFeed,
+    after,
+  )
+where
+
+import Base.Quantity (Pulses (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, isJust)
+import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame qualified as Frame
+import Geometry.Shape (Turn (..))
+import Linear.V2 (V2 (..))
+import Linear.V3 (V3 (..))
+import Machine.Machine (Axis (..), AxisForm (..), Content (..), FeedCode (..), Machine, Measure (..), MotionCodes (..), NumberForm (..), OrderName, Presence (..), Word' (..))
+import Machine.Machine qualified as Machine
+
+data State = State
+  { -- | of the next frame, from 1
+    ordinal :: Int,
+    -- | where the cutter stands, along the axes of the part
+    place :: V3 Pulses,
+    -- | whether the tape has said the position of an axis
+    said :: V3 Bool,
+    -- | the feed said last
+    feed :: Maybe FeedCode
+  }
+  deriving stock (Eq, Show)
+
+-- | Before the first frame: whether the tape has to do with heights, and where the cutter stands. The first frame that
+-- moves says where it goes; its height only if that ever changes, since else it is set by hand.
+first :: Bool -> V3 Pulses -> State
+first rises start = State {ordinal = 1, place = start, said = V3 False False (not rises), feed = Nothing}
+
+-- | Whether frames change the height.
+rising :: [Frame] -> Bool
+rising = any (\f -> let V3 _ _ z = increment f in z /= 0)
+
+-- | How the axes of the tape lie to those of the part.
+data Axes = Axes
+  { measure :: Measure,
+    -- | 1, or −1 for an axis that points the other way
+    signs :: V3 Int,
+    -- | seen from the machine clockwise arcs of the part are counter-clockwise
+    mirrored :: Bool
+  }
+
+axes :: Machine -> Axes
+axes machine = Axes {measure = Machine.measure (Machine.layout machine), signs = V3 (sign X) (sign Y) (sign Z), mirrored = sign X /= sign Y}
+  where
+    sign :: Axis -> Int
+    sign a = if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
+
+-- | The component along an axis.
+along :: Axis -> V3 a -> a
+along a (V3 x y z) = case a of
+  X -> x
+  Y -> y
+  Z -> z
+
+-- | The number that a word of a frame holds; nothing where the frame has no such word.
+number :: Axes -> State -> Frame -> Word' -> Maybe Int
+number system state frame word = case content word of
+  FrameNumber -> standing (presence word /= InMotion || moving) (ordinal state `mod` 10 ^ digits (form word))
+  Motion codes -> standing (presence word == Always || moving) (motionNumber (mirrored system) codes (motion frame))
+  Along a -> standing (axisStands system state frame (presence word) a) (axisNumber system state frame a)
+  Centre a -> standing (centreStands (presence word)) (centreNumber a)
+  FeedWord -> standing (feedStands (presence word)) code
+  Command o -> commandNumber (presence word) o
+  where
+    standing yes n = if yes then Just n else Nothing
+    moving = Frame.isMoving frame
+    FeedCode code = speed frame
+    centreNumber a = let V2 (Pulses i) (Pulses j) = centre frame in along a (signs system * V3 i j 0)
+    centreStands p = case p of
+      Always -> True
+      InMotion -> moving
+      WhenNeeded -> isArc frame
+      WhenChanged -> isArc frame
+    feedStands p = case p of
+      Always -> True
+      InMotion -> moving
+      WhenNeeded -> hasFeed frame
+      WhenChanged -> hasFeed frame && feed state /= Just (speed frame)
+    commandNumber p o = case p of
+      Always -> Just (fromMaybe 0 (given o))
+      InMotion -> if moving then Just (fromMaybe 0 (given o)) else given o
+      WhenNeeded -> given o
+      WhenChanged -> given o
+    given :: OrderName -> Maybe Int
+    given o = lookup o (orders frame)
+
+-- | Whether 0 in the word of a command is a command: where the word stands without one, 0 says that there is none.
+zeroCommands :: Word' -> Bool
+zeroCommands word = case presence word of
+  Always -> False
+  InMotion -> False
+  WhenNeeded -> True
+  WhenChanged -> True
+
+-- | Which number says a motion. A frame without motion that must say one says a straight move.
+motionNumber :: Bool -> MotionCodes -> Motion -> Int
+motionNumber mirror codes m = case m of
+  Still -> straight codes
+  Straightway -> straight codes
+  Rapid -> fromMaybe (straight codes) (rapid codes)
+  Round turn
+    | (turn == Clockwise) /= mirror -> fromMaybe (straight codes) (clockwise codes)
+    | otherwise -> fromMaybe (straight codes) (counterClockwise codes)
+
+isArc :: Frame -> Bool
+isArc frame = case motion frame of
+  Round _ -> True
+  Still -> False
+  Rapid -> False
+  Straightway -> False
+
+-- | Whether the frame moves at a feed.
+hasFeed :: Frame -> Bool
+hasFeed frame = case motion frame of
+  Round _ -> True
+  Straightway -> True
+  Still -> False
+  Rapid -> False
+
+axisStands :: Axes -> State -> Frame -> Presence -> Axis -> Bool
+axisStands system state frame p a = case p of
+  Always -> True
+  InMotion -> Frame.isMoving frame
+  WhenNeeded -> needed
+  WhenChanged -> needed
+  where
+    needed = Frame.isMoving frame && (along a (increment frame) /= 0 || measure system == Positions && not (along a (said state)))
+
+axisNumber :: Axes -> State -> Frame -> Axis -> Int
+axisNumber system state frame a = along a (signs system) * n
+  where
+    Pulses n = case measure system of
+      Increments -> along a (increment frame)
+      Positions -> along a (place state) + along a (increment frame)
+
+-- | After a frame with words.
+after :: Axes -> [Word'] -> State -> Frame -> State
+after system ws state frame =
+  State
+    { ordinal = ordinal state + 1,
+      place = place state + increment frame,
+      said = case measure system of
+        Increments -> said state
+        Positions -> V3 (saidOf X) (saidOf Y) (saidOf Z),
+      feed = if hasFeed frame then Just (speed frame) else feed state
+    }
+  where
+    saidOf a = along a (said state) || or [isJust (number system state frame w) | w <- ws, content w == Along a]

@@ -1,0 +1,156 @@
+-- | The law of the model of a control that keeps the cutter beside the contour: LinuxCNC makes the same of the same tape, be it
+-- the compiler's own or a damaged one.
+module Control.CompensationSpec (spec) where
+
+import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Region (Located (..))
+import Base.Result qualified as Result
+import Command (inFolder)
+import Control.Compensation (Moved (..), Unkept (..))
+import Control.Compensation qualified as Compensation
+import Control.Walk qualified as Walk
+import Data.ByteString qualified as ByteString
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame qualified as Frame
+import Frame.FromPath qualified as FromPath
+import Generate.ByControl qualified as ByControl
+import Geometry.Segment (Segment (Arc, Straight, sweep))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
+import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
+import Linear.V3 (V3 (..))
+import LinuxCnc qualified
+import Machine.Machine (OrderName (..))
+import Machines (iso6983)
+import Part.Part qualified as Part
+import System.FilePath ((</>))
+import Tape.Punch qualified as Punch
+import Tape.Tape (Tape (..))
+import Test.Hspec
+import Test.QuickCheck hiding (within)
+
+spec :: Spec
+spec = do
+  present <- runIO LinuxCnc.installed
+  describe "the model of a control" $ do
+    if present
+      then do
+        it "does what LinuxCNC does, with tapes of its own (catches a corner, a way in or a way out that goes otherwise)" $
+          compared (Mm 0.001) pure
+        it "does what LinuxCNC does, with damaged tapes, and refuses whatever LinuxCNC refuses (catches a damage that is judged by what was meant)" $
+          compared (Mm 0.03) damaged
+      else it "does what LinuxCNC does" (pendingWith "rs274 is not installed (scripts/setup.sh installs linuxcnc-uspace)")
+    it "refuses what a control refuses, for that reason" $
+      [(what, expected, snd (Compensation.run iso6983 (const (Mm 0)) 0 fs)) | (what, expected, fs) <- refusals, snd (Compensation.run iso6983 (const (Mm 0)) 0 fs) /= expected] `shouldBe` []
+
+-- | So near to what LinuxCNC does; where shortened ways meet at a small angle, the radii of an arc, which rounding makes differ at its ends, tell
+-- a little more or less.
+compared :: Mm -> ([Frame] -> Gen [Frame]) -> Property
+compared close change =
+  withMaxSuccess 150 $
+    forAll ByControl.cases $ \(_, job) -> case programOf job of
+      Nothing -> property Discard
+      Just (begin, own) -> forAll (change own) $ \fs -> ioProperty $ do
+        made <- interpreted begin fs
+        let (moved, unkept) = Compensation.run iso6983 (const (Mm 0)) begin fs
+            broken = Frame.invariants iso6983 fs
+        pure $ case made of
+          Left why -> classify True "refused" (counterexample (show (why, unkept)) (not (null unkept) || not (null broken) || Text.isInfixOf "Radius to end of arc" why))
+          -- The model may be more narrow.
+          Right walked
+            | not (null unkept) || not (null broken) || any flat fs -> classify True "refused by the model alone" (property True)
+            | otherwise -> let found = differences close (concatMap (NonEmpty.toList . legs) moved) (map LinuxCnc.segment walked) in counterexample (unlines found <> show fs) (null found)
+  where
+    flat f = case motion f of
+      Round _ -> not (Walk.isRound f)
+      _ -> False
+
+-- | The frames of a milling, from where.
+programOf :: Part.Milling -> Maybe (V3 Pulses, [Frame])
+programOf job = do
+  from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach job]
+  path <- ByControl.path (Vec.shift (Vec.vec 7 5) from) job
+  program <- Result.output (FromPath.quantise iso6983 path)
+  Just (Frame.start program, map Frame.frame (Frame.planned program))
+
+-- | What LinuxCNC makes of frames. It stands at the zero of the part, and is moved to their beginning.
+interpreted :: V3 Pulses -> [Frame] -> IO (Either Text [LinuxCnc.Way])
+interpreted begin fs = inFolder $ \folder -> do
+  let file = folder </> "a.ngc"
+      onto = [(Frame.still []) {motion = Rapid, increment = begin} | begin /= 0]
+      Tape rows = Punch.write iso6983 0 (onto <> fs)
+  ByteString.writeFile file rows
+  fmap (drop (length onto) . LinuxCnc.ways 0) <$> LinuxCnc.canonical file
+
+-- | Where the moves are not the same, one by one. Those that are no longer than the rounding of what is printed may be left out.
+differences :: Mm -> [Segment] -> [Segment] -> [String]
+differences close model real = case (model, real) of
+  ([], []) -> []
+  (m : ms, r : rs) | same m r -> differences close ms rs
+  (m : ms, _) | tiny m -> differences close ms real
+  (_, r : rs) | tiny r -> differences close model rs
+  _ -> ["the model: " <> show (take 1 model) <> ", LinuxCNC: " <> show (take 1 real)]
+  where
+    tiny s = Vec.distance (Segment.start s) (Segment.end s) < Mm 0.003
+    near p q = Vec.distance p q < close
+    same a b =
+      near (Segment.start a) (Segment.start b) && near (Segment.end a) (Segment.end b) && case (a, b) of
+        (Straight _ _, Straight _ _) -> True
+        (Arc {Segment.centre = c, sweep = Rad x}, Arc {Segment.centre = d, sweep = Rad y}) -> near c d && signum x == signum y
+        _ -> False
+
+-- | One number changed.
+damaged :: [Frame] -> Gen [Frame]
+damaged own = do
+  n <- elements [k | (k, f) <- zip [0 ..] own, Frame.isMoving f]
+  d <- Pulses <$> elements [1, -1, 10, -10, 300, -300, 5000, -5000]
+  let f = own !! n
+      with f' = take n own <> [f'] <> drop (n + 1) own
+      madeUp f' = case drop (n + 1) own of
+        g : rest | Frame.isMoving g -> take n own <> [f', g {increment = increment g + increment f - increment f'}] <> rest
+        _ -> with f'
+  frequency
+    [ (2, pure (madeUp f {increment = increment f + V3 d 0 0})),
+      (2, pure (madeUp f {increment = increment f + V3 0 d 0})),
+      (1, pure (take n own <> drop (n + 1) own)),
+      (1, pure (with f {orders = [(o, if o `elem` [OrderName "left", OrderName "right"] then v + let Pulses k = abs d in k else v) | (o, v) <- orders f]})),
+      (1, pure (map exchanged own)),
+      (1, pure (with (if centre f == 0 then f else f {centre = centre f + V2 d d})))
+    ]
+
+exchanged :: Frame -> Frame
+exchanged f = f {orders = [(other o, v) | (o, v) <- orders f]}
+  where
+    other o
+      | o == OrderName "left" = OrderName "right"
+      | o == OrderName "right" = OrderName "left"
+      | otherwise = o
+
+-- | Frames, and why they are refused.
+refusals :: [(String, [Unkept], [Frame])]
+refusals =
+  [ ("a good one", [], good),
+    ("a short way in", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
+    ("a way in straight up", [ShortEntry 1 (Mm 0) (Mm 10)], (begun 0) {increment = V3 0 0 1000} : drop 1 good),
+    ("an arc to begin with", [RoundEntry 1], (begun 40) {motion = Round CounterClockwise, centre = V2 20000 0} : drop 1 good),
+    ("an arc to end with", [RoundExit 4], take 3 good <> [(straight (-40) 0) {motion = Round Clockwise, centre = V2 (-20000) 0, orders = [(OrderName "release", 0)]}]),
+    ("an arc as tight as the cutter", [TightArc 3 (Mm 10) (Mm 10)], take 2 good <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = V2 (-10000) 0}] <> drop 3 good),
+    ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
+    ("on twice", [OnTwice 2], [begun 40, (straight 0 50) {orders = [(OrderName "left", 20000)]}] <> drop 2 good),
+    ("on twice at once", [OnTwice 1], (begun 40) {orders = [(OrderName "left", 20000), (OrderName "right", 20000)]} : map (\f -> f {orders = []}) (drop 1 good)),
+    ("a tool changed meanwhile", [ToolChanged 2], [begun 40, Frame.still [(OrderName "T", 2), (OrderName "M", 6)]] <> drop 1 good),
+    ("another command meanwhile", [], [begun 40, Frame.still [(OrderName "M", 8)]] <> drop 1 good),
+    ("never off", [NeverReleased 3], take 3 good)
+  ]
+  where
+    good = [begun 40, straight 0 50, straight 50 0, off]
+    begun x = (straight x 0) {orders = [(OrderName "left", 20000)]}
+    off = (straight 0 40) {orders = [(OrderName "release", 0)]}
+    straight x y = (Frame.still []) {motion = Straightway, increment = V3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0}
+      where
+        _ = x + y :: Double

@@ -1,0 +1,87 @@
+-- | Frames for the laws: programs compiled as far as the path, and what the frames walk.
+module Frame.Made
+  ( pathOf,
+    along,
+    made,
+    program,
+    walked,
+    arcsIn,
+    roundly,
+    worstOff,
+    nodesOf,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..), Region (Region))
+import Base.Result (Result)
+import Base.Result qualified as Result
+import Checked.FromSurface qualified as Checked
+import Data.Functor.Identity (runIdentity)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
+import Frame.Error (Error, Warning)
+import Frame.Frame (Frame (..), Planned (frame), Program (planned))
+import Frame.Frame qualified as Frame
+import Frame.FromPath qualified as FromPath
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Machine.Machine (Machine)
+import Part.FromChecked qualified as Part
+import Part.Part (Pace, Spot (Spot))
+import Path.FromPart qualified as Path
+import Path.Path (Block (..), Move (Move), Path (Path))
+import Path.Path qualified as Path
+import Surface.Assign qualified as Surface
+import Surface.Import qualified as Surface
+
+-- | The path of a program that has no mistakes.
+pathOf :: Text -> Path
+pathOf text = need "path" (Path.lay part)
+  where
+    loaded = runIdentity (Surface.load (const (pure (Left ""))) "test.part" text)
+    assigned = need "assignments" (Surface.assign [] (need "syntax" (Surface.surface loaded)))
+    part = need "part" (Part.evaluate (need "types" (Checked.check assigned)))
+    need :: String -> Result w e a -> a
+    need what = fromMaybe (error ("the program of the test has no " <> what)) . Result.output
+
+-- | A path without cutting along segments that follow one another, at one height.
+along :: Pace -> [Segment] -> Path
+along pace segments = case segments of
+  [] -> error "a path of nothing"
+  s : _ -> Path (Located nowhere (Spot (Segment.start s) (Mm 0))) [Travelling (Mm 0) [Move x (Mm 0, Mm 0) pace False nowhere False | x <- segments]]
+  where
+    nowhere = Region 0 0
+
+made :: Machine -> Path -> Result Warning Error Program
+made = FromPath.quantise
+
+program :: Machine -> Path -> Maybe Program
+program machine = Result.settled . made machine
+
+-- | What each frame does in the plane.
+walked :: Machine -> Program -> [Segment]
+walked machine p = zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
+  where
+    frames = map frame (planned p)
+
+roundly :: Frame -> Bool
+roundly f = case motion f of
+  Frame.Round _ -> True
+  _ -> False
+
+arcsIn :: Program -> Int
+arcsIn = length . filter (roundly . frame) . planned
+
+-- | How far the points of some segments are from others: in 24ths, or fewer where there are many.
+worstOff :: [Segment] -> [Segment] -> Double
+worstOff those these = maximum (0 : [minimum [d | s <- those, let Mm d = Distance.toPoint p s] | t <- these, k <- [0 .. parts], let p = Segment.at (fromIntegral k / fromIntegral parts) t])
+  where
+    parts = max 2 (min 24 (1000 `div` max 1 (length these))) :: Int
+
+-- | The ends of the moves along contours.
+nodesOf :: Path -> [Point]
+nodesOf path = [Segment.end (Path.segment m) | Cutting {cut} <- Path.blocks path, m <- NonEmpty.toList cut]

@@ -1,0 +1,74 @@
+-- | Millings beside random contours that a control is to keep the cutter beside by itself.
+module Generate.ByControl
+  ( cases,
+    firstAndLast,
+    laid,
+    path,
+    beginning,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Located (..), Region (..))
+import Base.Result qualified as Result
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, listToMaybe)
+import Generate (Case (..))
+import Generate qualified
+import Geometry.Offset (Side (..))
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Milling, Operation (..))
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
+import Path.Path (Path)
+import Path.Path qualified as Path
+import Test.QuickCheck
+
+-- | A contour with a way in that comes from its beginning's free side, and a way out.
+cases :: Gen (Case, Milling)
+cases = do
+  c <- oneof [Generate.closedCase, Generate.openCase, Generate.smoothCase]
+  far <- choose (1.2, 9)
+  angle <- choose (-0.4, 2)
+  lead <- elements [Nothing, Just (Part.LeadLine, Mm 3), Just (Part.LeadArc, Mm 2)]
+  out <- elements [Nothing, Just (Part.LeadLine, Mm 1), Just (Part.LeadArc, Mm 4)]
+  let plain = (Generate.job c) {Part.approach = [], Part.leadIn = lead, Part.leadOut = out}
+  pure $ case firstAndLast plain of
+    Nothing -> (c, plain)
+    Just (begin, finish) ->
+      let Mm r = radius c
+          free = if side c == LeftOf then -1 else 1
+          -- Back along the first move and then to the free side.
+          from = Vec.shift (Vec.scale (-(far * r)) (Vec.rotate (Rad (free * angle)) (Segment.startDirection begin))) (Segment.start begin)
+          to' = Vec.shift (Vec.scale (3 * r) (Vec.rotate (Rad (-(free * 0.5))) (Segment.endDirection finish))) (Segment.end finish)
+       in (c, plain {Part.approach = [stop from], Part.retract = [stop to'], Part.byControl = Just nowhere})
+  where
+    stop p = Part.Stop (Located nowhere p) Nothing Part.Rapid
+
+-- | The first and the last move of the cutter beside a contour, leads included.
+firstAndLast :: Milling -> Maybe (Segment, Segment)
+firstAndLast job = case laid (beginning job) job of
+  Just (Path.Cutting {Path.approach, Path.cut, Path.retract} : _) ->
+    let leads = [Path.segment m | m <- reverse (take 1 (reverse approach)), Just _ <- [Part.leadIn job]]
+        cuts = fmap Path.segment cut
+        behind = map Path.segment retract
+     in Just (fromMaybe (NonEmpty.head cuts) (listToMaybe leads), fromMaybe (NonEmpty.last cuts) (listToMaybe (reverse behind)))
+  _ -> Nothing
+
+-- | The blocks of a milling from a point.
+laid :: Point -> Milling -> Maybe [Path.Block]
+laid at job = Path.blocks <$> path at job
+
+-- | The path of a milling from a point.
+path :: Point -> Milling -> Maybe Path
+path at job = Result.output (FromPart.lay (Generate.partOf at (Mill (Located nowhere job))))
+
+-- | Where the contour begins.
+beginning :: Milling -> Point
+beginning job = Segment.start (Part.segment (NonEmpty.head (Part.elements (Part.contour job))))
+
+nowhere :: Region
+nowhere = Region 0 0

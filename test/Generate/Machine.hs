@@ -1,0 +1,347 @@
+-- | Random machines within the limits of their language, and random frames for them.
+--
+-- A layout can be read only if a reader knows at every row what may stand there: words that may be missing have
+-- addresses with beginnings of their own, numbers of unknown length are followed by something that is no digit, and
+-- where blank rows between frames are passed over a frame begins with a hole.
+module Generate.Machine (machine, frames) where
+
+import Base.Quantity (Mm (..), Pulses (..))
+import Data.Bits (shiftL, (.|.))
+import Data.Char (intToDigit, ord)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (isNothing)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Word (Word8)
+import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame qualified as Frame
+import Geometry.Shape (Turn (..))
+import Linear.V2 (V2 (..))
+import Linear.V3 (V3 (..))
+import Machine.Machine hiding (braking, choose, orders)
+import Machine.Machine qualified as Machine
+import Test.QuickCheck
+
+machine :: Gen Machine
+machine = oneof [inPlaces, lettered, printed]
+
+-- | What all kinds of machines share.
+data Shared = Shared {used :: [Axis], motions :: Maybe MotionCodes, arcKind :: Arcs, how :: Measure, feedTable :: FeedCodes, feedDigits :: Int, bottom :: Machine}
+
+shared :: Gen Shared
+shared = do
+  used <- shuffle =<< elements [[X, Y], [X, Y, Z], [X], [Z, Y]]
+  moving <- arbitrary
+  codes <- shuffle [0 .. 9]
+  quick <- arbitrary
+  let arcsFit = X `elem` used && Y `elem` used
+      motions = case codes of
+        a : b : c : d : _ | moving -> Just (MotionCodes (if quick then Just a else Nothing) b (if arcsFit then Just c else Nothing) (if arcsFit then Just d else Nothing))
+        _ -> Nothing
+  arcKind <- if moving && arcsFit then oneof [pure NoArcs, Arcs <$> arbitrary <*> arbitrary] else pure NoArcs
+  how <- elements [Increments, Positions]
+  feedDigits <- choose (1, 4)
+  feedTable <- feedCodes feedDigits
+  forms <- traverse (\a -> AxisForm a . Mm <$> elements [0.001, 0.01, 0.02] <*> arbitrary <*> arbitrary <*> pure True) used
+  let bottom =
+        Machine
+          { name = MachineName "random",
+            title = "",
+            medium = Medium {tracks = 8, pitch = Just (Mm 2.54), suffix = "tape", leader = 0, gap = 0, evenShift = 0, spare = Counted, opening = "", closing = ""},
+            code = Code {codeName = "random", symbols = Map.empty, weights = Map.empty, evenTrack = Nothing, serviceTrack = Nothing, skips = []},
+            axes = NonEmpty.fromList forms,
+            arcs = arcKind,
+            layout = Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
+            feeds = Feeds AlongPath feedTable NotAbove Highest,
+            Machine.braking = Braking 5 SlowFrames,
+            Machine.orders = noOrders,
+            limits = Limits Nothing,
+            facts = []
+          }
+  pure Shared {used, motions, arcKind, how, feedTable, feedDigits, bottom}
+
+-- | Codes that a feed word of so many digits can hold: a range, a list, a formula's values.
+feedCodes :: Int -> Gen FeedCodes
+feedCodes n = oneof [Direct 1 <$> choose (1, most), list, formula]
+  where
+    most = 10 ^ n - 1
+    list = do
+      k <- choose (1, 9)
+      cs <- vectorOf k (choose (0, most))
+      vs <- vectorOf k (choose (1, 1000))
+      pure (Listed (Map.fromList (zip (map FeedCode cs) vs)))
+    formula = pure (Listed (Map.fromList [(FeedCode c, 10 * 10 ** (fromIntegral c / 20)) | c <- [0 .. min most 40]]))
+
+-- Digits in their places --------------------------------------------------------------------------
+
+-- | Words without addresses that stand in every frame; signs, commands and marks in the service track.
+inPlaces :: Gen Machine
+inPlaces = do
+  s <- shared
+  tracks <- choose (5, 8)
+  spareTracks <- shuffle [5 .. tracks]
+  evenTrack <- elements (Nothing : map Just (take 1 (drop 1 spareTracks)))
+  tetrads <- frequency [(1, pure [0 .. 9]), (1, pure [0x0, 0x1, 0x5, 0x6, 0x7, 0x8, 0x9, 0xA, 0xB, 0xF]), (2, take 10 <$> shuffle [0 .. 15])]
+  let serviceTrack = case spareTracks of
+        k : _ -> k
+        [] -> 5
+      marker = 0x0F .|. (1 `shiftL` (serviceTrack - 1)) :: Word8
+  marked <- arbitrary
+  spare <- if marked then elements [Counted, Skipped] else pure Counted
+  modulus <- elements [Nothing, Just 10, Just 9, Just 7, Just 2]
+  front <- arbitrary
+  ws <- placed s
+  let check = [CheckDigit m | Just m <- [modulus]]
+      body = if front then check <> map AWord ws else map AWord ws <> check
+  medium' <- mediumOf tracks spare (if marked then "*" else "")
+  pure
+    (bottom s)
+      { medium = medium',
+        code =
+          Code
+            { codeName = "random",
+              symbols = Map.fromList (('*', marker) : zip (map intToDigit [0 .. 9]) tetrads),
+              weights = Map.fromList (zip (map intToDigit [0 .. 9]) [0 ..]),
+              evenTrack,
+              serviceTrack = Just serviceTrack,
+              skips = []
+            },
+        layout = Layout {items = NonEmpty.fromList ([Literal "*" | marked] <> body), measure = how s, separator = ""}
+      }
+
+-- | The words of a layout of places, in any order.
+placed :: Shared -> Gen [Word']
+placed s = do
+  axisDigits <- choose (2, 6)
+  centreDigits <- choose (2, 6)
+  numberDigits <- choose (0, 3)
+  orderBits <- arbitrary
+  orderWord <- arbitrary
+  axisWords <- traverse (\a -> signed (Along a) axisDigits (if orderBits && [a] == take 1 (used s) then [OrderBit (OrderName "bits") (k - 1) | k <- [axisDigits - 1, axisDigits - 2 .. 1]] else [])) (used s)
+  centreWords <- traverse (\a -> signed (Centre a) centreDigits []) (if arcKind s == NoArcs then [] else [X, Y])
+  mark <- elements [Marker, BrakingHole, NoHole]
+  shuffle
+    ( axisWords <> centreWords
+        <> [plain FrameNumber numberDigits [] | numberDigits > 0]
+        <> [plain (Motion m) 1 [] | Just m <- [motions s]]
+        <> [plain FeedWord (feedDigits s) [mark]]
+        <> [plain (Command (OrderName "word")) 2 [] | orderWord]
+    )
+  where
+    plain c n sv = Word' "" c (form n Unsigned sv) Always
+    signed c n sv = pure (Word' "" c (form n ServiceSign (MinusHole : sv)) Always)
+    form n sg sv = NumberForm {digits = n, padded = True, decimals = 0, sign = sg, service = take n (sv <> repeat NoHole)}
+
+mediumOf :: Int -> Spare -> Text -> Gen Medium
+mediumOf tracks spare mark = do
+  leader <- choose (0, 30)
+  gap <- choose (0, 3)
+  evenShift <- choose (0, 2)
+  opening <- elements ["", mark, mark <> mark]
+  closing <- elements ["", mark <> mark]
+  pure Medium {tracks, pitch = Just (Mm 2.54), suffix = "tape", leader, gap, evenShift, spare, opening, closing}
+
+-- Letters -----------------------------------------------------------------------------------------
+
+-- | Words with letters of one track more than the digits, an end of frame, and a check digit of any modulus.
+lettered :: Gen Machine
+lettered = do
+  s <- shared
+  tracks <- choose (5, 8)
+  evenTrack <- if tracks > 5 then elements [Nothing, Just tracks] else pure Nothing
+  letters <- shuffle "АБВГДЕЖИКЛМНПС"
+  modulus <- choose (2, 10)
+  checked <- elements [0, 1, 2 :: Int]
+  spare <- elements [Counted, Skipped]
+  let letterRows = zip letters (map (16 .|.) [0 .. 15])
+      (begin, end, addresses) = case letters of
+        a : b : more -> (Text.singleton a, Text.singleton b, map Text.singleton more)
+        _ -> ("А", "Б", [])
+      check k = [CheckDigit modulus | checked == k]
+  ws <- addressed s addresses digitSigns
+  medium' <- mediumOf tracks spare begin
+  pure
+    (bottom s)
+      { medium = medium',
+        code =
+          Code
+            { codeName = "random",
+              symbols = Map.fromList (zip (map intToDigit [0 .. 9]) [0 ..] <> letterRows),
+              weights = Map.fromList (zip (map intToDigit [0 .. 9]) [0 ..] <> zip letters [0 ..]),
+              evenTrack,
+              serviceTrack = Nothing,
+              skips = [0x1F | spare == Skipped, isNothing evenTrack]
+            },
+        layout = Layout {items = NonEmpty.fromList ([Literal begin | spare == Skipped] <> check 1 <> map AWord ws <> check 2 <> [Literal end]), measure = how s, separator = ""}
+      }
+  where
+    digitSigns = do
+      ds <- shuffle [0 .. 9]
+      pure $ case ds of
+        a : b : c : d : _ -> Priority a b c d
+        _ -> Priority 5 6 1 2
+
+-- | Words with addresses, some of which stand only where they are needed.
+addressed :: Shared -> [Text] -> Gen Sign -> Gen [Word']
+addressed s addresses signs = do
+  sg <- signs
+  width <- choose (1, 6)
+  decimal <- elements [0, min 3 (width - 1)]
+  full <- arbitrary
+  count <- choose (0, 3)
+  let pad = full || simple sg
+      axisForm' = NumberForm {digits = width, padded = pad, decimals = if simple sg then 0 else decimal, sign = sg, service = []}
+      plain n = NumberForm {digits = n, padded = pad, decimals = 0, sign = Unsigned, service = []}
+      contents =
+        [(FrameNumber, plain 3) | count > 1] <> [(Motion m, plain 2) | Just m <- [motions s]]
+          <> [(Along a, axisForm') | a <- used s]
+          <> [(Centre a, axisForm') | arcKind s /= NoArcs, a <- [X, Y]]
+          <> [(FeedWord, plain (feedDigits s))]
+          <> take count [(Command (OrderName "first"), plain 2), (Command (OrderName "second"), plain 1), (Command (OrderName "none"), (plain 0) {padded = True})]
+  shuffled <- shuffle contents
+  traverse one (zip addresses shuffled)
+  where
+    simple sg = case sg of
+      Priority {} -> True
+      _ -> False
+    one (a, (c, f)) = Word' a c f <$> presenceOf c
+    presenceOf c = case c of
+      FrameNumber -> pure Always
+      Motion _ -> elements [Always, InMotion]
+      Along _ -> elements [Always, InMotion, WhenNeeded]
+      Centre _ -> elements [Always, InMotion, WhenNeeded]
+      FeedWord -> elements [Always, InMotion, WhenNeeded, WhenChanged]
+      Command (OrderName "none") -> pure WhenNeeded
+      Command _ -> elements [Always, InMotion, WhenNeeded]
+
+-- Text --------------------------------------------------------------------------------------------
+
+-- | Characters, with parity or without, on tape or as a text.
+printed :: Gen Machine
+printed = do
+  s <- shared
+  parity <- arbitrary
+  onTape <- arbitrary
+  letters <- shuffle ['A' .. 'Z']
+  double <- arbitrary
+  between <- elements ["", " "]
+  spare <- elements [Counted, Skipped]
+  ws <- addressed s (map (\c -> if double then Text.pack [c, 'o'] else Text.singleton c) letters) (elements [MinusSign, EitherSign])
+  tapeMedium <- mediumOf 8 spare "%\n"
+  let medium' = if onTape then tapeMedium else tapeMedium {pitch = Nothing, leader = 0, gap = 0, evenShift = 0, spare = Counted}
+  pure
+    (bottom s)
+      { medium = medium',
+        code =
+          Code
+            { codeName = "random",
+              symbols = ascii,
+              weights = Map.empty,
+              evenTrack = if parity && onTape then Just 8 else Nothing,
+              serviceTrack = Nothing,
+              skips = if onTape && spare == Skipped then [0x00, 0xFF] else []
+            },
+        layout = Layout {items = NonEmpty.fromList ([Literal "/" | spare == Skipped] <> map AWord ws <> [Literal "\n"]), measure = how s, separator = between}
+      }
+
+ascii :: Map Char Word8
+ascii = Map.fromList [(c, fromIntegral (ord c)) | c <- '\n' : [' ' .. '~']]
+
+-- Frames ------------------------------------------------------------------------------------------
+
+-- | Where the cutter stands, and frames that the machine can be told from there.
+frames :: Machine -> Gen (V3 Pulses, [Frame])
+frames m = do
+  n <- choose (0, 12)
+  start <- traverse (\a -> Pulses <$> choose (negate (reach a), reach a)) (V3 X Y Z)
+  feeds' <- vectorOf 2 (feedOf m)
+  (,) start <$> go n feeds' start
+  where
+    reach a = let Pulses c = capacity m a in c
+    go :: Int -> [FeedCode] -> V3 Pulses -> Gen [Frame]
+    go n feeds' at
+      | n <= 0 = pure []
+      | otherwise = do
+        f <- frame m feeds' at
+        (f :) <$> go (n - 1) feeds' (at + increment f)
+
+feedOf :: Machine -> Gen FeedCode
+feedOf m = case codes (feeds m) of
+  Direct a b -> FeedCode <$> choose (a, b)
+  Listed table -> elements (Map.keys table)
+
+-- | A frame from where the cutter stands, at one of some feeds.
+frame :: Machine -> [FeedCode] -> V3 Pulses -> Gen Frame
+frame m feeds' at = do
+  f <- frequency ([(6, straightway)] <> [(2, rapidly) | hasRapidMotion m] <> [(2, only) | not (null (orderNames m))] <> [(6, round') | arcs m /= NoArcs])
+  if null (Frame.invariants m [f]) && fits f then pure f else frame m feeds' at
+  where
+    fits f = and [abs p <= capacity m a || measure (layout m) == Increments | (a, p) <- zip [X, Y, Z] (parts (at + increment f))]
+    straightway = do
+      d <- move m at
+      base <- atFeed
+      pure base {motion = Straightway, increment = d}
+    rapidly = do
+      d <- move m at
+      given <- ordersOf m 3
+      pure Frame {motion = Rapid, increment = d, centre = 0, speed = FeedCode 0, braking = False, orders = given}
+    only = Frame.still <$> ordersOf m 1
+    round' = do
+      base <- atFeed
+      (turn, d, c) <- arc m at
+      pure base {motion = Round turn, increment = d, centre = c}
+    atFeed = do
+      code' <- elements feeds'
+      slow <- if null [() | w <- wordsOf m, BrakingHole <- service (form w)] then pure False else arbitrary
+      given <- ordersOf m 3
+      pure Frame {motion = Straightway, increment = 0, centre = 0, speed = code', braking = slow, orders = given}
+
+parts :: V3 a -> [a]
+parts (V3 x y z) = [x, y, z]
+
+-- | A move within what the words hold; now and then one axis only, or a small one.
+move :: Machine -> V3 Pulses -> Gen (V3 Pulses)
+move m (V3 x y z) = V3 <$> along X x <*> along Y y <*> along Z z
+  where
+    along a p = do
+      let Pulses c = capacity m a
+          Pulses here = p
+          (low, high) = case measure (layout m) of
+            Increments -> (-c, c)
+            Positions -> (max (-c) (-c - here), min c (c - here))
+      Pulses <$> frequency [(2, pure 0), (1, elements [max low (-1), min high 1]), (4, choose (low, high)), (1, elements [low, high])]
+
+-- | An arc within what the words hold, in one quadrant or anywhere.
+arc :: Machine -> V3 Pulses -> Gen (Turn, V3 Pulses, V2 Pulses)
+arc m at = case arcs m of
+  Arcs {quadrants = True} -> do
+    (p, q) <- (,) <$> sign' <*> sign'
+    (a, b) <- (,) <$> near <*> near
+    (c, d) <- (,) <$> near <*> near
+    let cross = p * q * (a * d - b * c)
+    pure (if cross > 0 then CounterClockwise else Clockwise, V3 (Pulses (p * (c - a))) (Pulses (q * (d - b))) 0, V2 (Pulses (negate (p * a))) (Pulses (negate (q * b))))
+  _ -> do
+    turn <- elements [Clockwise, CounterClockwise]
+    full <- arbitrary
+    V3 dx dy _ <- move m at
+    (i, j) <- (,) <$> choose (negate reach, reach) <*> choose (negate reach, reach)
+    pure (turn, if full then 0 else V3 dx dy 0, V2 (Pulses i) (Pulses j))
+  where
+    Pulses reach = centreCapacity m
+    sign' = elements [-1, 1]
+    near = choose (0, max 1 (reach `div` 2))
+
+-- | The commands of a machine in the order of its words.
+orderNames :: Machine -> [OrderName]
+orderNames m = concat [[o | Command o <- [content w]] <> take 1 [o | OrderBit o _ <- service (form w)] | w <- wordsOf m]
+
+-- | Some commands, each with odds of one in so many.
+ordersOf :: Machine -> Int -> Gen [(OrderName, Int)]
+ordersOf m odds = concat <$> traverse some (orderNames m)
+  where
+    some o = do
+      yes <- choose (1, odds)
+      v <- maybe (pure 0) (\most -> choose (0, most)) (orderCapacity m o)
+      pure [(o, v) | yes == 1 && canOrder m o v]

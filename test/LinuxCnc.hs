@@ -1,0 +1,253 @@
+-- | A judge from outside for programs of modern controls: the interpreter of LinuxCNC, run by itself as @rs274@. It
+-- prints the canonical calls, what a machine would do, with four decimals. What it does not complain about it
+-- may still have understood otherwise than was meant: so its moves are laid beside the way that was wanted.
+module LinuxCnc
+  ( installed,
+
+    -- * What the interpreter makes of a program
+    Canonical (..),
+    Place,
+    canonical,
+    parse,
+
+    -- * The way of the cutter
+    Way (..),
+    Asked (..),
+    ways,
+
+    -- * Comparing it with the one that is wanted
+    Leg (..),
+    exactly,
+    differences,
+    radii,
+    legs,
+  )
+where
+
+import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Region (Located (..))
+import Data.Bifunctor (first)
+import Data.Char (isSpace)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (mapMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Read qualified as Read
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Linear.V3 (V3 (..))
+import Part.Part (Pace (..), Spot (..))
+import Part.Part qualified as Part
+import Path.Path (Path)
+import Path.Path qualified as Path
+import System.Directory (findExecutable)
+import System.Exit (ExitCode (..))
+import System.Process (readProcessWithExitCode)
+
+-- | Whether the interpreter is there.
+installed :: IO Bool
+installed = (/= Nothing) <$> findExecutable "rs274"
+
+-- | A place in mm.
+type Place = V3 Double
+
+-- | A call that moves the cutter; in mm and mm/min.
+data Canonical
+  = Traverse Place
+  | Feeding Double Place
+  | -- | in the plane of x and y, with its centre
+    Rounding Double Turn Point Place
+  deriving stock (Eq, Show)
+
+-- | Run a file. What the interpreter says against it, and calls that are not understood here, are reasons.
+canonical :: FilePath -> IO (Either Text [Canonical])
+canonical file = do
+  (status, out, err) <- readProcessWithExitCode "rs274" ["-g", file] ""
+  -- It tells that it is at work, there where it complains.
+  let complaint = Text.strip (Text.unlines (filter (/= "executing") (Text.lines (Text.pack err))))
+  pure $ case status of
+    ExitFailure n -> Left (if Text.null complaint then "rs274 fails with status " <> said n else complaint)
+    ExitSuccess
+      | Text.null complaint -> parse (Text.pack out)
+      | otherwise -> Left complaint
+
+-- Canonical calls ---------------------------------------------------------------------------------
+
+-- | What holds for the next call: mm in a unit of length, the feed in such units, the plane of arcs.
+data State = State {scale :: Double, feed :: Double, level :: Bool}
+
+-- | The moves among the calls that the interpreter prints.
+parse :: Text -> Either Text [Canonical]
+parse printed = go (State 1 0 True) (filter (not . Text.all isSpace) (Text.lines printed))
+  where
+    go _ [] = Right []
+    go state (line : rest) = do
+      (next, move) <- first (\why -> why <> ": " <> Text.strip line) (call state line)
+      maybe id (:) move <$> go next rest
+
+-- | One call: what holds after it, and its move.
+call :: State -> Text -> Either Text (State, Maybe Canonical)
+call state line = case name of
+  "USE_LENGTH_UNITS" -> case arguments of
+    ["CANON_UNITS_MM"] -> Right (state {scale = 1}, Nothing)
+    ["CANON_UNITS_INCHES"] -> Right (state {scale = 25.4}, Nothing)
+    _ -> Left "a unit that is not known"
+  "SELECT_PLANE" -> Right (state {level = arguments == ["CANON_PLANE_XY"]}, Nothing)
+  "SET_FEED_RATE" -> (\ns -> (state {feed = sum ns}, Nothing)) <$> traverse number arguments
+  "STRAIGHT_TRAVERSE" -> moved (fmap Traverse . place)
+  "STRAIGHT_FEED" -> moved (fmap (Feeding rate) . place)
+  "ARC_FEED" -> moved arc
+  _
+    -- Places are counted from these.
+    | name `elem` origins -> traverse number (drop (if name == "SET_G5X_OFFSET" then 1 else 0) arguments) >>= \ns -> if all (== 0) ns then nothing else Left "the zero has moved"
+    | name `elem` harmless -> nothing
+    | otherwise -> Left "a call that is not known"
+  where
+    -- The number of the call and that of the line stand before it: "   18 N..... ARC_FEED(10.0000, 20.0000, …)".
+    (name, given) = Text.breakOn "(" (Text.unwords (drop 2 (Text.words line)))
+    arguments = filter (not . Text.null) (Text.split (`elem` [',', ' ']) (Text.dropWhileEnd (== ')') (Text.drop 1 given)))
+    nothing = Right (state, Nothing)
+    rate = feed state * scale state
+    moved make = (\m -> (state, Just m)) <$> (traverse number arguments >>= make)
+    place ns = case map (* scale state) ns of
+      [x, y, z, 0, 0, 0] -> Right (V3 x y z)
+      _ -> Left "other axes move"
+    arc ns = case ns of
+      [x, y, i, j, turns, z, 0, 0, 0]
+        | not (level state) -> Left "an arc in another plane"
+        | abs turns /= 1 -> Left "an arc of several turns"
+        | otherwise -> Rounding rate (if turns > 0 then CounterClockwise else Clockwise) (Vec.point (i * scale state) (j * scale state)) <$> place [x, y, z, 0, 0, 0]
+      _ -> Left "an arc that is not understood"
+
+origins, harmless :: [Text]
+origins = ["SET_G5X_OFFSET", "SET_G92_OFFSET", "SET_XY_ROTATION", "USE_TOOL_LENGTH_OFFSET"]
+harmless =
+  ["COMMENT", "SET_FEED_REFERENCE", "SET_FEED_MODE", "ON_RESET", "PROGRAM_END", "PALLET_SHUTTLE"]
+    <> ["SET_SPINDLE_SPEED", "SET_SPINDLE_MODE", "START_SPINDLE_CLOCKWISE", "START_SPINDLE_COUNTERCLOCKWISE", "STOP_SPINDLE_TURNING"]
+    <> ["FLOOD_ON", "FLOOD_OFF", "MIST_OFF", "MIST_ON", "SELECT_TOOL", "CHANGE_TOOL", "START_CHANGE"]
+
+number :: Text -> Either Text Double
+number t = case Read.signed Read.double t of
+  Right (n, "") -> Right n
+  _ -> Left ("no number: " <> t)
+
+-- The way -----------------------------------------------------------------------------------------
+
+-- | One move in the plane and in height, in mm.
+data Way = Way {segment :: Segment, heights :: (Double, Double), speed :: Asked}
+  deriving stock (Eq, Show)
+
+data Asked
+  = InRapid
+  | -- | mm/min
+    AtFeed Double
+  deriving stock (Eq, Show)
+
+-- | The moves from a known place.
+ways :: Place -> [Canonical] -> [Way]
+ways _ [] = []
+ways from@(V3 _ _ height) (c : rest) = case c of
+  Traverse to -> straight to InRapid
+  Feeding f to -> straight to (AtFeed f)
+  Rounding f turn centre to ->
+    let (a, b) = (flat from, flat to)
+        whole = Segment.Arc {start = a, end = b, centre, sweep = Rad (if turn == Clockwise then -2 * pi else 2 * pi)}
+     in continue to (if a == b then whole else Segment.arc turn centre a b) (AtFeed f)
+  where
+    straight to = continue to (Straight (flat from) (flat to))
+    continue to@(V3 _ _ z) way speed = Way way (height, z) speed : ways to rest
+
+flat :: Place -> Point
+flat (V3 x y _) = Vec.point x y
+
+-- | What is wanted: moves that belong together, how far the cutter may be from them, and its speed.
+data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Asked}
+  deriving stock (Eq, Show)
+
+-- | How far the cutter may be from a way that the control can hold: half of the last decimal of two ends, and four decimals
+-- of what is printed.
+exactly :: Mm
+exactly = Mm 0.002
+
+-- | The feed that is written is a whole number.
+roundedFeed :: Double
+roundedFeed = 0.5 + 1e-6
+
+-- | How a way differs from the one that is wanted. The moves have to come in the order of the legs: each leg takes those that lie
+-- on it, until it is covered whole and its end is reached.
+differences :: [Leg] -> [Way] -> [Text]
+differences wantedLegs = go (zip [1 :: Int ..] wantedLegs)
+  where
+    go wanting walked = case wanting of
+      [] -> [said (length walked) <> " moves too many, first " <> said (take 1 walked) | not (null walked)]
+      (n, leg) : others ->
+        let near = takeWhile (lies leg) walked
+         in case [k | k <- [1 .. length near], reached leg (take k near)] of
+              k : _ -> ["leg " <> said n <> why | w <- take k near, why <- hasty leg w] <> go others (drop k walked)
+              []
+                | small leg -> go others walked
+                | otherwise -> ["leg " <> said n <> " is not retraced: " <> said leg <> "; " <> said (length near) <> " moves lie on it, the next ones are " <> said (take 2 (drop (length near) walked))]
+    small leg = all (\(s, (a, b)) -> Segment.length s <= within leg && abs (b - a) <= mm (within leg)) (chain leg)
+    hasty leg w = [" runs at another speed: " <> said w | not (same (speed w) (wanted leg))]
+    same a b = case (a, b) of
+      (InRapid, InRapid) -> True
+      (AtFeed f, AtFeed g) -> abs (f - g) <= roundedFeed
+      _ -> False
+
+said :: Show a => a -> Text
+said = Text.pack . show
+
+-- | Whether the moves end where the leg ends, exactly even on a curve, and leave nothing of it out.
+reached :: Leg -> [Way] -> Bool
+reached leg walked = case reverse walked of
+  [] -> False
+  final : _ ->
+    Vec.distance (Segment.end (segment final)) (Segment.end goal) <= exactly
+      && abs (snd (heights final) - top) <= mm exactly
+      && all (\(s, _) -> null (Distance.uncovered (within leg) (map segment walked) s)) (chain leg)
+  where
+    (goal, (_, top)) = NonEmpty.last (chain leg)
+
+-- | Whether a move lies on the leg, in the plane and in height.
+lies :: Leg -> Way -> Bool
+lies leg way = null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (chain leg))) (segment way)) && and [any (holds p h) (chain leg) | (p, h) <- ends]
+  where
+    ends = [(Segment.start (segment way), fst (heights way)), (Segment.end (segment way), snd (heights way))]
+    holds p h (s, (a, b))
+      | Distance.toPoint p s > within leg = False
+      | Segment.length s <= within leg = min a b - mm (within leg) <= h && h <= max a b + mm (within leg)
+      | otherwise = abs (a + along s p * (b - a) - h) <= mm (within leg) * (1 + abs (b - a) / mm (Segment.length s))
+    -- Close to the start of an arc the fraction may be that of a whole turn.
+    along s p
+      | Vec.distance p (Segment.start s) <= within leg && Segment.start s /= Segment.end s = 0
+      | otherwise = max 0 (min 1 (Segment.fraction s p))
+
+mm :: Mm -> Double
+mm (Mm d) = d
+
+-- | The arcs whose radius is not the same at both ends: a control that checks it more narrowly would refuse them.
+radii :: [Way] -> [Text]
+radii walked = mapMaybe uneven [s | Way {segment = s@Arc {}} <- walked]
+  where
+    uneven s =
+      let (Mm a, Mm b) = (Vec.distance (centre s) (Segment.start s), Vec.distance (centre s) (Segment.end s))
+       in if abs (a - b) <= mm exactly then Nothing else Just ("the radius is " <> said a <> " at the start and " <> said b <> " at the end")
+
+-- | What a path wants of a machine that can go along arcs: a line or an arc exactly, a curve within the tolerance.
+legs :: Path -> (Place, [Leg])
+legs path = (beginning, concatMap (\block -> map (leg (allowed block)) (Path.runs (Path.moves block))) (Path.blocks path))
+  where
+    beginning = let Located _ (Spot p (Mm h)) = Path.start path in V3 (Vec.x p) (Vec.y p) h
+    leg slack run = Leg {chain = fmap whole run, within = if Path.isCurve run then slack else exactly, wanted = asked (Path.pace (NonEmpty.head run))}
+    whole m = let (Mm a, Mm b) = Path.heights m in (Path.segment m, (a, b))
+    allowed block = case block of
+      Path.Cutting {Path.job = Located _ job} -> let (Mm a, Mm b) = Part.deepest (Part.tolerance job) in Mm (max a b + mm exactly)
+      _ -> exactly
+    asked pace = case pace of
+      Rapid -> InRapid
+      At (Located _ (Feed f)) -> AtFeed f

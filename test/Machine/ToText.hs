@@ -1,0 +1,183 @@
+-- | A machine as a description with all its numbers spelt out: for the law that what is written is what is read.
+module Machine.ToText
+  ( toText,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Feed (..), Mm (..))
+import Data.Bits (testBit)
+import Data.Char (ord)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict qualified as Map
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Machine.Machine
+import Numeric (showHex)
+
+-- | The description, all of it reconstructed.
+toText :: Machine -> Text
+toText m =
+  Text.unlines
+    ( ["machine " <> quoted n <> " " <> quoted (title m) <> " reconstructed"]
+        <> block "tape" (tapeLines (medium m))
+        <> block ("code " <> quoted (codeName (code m))) (codeLines (tracks (medium m)) (code m))
+        <> concatMap axisLines (NonEmpty.toList (axes m))
+        <> ["arcs " <> arcsText (arcs m)]
+        <> block "frame" (frameLines (layout m))
+        <> block "feeds" (feedLines (feeds m))
+        <> block "braking" (brakingLines (braking m))
+        <> block "commands" (commandLines (orders m))
+        <> block "limits" ["contours " <> Decimal.whole k | Just k <- [mostContours (limits m)]]
+    )
+  where
+    MachineName n = name m
+
+block :: Text -> [Text] -> [Text]
+block heading ls = [heading <> " {"] <> map ("  " <>) ls <> ["}"]
+
+quoted :: Text -> Text
+quoted t = "\"" <> Text.concatMap escaped t <> "\""
+  where
+    escaped c
+      | c == '"' || c == '\\' = Text.pack ['\\', c]
+      | c < ' ' = "\\u" <> Text.justifyRight 4 '0' (Text.pack (showHex (ord c) ""))
+      | otherwise = Text.singleton c
+
+tapeLines :: Medium -> [Text]
+tapeLines t =
+  [ "tracks " <> Decimal.whole (tracks t),
+    "pitch " <> maybe "none" millimetres (pitch t),
+    "suffix " <> quoted (suffix t),
+    "leader " <> Decimal.whole (leader t),
+    "gap " <> Decimal.whole (gap t),
+    "even-shift " <> Decimal.whole (evenShift t),
+    "spare " <> case spare t of
+      Counted -> "counted"
+      Skipped -> "skipped",
+    "opening " <> quoted (opening t),
+    "closing " <> quoted (closing t)
+  ]
+
+millimetres :: Mm -> Text
+millimetres (Mm x) = Decimal.exact x <> " mm"
+
+codeLines :: Int -> Code -> [Text]
+codeLines n c =
+  block "symbols" [quoted (Text.singleton s) <> " = " <> row p | (s, p) <- Map.toList (symbols c)]
+    <> block "weights" [quoted (Text.singleton s) <> " = " <> Decimal.whole w | (s, w) <- Map.toList (weights c)]
+    <> ["parity-track " <> Decimal.whole t | Just t <- [evenTrack c]]
+    <> ["service-track " <> Decimal.whole t | Just t <- [serviceTrack c]]
+    <> ["skip " <> Text.unwords (map row (skips c)) | not (null (skips c))]
+  where
+    row p = Text.pack [if testBit p (t - 1) then '1' else '0' | t <- reverse [1 .. n]]
+
+axisLines :: AxisForm -> [Text]
+axisLines a =
+  block
+    ("axis " <> contentWord (Along (axis a)))
+    ( ["pulse " <> millimetres (step a)]
+        <> ["direction reversed" | reversed a]
+        <> ["lathe reversed" | reversedOnLathe a]
+        <> ["moves unsure" | not (moves a)]
+    )
+
+arcsText :: Arcs -> Text
+arcsText a = case a of
+  NoArcs -> "none"
+  Arcs {quadrants, fullCircle} -> (if quadrants then "quadrant" else "any") <> (if fullCircle then " full-circle" else "")
+
+frameLines :: Layout -> [Text]
+frameLines l =
+  [ "numbers " <> case measure l of
+      Increments -> "increments"
+      Positions -> "positions"
+  ]
+    <> ["separator " <> quoted (separator l)]
+    <> concatMap itemLines (NonEmpty.toList (items l))
+  where
+    itemLines item = case item of
+      Literal t -> ["symbols " <> quoted t]
+      CheckDigit k -> ["check modulo " <> Decimal.whole k]
+      AWord w -> block ("word " <> (if address w == "" then "" else quoted (address w) <> " ") <> contentText (content w)) (wordLines w)
+
+contentText :: Content -> Text
+contentText c = case c of
+  FrameNumber -> "frame-number"
+  Motion _ -> "motion"
+  Along _ -> "along " <> contentWord c
+  Centre _ -> contentWord c
+  FeedWord -> "feed"
+  Command (OrderName n) -> "command " <> quoted n
+
+wordLines :: Word' -> [Text]
+wordLines w =
+  ["digits " <> (if padded f then "" else "at-most ") <> Decimal.whole (digits f), "decimals " <> Decimal.whole (decimals f)]
+    <> ["sign " <> s | Just s <- [signText (sign f)]]
+    <> ["holes " <> Text.unwords (map serviceText (service f)) | not (null (service f))]
+    <> [ "when " <> case presence w of
+           Always -> "always"
+           InMotion -> "moving"
+           WhenNeeded -> "needed"
+           WhenChanged -> "changed"
+       ]
+    <> case content w of
+      Motion c ->
+        ["rapid " <> Decimal.whole k | Just k <- [rapid c]]
+          <> ["straight " <> Decimal.whole (straight c)]
+          <> ["clockwise " <> Decimal.whole k | Just k <- [clockwise c]]
+          <> ["counterclockwise " <> Decimal.whole k | Just k <- [counterClockwise c]]
+      _ -> []
+  where
+    f = form w
+    signText s = case s of
+      Unsigned -> Just "none"
+      ServiceSign -> Nothing
+      MinusSign -> Just "minus"
+      EitherSign -> Just "both"
+      Priority a b c d -> Just ("priority " <> Text.unwords (map Decimal.whole [a, b, c, d]))
+    serviceText s = case s of
+      MinusHole -> "minus"
+      OrderBit (OrderName n) k -> quoted n <> ":" <> Decimal.whole k
+      Marker -> "marker"
+      BrakingHole -> "braking"
+      NoHole -> "-"
+
+feedLines :: Feeds -> [Text]
+feedLines f =
+  [ "measure " <> case feedMeasure f of
+      AlongPath -> "mm/min"
+      LeadingAxis -> "Hz"
+  ]
+    <> case codes f of
+      Direct a b -> ["direct " <> Decimal.whole a <> ".." <> Decimal.whole b]
+      Listed t -> block "table" [Decimal.whole c <> " = " <> Decimal.exact v | (FeedCode c, v) <- Map.toList t]
+    <> [ "rule " <> case rule f of
+           NotAbove -> "not-above"
+           Nearest -> "nearest",
+         "rapid " <> case rapidFeed f of
+           Highest -> "highest"
+           ByCode (FeedCode c) -> "code " <> Decimal.whole c
+       ]
+
+brakingLines :: Braking -> [Text]
+brakingLines b =
+  [ "deceleration " <> Decimal.exact (deceleration b) <> " mm/s2",
+    "by " <> case brakingForm b of
+      ByControl -> "control"
+      SlowFrames -> "slow-frames"
+      BrakedFrames (Feed v) -> "braked-frames " <> Decimal.exact v <> " mm/min"
+  ]
+
+commandLines :: Orders -> [Text]
+commandLines o =
+  concat [block event (concatMap orderLines os) | (event, os) <- events, not (null os)]
+    <> concat [block "compensation" (block "left" (orderLines (keepLeft c)) <> block "right" (orderLines (keepRight c)) <> block "off" (orderLines (release c))) | Just c <- [compensation o]]
+    <> block "finish" (concat [block "frame" (concatMap orderLines (NonEmpty.toList os)) | os <- finish o])
+  where
+    events = [("spindle-clockwise", spindleClockwise o), ("spindle-counterclockwise", spindleCounterClockwise o), ("spindle-off", spindleOff o), ("coolant-on", coolantOn o), ("coolant-off", coolantOff o), ("tool-change", toolChange o), ("auxiliary", auxiliary o)]
+    orderLines (Order (OrderName n) v) = case v of
+      Fixed k -> ["set " <> quoted n <> " " <> Decimal.whole k]
+      Argument -> ["set " <> quoted n <> " argument"]
+      Diameter -> ["set " <> quoted n <> " diameter"]
+      Step t -> block ("set " <> quoted n <> " steps") [Decimal.whole k <> " = " <> Decimal.exact x | (k, x) <- Map.toList t]

@@ -1,0 +1,52 @@
+-- | Tapes with one hole more or less, and how many of them a machine's tape gives away.
+module Tape.Holes (Share (..), share, written, changes) where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Pulses)
+import Data.Bits (complementBit)
+import Data.ByteString qualified as ByteString
+import Data.Text (Text)
+import Frame.Frame (Frame)
+import Linear.V3 (V3)
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
+import Tape.Punch qualified as Punch
+import Tape.Tape (Tape (..))
+
+-- | Of so many single holes so many are found, so many change nothing, and these are read as other frames: row from 1 and
+-- track.
+data Share = Share {tried :: Int, found :: Int, harmless :: Int, unseen :: [(Int, Int)]}
+  deriving stock (Eq, Show)
+
+-- | What reading finds of all single holes in the tape of some frames.
+share :: Machine -> V3 Pulses -> [Frame] -> Share
+share machine start frames =
+  Share
+    { tried = length results,
+      found = length [() | (_, Left _) <- results],
+      harmless = length [() | (_, Right fs) <- results, fs == frames],
+      unseen = [place | (place, Right fs) <- results, fs /= frames]
+    }
+  where
+    results = [(place, Punch.read machine start t) | (place, t) <- changes machine (Punch.write machine start frames)]
+
+-- | A line for a table.
+written :: Machine -> Share -> Text
+written machine s =
+  name <> ": " <> Decimal.whole (found s) <> " of " <> Decimal.whole (tried s) <> " single holes are found ("
+    <> Decimal.fixed 2 (100 * fromIntegral (found s) / fromIntegral (max 1 (tried s)))
+    <> " %), "
+    <> Decimal.whole (length (unseen s))
+    <> " are read as other frames"
+  where
+    MachineName name = Machine.name machine
+
+-- | Every tape that differs in one hole on one of its tracks, with its row from 1 and the track.
+changes :: Machine -> Tape -> [((Int, Int), Tape)]
+changes machine (Tape rows) =
+  [ ((k + 1, track), Tape (before <> ByteString.cons (complementBit w (track - 1)) behind))
+    | k <- [0 .. ByteString.length rows - 1],
+      let (before, rest) = ByteString.splitAt k rows,
+      Just (w, behind) <- [ByteString.uncons rest],
+      track <- [1 .. Machine.tracks (Machine.medium machine)]
+  ]
