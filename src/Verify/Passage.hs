@@ -137,11 +137,19 @@ isNear job p q = Vec.distance p q <= allowance job
 endsNear :: Job -> Point -> Trace -> Bool
 endsNear job p = isNear job p . Segment.end . line
 
+-- | Whether a stroke goes to a place nearby. A whole circle goes round something, however small it is.
+staysNear :: Job -> Point -> Trace -> Bool
+staysNear job p t = endsNear job p t && not (isWhole (line t))
+  where
+    isWhole s = case s of
+      Straight _ _ -> False
+      Arc {start, end} -> start == end
+
 -- | The strokes up to the next arrival at the end, and the rest.
 untilExit :: Job -> [Trace] -> ([Trace], [Trace])
 untilExit job traces = (leaving <> along <> arrival, behind)
   where
-    (leaving, away) = span (\t -> endsNear job (entry job) t && isNear job (entry job) (Segment.at 0.5 (line t))) traces
+    (leaving, away) = span (\t -> staysNear job (entry job) t && isNear job (entry job) (Segment.at 0.5 (line t))) traces
     (along, back) = break (endsNear job (exit job)) away
     (arrival, behind) = span (endsNear job (exit job)) back
 
@@ -224,7 +232,7 @@ follows :: Job -> Ruler -> [Trace] -> Maybe ([Trace], [Trace])
 follows job ruler = go 0 0 (entry job)
   where
     go gone mark at traces
-      | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler = Just (span (endsNear job (exit job)) traces)
+      | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler = Just (span (staysNear job (exit job)) traces)
       | otherwise = case traces of
         [] -> Nothing
         t : rest -> do

@@ -129,7 +129,7 @@ laws = do
     text <- readText "machines/lki-un.machine"
     let ls = Text.lines text
         needed = [k | (k, l) <- zip [0 ..] ls, w <- take 1 (Text.words l), w `elem` ["tracks", "pitch", "suffix", "leader", "gap", "spare", "pulse", "numbers", "digits", "straight", "measure", "direct", "rule", "rapid", "deceleration", "by", "arcs"]]
-    [l | k <- needed, (before, l : behind) <- [splitAt k ls], Just _ <- [Result.settled (reading (Text.unlines (before <> behind)))]] `shouldBe` []
+    [l | k <- needed, (front, l : behind) <- [splitAt k ls], Just _ <- [Result.settled (reading (Text.unlines (front <> behind)))]] `shouldBe` []
   where
     sound text =
       let outcome = reading text
@@ -140,9 +140,9 @@ laws = do
 mutilated :: Text -> Gen Text
 mutilated text = do
   n <- choose (1, 5 :: Int)
-  foldl (\t _ -> t >>= once) (pure text) [1 .. n]
+  foldl (\t _ -> t >>= changed) (pure text) [1 .. n]
   where
-    once t = do
+    changed t = do
       k <- choose (0, Text.length t)
       c <- elements ["", "", "{", "}", "\"", "=", "..", "0", "-", "\n", "(", "^", ":", "reconstructed", "word", "\\"]
       gone <- choose (0, 3)
@@ -154,7 +154,7 @@ furnished m = do
   heading <- elements ["", "a \"mill\" \\ with words", "Фрезерный станок"]
   slow <- oneof [pure ByControl, pure SlowFrames, pure (BrakedFrames (Feed (snd (feedRange m))))]
   a <- choose (0.001, 1000)
-  most <- elements [Nothing, Just 1, Just 30]
+  contours <- elements [Nothing, Just 1, Just 30]
   measured <- elements [AlongPath, LeadingAxis]
   nearest <- elements [NotAbove, Nearest]
   quick <- elements [Highest, ByCode (fst (slowest m))]
@@ -166,7 +166,7 @@ furnished m = do
       orders' = case (listed, places) of
         ([b, c, d, e, f, g, h], n : _) -> Orders b c (kept d) (kept e) (kept f) (unstepped g) (unstepped h) (Compensation (Order (OrderName n) Diameter) (Order (OrderName n) Diameter) (Order (OrderName n) (Fixed 0)) <$ beside) finish'
         _ -> noOrders
-  pure m {title = heading, braking = Braking a (if holed && measured == AlongPath then slow else ByControl), limits = Limits most, feeds = (feeds m) {feedMeasure = measured, rule = nearest, rapidFeed = quick}, orders = orders'}
+  pure m {title = heading, braking = Braking a (if holed && measured == AlongPath then slow else ByControl), limits = Limits contours, feeds = (feeds m) {feedMeasure = measured, rule = nearest, rapidFeed = quick}, orders = orders'}
   where
     places = nub [n | w <- wordsOf m, OrderName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)]]
     event = do

@@ -32,7 +32,7 @@ spec = describe "docs/machines.md" $
       Nothing -> page `shouldBe` now
   where
     file = "docs/machines.md"
-    replaced rows page = let (before, rest) = break (== heading) page in before <> (if null rest then [] else [heading, rule]) <> rows <> dropWhile (Text.isPrefixOf "|") rest
+    replaced rows page = let (above, rest) = break (== heading) page in above <> (if null rest then [] else [heading, rule]) <> rows <> dropWhile (Text.isPrefixOf "|") rest
     heading = "| machine | single holes | found by reading | read as other frames |"
     rule = "|---|--:|--:|--:|"
 

@@ -17,7 +17,7 @@ import Linear.V2 (V2 (..))
 import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), AxisForm (..), FeedCode (..), Item (..), Machine, Measure (..), OrderName (..), Presence (..), Spare (..))
 import Machine.Machine qualified as Machine
-import Machines (iso6983, kontur2p, kontur3p, lkiFm, lkiU, lkiUn, lkp01f, n55)
+import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
 import Report.Report qualified as Report
 import Tape.Holes qualified as Holes
 import Tape.Journey (journey, machines, start)
