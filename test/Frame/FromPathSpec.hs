@@ -102,7 +102,7 @@ spec = do
           Just path -> with m (Just path) $ \_ program -> Frame.invariants m (map frame (Frame.planned program)) === []
     it "stay within the tolerance and a pulse of the path, and pass all of it (catches a chord on the wrong side, a lost piece)" $
       property $
-        forAllBlind machine $ \m -> forAll anyCase $ \c -> forAll (elements [y | y <- [0.005, 0.02, 0.1], let Mm grain = Machine.pulse m, y + grain < Generate.radiusOf c]) $ \y -> with m (Generate.milled (Mm y) c) $ \path program ->
+        forAllBlind machine $ \m -> forAll anyCase $ \c -> forAll (elements [y | let Mm grain = Machine.pulse m, y <- [0.005, 0.02, 0.1], y + grain < Generate.radiusOf c]) $ \y -> with m (Generate.milled (Mm y) c) $ \path program ->
           let exact = concatMap (map segment . Path.moves) (Path.blocks path)
               walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
               Mm grain = Machine.pulse m
