@@ -74,7 +74,13 @@ followable keyword asked milling side ways = mapM_ long elements >> mapM_ wide e
       let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
           Rad least = Tolerance.controlBend
           deep = Mm (r * (1 - cos turned))
-       in when (abs turned < least && deep > Tolerance.controlCut) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+          -- Behind a slight corner LinuxCNC takes the arc of a lead out for one in a hollow.
+          ledOut = (i + 1) `mod` length elements == 0 && any (isArc . segment) outwards' && Rad (abs turned) > Tolerance.kink
+       in when (abs turned < least && (deep > Tolerance.controlCut || ledOut)) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+    outwards' = outwards ways
+    isArc s = case s of
+      Arc {} -> True
+      Straight _ _ -> False
     element :: Int -> Element
     element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
 

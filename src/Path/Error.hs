@@ -208,8 +208,8 @@ toReport err = case err of
     (at (origin first) "E0419" ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element"))
       { label = shape first,
         others = second' first second <> [Label asked "asked here"],
-        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none."],
-        hints = ["Join the elements smoothly, for instance with a fillet."]
+        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc that leads out behind it may then be refused."],
+        hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
       }
 
 unsent :: Unsent -> Text

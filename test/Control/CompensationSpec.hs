@@ -60,15 +60,12 @@ compared close change =
         let (moved, unkept) = Compensation.run iso6983 (const (Mm 0)) begin fs
             broken = Frame.invariants iso6983 fs
         pure $ case made of
-          Left why -> classify True "refused" (counterexample (show (why, unkept)) (not (null unkept) || not (null broken) || any (`Text.isInfixOf` why) narrower))
+          Left why -> classify True "refused" (counterexample (show (why, unkept)) (not (null unkept) || not (null broken) || Text.isInfixOf "Radius to end of arc" why))
           -- The model may be more narrow.
           Right walked
             | not (null unkept) || not (null broken) || any flat fs -> classify True "refused by the model alone" (property True)
             | otherwise -> let found = differences close (concatMap (NonEmpty.toList . legs) moved) (map LinuxCnc.segment walked) in counterexample (unlines found <> show fs) (null found)
   where
-    -- Here LinuxCNC refuses what the model takes: radii, which the rules of frames judge, and, about once in a thousand cases, the arc of
-    -- a lead out that it holds for one in a concave corner. Such a program stops before it cuts.
-    narrower = ["Radius to end of arc", "Arc move in concave corner cannot be reached"]
     flat f = case motion f of
       Round _ -> not (Walk.isRound f)
       _ -> False
