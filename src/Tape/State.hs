@@ -55,7 +55,7 @@ data Axes = Axes
   }
 
 axes :: Machine -> Axes
-axes machine = Axes {measure = Machine.measure (Machine.layout machine), signs = V3 (sign X) (sign Y) (sign Z), mirrored = sign X /= sign Y}
+axes machine = Axes {measure = Machine.measure (Machine.layout machine), signs = V3 (sign X) (sign Y) (sign Z), mirrored = Machine.isMirrored machine}
   where
     sign :: Axis -> Int
     sign a = if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1

@@ -1,21 +1,18 @@
 -- | Tapes with one hole more or less, and how many of them a machine's tape gives away.
-module Tape.Holes (Share (..), share, written, changes) where
+module Tape.Holes (Share (..), share, changes) where
 
-import Base.Decimal qualified as Decimal
 import Base.Quantity (Pulses)
 import Data.Bits (complementBit)
 import Data.ByteString qualified as ByteString
-import Data.Text (Text)
 import Frame.Frame (Frame)
 import Linear.V3 (V3)
-import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape (..))
 
--- | Of so many single holes so many are found, so many change nothing, and these are read as other frames: row from 1 and
--- track.
-data Share = Share {tried :: Int, found :: Int, harmless :: Int, unseen :: [(Int, Int)]}
+-- | Of so many single holes so many are found, and these are read as other frames: row from 1 and track. The rest changes nothing.
+data Share = Share {tried :: Int, found :: Int, unseen :: [(Int, Int)]}
   deriving stock (Eq, Show)
 
 -- | What reading finds of all single holes in the tape of some frames.
@@ -24,22 +21,10 @@ share machine start frames =
   Share
     { tried = length results,
       found = length [() | (_, Left _) <- results],
-      harmless = length [() | (_, Right fs) <- results, fs == frames],
       unseen = [place | (place, Right fs) <- results, fs /= frames]
     }
   where
     results = [(place, Punch.read machine start t) | (place, t) <- changes machine (Punch.write machine start frames)]
-
--- | A line for a table.
-written :: Machine -> Share -> Text
-written machine s =
-  name <> ": " <> Decimal.whole (found s) <> " of " <> Decimal.whole (tried s) <> " single holes are found ("
-    <> Decimal.fixed 2 (100 * fromIntegral (found s) / fromIntegral (max 1 (tried s)))
-    <> " %), "
-    <> Decimal.whole (length (unseen s))
-    <> " are read as other frames"
-  where
-    MachineName name = Machine.name machine
 
 -- | Every tape that differs in one hole on one of its tracks, with its row from 1 and the track.
 changes :: Machine -> Tape -> [((Int, Int), Tape)]
