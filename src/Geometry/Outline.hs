@@ -1,0 +1,124 @@
+-- | Chains of lines and arcs in flat arrays: what the offset kernel reads and writes.
+--
+-- A vertex has its place in mm and the bulge of the segment that begins there, @tan(sweep/4)@: 0 for a line, positive for an
+-- arc that is walked counter-clockwise, ±1 for half a circle. Arcs of more than half a turn are two segments here, so that
+-- each bulge is a small number and each chord has a length.
+module Geometry.Outline
+  ( Outline (..),
+    outline,
+    size,
+    reverse,
+    area,
+    length,
+    fromContour,
+    segments,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Primitive.PrimArray (PrimArray)
+import Data.Primitive.PrimArray qualified as PrimArray
+import Geometry.Contour (Contour (Contour), Ends (..))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Prelude hiding (length, reverse)
+
+-- | The arrays are equally long. A closed outline goes on from its last vertex to its first; an open one ends at its last
+-- vertex, whose bulge means nothing.
+data Outline = Outline {ends :: Ends, xs :: PrimArray Double, ys :: PrimArray Double, bulges :: PrimArray Double}
+  deriving stock (Eq, Show)
+
+-- | From vertices in order: x and y in mm, bulge.
+outline :: Ends -> [(Double, Double, Double)] -> Outline
+outline ends vertices =
+  Outline
+    { ends,
+      xs = PrimArray.primArrayFromList [x | (x, _, _) <- vertices],
+      ys = PrimArray.primArrayFromList [y | (_, y, _) <- vertices],
+      bulges = PrimArray.primArrayFromList [b | (_, _, b) <- vertices]
+    }
+
+-- | How many segments it has.
+size :: Outline -> Int
+size o = case ends o of
+  Closed -> PrimArray.sizeofPrimArray (xs o)
+  Open -> max 0 (PrimArray.sizeofPrimArray (xs o) - 1)
+
+-- | The same outline walked the other way; a closed one begins at the same vertex.
+reverse :: Outline -> Outline
+reverse o@Outline {ends} = Outline {ends, xs = turned (xs o), ys = turned (ys o), bulges = PrimArray.generatePrimArray n bulge}
+  where
+    n = PrimArray.sizeofPrimArray (xs o)
+    turned a = PrimArray.generatePrimArray n (PrimArray.indexPrimArray a . place)
+    place i = case ends of
+      Closed -> if i == 0 then 0 else n - i
+      Open -> n - 1 - i
+    -- The segment behind a vertex is the one that was before it.
+    bulge i = case ends of
+      Closed -> -(PrimArray.indexPrimArray (bulges o) (n - 1 - i))
+      Open -> if i == n - 1 then 0 else -(PrimArray.indexPrimArray (bulges o) (n - 2 - i))
+
+-- | The area that a closed outline encloses, in mm²; positive when it is walked counter-clockwise. Of a chord @c@ and an arc
+-- that sweeps @s@ over it the part between them is @c²·(s − sin s)/(8·sin²(s/2))@.
+area :: Outline -> Double
+area o = folded o $ \x0 y0 x1 y1 b ->
+  let ax = x0 - ox
+      ay = y0 - oy
+   in 0.5 * (ax * (y1 - oy) - (x1 - ox) * ay) + between (square (x1 - x0) + square (y1 - y0)) b
+  where
+    (ox, oy) = if PrimArray.sizeofPrimArray (xs o) == 0 then (0, 0) else (PrimArray.indexPrimArray (xs o) 0, PrimArray.indexPrimArray (ys o) 0)
+    square a = a * a
+    between cc b
+      | b == 0 = 0
+      -- The series of the formula below, which loses its digits here.
+      | abs b < 1e-3 = cc * b / 3 * (1 + b * b / 5)
+      | otherwise = let s = 4 * atan b in cc * (s - sin s) / (8 * square (sin (s / 2)))
+
+-- | The length of the walk.
+length :: Outline -> Mm
+length o = Mm . folded o $ \x0 y0 x1 y1 b ->
+  let chord = sqrt ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
+   in if b == 0 then chord else let s = 4 * atan (abs b) in if s < 1e-6 then chord * (1 + s * s / 24) else chord * s / (2 * sin (s / 2))
+
+-- | The sum of a measure over the segments: of both ends and the bulge.
+folded :: Outline -> (Double -> Double -> Double -> Double -> Double -> Double) -> Double
+folded o f = go 0 0
+  where
+    n = PrimArray.sizeofPrimArray (xs o)
+    count = size o
+    go :: Int -> Double -> Double
+    go i total
+      | i >= count = total
+      | otherwise =
+        let j = if i + 1 == n then 0 else i + 1
+            at a = PrimArray.indexPrimArray a
+         in go (i + 1) (total + f (at (xs o) i) (at (ys o) i) (at (xs o) j) (at (ys o) j) (at (bulges o) i))
+{-# INLINE folded #-}
+
+-- | A contour, and for each segment of the outline the number of the contour's segment, from 0.
+fromContour :: Contour -> (Outline, PrimArray Int)
+fromContour (Contour ends ss) = (outline ends (map vertex parts <> [(Vec.x p, Vec.y p, 0) | ends == Open, let p = Segment.end (NonEmpty.last ss)]), PrimArray.primArrayFromList (map fst parts))
+  where
+    parts = concat (zipWith (\i s -> map (i,) (halves s)) [0 ..] (NonEmpty.toList ss))
+    halves s = case s of
+      Arc {sweep = Rad a} | abs a > pi -> let (first, second) = Segment.cutAt 0.5 s in [first, second]
+      _ -> [s]
+    vertex (_, s) = (Vec.x (Segment.start s), Vec.y (Segment.start s), bulge s)
+    bulge s = case s of
+      Straight _ _ -> 0
+      Arc {sweep = Rad a} -> tan (a / 4)
+
+-- | The segments in order.
+segments :: Outline -> [Segment]
+segments o = map segment [0 .. size o - 1]
+  where
+    n = PrimArray.sizeofPrimArray (xs o)
+    vertex i = Vec.point (PrimArray.indexPrimArray (xs o) i) (PrimArray.indexPrimArray (ys o) i)
+    segment i =
+      let a = vertex i
+          b = vertex (if i + 1 == n then 0 else i + 1)
+          g = PrimArray.indexPrimArray (bulges o) i
+       in if g == 0 then Straight a b else Arc {start = a, end = b, centre = centreOf a b g, sweep = Rad (4 * atan g)}
+    centreOf a b g = Vec.shift (Vec.scale ((1 - g * g) / (4 * g)) (Vec.left (Vec.to a b))) (Vec.between 0.5 a b)
