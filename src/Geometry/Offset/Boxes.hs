@@ -7,6 +7,7 @@ module Geometry.Offset.Boxes
   ( Boxes,
     boxes,
     leaf,
+    whole,
     pairs,
     around,
   )
@@ -101,6 +102,10 @@ most a b = if a > b then a else b
 leaf :: Boxes -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 leaf (Boxes cs _ _ _) i k = k (indexPrimArray cs (4 * i)) (indexPrimArray cs (4 * i + 1)) (indexPrimArray cs (4 * i + 2)) (indexPrimArray cs (4 * i + 3))
 {-# INLINE leaf #-}
+
+-- | The box of everything.
+whole :: Boxes -> (Double -> Double -> Double -> Double -> r) -> r
+whole bs@(Boxes _ begins _ highest) = leaf bs (indexPrimArray begins highest)
 
 overlap :: PrimArray Double -> Int -> Int -> Bool
 overlap cs i j =

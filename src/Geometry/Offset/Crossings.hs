@@ -8,6 +8,7 @@ module Geometry.Offset.Crossings
     Found (..),
     find,
     firstOf,
+    proper,
     decreases,
   )
 where
@@ -65,6 +66,14 @@ find !tolerance !c !bs = runST $ do
       r <- readMutVar rs >>= unsafeFreezePrimArray
       g <- readMutVar ss >>= unsafeFreezePrimArray
       pure (Found (Crossings k r g))
+
+-- | Two segments that cross, if there are such; what ends on another one or touches it does not cross it.
+proper :: Double -> Chain -> Boxes -> Maybe (Int, Int)
+proper tolerance c bs = runST $ do
+  found <- newMutVar Nothing
+  let visitor = Visitor {crossing = \i _ j _ _ _ _ -> writeMutVar found (Just (i, j)), resting = \_ _ -> pure (), touching = \_ _ _ _ -> pure ()}
+  Boxes.pairs bs ((== Nothing) <$> readMutVar found) (Meet.meet tolerance c visitor)
+  readMutVar found
 
 -- | Room for one more.
 grow :: MutVar s (MutablePrimArray s Double) -> MutVar s (MutablePrimArray s Int32) -> Int -> ST s ()
