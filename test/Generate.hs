@@ -183,7 +183,8 @@ job c =
       Part.corners = Part.Round,
       Part.sense = Nothing,
       Part.spin = Part.Clockwise,
-      Part.byControl = Nothing
+      Part.byControl = Nothing,
+      Part.rest = Part.Refused
     }
   where
     here = Located (Region 0 0)

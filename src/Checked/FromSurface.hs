@@ -120,6 +120,8 @@ statement defined (Located at s) = case s of
     pure (plain (\(_, (e', ciphers', joggles')) sol -> Checked.Piece name (e' sol) (map ($ sol) ciphers') side (map ($ sol) joggles')) checked)
   Surface.Assert e within -> one Checked.Assert (assertion defined e within)
   Surface.Mill e side options -> machining Checked.Mill "mill" e side options
+  Surface.Pocket e apart options ->
+    one (\(c, step', o) -> Checked.Pocket c step' o) ((\c step' o sol -> (c sol, step' sol, o sol)) <$> expect defined Type.Contour e <*> expect defined Type.len apart <*> Settings.check (expect defined) (stop defined) "pocket" options)
   Surface.Turn e side options -> machining Checked.Turn "turn" e side options
   Surface.Drill points depth options ->
     one (\(p, d, o) -> Checked.Drill p d o) $ do

@@ -71,6 +71,7 @@ use s = case s of
   Surface.Clearance _ -> plain {given = Just ClearanceSetting}
   Surface.Change _ _ -> plain {given = Just ToolSetting}
   Surface.Mill _ _ options -> plain {needed = cutting <> [ClearanceSetting | goesDeep options]}
+  Surface.Pocket _ _ options -> plain {word = 6, needed = cutting <> [ClearanceSetting | goesDeep options]}
   Surface.Turn {} -> plain {needed = cutting}
   Surface.Drill {} -> plain {word = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}
   Surface.Travel motion stops -> plain {word = case motion of Surface.RapidMotion -> 5; Surface.FeedMotion -> 4, needed = FromSetting : [FeedSetting | motion == Surface.FeedMotion, any ((== Surface.Cutting) . Surface.pace) (NonEmpty.toList stops)]}
@@ -136,7 +137,23 @@ check expect stop statement written = do
         Surface.StartNear e -> (\e' sol o -> o {startNear = Just (e' sol)}) <$> expect Type.aPoint e
         Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> expect Type.feed e
         Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> expect Type.len e
+        Surface.Islands es -> (\es' sol o -> o {islands = map ($ sol) es'}) <$> mapM (contours expect) (NonEmpty.toList es)
+        Surface.RestAllowed -> pure (\_ o -> o {restAllowed = Just at})
         Surface.BrokenSetting -> (\_ o -> o) <$ Infer.taint
+
+-- | A contour, or a list of contours.
+contours :: (Type -> Surface.Expr -> Infer (Solution -> Checked.Expr)) -> Surface.Expr -> Infer (Solution -> Checked.Expr)
+contours expect e@(Located at _) = do
+  t <- Infer.freshType
+  e' <- expect t e
+  found <- Infer.known t
+  let wanted = case found of
+        Type.ListOf _ -> Type.ListOf Type.Contour
+        _ -> Type.Contour
+  settled <- Infer.settledPlaces [(at, t, found)]
+  same <- Infer.unify at wanted t
+  unless same (Infer.mistake (Mismatch at wanted found settled))
+  pure e'
 
 -- | Nothing set.
 none :: Settings
@@ -153,7 +170,9 @@ none =
       compensation = Nothing,
       startNear = Nothing,
       plunge = Nothing,
-      peck = Nothing
+      peck = Nothing,
+      islands = [],
+      restAllowed = Nothing
     }
 
 -- | How a setting begins.
@@ -172,6 +191,8 @@ name s = case s of
   Surface.StartNear _ -> "start near"
   Surface.Plunge _ -> "plunge"
   Surface.Peck _ -> "peck"
+  Surface.Islands _ -> "islands"
+  Surface.RestAllowed -> "rest"
   Surface.BrokenSetting -> ""
 
 -- | What a setting is about: of one thing a statement is told once.
@@ -183,7 +204,8 @@ subject s = case s of
 -- | The settings that a statement takes.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
-  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge", "compensation"]
+  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge", "compensation", "rest"]
+  "pocket" -> ["islands", "approach", "retract", "climb", "conventional", "allowance", "depth", "plunge", "rest"]
   "turn" -> ways <> passes
   _ -> ["peck", "plunge"]
   where

@@ -86,6 +86,8 @@ data Statement_
   | Contour (Located Name) Closure [Item]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
+  | -- | the outline, how far the passes lie apart
+    Pocket Expr Expr Settings
   | Turn Expr (Located Side) Settings
   | -- | the points, the depth
     Drill Expr Expr Settings
@@ -168,7 +170,11 @@ data Settings = Settings
     compensation :: Maybe (Located Compensation),
     startNear :: Maybe Expr,
     plunge :: Maybe Expr,
-    peck :: Maybe Expr
+    peck :: Maybe Expr,
+    -- | each a contour or a list of them
+    islands :: [Expr],
+    -- | where it is said that what the cutter cannot reach may stay
+    restAllowed :: Maybe Region
   }
   deriving stock (Eq, Show)
 

@@ -100,6 +100,7 @@ set part path =
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
+  Pocket (Located _ p) -> Part.wall p : [(Part.wall p) {contour = i, Part.side = Part.Outside <$ Part.side (Part.wall p)} | i <- Part.islands p]
   Drill _ -> []
   Travel _ -> []
   Command _ -> []
@@ -108,6 +109,7 @@ millingOf operation = case operation of
 holesOf :: Operation -> [Circle]
 holesOf operation = case operation of
   Mill _ -> []
+  Pocket _ -> []
   Drill (Located _ d) -> [Circle p (Part.drillRadius d) | Located _ p <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
   Command _ -> []

@@ -27,6 +27,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
+import Part.PocketError (Misfit)
+import Part.PocketError qualified as PocketError
 import Report.Report (Code, Label (..), Place (..), Report (..), quote, report)
 import Report.Report qualified as Report
 
@@ -178,6 +180,8 @@ data Fact
     JoggleDepth Region Mm Mm
   | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
     CrossesItself Region Region Region Point Bool
+  | -- | contours that make no pocket
+    NoPocket Misfit
   deriving stock (Eq, Show)
 
 -- | The neighbours that a link could not join.
@@ -446,7 +450,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   WrongCutter region statement needed there ->
     (at region "E0344" (quote statement <> " needs " <> needed))
       { message = ["The tool is " <> there <> "."],
-        hints = ["Change it first: change 2 " <> statement <> (if statement == "turn" then "(nose 0.4 mm)" else "(diameter 5 mm)")]
+        hints = ["Change it first: change 2 " <> (if statement == "pocket" then "mill" else statement) <> (if statement == "turn" then "(nose 0.4 mm)" else "(diameter 5 mm)")]
       }
   CrossesItself contour first second p fillets ->
     (at first "E0325" "the contour crosses or touches itself")
@@ -455,6 +459,7 @@ toReport (Error fact calls) = addCalls $ case fact of
         message = ["They meet at " <> Vec.written 4 p <> "."],
         hints = ["Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise." | fillets]
       }
+  NoPocket misfit -> PocketError.toReport misfit
   where
     addCalls r = r {others = others r <> [Label c "in this call" | c <- nub (take 1 calls <> take 1 (reverse calls))]}
 

@@ -27,11 +27,13 @@ import Part.Builtin qualified as Builtin
 import Part.Curve (Curve (..), Fitting)
 import Part.Data (Value (..))
 import Part.Data qualified as Data
-import Part.Error (Error, Fact (..))
+import Part.Error (Error (..), Fact (..))
 import Part.Eval (Eval)
 import Part.Eval qualified as Eval
 import Part.Part hiding (spot)
 import Part.Piece qualified as Piece
+import Part.Pocket qualified as Pocket
+import Part.PocketError (Misfit (StepTooWide))
 import Part.Transform qualified as Transform
 import Part.Value (Environment (..))
 import Part.Value qualified as Value
@@ -103,6 +105,7 @@ step state (Located at s) = case s of
     keep (Walks.contour env name closure items) $ \c -> (define name Dimension.none (ContourValue c)) {contours' = c : contours' state}
   Checked.Assert assertion -> keep (assert at env assertion) (const state)
   Checked.Mill e side settings -> keep (milling state Milled at e side settings) (perform . maybe id ((:) . Mill . Located at))
+  Checked.Pocket e step' settings -> keep (pocketing state at e step' settings) (perform . maybe id ((:) . Pocket . Located at))
   Checked.Turn e side settings -> keep (milling state Turned at e side settings) (perform . maybe id ((:) . Mill . Located at))
   Checked.Drill points depth settings -> keep (drilling state at points depth settings) (perform . maybe id ((:) . Drill . Located at))
   Checked.Travel stops -> keep (stopsOf state (NonEmpty.toList stops)) $ \ps -> case NonEmpty.nonEmpty =<< ps of
@@ -285,7 +288,8 @@ milling state work at e side settings = do
               corners = Checked.corners settings,
               sense = Checked.sense settings,
               spin = spin' state,
-              byControl
+              byControl,
+              rest = maybe Refused (const Allowed) (Checked.restAllowed settings)
             }
       _ -> bug "a value that is no contour where one was checked"
   where
@@ -302,6 +306,31 @@ milling state work at e side settings = do
       v <- Value.number <$> Value.evaluate env x
       when (v < 0) (Eval.mistake (Negative (region x) "the allowance" (Decimal.mm (Mm v))))
       Mm v <$ Data.within (region x) v
+
+-- | A pocket: its outline milled inside, and islands. Nothing as for 'milling'.
+pocketing :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Pocketing)
+pocketing state at e step' settings = do
+  mapM_ (rightCutter at "pocket" [MillingCutter]) (cutter' state)
+  mapM_ upright (cutter' state)
+  wall <- milling state Milled at e (Located (region e) Inside) settings
+  outline' <- contourAt e <$> Value.evaluate env e
+  islands <- concat <$> Eval.gather (map (\i -> namedIn i <$> Value.evaluate env i) (Checked.islands settings))
+  apart <- Walks.lengthOf env "the step from pass to pass" step'
+  Eval.spend at (sum [length (elements (Pocket.contour c)) | c <- outline' : islands])
+  case [Error (NoPocket m) [] | m <- Pocket.misfits outline' islands <> [StepTooWide (region step') apart d | Just d <- [times 2 . cutterRadius <$> cutter' state], apart > d]] of
+    [] -> pure ((\w -> Pocketing {wall = w, islands = map Pocket.contour islands, apart}) <$> wall)
+    found -> Eval.mistakes found
+  where
+    env = environment state
+    contourAt i v = case v of
+      ContourValue c -> Pocket.Named (region i) c
+      _ -> bug "a value that is no contour where one was checked"
+    namedIn i v = case v of
+      ListValue vs -> map (contourAt i) vs
+      _ -> [contourAt i v]
+    upright c = case swivel c of
+      Just _ -> Eval.mistake (WrongCutter (let Region begin _ = at in Region begin (begin + 6)) "pocket" "a mill" "a blade that swivels")
+      Nothing -> pure ()
 
 -- | The heights of the passes: equal ones, none deeper than is asked.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]

@@ -12,6 +12,8 @@ module Part.Part
     Spot (..),
     Operation (..),
     Milling (..),
+    Rest (..),
+    Pocketing (..),
     Work (..),
     Accuracy (..),
     deepest,
@@ -135,6 +137,7 @@ data Spot = Spot {plane :: Point, height :: Mm}
 -- | What the machine is to do.
 data Operation
   = Mill (Located Milling)
+  | Pocket (Located Pocketing)
   | Drill (Located Drilling)
   | -- | moves without cutting
     Travel (NonEmpty Stop)
@@ -168,7 +171,29 @@ data Milling = Milling
     -- | of the spindle
     spin :: Walk,
     -- | where it is asked that the control keeps the cutter beside the contour; else the compiler does
-    byControl :: Maybe Region
+    byControl :: Maybe Region,
+    rest :: Rest
+  }
+  deriving stock (Eq, Show)
+
+-- | What is done where the cutter cannot reach: into a corner, a concave radius smaller than its own, a gap narrower than
+-- itself.
+data Rest
+  = -- | there is no path
+    Refused
+  | -- | the material stays, and a warning tells of it
+    Allowed
+  deriving stock (Eq, Show)
+
+-- | A closed contour whose inside is cleared.
+data Pocketing = Pocketing
+  { -- | the outline, milled inside, with the ways, depths, allowances and feeds of the whole pocket. It has no leads, round
+    -- corners, and no compensation by the control
+    wall :: Milling,
+    -- | closed contours inside it, apart from it and from one another, that stay standing
+    islands :: [Contour],
+    -- | how far the passes lie apart: above zero, at most the diameter of the cutter
+    apart :: Mm
   }
   deriving stock (Eq, Show)
 

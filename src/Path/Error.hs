@@ -10,14 +10,14 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), degrees, plus, times)
-import Base.Region (Region)
+import Base.Region (Located (..), Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Element (..), Side (..), Work (..))
+import Part.Part (Contour (contourName), Element (..), Side (..), Work (..))
 import Report.Report (Code, Label (..), Place (..), Report (..), report)
 import Report.Report qualified as Report
 
@@ -72,6 +72,8 @@ data Error
     TinyForControl Region Element Mm
   | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
     SlightForControl Region Element Element Rad Mm
+  | -- | there is no path that clears a pocket: the statement's first word, the outline
+    NoPathInPocket Region Contour
   deriving stock (Eq, Show)
 
 -- | What a control that is sent the edge of the part does not do.
@@ -211,6 +213,13 @@ toReport err = case err of
         message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc that leads out behind it may then be refused."],
         hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
       }
+  NoPathInPocket region outline ->
+    let Located there (Name name) = contourName outline
+     in (at region "E0420" "no path clears this pocket")
+          { others = [Label there ("its outline is ‘" <> name <> "’")],
+            message = ["Pockets have no path yet in this version."],
+            hints = ["Mill the outline inside, and other contours within it."]
+          }
 
 unsent :: Unsent -> Text
 unsent what = case what of

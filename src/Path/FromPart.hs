@@ -58,6 +58,7 @@ firstTool operations = fromMaybe (Mm 0) (listToMaybe (mapMaybe tool (takeWhile (
   where
     tool o = case o of
       Mill (Located _ m) -> Just (radius m)
+      Pocket (Located _ p) -> Just (radius (Part.wall p))
       Drill (Located _ d) -> Just (Part.drillRadius d)
       Travel _ -> Nothing
       Command _ -> Nothing
@@ -75,6 +76,7 @@ collect number tool at operations = case operations of
     where
       next = case o of
         Mill _ -> number + 1
+        Pocket _ -> number + 1
         _ -> number
       tool' = case o of
         Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
@@ -89,6 +91,7 @@ blocksOf number tool at operation = case operation of
   Travel stops -> Right [Travelling tool (ways at (NonEmpty.toList stops))]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (holing at d)]
+  Pocket (Located at' p) -> Left (NoPathInPocket at' {end = start at' + 6} (contour (Part.wall p)))
   Mill (Located region given) -> do
     possible region given
     milling <- oriented region given

@@ -39,6 +39,7 @@ symbol source (Located whole s) = case s of
   Curve what _ -> named Value what "curve"
   Piece what _ _ _ _ -> named Value what "piece"
   Mill what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
+  Pocket what apart _ -> Just (unnamed (Region (start whole) (end (region apart))) (region what))
   Turn what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
   Drill places depth _ -> Just (unnamed (Region (start whole) (end (region depth))) (region places))
   Travel _ _ -> Just (unnamed whole whole)

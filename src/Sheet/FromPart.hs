@@ -59,6 +59,7 @@ runsOf = go []
       Part.Mill (Located at m) : rest -> do
         (runs, final) <- go (Part.retract m) rest
         Right (Run {stops = before <> Part.approach m, region' = keyword at, milled = (keyword at, m)} : runs, final)
+      Part.Pocket (Located at _) : _ -> Left (NoNumbers at "the clearing of a pocket")
       Part.Drill (Located at _) : _ -> Left (NoNumbers at "drilling")
       Part.Command (Located at c) : _ -> Left (NoNumbers at (commandName c))
     commandName c = case c of

@@ -43,6 +43,7 @@ statement s = case s of
   Piece name e ciphers side joggles -> Piece (here name) (expr e) (map (moved cipher) ciphers) (here side) (map (moved joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
   Mill e side settings -> Mill (expr e) (here side) (map (moved setting) settings)
+  Pocket e step settings -> Pocket (expr e) (expr step) (map (moved setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (moved setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (moved setting) settings)
   Travel motion stops -> Travel motion (fmap stop stops)
@@ -132,6 +133,8 @@ setting s = case s of
   StartNear p -> StartNear (expr p)
   Plunge e -> Plunge (expr e)
   Peck e -> Peck (expr e)
+  Islands es -> Islands (fmap expr es)
+  RestAllowed -> RestAllowed
   BrokenSetting -> BrokenSetting
 
 stop :: Stop -> Stop

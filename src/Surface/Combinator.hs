@@ -332,9 +332,10 @@ brokenStatement taken = do
       [Word word, Word what] | not (Keyword.isReserved what) -> (spelt word, Just (Located (place' (drop 1 ts)) (Name what)))
       Word word : _ -> (spelt word, Nothing)
       _ -> (Nothing, Nothing)
-    spelt word = case filter (== word) Keyword.statements <> Name.nearest word Keyword.statements of
+    spelt word = case filter (== word) known <> Name.nearest word known of
       w : _ -> Just w
       [] -> Nothing
+    known = Keyword.statements <> Keyword.softStatements
     place' ts = case ts of
       t : _ -> Token.place t
       [] -> Region 0 0
@@ -378,7 +379,7 @@ fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
 fromFailure ts finish failure = case failure of
   FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of
     UnclosedBlock opened what -> Error.Unclosed region opened what
-    NoStatement word -> Error.UnknownStatement region word (Keyword.statements <> Keyword.blocks)
+    NoStatement word -> Error.UnknownStatement region word (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
     NoName word -> Error.Reserved region word
     Trailing shape' -> Error.Trailing region shape' neighbours
     NotInRow shape' -> Error.NotInRow region shape' neighbours

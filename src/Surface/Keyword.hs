@@ -3,6 +3,7 @@
 -- Words that only ever stand where no name can (@depth@, @step@, @by@ …) are not among them.
 module Surface.Keyword
   ( statements,
+    softStatements,
     blocks,
     beginsItem,
     isReserved,
@@ -22,6 +23,10 @@ statements =
     <> ["let", "param", "table", "curve", "piece", "contour", "assert"]
     <> ["mill", "turn", "drill", "rapid", "move", "change", "spindle", "coolant", "aux", "with"]
 
+-- | The words that begin a statement where one can begin, and are names elsewhere: @contour pocket closed@.
+softStatements :: [Text]
+softStatements = ["pocket"]
+
 -- | The words that begin a statement with a block, and an item of a contour as well.
 blocks :: [Text]
 blocks = ["for", "if"]
@@ -30,7 +35,7 @@ blocks = ["for", "if"]
 beginsItem :: Text -> Bool
 beginsItem word = word `elem` (["for", "if", "cw", "ccw", "approach", "retract"] <> settings)
   where
-    settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "compensation", "start", "plunge", "peck"]
+    settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "compensation", "start", "plunge", "peck", "islands", "rest"]
 
 -- | Whether a word can not be the name of a value.
 isReserved :: Text -> Bool

@@ -85,6 +85,7 @@ forms =
     ("piece", piece),
     ("assert", Assert <$> expr <*> Parsec.optional (keyword "within" *> expr)),
     ("mill", machining "mill" Mill),
+    ("pocket", Pocket <$> expr <* keyword "step" <*> expr <*> settings "pocket"),
     ("turn", machining "turn" Turn),
     ("drill", keyword "at" *> (Drill <$> expr <* keyword "depth" <*> expr <*> Parsec.option [] (onThisLine (settings "drill")))),
     ("rapid", Travel RapidMotion <$> stops),
@@ -272,7 +273,9 @@ settingForms =
     ("compensation", CompensationBy <$> ((ByCompiler <$ keyword "compiler") <|> (ByController <$ keyword "controller"))),
     ("start", keyword "near" *> (StartNear <$> expr)),
     ("plunge", Plunge <$> expr),
-    ("peck", Peck <$> expr)
+    ("peck", Peck <$> expr),
+    ("islands", Islands <$> (expr `sepBy1` ",")),
+    ("rest", RestAllowed <$ keyword "allowed")
   ]
 
 stops :: Parser (NonEmpty Stop)

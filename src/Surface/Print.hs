@@ -84,6 +84,7 @@ statement commented indent (Located _ s) = case s of
   Piece (Located _ (Name name)) e ciphers (Located _ side) joggles -> cells' Definitions indent (Text ("piece " <> name)) (words' [Text "=", piece commented e ciphers side joggles])
   Assert e within -> plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
   Mill e side settings -> machining "mill" e side settings
+  Pocket e step settings -> braces indent (words' [Text "pocket", value e, Text "step", value step]) (concatMap (setting commented (indent + 2)) settings)
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = words' [Text "drill at", value at, Text "depth", value depth]
@@ -273,6 +274,8 @@ setting commented indent (Located _ s) = case s of
   StartNear p -> worded "start near" (value p)
   Plunge e -> worded "plunge" (value e)
   Peck e -> worded "peck" (value e)
+  Islands es -> worded "islands" (Series (pieces es))
+  RestAllowed -> worded "rest" (Text "allowed")
   BrokenSetting -> []
   where
     value = PrintExpr.value commented

@@ -93,6 +93,8 @@ data Statement_
     Assert Expr (Maybe Expr)
   | -- | @mill outline outside { … }@
     Mill Expr (Located Side) [Setting]
+  | -- | @pocket window step 4 mm { … }@: what is to be cleared, how far the passes lie apart
+    Pocket Expr Expr [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@
@@ -311,6 +313,10 @@ data Setting_
     Plunge Expr
   | -- | @peck 3 mm@: how deep a drill goes before it is drawn out
     Peck Expr
+  | -- | @islands a, b@: contours in a pocket that stay standing
+    Islands (NonEmpty Expr)
+  | -- | @rest allowed@: what the cutter cannot reach may stay
+    RestAllowed
   | -- | a setting that could not be read
     BrokenSetting
   deriving stock (Eq, Show)

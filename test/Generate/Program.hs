@@ -49,7 +49,7 @@ name :: Gen Name
 name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
   where
     plain = ["a", "b", "p", "lug", "радиус", "Ёж", "x1", "_", "half_turn", "a_rather_long_name_for_a_thing"]
-    words' = ["by", "at", "depth", "step", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "compensation", "controller", "compiler", "lead", "cipher", "joggle", "radius", "cone", "blade", "gear", "bevel1", "to", "rpm1", "min", "byte"]
+    words' = ["by", "at", "depth", "step", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "compensation", "controller", "compiler", "lead", "cipher", "joggle", "radius", "cone", "blade", "gear", "bevel1", "to", "rpm1", "min", "byte", "pocket", "islands", "rest", "allowed"]
     made = (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019"))) `suchThat` (not . Keyword.isReserved)
 
 number :: Gen Numeral
@@ -93,6 +93,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
         Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (Entries <$> nonEmpty 3 cell)))),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
+        Pocket <$> expr n <*> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
         When <$> expr n <*> inside <*> inside,
@@ -135,7 +136,9 @@ setting n =
       CompensationBy <$> every,
       StartNear <$> expr n,
       Plunge <$> expr n,
-      Peck <$> expr n
+      Peck <$> expr n,
+      Islands <$> nonEmpty 3 (expr n),
+      pure RestAllowed
     ]
 
 -- Expressions
@@ -218,7 +221,7 @@ written text t = Text.take (end (place t) - start (place t)) (Text.drop (start (
 -- | Whether a token begins what has to begin a line.
 begins :: Token -> Bool
 begins t = case shape t of
-  Word word -> word `elem` Keyword.statements <> Keyword.blocks
+  Word word -> word `elem` Keyword.statements <> Keyword.softStatements <> Keyword.blocks
   _ -> False
 
 -- | Whether two tokens have to stay as they are: on one line, and touching or not.

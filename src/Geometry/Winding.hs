@@ -1,0 +1,41 @@
+-- | How often closed chains of segments go round a point, and with that what lies inside them.
+module Geometry.Winding
+  ( about,
+    encloses,
+  )
+where
+
+import Base.Quantity (Rad (..))
+import Geometry.Contour (Contour)
+import Geometry.Contour qualified as Contour
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- | How often closed chains go round a point, counter-clockwise; the order of the segments does not matter. Any number for
+-- a point on one of them.
+--
+-- The chords go round it by the sum of the angles under which they are seen; an arc goes round what lies between it and
+-- its chord once more than the chord does.
+about :: Foldable f => Point -> f Segment -> Int
+about p chains = round (seen / (2 * pi)) + extra
+  where
+    (seen, extra) = foldl add (0, 0) chains
+    add (angle, count) s = let angle' = angle + chord s in angle' `seq` (angle', count + bow s) :: (Double, Int)
+    chord s = let Rad t = angleBetween (Vec.to p (start s)) (Vec.to p (end s)) in t
+    angleBetween a b
+      | Vec.norm a == 0 || Vec.norm b == 0 = Rad 0
+      | otherwise = Vec.turn a b
+    bow s = case s of
+      Straight _ _ -> 0
+      Arc {start = a, end = b, centre, sweep = Rad w}
+        | Vec.distance centre p >= Segment.radius centre a -> 0
+        | a == b -> round (signum w)
+        | w > 0 && Vec.cross (Vec.to a b) (Vec.to a p) < 0 -> 1
+        | w < 0 && Vec.cross (Vec.to a b) (Vec.to a p) > 0 -> -1
+        | otherwise -> 0
+
+-- | Whether a point lies inside a closed contour, whichever way that is walked.
+encloses :: Contour -> Point -> Bool
+encloses contour p = about p (Contour.segments contour) /= 0

@@ -1,0 +1,75 @@
+-- | What has to hold of the contours of a pocket: all of them are closed, and the islands lie inside the outline and apart
+-- from it and from one another.
+module Part.Pocket
+  ( misfits,
+    Named (..),
+  )
+where
+
+import Base.Name (Name)
+import Base.Region (Located (..), Region)
+import Data.List (nubBy)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Box (Box)
+import Geometry.Box qualified as Box
+import Geometry.Contour qualified as Geometry
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Winding qualified as Winding
+import Part.Part (Contour (..), Ends (..))
+import Part.Part qualified as Part
+import Part.PocketError (Misfit (..))
+
+-- | A contour, and where the statement names it.
+data Named = Named {place :: Region, contour :: Contour}
+
+-- | Why a pocket of this outline and these islands cannot be.
+misfits :: Named -> [Named] -> [Misfit]
+misfits outline islands = case filter isOpen (outline : islands) of
+  [] -> map met meetings <> [f | k <- loose, Just f <- [astray k]]
+  open -> [OpenContour (place n) (nameOf n) (placeOf n) | n <- open]
+  where
+    isOpen n = ends (contour n) == Open
+    numbered = zip [0 ..] (outline : islands)
+    meetings = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
+    met (i, j, p) = let (a, b) = (named j, named i) in Meets (place a) (nameOf a) (nameOf b) (i == 0) p
+    named i = (outline : islands) !! i
+    -- Of islands that meet something it is said already.
+    loose = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` concat [[i, j] | (i, j, _) <- meetings]]
+    -- An island meets nothing, so all of it lies where its beginning lies.
+    astray (k, n)
+      | not (Winding.encloses (Part.outline (contour outline)) (beginning n)) = Just (Outside (place n) (nameOf n) (nameOf outline))
+      | otherwise = case [m | (l, m) <- drop 1 numbered, l /= k, Box.meets (boxOf n) (boxOf m), Winding.encloses (Part.outline (contour m)) (beginning n)] of
+        m : _ -> Just (InIsland (place n) (nameOf n) (nameOf m))
+        [] -> Nothing
+
+-- | Where elements of two of some numbered contours cross or touch: the lower number first.
+crossings :: [(Int, Named)] -> [(Int, Int, Point)]
+crossings numbered =
+  [ (i, j, p)
+    | (j, n) <- numbered,
+      s <- segments n,
+      (i, other) <- Box.within (Box.ofSegment s) index,
+      i < j,
+      p <- take 1 (Distance.crossings s other)
+  ]
+  where
+    index = Box.index (Box.ofSegment . snd) [(i, s) | (i, n) <- numbered, s <- segments n]
+
+segments :: Named -> [Segment]
+segments n = NonEmpty.toList (Geometry.segments (Part.outline (contour n)))
+
+boxOf :: Named -> Box
+boxOf n = let s :| more = fmap Box.ofSegment (Geometry.segments (Part.outline (contour n))) in foldl Box.union s more
+
+beginning :: Named -> Point
+beginning n = Segment.start (Part.segment (NonEmpty.head (elements (contour n))))
+
+nameOf :: Named -> Name
+nameOf n = let Located _ name = contourName (contour n) in name
+
+placeOf :: Named -> Region
+placeOf n = let Located there _ = contourName (contour n) in there

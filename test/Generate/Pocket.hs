@@ -1,0 +1,115 @@
+-- | Random pockets, and a plain offset of their walls that takes its time.
+module Generate.Pocket
+  ( Pocket (..),
+    pocket,
+    rectangle,
+    roomOf,
+    insetOf,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (minimumBy, sort)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Generate qualified
+import Geometry.Contour qualified as Contour
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Shape (Circle (Circle), Turn (..))
+import Geometry.Vec qualified as Vec
+import Geometry.Winding qualified as Winding
+import Path.Pocket (Loop, Room (..))
+import Test.QuickCheck
+
+-- | Loops with the free space on their left: the outline, and islands; the cutter's radius; what it leaves; the step.
+data Pocket = Pocket {loops :: NonEmpty Loop, cutter :: Mm, left :: Mm, step :: Mm}
+  deriving stock (Show)
+
+-- | A pocket with up to three islands.
+pocket :: Gen Pocket
+pocket = do
+  c <- Generate.contour <$> Generate.closedCase
+  let outline = Contour.segments (if Contour.signedArea c > 0 then c else Contour.reverse c)
+  islands <- foldl (\before _ -> before >>= island outline) (pure []) [1 :: Int .. 3]
+  sized' (outline :| islands)
+
+-- | A rectangle without islands, a few passes wide.
+rectangle :: Gen Pocket
+rectangle = do
+  (w, h) <- (,) <$> choose (20, 90) <*> choose (20, 90)
+  let ps = [Vec.point 0 0, Vec.point w 0, Vec.point w h, Vec.point 0 h]
+  sized' (NonEmpty.fromList (zipWith Straight ps (drop 1 ps <> take 1 ps)) :| [])
+
+sized' :: NonEmpty Loop -> Gen Pocket
+sized' loops = do
+  r <- choose (2, 9)
+  s <- oneof [choose (0.3, 1), choose (1, 2), pure 1, pure 2, choose (1.7, 2)]
+  left <- oneof [pure 0, choose (0, 1)]
+  pure Pocket {loops, cutter = Mm r, left = Mm left, step = Mm (r * s)}
+
+-- | One island more, if it has room.
+island :: Loop -> [Loop] -> Gen [Loop]
+island outline before = do
+  p <- Vec.point <$> choose (-50, 60) <*> choose (-50, 60)
+  r <- choose (1, 9)
+  k <- choose (3, 5)
+  a <- choose (0, 2 * pi)
+  round' <- arbitrary
+  let corners = [Vec.shift (Vec.polar (Mm r) (Rad (a - 2 * pi * fromIntegral i / fromIntegral (k :: Int)))) p | i <- [0 .. k - 1]]
+      circle = let (one, other) = Segment.cutAt 0.5 (Segment.fullCircle Clockwise (Circle p (Mm r)) (Vec.shift (Vec.polar (Mm r) (Rad a)) p)) in one :| [other]
+      polygon = NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))
+      fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all (\l -> Winding.about p l == 0) before
+  pure ([if round' then circle else polygon | fits] <> before)
+
+roomOf :: Pocket -> Room
+roomOf p =
+  Room
+    { walls = NonEmpty.fromList (concatMap NonEmpty.toList (loops p)),
+      offsetBy = insetOf (NonEmpty.toList (loops p)),
+      radius = cutter p,
+      leaves = left p,
+      turned = False
+    }
+
+-- | The loops at a distance to the left of some: all segments moved and all corners rounded, cut where they meet one another; what is
+-- nowhere too near to the walls, joined again.
+insetOf :: [Loop] -> Mm -> [Loop]
+insetOf walls d@(Mm d') = joined [piece | (i, s) <- numbered, piece <- cutUp i s, admissible piece]
+  where
+    numbered = zip [0 :: Int ..] (filter (\s -> Segment.length s > Mm 1e-9) (concatMap raw walls))
+    raw loop = concat (zipWith (\s next -> moved s <> corner s next) (NonEmpty.toList loop) (NonEmpty.tail loop <> [NonEmpty.head loop]))
+    moved s = case s of
+      Straight a b -> let n = Vec.scale d' (Vec.left (Vec.unit (Vec.to a b))) in [Straight (Vec.shift n a) (Vec.shift n b)]
+      Arc {start = a, end = b, centre, sweep = w@(Rad angle)} ->
+        let Mm r = Segment.radius centre a
+            r' = r - signum angle * d'
+            to p = Vec.shift (Vec.scale (r' / r) (Vec.to centre p)) centre
+         in [Arc {start = to a, end = to b, centre, sweep = w} | r' > 1e-6]
+    corner s next =
+      let Rad t = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+          beside dir = Vec.shift (Vec.scale d' (Vec.left dir)) (Segment.end s)
+       in [Arc {start = beside (Segment.endDirection s), end = beside (Segment.startDirection next), centre = Segment.end s, sweep = Rad t} | t < -1e-9]
+    cutUp i s =
+      let marks = sort (0 : 1 : [t | (j, other) <- numbered, j /= i, p <- Distance.crossings s other, let t = Segment.fraction s p, t > 1e-9, t < 1 - 1e-9])
+       in [snd (Segment.cutAt (if b > 0 then a / b else 0) (fst (Segment.cutAt b s))) | (a, b) <- zip marks (drop 1 marks), b - a > 1e-9]
+    admissible piece = Segment.length piece > Mm 1e-7 && all (\w -> Distance.toPoint (Segment.at 0.5 piece) w > Mm (d' - 1e-7)) (concatMap NonEmpty.toList walls) && d > Mm 0
+
+-- | Pieces joined where they end and begin.
+joined :: [Segment] -> [Loop]
+joined pieces = case pieces of
+  [] -> []
+  first : rest -> go (first :| []) rest
+  where
+    go chain rest
+      | Vec.distance (end (NonEmpty.head chain)) (start (NonEmpty.last chain)) < Mm 1e-5 = NonEmpty.reverse chain : joined rest
+      | otherwise = case rest of
+        [] -> []
+        some ->
+          let (k, _) = minimumBy (comparing snd) (zip [0 ..] [Vec.distance (end (NonEmpty.head chain)) (start s) | s <- some])
+              (before, from) = splitAt k some
+           in case from of
+                s : behind | Vec.distance (end (NonEmpty.head chain)) (start s) < Mm 1e-5 -> go (NonEmpty.cons s chain) (before <> behind)
+                _ -> joined rest
