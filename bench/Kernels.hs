@@ -38,7 +38,7 @@ fine = 0.001
 compared :: FilePath -> Int -> Peers -> IO ([(Text, Text)], [Text])
 compared folder most peers = do
   createDirectoryIfMissing True folder
-  cases <- sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat <$> forM [(f, n) | f <- [minBound ..], n <- Contours.sizes f, n <= most] (\(f, n) -> ofContour folder peers f n)
+  cases <- sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat <$> forM [(f, n) | f <- [minBound ..], n <- Contours.sizes f, n <= most] (uncurry (ofContour folder peers))
   pure
     ( [ ("times", timesOf peers cases),
         ("memory", memoryOf peers cases),
@@ -94,11 +94,11 @@ timesOf :: Peers -> [Case] -> Text
 timesOf peers cases =
   Table.table
     (["input", "segments", Peer.title (ours peers)] <> map Peer.title (keepers peers) <> map (Peer.title . ($ coarse)) (chorders peers) <> ["ours / " <> Peer.title k | k <- keepers peers] <> ["growth of " <> Peer.title p | p <- ours peers : keepers peers])
-    (map row (zip cases (map before cases)))
+    (map (\c -> row c (before c)) cases)
   where
     count = 1 + length (keepers peers)
     before c = foldl (\found x -> if label x == label c && segments x < segments c then Just x else found) Nothing cases
-    row (c, earlier) =
+    row c earlier =
       [label c, Decimal.whole (segments c)]
         <> [cell (Table.number . perSegment (segments c)) (Just o) | o <- exact c]
         <> [cell (Table.number . perSegment (segments c)) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]

@@ -10,6 +10,7 @@ module Peer
 where
 
 import Control.Monad (foldM)
+import Data.Functor ((<&>))
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -27,7 +28,7 @@ data Outcome = Outcome {times :: [Double], area :: Double, long :: Double, loops
 -- | Every program once in each of so many rounds; each begins anew, so that none profits from the one before. A program
 -- that fails once is not asked again.
 interleaved :: Int -> FilePath -> Double -> Int -> Int -> [Peer] -> IO [Either Text Outcome]
-interleaved rounds file distance runs batches peers = foldM once (map (const (Right Nothing)) peers) [1 .. rounds] >>= traverse (pure . (>>= maybe (Left "not run") Right))
+interleaved rounds file distance runs batches peers = foldM once (map (const (Right Nothing)) peers) [1 .. rounds] <&> map (>>= maybe (Left "not run") Right)
   where
     once found _ = traverse further (zip peers found)
     further (peer, before) = case before of

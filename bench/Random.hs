@@ -8,7 +8,7 @@ import ContourFile qualified
 import Control.Exception (evaluate)
 import Control.Monad (forM_, when)
 import Data.ByteString.Builder qualified as Builder
-import Data.Maybe (catMaybes)
+import Data.Maybe (catMaybes, fromMaybe)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -30,7 +30,7 @@ main = do
   arguments <- getArgs
   case arguments of
     ["-", s, i] | Just seed <- readMaybe s, Just index <- readMaybe i -> printed (RandomContour.contour seed index)
-    c : s : file : peer : rest | Just count <- readMaybe c, Just seed <- readMaybe s -> compared count seed file peer (maybe 20 id (readMaybe =<< safeHead rest))
+    c : s : file : peer : rest | Just count <- readMaybe c, Just seed <- readMaybe s -> compared count seed file peer (fromMaybe 20 (readMaybe =<< safeHead rest))
     _ -> die "random COUNT SEED FILE PEER [LIMIT] or random - SEED INDEX"
   where
     safeHead list = case list of

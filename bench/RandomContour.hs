@@ -7,6 +7,7 @@ where
 
 import Data.Bits (shiftR)
 import Data.List (nub, sortOn)
+import Data.Maybe (fromMaybe)
 import Data.Word (Word64)
 import Geometry.Contour (Ends (..))
 import Geometry.Outline (Outline)
@@ -114,7 +115,7 @@ cells stream count = grow 0 [(0, 0)]
     -- One walk takes in every edge, and no corner is passed twice.
     simple taken = let es = edgesOf taken; starts = map fst es in length (nub starts) == length starts && length (walked taken) == length es
     walked taken = case edgesOf taken of
-      es@((begin, _) : _) -> begin : takeWhile (/= begin) (drop 1 (take (length es + 1) (iterate (\p -> maybe begin id (lookup p es)) begin)))
+      es@((begin, _) : _) -> begin : takeWhile (/= begin) (drop 1 (take (length es + 1) (iterate (\p -> fromMaybe begin (lookup p es)) begin)))
       [] -> []
     -- Every other outline keeps the corners that turn nothing: there segments go on straight.
     straightened ps

@@ -32,7 +32,7 @@ number x
 
 -- | How time grows with size: the exponent between two of both.
 exponent :: (Int, Double) -> (Int, Double) -> Double
-exponent (n, t) (n', t') = log (t' / t) / log (fromIntegral n' / fromIntegral n)
+exponent (n, t) (n', t') = logBase (fromIntegral n' / fromIntegral n) (t' / t)
 
 -- | Put a text where a page says @<!-- NAME -->@ … @<!-- end of NAME -->@; whether there is such a place.
 replace :: FilePath -> Text -> Text -> IO Bool

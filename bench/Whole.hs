@@ -54,7 +54,10 @@ ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], No
     row n cells = [Programs.name kind, machine, Decimal.whole n] <> cells
     growth (m, n, old) s = ["", "", "growth"] <> zipWith (\(_, a) (_, b) -> exponentOf (m, a) (n, b)) (stages old) (stages s) <> [exponentOf (m, total old) (n, total s), "", ""]
     exponentOf a@(_, t) b@(_, t') = if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
-    repeats n = if n <= 1000 then 5 else if n <= 10000 then 3 else 1 :: Int
+    repeats n
+      | n <= 1000 = 5
+      | n <= 10000 = 3
+      | otherwise = 1
 
 total :: Staged -> Double
 total = sum . map snd . stages
@@ -66,7 +69,7 @@ middles outputs = case traverse parsed outputs of
   _ -> Left "what was printed is not understood"
   where
     parsed out = do
-      numbers <- traverse pair (map Text.words (Text.lines out))
+      numbers <- traverse (pair . Text.words) (Text.lines out)
       pure Staged {stages = filter ((/= "memory") . fst) numbers, peak = sum [v | ("memory", v) <- numbers]}
     pair line = case line of
       [name, value] -> (name,) <$> readMaybe (Text.unpack value)
