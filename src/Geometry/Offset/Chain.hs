@@ -230,14 +230,19 @@ diameter c i = chord c i $ \dx dy -> let b = indexPrimArray (bulges c) i in sqrt
 {-# INLINE diameter #-}
 
 -- | The bulge of the part of a segment between two points on it: for an arc about a centre from which they are seen at
--- @a@ and @b@, @tan(θ/4) = a×b / (|a||b| + a·b + √((|a||b| + a·b)² + (a×b)²))@.
+-- @a@ and @b@, @tan(θ/2)@ is @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@, which keeps its digits up to half a turn;
+-- and @tan(θ/4) = p / (q + √(p² + q²))@ when @tan(θ/2) = p/q@.
 part :: Chain -> Int -> Double -> Double -> Double -> Double -> Double
 part c i px py qx qy
   | b == 0 = 0
   | otherwise = gradient c i px py $ \ax ay -> gradient c i qx qy $ \cx cy ->
-    let cross = ax * cy - ay * cx
-        along = sqrt ((ax * ax + ay * ay) * (cx * cx + cy * cy)) + ax * cx + ay * cy
-        t = abs cross / (along + sqrt (along * along + cross * cross))
+    let cross = abs (ax * cy - ay * cx)
+        dot = ax * cx + ay * cy
+        product' = sqrt ((ax * ax + ay * ay) * (cx * cx + cy * cy))
+        t
+          | dot < 0 = quarter (product' - dot) cross
+          | otherwise = quarter cross (product' + dot)
      in if b > 0 then t else -t
   where
     b = indexPrimArray (bulges c) i
+    quarter p q = p / (q + sqrt (p * p + q * q))
