@@ -90,9 +90,9 @@ isCovered others distance segment
       Just other -> case [g | g@(_, b) <- uncovered distance [lines others other] segment, b > t] of
         [] -> True
         (a, _) : _
-          | a > t + hair -> from a
+          | a > t + Tolerance.hair -> from a
           -- It ends right here, and what is nearest a hair further on does not begin before.
-          | otherwise -> maybe False (const together) (nearestAt (min 1 (t + hair)))
+          | otherwise -> maybe False (const together) (nearestAt (min 1 (t + Tolerance.hair)))
     nearestAt t =
       let p = Segment.at t segment
        in case Nearest.closest (away p) p (index others) of
@@ -129,7 +129,3 @@ inEither stretches = case stretches of
 -- | So many others are taken together.
 fewAtMost :: Int
 fewAtMost = 30
-
--- | A share of a segment too short to matter.
-hair :: Double
-hair = 1e-9

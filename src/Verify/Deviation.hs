@@ -39,6 +39,7 @@ import Verify.Passage qualified as Passage
 import Verify.Pointed qualified as Pointed
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
 import Verify.Proof qualified
+import Verify.Reachable qualified as Reachable
 
 -- | A pass and what was found of it.
 data Pass = Pass {job :: Job, passNumber :: Int, level :: Mm, found :: Passage.Found}
@@ -56,7 +57,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     allowance' = max inside outside
     upon = isNothing (side job)
     (milled, within) = case found of
-      Passage.Followed arrival along _ -> (arrival <> along, along)
+      Passage.Followed arrival along _ -> (if mayStay then atHeight traces else arrival <> along, along)
       Passage.Lost _ along _ -> (atHeight traces, along)
       Passage.NeverBegun -> (atHeight traces, [])
     atHeight = filter (\t -> flat || isAt machine level t)
@@ -76,7 +77,13 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     deeper best w = case best of
       Just b | amount b >= amount w -> best
       _ -> Just w
-    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex es | (more, es) <- byAllowance (Nearest.toList (edges job))]
+    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex (concatMap (touchable (plus (reach job) more)) es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
+    -- What the cutter cannot touch may stay, where that is allowed.
+    touchable distance e = case (Part.rest (milling job), side job) of
+      (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance elementSegments (Part.segment (element e))]
+      _ -> [e]
+    elementSegments = Nearest.index Box.ofSegment (map (Part.segment . element) (Nearest.toList (edges job)))
+    mayStay = Part.rest (milling job) == Part.Allowed
     milledIndex = Nearest.index box (filter (\t -> flat || isAt machine level t) milled)
     strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave}) level'
     level' = filter (not . isUpright) within
@@ -91,7 +98,8 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     -- Nothing else is wrong with the contour but the order in which it is walked.
     order = case found of
       Passage.Followed {} -> []
-      Passage.Lost {} -> [NotFollowed (statement job) | Passage.measurable job]
+      -- A way that leaves stretches out does not go along the contour in one go.
+      Passage.Lost {} -> [NotFollowed (statement job) | Passage.measurable job, not mayStay]
       Passage.NeverBegun -> [NeverBegun (statement job)]
     negated (Mm x) = -x
     -- Above the top of the part nothing is cut.
