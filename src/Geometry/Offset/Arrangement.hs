@@ -161,7 +161,8 @@ merged tolerance places cut = concatMap edgesOf (Map.toList (Map.fromListWith (<
       where
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap.
+-- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap; at the leftmost node of
+-- what hangs together, behind the one on the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring places es halves = case halves of
   [_] -> halves
@@ -171,12 +172,13 @@ ring places es halves = case halves of
     aimed = sortOn (\(_, angle, _) -> angle) [(h, atan2 dy dx, (dx, dy, l, k)) | h <- halves, let (dx, dy, l, k) = direction h]
     angles = map (\(_, angle, _) -> angle) aimed
     gaps = zipWith (\a b -> (b - a, (a + b) / 2)) angles (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    cut = snd (maximumBy (comparing fst) gaps)
+    -- Two that leave a leftmost place straight up and down have as wide a gap on their right; the last gap is the left one.
+    cut = snd (maximumBy (comparing fst) (zipWith (\k (gap, middle) -> (if k == length gaps then gap + tie else gap, middle)) [1 ..] gaps))
     turnedBy :: Double -> Double -> Double
     turnedBy from' angle = let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
     -- Of two that set out in nearly the same direction, compare how far to the left they are a little further on.
     order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
-      | abs (a - b) > 1e-3 = compare a b
+      | abs (a - b) > tie = compare a b
       | otherwise =
         let step = 0.25 * min l l'
             lean = asin (max (-1) (min 1 (dx * dy' - dy * dx')))
@@ -195,6 +197,10 @@ ring places es halves = case halves of
           co = (1 - g * g) * q
           si = 2 * g * q
        in (ux * co + uy * si, uy * co - ux * si, l, 4 * g * q / l)
+
+-- | Directions that differ by less, in radians, may have changed their order by rounding.
+tie :: Double
+tie = 1e-3
 
 -- | The winding number on the left of every edge, from outside at the leftmost node of whatever hangs together.
 propagated :: Double -> Chain -> Boxes -> Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int

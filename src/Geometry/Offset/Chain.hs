@@ -16,6 +16,9 @@ module Geometry.Offset.Chain
     first,
     behind,
     extent,
+    only,
+    closed,
+    fits,
 
     -- * Marks of segments
     smooth,
@@ -40,6 +43,7 @@ import Control.Monad.ST (ST, runST)
 import Data.Bits ((.&.))
 import Data.Int (Int32)
 import Data.Primitive.PrimArray
+import Data.Primitive.Types (Prim)
 import Data.Word (Word8)
 import Geometry.Contour (Ends (..))
 import Geometry.Outline (Outline (Outline))
@@ -187,6 +191,30 @@ extent :: [Outline] -> Double
 extent = foldl (\m o -> largest (largest m (Outline.xs o)) (Outline.ys o)) 0
   where
     largest = foldlPrimArray' (\m a -> if abs a > m then abs a else m)
+
+-- | Some of the walks.
+only :: [Int] -> Chain -> Chain
+only ws c = Chain {xs = gathered (xs c), ys = gathered (ys c), bulges = gathered (bulges c), marks = gathered (marks c), sources = gathered (sources c), heads = primArrayFromList (scanl (+) 0 (map size ws))}
+  where
+    size w = behind c w + 1 - first c w
+    gathered :: Prim a => PrimArray a -> PrimArray a
+    gathered a = mconcat [clonePrimArray a (first c w) (size w) | w <- ws]
+
+-- | A walk as an outline.
+closed :: Chain -> Int -> Outline
+closed c w = Outline Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
+  where
+    cut a = clonePrimArray a (first c w) (behind c w - first c w)
+
+-- | Whether the vertices of a walk fit into a square of this size in mm.
+fits :: Double -> Chain -> Int -> Bool
+fits size c w = spread (xs c) <= size && spread (ys c) <= size
+  where
+    spread a = go (first c w) (1 / 0) (-1 / 0)
+      where
+        go !i !low !high
+          | i >= behind c w = high - low :: Double
+          | otherwise = let v = indexPrimArray a i in go (i + 1) (if v < low then v else low) (if v > high then v else high)
 
 -- | The vector from the beginning of a segment to its end.
 chord :: Chain -> Int -> (Double -> Double -> r) -> r

@@ -72,21 +72,13 @@ data Fault
 -- | What the cutter's centre can reach beside outlines that are all closed, or one that is open.
 offset :: Task -> [Outline] -> Either Fault Reach
 offset task outlines = do
-  wanted <- wantedOf tolerance turn open source sourceBoxes
-  let exact = inGeneral wanted
-      decided = mapMaybe (byArrangement wanted) (take 5 (iterate (* 10) (100 * tolerance)))
-  case maybe id (:) exact decided of
-    found : _ -> Right Reach {loops = found, raw = rough}
-    [] -> Left Uncertain
+  wanted <- wantedOf tolerance turn open source (Boxes.boxes tolerance source)
+  let hopeful = filter (not . hopeless problem wanted chain) [0 .. Chain.walks chain - 1]
+  reachOf problem wanted (if length hopeful == Chain.walks chain then raws else raw (Chain.only hopeful chain))
   where
     open = any ((== Open) . Outline.ends) outlines
-    turn = case side task of
-      LeftOf -> CounterClockwise
-      RightOf -> Clockwise
+    turn = turnOf (side task)
     Mm d = distance task
-    signed = case side task of
-      LeftOf -> -1
-      RightOf -> 1
     segmentCount = sum (map Outline.size outlines)
     more i = case extra task of
       Nothing -> 0
@@ -96,30 +88,64 @@ offset task outlines = do
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
     tolerance = Tolerance.rounding * (Chain.extent outlines + largest)
     chain = Chain.fromOutlines tolerance (if open then map Chain.twoSided outlines else outlines)
-    (rough, source) = case extra task of
-      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d)) chain
-      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i)) chain
-    sourceBoxes = Boxes.boxes tolerance source
-    inGeneral wanted = case generalPosition of
+    raws@(_, source) = rawOf problem chain
+    problem = Problem {turn, rounding = tolerance, widest = largest, distances = \i -> d + more i, rawOf = raw}
+    signed = case side task of
+      LeftOf -> -1
+      RightOf -> 1
+    raw = case extra task of
+      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d))
+      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i))
+
+turnOf :: Side -> Turn
+turnOf s = case s of
+  LeftOf -> CounterClockwise
+  RightOf -> Clockwise
+
+-- | What is asked of all walks: the way round the free places that an outline has, the tolerance of rounding, the largest
+-- distance and that of every segment (in mm), and how the raw equidistant is made.
+data Problem = Problem {turn :: Turn, rounding :: Double, widest :: Double, distances :: Int -> Double, rawOf :: Chain -> (Chain, Chain)}
+
+-- | The loops from the raw equidistant and its source.
+reachOf :: Problem -> Int -> (Chain, Chain) -> Either Fault Reach
+reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) = case maybe id (:) inGeneral decided of
+  found : _ -> Right Reach {loops = found, raw = rough}
+  [] -> Left Uncertain
+  where
+    sourceBoxes = Boxes.boxes rounding source
+    inGeneral = case generalPosition of
       Nothing -> Nothing
-      Just (bs, xs) -> Clip.clip tolerance wanted rough bs xs >>= certified (1e5 * tolerance)
+      Just (bs, xs) -> Clip.clip rounding wanted rough bs xs >>= certified
     generalPosition :: Maybe (Boxes, Crossings)
     generalPosition =
-      let bs = Boxes.boxes tolerance rough
-       in case Crossings.find tolerance rough bs of
+      let bs = Boxes.boxes rounding rough
+       in case Crossings.find rounding rough bs of
             Unclear -> Nothing
             Found xs -> Just (bs, xs)
-    byArrangement wanted within = do
+    decided = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
+    byArrangement within = do
       a <- Arrangement.arrange within rough (Boxes.boxes within rough)
-      certified (1e5 * tolerance) (Arrangement.loops turn wanted a)
+      certified (Arrangement.loops turn wanted a)
     -- A cutter that covers the whole source from inside would count as free again.
-    certified slack found
+    certified found
       | all sound [0 .. Loops.count found - 1] = Just found
-      | Chain.walks source == 1 && coverable = Just (Loops.only sound found)
+      | Chain.walks source == 1 && Chain.fits (2 * widest + rounding) source 0 = Just (Loops.only sound found)
       | otherwise = Nothing
       where
-        sound = Certificate.clear slack largest (\i -> d + more i) source sourceBoxes found
-    coverable = Boxes.whole sourceBoxes (\lx ly hx hy -> hx - lx <= 2 * largest + tolerance && hy - ly <= 2 * largest + tolerance)
+        sound = Certificate.clear (1e5 * rounding) widest distances source sourceBoxes found
+
+-- | Whether one of several walks goes round free places that are too small for the cutter. Where a cutter covers such a one
+-- wholly, it would count as free; by itself it is recognised.
+hopeless :: Problem -> Int -> Chain -> Int -> Bool
+hopeless problem wanted c w = Chain.walks c > 1 && Chain.fits (2 * widest problem + rounding problem) c w && outer && nothing
+  where
+    area = Outline.area (Chain.closed c w)
+    outer = case turn problem of
+      CounterClockwise -> area > 0
+      Clockwise -> area < 0
+    nothing = case reachOf problem wanted (rawOf problem (Chain.only [w] c)) of
+      Right reach -> Loops.count (loops reach) == 0
+      Left _ -> False
 
 -- | The winding number on the left of the source that its free places have, or are next to: 1 when the outermost walk is
 -- counter-clockwise, else 0. A source that crosses itself, or lies in itself the wrong way, is at fault.

@@ -91,9 +91,9 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
       RightOf -> free c + 1
     boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, not (abs e <= near)]
     thin o
-      | family c /= Noise && abs (Outline.area o) < 1e-10 * scale * scale = Just ("no area " <> show (Outline.area o))
+      | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-10 * scale * scale = Just ("no area " <> show (Outline.area o))
       | otherwise = Nothing
-    spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let (x, y, nx, ny) = on p t] <> take 24 scattered
+    spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let { (x, y, nx, ny) = on p t }] <> take 24 scattered
     h = 1e-6 * scale
     beside (x, y)
       | abs (far - d) <= 0.3 * h = Nothing
