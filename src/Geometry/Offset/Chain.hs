@@ -18,6 +18,7 @@ module Geometry.Offset.Chain
     extent,
     only,
     closed,
+    apart,
     fits,
 
     -- * Marks of segments
@@ -205,6 +206,18 @@ closed :: Chain -> Int -> Outline
 closed c w = Outline Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
   where
     cut a = clonePrimArray a (first c w) (behind c w - first c w)
+
+-- | Segments that do not hang together, from x, y to x, y with a bulge: the first has the number 0, the next one 2, and so on.
+apart :: [(Double, Double, Double, Double, Double)] -> Chain
+apart ss =
+  Chain
+    { xs = primArrayFromList (concat [[x, x'] | (x, _, x', _, _) <- ss]),
+      ys = primArrayFromList (concat [[y, y'] | (_, y, _, y', _) <- ss]),
+      bulges = primArrayFromList (concat [[b, 0] | (_, _, _, _, b) <- ss]),
+      marks = primArrayFromList (concat [[opening + closing, copied] | _ <- ss]),
+      sources = primArrayFromList (concat (zipWith (\k _ -> [k, k]) [0 ..] ss)),
+      heads = primArrayFromList [2 * k | k <- [0 .. length ss]]
+    }
 
 -- | Whether the vertices of a walk fit into a square of this size in mm.
 fits :: Double -> Chain -> Int -> Bool
