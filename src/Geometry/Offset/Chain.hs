@@ -19,7 +19,6 @@ module Geometry.Offset.Chain
     only,
     closed,
     apart,
-    fits,
 
     -- * Marks of segments
     smooth,
@@ -218,16 +217,6 @@ apart ss =
       sources = primArrayFromList (concat (zipWith (\k _ -> [k, k]) [0 ..] ss)),
       heads = primArrayFromList [2 * k | k <- [0 .. length ss]]
     }
-
--- | Whether the vertices of a walk fit into a square of this size in mm.
-fits :: Double -> Chain -> Int -> Bool
-fits size c w = spread (xs c) <= size && spread (ys c) <= size
-  where
-    spread a = go (first c w) (1 / 0) (-1 / 0)
-      where
-        go !i !low !high
-          | i >= behind c w = high - low :: Double
-          | otherwise = let v = indexPrimArray a i in go (i + 1) (if v < low then v else low) (if v > high then v else high)
 
 -- | The vector from the beginning of a segment to its end.
 chord :: Chain -> Int -> (Double -> Double -> r) -> r

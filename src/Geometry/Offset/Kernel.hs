@@ -126,20 +126,25 @@ reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) = cas
     byArrangement within = do
       a <- Arrangement.arrange within rough (Boxes.boxes within rough)
       certified (Arrangement.loops turn wanted a)
-    -- A cutter that covers the whole source from inside would count as free again.
+    -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are those of free places.
     certified found
-      | all sound [0 .. Loops.count found - 1] = Just found
-      | Chain.walks source == 1 && Chain.fits (2 * widest + rounding) source 0 = Just (Loops.only sound found)
+      | all sound loops' = Just found
+      | Chain.walks source == 1 && all (\k -> sound k || covering k) loops' = Just (Loops.only sound found)
       | otherwise = Nothing
       where
+        loops' = [0 .. Loops.count found - 1]
         sound = Certificate.clear (1e5 * rounding) widest distances source sourceBoxes found
+        covering = Certificate.covers (1e5 * rounding) distances source found
 
 -- | Whether one of several walks goes round free places that are too small for the cutter. Where a cutter covers such a one
 -- wholly, it would count as free; by itself it is recognised.
 hopeless :: Problem -> Int -> Chain -> Int -> Bool
-hopeless problem wanted c w = Chain.walks c > 1 && Chain.fits (2 * widest problem + rounding problem) c w && outer && nothing
+hopeless problem wanted c w = Chain.walks c > 1 && outer && near && nothing
   where
-    area = Outline.area (Chain.closed c w)
+    o = Chain.closed c w
+    area = Outline.area o
+    -- Of a place from which every segment is no further than d, the segments see an area of no more than d/2 times their length.
+    near = let Mm l = Outline.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
     outer = case turn problem of
       CounterClockwise -> area > 0
       Clockwise -> area < 0

@@ -55,11 +55,11 @@ judge c = case answer c of
     Right n -> Right' n
   where
     segments = concatMap (Outline.segments . straightened) (outlines c)
-    meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-8 * scaleOf c
+    meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-5 * scaleOf c
 
 -- | Whether all segments keep clearly apart but for the vertices that they share.
 apart :: Case -> Bool
-apart c = and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
+apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- Outline.vertices o] && and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
   where
     numbered = zip [0 :: Int ..] (concatMap (\o -> map (o,) (Outline.segments (straightened o))) (outlines c))
     total = length numbered
