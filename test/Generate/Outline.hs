@@ -14,6 +14,7 @@ module Generate.Outline
   )
 where
 
+import Base.Quantity (Mm (..))
 import Control.Monad (replicateM)
 import Data.List (sort, tails)
 import Data.Map.Strict (Map)
@@ -52,7 +53,8 @@ open = do
       | vs <- Outline.vertices o,
         length vs >= 3 -> do
         k <- choose (2, length vs)
-        pure c {outlines = [Outline.outline Open (take k vs)], free = 0}
+        let o' = Outline.outline Open (take k vs)
+        if Outline.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
 -- | Walked one way or the other.

@@ -22,6 +22,7 @@ module Geometry.Offset.Kernel
 where
 
 import Base.Quantity (Mm (..))
+import Data.Bifunctor (first)
 import Data.Maybe (mapMaybe)
 import Data.Primitive.PrimArray
 import Geometry.Contour (Ends (..))
@@ -72,9 +73,11 @@ data Fault
 -- | What the cutter's centre can reach beside outlines that are all closed, or one that is open.
 offset :: Task -> [Outline] -> Either Fault Reach
 offset task outlines = do
-  wanted <- wantedOf tolerance turn open source (Boxes.boxes tolerance source)
-  let hopeful = filter (not . hopeless problem wanted chain) [0 .. Chain.walks chain - 1]
-  reachOf problem wanted (if length hopeful == Chain.walks chain then raws else raw (Chain.only hopeful chain))
+  wanted <- first bothWays (wantedOf tolerance turn open source sourceBoxes)
+  let hopeful = filter (not . hopeless problem chain) [0 .. Chain.walks chain - 1]
+  if length hopeful == Chain.walks chain
+    then reachOf problem wanted raws sourceBoxes
+    else reached problem wanted (Chain.only hopeful chain)
   where
     open = any ((== Open) . Outline.ends) outlines
     turn = turnOf (side task)
@@ -82,20 +85,27 @@ offset task outlines = do
     segmentCount = sum (map Outline.size outlines)
     more i = case extra task of
       Nothing -> 0
-      Just f -> let Mm e = f (if open && i >= segmentCount then 2 * segmentCount - 1 - i else i) in e
+      Just f -> let Mm e = f (number i) in e
+    -- An open outline is walked there and back.
+    number i = if open && i >= segmentCount then 2 * segmentCount - 1 - i else i
+    bothWays fault = case fault of
+      Crossed i j -> let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
+      Misplaced -> Misplaced
+      Uncertain -> Uncertain
     largest = case extra task of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
     tolerance = Tolerance.rounding * (Chain.extent outlines + largest)
     chain = Chain.fromOutlines tolerance (if open then map Chain.twoSided outlines else outlines)
-    raws@(_, source) = rawOf problem chain
+    raws@(_, source) = raw chain
+    sourceBoxes = Boxes.boxes tolerance source
     problem = Problem {turn, rounding = tolerance, widest = largest, distances = \i -> d + more i, rawOf = raw}
     signed = case side task of
       LeftOf -> -1
       RightOf -> 1
-    raw = case extra task of
-      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d))
-      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i))
+    raw c = case extra task of
+      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d)) c
+      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i)) c
 
 turnOf :: Side -> Turn
 turnOf s = case s of
@@ -106,13 +116,15 @@ turnOf s = case s of
 -- distance and that of every segment (in mm), and how the raw equidistant is made.
 data Problem = Problem {turn :: Turn, rounding :: Double, widest :: Double, distances :: Int -> Double, rawOf :: Chain -> (Chain, Chain)}
 
--- | The loops from the raw equidistant and its source.
-reachOf :: Problem -> Int -> (Chain, Chain) -> Either Fault Reach
-reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) = case maybe id (:) inGeneral decided of
+reached :: Problem -> Int -> Chain -> Either Fault Reach
+reached problem wanted c = let raws@(_, source) = rawOf problem c in reachOf problem wanted raws (Boxes.boxes (rounding problem) source)
+
+-- | The loops from the raw equidistant, its source, and the boxes of that.
+reachOf :: Problem -> Int -> (Chain, Chain) -> Boxes -> Either Fault Reach
+reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) sourceBoxes = case maybe id (:) inGeneral decided of
   found : _ -> Right Reach {loops = found, raw = rough}
   [] -> Left Uncertain
   where
-    sourceBoxes = Boxes.boxes rounding source
     inGeneral = case generalPosition of
       Nothing -> Nothing
       Just (bs, xs) -> Clip.clip rounding wanted rough bs xs >>= certified
@@ -138,17 +150,18 @@ reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) = cas
 
 -- | Whether one of several walks goes round free places that are too small for the cutter. Where a cutter covers such a one
 -- wholly, it would count as free; by itself it is recognised.
-hopeless :: Problem -> Int -> Chain -> Int -> Bool
-hopeless problem wanted c w = Chain.walks c > 1 && outer && near && nothing
+hopeless :: Problem -> Chain -> Int -> Bool
+hopeless problem c w = Chain.walks c > 1 && outer && near && nothing
   where
     o = Chain.closed c w
     area = Outline.area o
     -- Of a place from which every segment is no further than d, the segments see an area of no more than d/2 times their length.
     near = let Mm l = Outline.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
-    outer = case turn problem of
-      CounterClockwise -> area > 0
-      Clockwise -> area < 0
-    nothing = case reachOf problem wanted (rawOf problem (Chain.only [w] c)) of
+    -- By itself it has this number on its left.
+    (outer, left) = case turn problem of
+      CounterClockwise -> (area > 0, 1)
+      Clockwise -> (area < 0, 0)
+    nothing = case reached problem left (Chain.only [w] c) of
       Right reach -> Loops.count (loops reach) == 0
       Left _ -> False
 

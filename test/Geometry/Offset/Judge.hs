@@ -69,7 +69,7 @@ apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- O
     trimmed a b i j
       | j == i + 1 = far (front a) (back b)
       | otherwise = far (front b) (back a)
-    far a b = let Mm d = Distance.distance (Distance.segments a b) in d > 1e-9 * scaleOf c
+    far a b = let Mm d = Distance.distance (Distance.segments a b) in d > 1e-6
     front s = fst (Segment.cutAt 0.99999 s)
     back :: Segment -> Segment
     back s = snd (Segment.cutAt 0.00001 s)
@@ -96,7 +96,7 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
       RightOf -> free c + 1
     boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, not (abs e <= near)]
     thin o
-      | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-8 * scale * (let Mm l = Outline.length o in l) = Just ("no area " <> show (Outline.area o))
+      | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-12 * scale * (let Mm l = Outline.length o in l) = Just ("no area " <> show (Outline.area o))
       | otherwise = Nothing
     spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let { (x, y, nx, ny) = on p t }] <> take 24 scattered
     h = 1e-6 * scale
