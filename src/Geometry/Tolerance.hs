@@ -29,6 +29,7 @@ module Geometry.Tolerance
     halfTurn,
     kink,
     deviationShare,
+    roundingShare,
     finestStep,
   )
 where
@@ -136,6 +137,10 @@ kink = Rad 1e-3
 -- | The share of a tolerance that is kept back because a deviation is measured at finitely many points.
 deviationShare :: Double
 deviationShare = 0.02
+
+-- | The share that is kept back where a bound of the deviation is known, for the rounding of doubles.
+roundingShare :: Double
+roundingShare = 1e-3
 
 -- | No step along a curve is smaller than this share of a span.
 finestStep :: Double
