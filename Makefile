@@ -66,11 +66,11 @@ lint: setup ## run hlint over every Haskell file
 	$(call banner,lint)
 	@hlint --no-summary $(HS_FILES)
 
-bench: setup ## time every stage
+bench: setup ## time the kernel, the stages, the whole compile; into docs/performance.md
 	$(call banner,build with benchmark)
 	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
 	$(call banner,bench)
-	@$(BENCH) --verbosity info bench --flag partc:bench
+	@bash scripts/bench.sh "$$($(BENCH) path --dist-dir)"
 
 pictures: setup ## draw the pictures of the documents anew from their programs
 	$(call banner,build with tests)

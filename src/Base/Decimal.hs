@@ -48,6 +48,30 @@ exact x
 -- | The double nearest to a number as it is written: digits, and, if wanted, a point and more digits.
 amount :: Text -> Maybe Double
 amount text
+  | Text.compareLength text fewDigits == GT = manyDigits text
+  | otherwise = case Text.foldl' further (Read 0 0 0) text of
+    Read n 0 size | size > 0 -> Just (fromIntegral n)
+    Read n point size
+      | point > 1 && size > point && n < 2 ^ (53 :: Int) -> Just (fromIntegral n / 10 ^ (size - point))
+      | point > 1 && size > point -> manyDigits text
+    _ -> Nothing
+  where
+    further (Read n point size) c
+      | isDigit c = Read (10 * n + digitToInt c) point (size + 1)
+      | c == '.' && point == 0 = Read n (size + 1) (size + 1)
+      | otherwise = Read n (-1) (size + 1)
+
+-- | What is read of a number: its digits as a whole number; behind how many characters the point stood, the point counted,
+-- 0 without a point, less with something else; how many characters there are.
+data Read = Read Int Int Int
+
+-- | So many characters are digits of an 'Int'.
+fewDigits :: Int
+fewDigits = 18
+
+-- | The same of as many digits as may be.
+manyDigits :: Text -> Maybe Double
+manyDigits text
   | Text.null before || Text.any (not . isDigit) (before <> fraction) = Nothing
   | Text.isPrefixOf "." rest && Text.null fraction = Nothing
   | Text.length before + places > mostDigits = Nothing

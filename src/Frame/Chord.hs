@@ -13,6 +13,7 @@ module Frame.Chord
 where
 
 import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
+import Data.Either (fromRight)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Frame.Pulses (Place)
@@ -43,9 +44,11 @@ data Allowed
 
 -- | What is allowed to the chords of a run.
 allowedOn :: Machine -> Milling -> NonEmpty Move -> Allowed
-allowedOn machine job ms
-  | Path.isCurve ms = Along (curveBounds machine job)
-  | otherwise = chordError job (segment (NonEmpty.head ms))
+allowedOn machine job = \ms -> if Path.isCurve ms then onCurve else chordError side job (segment (NonEmpty.head ms))
+  where
+    -- Both are the same for all runs of a job.
+    side = fromRight Nothing (Path.leadingSide job)
+    onCurve = Along (curveBounds machine side job)
 
 -- | What the rounding of their ends leaves to the chords of an arc that may be off by so much, less a hair.
 remainder :: Machine -> Mm -> Mm
@@ -53,29 +56,29 @@ remainder machine off = times (1 - Tolerance.equal) (max (Mm 0) (minus off (time
 
 -- | How far a curve may lie from its chords: a chord that runs inside of the material has the curve on the cutter's
 -- side. What the arcs are off from the curve is taken from it first. Heights are as exact as the chords, or to a pulse.
-curveBounds :: Machine -> Milling -> Run.Bounds
-curveBounds machine job = Run.Bounds {Run.left = l, Run.right = r, Run.rise = max pulse (min l r), Run.shortest = pulse}
+curveBounds :: Machine -> Maybe Offset.Side -> Milling -> Run.Bounds
+curveBounds machine side job = Run.Bounds {Run.left = l, Run.right = r, Run.rise = max pulse (min l r), Run.shortest = pulse}
   where
     pulse = Machine.pulse machine
-    (l, r) = case (Part.tolerance job, Path.leadingSide job) of
+    (l, r) = case (Part.tolerance job, side) of
       (Part.OnPath d, _) -> (less d, less d)
-      (Part.Band a b, Right (Just Offset.LeftOf)) -> (less a, less b)
-      (Part.Band a b, Right (Just Offset.RightOf)) -> (less b, less a)
-      (Part.Band a b, _) -> let d = if a > Mm 0 && b > Mm 0 then min a b else max a b in (less d, less d)
+      (Part.Band a b, Just Offset.LeftOf) -> (less a, less b)
+      (Part.Band a b, Just Offset.RightOf) -> (less b, less a)
+      (Part.Band a b, Nothing) -> let d = if a > Mm 0 && b > Mm 0 then min a b else max a b in (less d, less d)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
 -- | The chord error of a segment: on the side of the material its own, and on the other one.
-chordError :: Milling -> Segment -> Allowed
-chordError job s = case (Part.tolerance job, s) of
+chordError :: Maybe Offset.Side -> Milling -> Segment -> Allowed
+chordError leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
   (Part.Band a b, Straight _ _) -> Sagitta (max a b)
-  (Part.Band a b, Arc {sweep = Rad angle}) -> case Path.leadingSide job of
+  (Part.Band a b, Arc {sweep = Rad angle}) -> case leading of
     -- The centre of an arc lies on the left when it is walked counter-clockwise; the material lies on the
     -- side on which the cutter is not.
-    Right (Just side)
+    Just side
       | (angle > 0) == (side == Offset.LeftOf) -> BandOf b a
       | otherwise -> BandOf a b
-    _ -> Sagitta (if a > Mm 0 && b > Mm 0 then min a b else max a b)
+    Nothing -> Sagitta (if a > Mm 0 && b > Mm 0 then min a b else max a b)
 
 -- | What is allowed to chords whose ends are rounded: where the tolerance is less than rounding leaves of a pulse, that. A
 -- band of which one side is wider stays as it was asked for.

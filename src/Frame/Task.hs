@@ -68,7 +68,7 @@ tasksOf machine path = concat (zipWith block numbers (Path.blocks path))
       where
         on = Order.kept machine asked (Path.side edge) (Part.radius job)
         one r m = led r job [m {continues = False}]
-    led r job = map (\ms -> Run r (Chord.allowedOn machine job ms) (Part.radius job) Asked ms) . Path.runs
+    led r job = let allowed = Chord.allowedOn machine job in map (\ms -> Run r (allowed ms) (Part.radius job) Asked ms) . Path.runs
 
 -- | The way of a move, in space.
 wayOf :: Move -> Mm

@@ -3,9 +3,10 @@
 --
 -- Lines move along their normal, arcs change their radius, and about an outer corner the centre
 -- walks on an arc of the cutter's radius (Ural paper: at a change of surface the centre
--- moves on a circle). Everything stays exact; nothing is trimmed. Where the cutter does not fit
--- (a concave radius below its own, an inner corner, two parts of the contour too near to
--- one another) there is no equidistant but an obstacle, with the largest cutter that does fit.
+-- moves on a circle). Everything stays exact. Whether the cutter fits everywhere is decided by "Geometry.Offset.Kernel".
+-- Where it does not (a concave radius below its own, an inner corner, two parts of the contour too near to
+-- one another) there is an obstacle, with the largest cutter that does fit; or, if that is allowed, only the ways
+-- that the centre can go, and what stops it there.
 module Geometry.Offset
   ( Side (..),
     Piece (..),
@@ -15,37 +16,31 @@ module Geometry.Offset
     Style (..),
     equidistant,
     styled,
+    Way (..),
+    reachable,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
+import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
-import Geometry.Contour (Contour (..))
+import Geometry.Contour (Contour (..), Ends (..))
 import Geometry.Contour qualified as Contour
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
+import Geometry.Offset.Way (Origin (..), Piece (..), Side (..), Style (..), Way (Way), numberOf, radiusAt)
+import Geometry.Offset.Way qualified as Way
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-
--- | The side of the walk on which the cutter stands.
-data Side = LeftOf | RightOf
-  deriving stock (Eq, Show, Enum, Bounded)
-
--- | A segment of the equidistant, and what it belongs to.
-data Piece = Piece {origin :: Origin, segment :: Segment}
-  deriving stock (Eq, Show)
-
--- | A segment of the contour by its number from 0, or the corner behind it.
-data Origin = Along Int | Around Int
-  deriving stock (Eq, Show)
 
 -- | Why a cutter does not fit, and the largest radius that does, if any does.
 data Obstacle = Obstacle {cause :: Cause, largest :: Maybe Mm}
@@ -59,15 +54,6 @@ data Cause
   | -- | on its way along the first segment the cutter would cut the second; where its centre would be
     Collision Int Int Point
   deriving stock (Eq, Show)
-
--- | How the path goes round outer corners, and how much further than the radius it stays from each segment.
-data Style = Style
-  { -- | straight on to where the two ways meet, instead of on an arc about the corner; corners that turn by
-    -- more than 120° stay round
-    sharp :: Bool,
-    -- | by the number of the segment; not negative
-    extra :: Int -> Mm
-  }
 
 -- | The equidistant at a radius, in the order of the walk, on arcs round the corners. The radius is not negative.
 equidistant :: Side -> Mm -> Contour -> Either Obstacle (NonEmpty Piece)
@@ -83,7 +69,12 @@ styled style side radius contour = case attempt style side radius contour of
 attempt :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
 attempt style side radius contour = do
   pieces <- raw style side radius contour
-  maybe (Right pieces) Left (collision style radius contour pieces)
+  if radius <= Mm 0 || fits radius || fits (minus radius Tolerance.clearance)
+    then Right pieces
+    else Left (collision style radius contour pieces)
+  where
+    -- A cutter that just fits has nothing around it: there is no area in which it could stand.
+    fits r = r > Mm 0 && Way.reachesAll style side r contour
 
 -- | Segments and corners, each for itself.
 raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
@@ -174,11 +165,11 @@ corner style side radius count (number, before, after)
       RightOf -> CounterClockwise
 
 -- | The worst place at which the cutter, on the equidistant, would cut the contour.
-collision :: Style -> Mm -> Contour -> NonEmpty Piece -> Maybe Cause
+collision :: Style -> Mm -> Contour -> NonEmpty Piece -> Cause
 collision style radius contour pieces
-  | radius <= Mm 0 || null found = Nothing
+  | null found = let Piece origin s = NonEmpty.head pieces in Collision (numberOf origin) (numberOf origin) (Segment.start s)
   | otherwise = case minimumBy (comparing (\(d, _, _, _) -> d)) found of
-    (_, i, j, p) -> Just (Collision i j p)
+    (_, i, j, p) -> Collision i j p
   where
     index = Box.index (Box.ofSegment . snd) (zip [0 ..] (NonEmpty.toList (segments contour)))
     found =
@@ -187,35 +178,85 @@ collision style radius contour pieces
           let i = numberOf origin,
           (j, other) <- Box.select (\box -> Box.meets (Box.inflate widest (Box.ofSegment s)) box && Box.atLeast (`Distance.toPoint` s) box < widest) index,
           let Nearest d p = Distance.segments s other,
-          let tooNear more = plus d Tolerance.clearance < plus radius more,
-          tooNear (extra style j) && tooNear (shared p d (snd (Distance.nearest p other)))
+          plus d Tolerance.clearance < plus radius (extra style j)
       ]
-    -- What is left where segments join: no more than on any of them, and nothing of its own where a neighbour is nearer.
-    shared p d foot
-      | any (\(_, s) -> plus (Distance.toPoint p s) Tolerance.resolution < d) joined = Mm 0
-      | otherwise = minimum (mostExtra : map (extra style . fst) joined)
-      where
-        joined = [(k, s) | (k, s) <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot s <= Tolerance.coincident]
-    mostExtra = maximum (fmap (extra style) (NonEmpty.fromList [0 .. NonEmpty.length (segments contour) - 1]))
-    widest = plus radius mostExtra
-    numberOf origin = case origin of
-      Along i -> i
-      Around i -> i
+    widest = plus radius (maximum (fmap (extra style) (0 :| [1 .. NonEmpty.length (segments contour) - 1])))
 
 -- | The largest radius below the one asked that fits everywhere; a smaller cutter than one that fits
 -- fits too, so halving finds it.
 largestFitting :: Style -> Side -> Mm -> Contour -> Maybe Mm
 largestFitting style side asked contour
-  | fits smallest = Just (search smallest asked)
+  | fits smallest = Just (halved fits smallest asked)
   | otherwise = Nothing
   where
     smallest = times 10 Tolerance.clearance
     fits r = case attempt style side r contour of
       Right _ -> True
       Left _ -> False
-    search low high
-      | minus high low <= Tolerance.resolution = low
-      | fits middle = search middle high
-      | otherwise = search low middle
+
+-- | Between a radius that fits and one that does not, the largest that does.
+halved :: (Mm -> Bool) -> Mm -> Mm -> Mm
+halved fits low high
+  | minus high low <= Tolerance.resolution = low
+  | fits middle = halved fits middle high
+  | otherwise = halved fits low middle
+  where
+    middle = times 0.5 (plus low high)
+
+-- What can be reached --------------------------------------------------------------------------------
+
+-- | The ways beside a contour that the centre can go, in the order of the contour; and for every place where a stretch of it is cut
+-- away, what is in the way there, with the largest cutter that would not be stopped by it. The radius is positive.
+reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Obstacle])
+reachable style side radius contour = (ways, map obstacle (cuts contour (radiusAt style radius) ways))
+  where
+    ways = Way.along style side radius contour
+    obstacle cause = Obstacle {cause, largest = largestPast style side radius contour cause}
+
+-- | What is in the way wherever a way goes over from one segment to another that does not follow it.
+cuts :: Contour -> (Int -> Mm) -> [Way] -> [Cause]
+cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
+  where
+    whole = Vector.fromList (NonEmpty.toList (segments contour))
+    n = Vector.length whole
+    along' way = concat (zipWith between list (drop 1 list <> [NonEmpty.head (Way.pieces way) | Way.ends way == Closed]))
       where
-        middle = times 0.5 (plus low high)
+        list = NonEmpty.toList (Way.pieces way)
+    between p q = case (origin p, origin q) of
+      (Around i, Along j) | j == next i -> []
+      (Around i, Around j) | j == i -> []
+      (Along i, Around j) | j == i -> []
+      (Along i, Along j)
+        | j == next i -> [InnerCorner i j vertex | let vertex = Segment.end (whole Vector.! i), turns (whole Vector.! i) (whole Vector.! j)]
+        | j == next (next i), Just r <- tight (next i) -> [Concave (next i) r | let Mm d = minus (radiusOf (next i)) r, Mm d > Tolerance.clearance]
+      (o, o') -> [Collision (numberOf o) (numberOf o') (Segment.end (segment p))]
+    next i = if i + 1 == n then 0 else i + 1
+    turns a b = let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b); Rad smooth = Tolerance.smoothAngle in abs t > smooth
+    tight i = case whole Vector.! i of
+      Arc {start, centre} | r <- Segment.radius centre start, r <= plus (radiusOf i) Tolerance.clearance -> Just r
+      _ -> Nothing
+
+-- | The largest cutter, smaller than this one, that a cause does not stop.
+largestPast :: Style -> Side -> Mm -> Contour -> Cause -> Maybe Mm
+largestPast style side radius contour cause = case cause of
+  InnerCorner {} -> Nothing
+  Concave {} -> search passes
+  Collision {} -> search passes
+  where
+    search fits
+      | fits smallest = Just (halved fits smallest radius)
+      | otherwise = Nothing
+    smallest = times 10 Tolerance.clearance
+    passes r = not (any (same cause) (cuts contour (radiusAt style r) found)) && reached found
+      where
+        found = Way.along style side r contour
+    same a b = case (a, b) of
+      (Concave i _, Concave j _) -> i == j
+      (Collision i j _, Collision k l _) -> (i, j) == (k, l) || (i, j) == (l, k)
+      _ -> False
+    -- The segments in question have to be on some way at all.
+    reached found = let on = IntSet.fromList [numberOf (origin p) | w <- found, p <- NonEmpty.toList (Way.pieces w)] in all (`IntSet.member` on) (ofCause cause)
+    ofCause a = case a of
+      Concave i _ -> [i]
+      Collision i j _ -> [i, j]
+      InnerCorner i j _ -> [i, j]

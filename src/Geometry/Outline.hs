@@ -6,6 +6,7 @@
 module Geometry.Outline
   ( Outline (..),
     outline,
+    vertices,
     size,
     reverse,
     area,
@@ -32,13 +33,17 @@ data Outline = Outline {ends :: Ends, xs :: PrimArray Double, ys :: PrimArray Do
 
 -- | From vertices in order: x and y in mm, bulge.
 outline :: Ends -> [(Double, Double, Double)] -> Outline
-outline ends vertices =
+outline ends vs =
   Outline
     { ends,
-      xs = PrimArray.primArrayFromList [x | (x, _, _) <- vertices],
-      ys = PrimArray.primArrayFromList [y | (_, y, _) <- vertices],
-      bulges = PrimArray.primArrayFromList [b | (_, _, b) <- vertices]
+      xs = PrimArray.primArrayFromList [x | (x, _, _) <- vs],
+      ys = PrimArray.primArrayFromList [y | (_, y, _) <- vs],
+      bulges = PrimArray.primArrayFromList [b | (_, _, b) <- vs]
     }
+
+-- | x and y in mm, bulge; in order.
+vertices :: Outline -> [(Double, Double, Double)]
+vertices o = zip3 (PrimArray.primArrayToList (xs o)) (PrimArray.primArrayToList (ys o)) (PrimArray.primArrayToList (bulges o))
 
 -- | How many segments it has.
 size :: Outline -> Int

@@ -28,6 +28,8 @@ module Geometry.Tolerance
     oneArc,
     halfTurn,
     kink,
+    rounding,
+    tangential,
     deviationShare,
     finestStep,
   )
@@ -132,6 +134,15 @@ halfTurn = Rad (pi + 1e-9)
 -- | A smooth curve may change its direction at a joint of its spans by this much; by more, it has a corner there.
 kink :: Rad
 kink = Rad 1e-3
+
+-- | What rounding may add to a point of the offset kernel, as a share of the largest coordinate: some fifty units in the
+-- last place.
+rounding :: Double
+rounding = 1e-14
+
+-- | The offset kernel takes directions whose sine is no larger for one: what that moves is this share of the distance.
+tangential :: Double
+tangential = 1e-9
 
 -- | The share of a tolerance that is kept back because a deviation is measured at finitely many points.
 deviationShare :: Double

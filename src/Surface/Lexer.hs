@@ -7,9 +7,9 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region (..))
-import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
+import Data.Char (isAlpha, isAlphaNum, isAsciiLower, isAsciiUpper, isDigit, isSpace)
 import Data.Foldable (find)
-import Data.List (sortOn)
+import Data.List (foldl', sortOn)
 import Data.Ord (Down (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -30,23 +30,42 @@ data Before = Before
 tokens :: Int -> Text -> ([Token], [Located Text])
 tokens begin = go Before {at = begin, fresh = True, touching = False, machine = False}
 
+-- | The tokens and comments of a text, piece by piece: what nobody asks for is not read.
 go :: Before -> Text -> ([Token], [Located Text])
-go before rest = case Text.uncons rest of
-  Nothing -> ([], [])
+go before rest = case piece pieceSize [] [] before rest of
+  Piece {ts, cs, stopped, left}
+    | Text.null left -> (reverse ts, reverse cs)
+    | otherwise -> let (more, others) = go stopped left in (foldl' (flip (:)) more ts, foldl' (flip (:)) others cs)
+
+-- | So many tokens are read at once.
+pieceSize :: Int
+pieceSize = 4096
+
+-- | Some tokens and comments, the last ones first, and what is left of the text.
+data Piece = Piece {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}
+
+-- | Read so many tokens.
+piece :: Int -> [Token] -> [Located Text] -> Before -> Text -> Piece
+piece count ts cs before rest = case Text.uncons rest of
   Just (c, after)
-    | isLineEnd c -> go before {at = at before + 1, fresh = True, touching = False, machine = False} after
-    | isSpace c -> go before {at = at before + 1, touching = False} after
-    | "--" `Text.isPrefixOf` rest ->
-      let comment = Text.takeWhile (not . isLineEnd) rest
+    | count <= 0 -> Piece {ts, cs, stopped = before, left = rest}
+    | isLineEnd c -> piece count ts cs Before {at = at before + 1, fresh = True, touching = False, machine = False} after
+    | isBlank c -> piece count ts cs before {at = at before + 1, touching = False} after
+    | c == '-' && begins (== '-') after ->
+      let (comment, more) = Text.break isLineEnd rest
           region = Region (at before) (at before + Text.length comment)
-          (ts, cs) = go before {at = end region, touching = False} (Text.drop (Text.length comment) rest)
-       in (ts, Located region comment : cs)
+       in piece count ts (Located region comment : cs) before {at = end region, touching = False} more
     | otherwise ->
       let (shape, size) = if machine before then machineName rest else token c rest
           region = Region (at before) (at before + size)
           next = Before {at = end region, fresh = False, touching = True, machine = fresh before && shape == Word "machine"}
-          (ts, cs) = go next (Text.drop size rest)
-       in (Token {place = region, shape, newLine = fresh before, attached = touching before} : ts, cs)
+       in piece (count - 1) (Token {place = region, shape, newLine = fresh before, attached = touching before} : ts) cs next (Text.drop size rest)
+  Nothing -> Piece {ts, cs, stopped = before, left = rest}
+
+-- | Whether a text begins with a character for which something holds.
+begins :: (Char -> Bool) -> Text -> Bool
+begins holds rest = maybe False (holds . fst) (Text.uncons rest)
+{-# INLINE begins #-}
 
 -- | The token at the beginning of a text, and its length.
 token :: Char -> Text -> (Token_, Int)
@@ -54,9 +73,15 @@ token c rest
   | isDigit c = numeral rest
   | isWordStart c = let word = Text.takeWhile isWordPart rest in (Word word, Text.length word)
   | c == '"' = quoted rest
-  | Text.take 2 rest `elem` ["..", "<=", ">=", "!="] = (Symbol (Text.take 2 rest), 2)
-  | c `elem` ("(){}[],=+-*/<>" :: String) = (Symbol (Text.singleton c), 1)
-  | otherwise = (Stray c, 1)
+  | otherwise = case c of
+    '(' -> (Symbol "(", 1)
+    ')' -> (Symbol ")", 1)
+    ',' -> (Symbol ",", 1)
+    '-' -> (Symbol "-", 1)
+    _
+      | Text.take 2 rest `elem` ["..", "<=", ">=", "!="] -> (Symbol (Text.take 2 rest), 2)
+      | c `elem` ("{}[]=+*/<>" :: String) -> (Symbol (Text.singleton c), 1)
+      | otherwise -> (Stray c, 1)
 
 -- | The name of a machine: letters, digits, @.@ and @-@; a quoted text is the name of a description file.
 machineName :: Text -> (Token_, Int)
@@ -80,39 +105,50 @@ numeral :: Text -> (Token_, Int)
 numeral rest
   | junk = (BadNumber written, Text.length written)
   | otherwise = case Decimal.amount digits of
-    Just value -> case unitBehind (Text.drop size rest) of
-      Just (unit, gap, length') -> (Number (Numeral digits value) (Just unit), size + gap + length')
+    Just value -> case unit of
+      Just (u, gap, length') -> (Number (Numeral digits value) (Just u), size + gap + length')
       Nothing -> (Number (Numeral digits value) Nothing, size)
     Nothing -> (BadNumber written, Text.length written)
   where
-    whole = Text.takeWhile isDigit rest
-    fraction = case Text.uncons (Text.drop (Text.length whole) rest) of
-      Just ('.', more) | Text.any isDigit (Text.take 1 more) -> "." <> Text.takeWhile isDigit more
-      _ -> ""
-    digits = whole <> fraction
-    size = Text.length digits
+    (whole, afterWhole) = Text.span isDigit rest
+    wholeSize = Text.length whole
+    size = case Text.uncons afterWhole of
+      Just ('.', more) | begins isDigit more -> wholeSize + 1 + Text.length (Text.takeWhile isDigit more)
+      _ -> wholeSize
+    digits = Text.take size rest
+    after = Text.drop size rest
+    unit = unitBehind after
     -- Letters or a further decimal point that touch the number and are no unit.
-    tailWord = Text.takeWhile isWordPart (Text.drop size rest)
-    extraPoint = not (Text.null fraction) && ".." /= Text.take 2 (Text.drop size rest) && "." == Text.take 1 (Text.drop size rest)
-    junk = extraPoint || not (Text.null tailWord) && maybe True (\(_, gap, _) -> gap > 0) (unitBehind (Text.drop size rest))
+    extraPoint = size > wholeSize && begins (== '.') after && ".." /= Text.take 2 after
+    junk = extraPoint || begins isWordPart after && maybe True (\(_, gap, _) -> gap > 0) unit
     written = Text.takeWhile (\c -> isWordPart c || c == '.') rest
 
 -- | A unit at most some spaces away: the unit, the spaces before it, its length.
 unitBehind :: Text -> Maybe (Unit, Int, Int)
-unitBehind rest = found <$> find fits longestFirst
+unitBehind rest
+  | begins isWordStart word = found <$> find fits longestFirst
+  | otherwise = Nothing
   where
-    (gap, word) = Text.span (\c -> isSpace c && not (isLineEnd c)) rest
-    fits unit =
-      unitName unit `Text.isPrefixOf` word
-        && not (Text.any isWordPart (Text.take 1 (Text.drop (Text.length (unitName unit)) word)))
-    found unit = (unit, Text.length gap, Text.length (unitName unit))
-    longestFirst = sortOn (Down . Text.length . unitName) [minBound .. maxBound]
+    (gap, word) = Text.span isBlankInLine rest
+    fits (_, name, size) = name `Text.isPrefixOf` word && not (begins isWordPart (Text.drop size word))
+    found (unit, _, size) = (unit, Text.length gap, size)
+
+-- | The units with their names and the lengths of these.
+longestFirst :: [(Unit, Text, Int)]
+longestFirst = sortOn (\(_, _, size) -> Down size) [(unit, unitName unit, Text.length (unitName unit)) | unit <- [minBound .. maxBound]]
 
 isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
+-- | Most characters are those of ASCII, of which the answer is known without tables.
+isBlank :: Char -> Bool
+isBlank c = c == ' ' || (c < '!' || c > '~') && isSpace c
+
+isBlankInLine :: Char -> Bool
+isBlankInLine c = isBlank c && not (isLineEnd c)
+
 isWordStart :: Char -> Bool
-isWordStart c = isAlpha c || c == '_'
+isWordStart c = isAsciiLower c || isAsciiUpper c || c == '_' || c > '~' && isAlpha c
 
 isWordPart :: Char -> Bool
-isWordPart c = isAlphaNum c || c == '_'
+isWordPart c = isAsciiLower c || isAsciiUpper c || isDigit c || c == '_' || c > '~' && isAlphaNum c

@@ -13,7 +13,6 @@ import Base.Quantity (Mm (..), Rad (..), minus, plus)
 import Control.Walk (Stroke (number))
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrd)
-import Data.Either (fromRight)
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -33,7 +32,6 @@ import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path (leadingSide)
 import Verify.Cover qualified as Cover
 import Verify.Passage (Job (..), Trace (..), elementsOf, isUpright)
 import Verify.Passage qualified as Passage
@@ -56,8 +54,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     mayGouge = plus (if upon then allowance' else inside) pulse
     mayLeave = plus (if upon then allowance' else outside) pulse
     allowance' = max inside outside
-    upon = isNothing leadingSide
-    leadingSide = fromRight Nothing (Path.leadingSide (milling job))
+    upon = isNothing (side job)
     (milled, within) = case found of
       Passage.Followed arrival along _ -> (arrival <> along, along)
       Passage.Lost _ along _ -> (atHeight traces, along)
@@ -69,7 +66,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     requirement t = if IntSet.member (number (stroke t)) ownNumbers then (\e p -> plus (reach job) (leftAt elementIndex e p)) else (\_ _ -> toolOf t)
     gouges = mapMaybe (\t -> gougeOf (max (outreach job) (toolOf t)) (requirement t) elementIndex t) looked <> pierced
     -- No distance tells when a tool without a radius crosses the contour; nor, then, that it leaves nothing.
-    pierced = [w | Part.radius (milling job) <= Mm 0, Just side <- [leadingSide], t <- looked, Just w <- [Pointed.gougeOf side (Part.contour (milling job)) elementIndex mayGouge t]]
+    pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) elementIndex mayGouge t]]
     deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
     missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex es | (more, es) <- byAllowance elements]
     milledIndex = Box.index boxOf (filter (\t -> flat || isAt machine level t) milled)
@@ -146,9 +143,9 @@ uncut job index = go (Mm 0)
 -- | Whether a stroke runs on the side of an element on which the cutter has to stand: another one would reach
 -- the element through the part. One that is on the element itself, to the allowance, does not.
 onLeadingSide :: Job -> Segment -> Segment -> Bool
-onLeadingSide job element t = case fromRight Nothing (Path.leadingSide (milling job)) of
+onLeadingSide job element t = case side job of
   Nothing -> True
-  Just side -> leftOf == (side == Offset.LeftOf) || d <= allowance job
+  Just keeps -> leftOf == (keeps == Offset.LeftOf) || d <= allowance job
   where
     -- Where the stroke is nearest: an arc's inside and outside are not those of the whole stroke.
     Nearest d p = Distance.segments t element
@@ -172,17 +169,17 @@ strayOf job index t = case mapMaybe beyond (NonEmpty.toList (ways t)) of
 -- | A stroke that lies beside an element on the wrong side: a straight one by its middle, an arc by places close to one
 -- another.
 wrongSide :: Job -> Box.Index Element -> Trace -> Maybe Finding
-wrongSide job index t = case fromRight Nothing (Path.leadingSide (milling job)) of
+wrongSide job index t = case side job of
   Nothing -> Nothing
-  Just side -> listToMaybe (mapMaybe (\k -> beside side (Segment.at k (line t))) looked)
+  Just keeps -> listToMaybe (mapMaybe (\k -> beside keeps (Segment.at k (line t))) looked)
   where
     looked = let ks = Passage.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) (if isArc then ks else [1])
     isArc = case line t of
       Arc {} -> True
       Straight _ _ -> False
-    beside side p = case Box.closest (\e -> if Box.meets around (Box.ofSegment (Part.segment e)) then Distance.toPoint p (Part.segment e) else Mm (1 / 0)) p index of
+    beside keeps p = case Box.closest (\e -> if Box.meets around (Box.ofSegment (Part.segment e)) then Distance.toPoint p (Part.segment e) else Mm (1 / 0)) p index of
       Just (d, nearest)
-        | d < Mm (1 / 0) && d > allowance job && Segment.spans (Part.segment nearest) p && sideOf p (Part.segment nearest) /= side ->
+        | d < Mm (1 / 0) && d > allowance job && Segment.spans (Part.segment nearest) p && sideOf p (Part.segment nearest) /= keeps ->
           Just (WrongSide (number (stroke t)) (Part.origin nearest))
       _ -> Nothing
     around = Box.inflate (plus (outreach job) (allowance job)) (boxOf t)

@@ -20,6 +20,7 @@ import Control.Compensation qualified as Compensation
 import Control.Walk (Stroke (number, to))
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrdOn)
+import Data.Either (fromRight)
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -133,7 +134,7 @@ follow machine flat begin = go begin
       Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut} : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
-            job = Job {milling, statement = region, entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine)}
+            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine)}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (filter (\t -> flat || Deviation.isAt machine atHeight t) rest)
             behind = case reverse (stretch found) of

@@ -36,7 +36,6 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path (leadingSide)
 
 -- | What the cutter's centre does in a stroke, or in one of several parts of it, in mm.
 data Trace = Trace
@@ -81,6 +80,8 @@ places t = case line t of
 data Job = Job
   { milling :: Milling,
     statement :: Region,
+    -- | the side of the walk on which the cutter stands; none when it runs on the contour
+    side :: Maybe Offset.Side,
     entry :: Point,
     exit :: Point,
     -- | from the contour to the cutter's centre
@@ -206,10 +207,10 @@ blur job s = case s of
   where
     Mm a = allowance job
     Mm r = reach job
-    inside turned = case Path.leadingSide (milling job) of
-      Right (Just Offset.LeftOf) -> turned > 0
-      Right (Just Offset.RightOf) -> turned < 0
-      _ -> False
+    inside turned = case side job of
+      Just Offset.LeftOf -> turned > 0
+      Just Offset.RightOf -> turned < 0
+      Nothing -> False
 
 closedOf :: Job -> Bool
 closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed

@@ -1,0 +1,45 @@
+-- | Contours in files that every program of the benchmark reads: little-endian doubles, x y bulge for each vertex.
+module ContourFile
+  ( write,
+    read,
+    builder,
+  )
+where
+
+import Control.Monad (forM_)
+import Data.ByteString.Builder (Builder)
+import Data.ByteString.Builder qualified as Builder
+import Data.Primitive.PrimArray qualified as PrimArray
+import Foreign.Marshal.Alloc (allocaBytes)
+import Foreign.Storable (peekElemOff)
+import Geometry.Contour (Ends (..))
+import Geometry.Outline (Outline (..))
+import System.IO (IOMode (..), hFileSize, hGetBuf, withBinaryFile)
+import Prelude hiding (read)
+
+write :: FilePath -> Outline -> IO ()
+write file o = withBinaryFile file WriteMode (\handle -> Builder.hPutBuilder handle (builder o))
+
+-- | The vertices one after the other.
+builder :: Outline -> Builder
+builder Outline {xs, ys, bulges} = foldMap vertex [0 .. PrimArray.sizeofPrimArray xs - 1]
+  where
+    vertex i = foldMap (\a -> Builder.doubleLE (PrimArray.indexPrimArray a i)) [xs, ys, bulges]
+
+-- | A closed contour. It goes through a small buffer, so that nothing but the contour stays in memory.
+read :: FilePath -> IO Outline
+read file = withBinaryFile file ReadMode $ \handle -> do
+  count <- (`div` 24) . fromIntegral <$> hFileSize handle
+  arrays <- traverse (const (PrimArray.newPrimArray count)) [(), (), ()]
+  allocaBytes (24 * chunk) $ \buffer ->
+    forM_ [0, chunk .. count - 1] $ \begin -> do
+      got <- hGetBuf handle buffer (24 * chunk)
+      forM_ [0 .. got `div` 24 - 1] $ \i ->
+        forM_ (zip [0 ..] arrays) $ \(part, array) ->
+          peekElemOff buffer (3 * i + part) >>= PrimArray.writePrimArray array (begin + i)
+  frozen <- traverse PrimArray.unsafeFreezePrimArray arrays
+  case frozen of
+    [xs, ys, bulges] -> pure Outline {ends = Closed, xs, ys, bulges}
+    _ -> ioError (userError "three arrays")
+  where
+    chunk = 1024

@@ -1,0 +1,71 @@
+{-# OPTIONS_GHC -fno-full-laziness #-}
+
+-- | @kernel FILE D RUNS BATCHES@: the offset of one closed contour by D mm, outwards when it is counter-clockwise, RUNS times in each
+-- batch. Prints for every batch the nanoseconds of processor time of one run, then what came out of the last one and how far the
+-- first one raised the peak of memory. The peers in bench/peers take the same arguments and print the same lines.
+module Main (main) where
+
+import Base.Quantity (Mm (..))
+import ContourFile qualified
+import Control.Exception (evaluate)
+import Control.Monad (forM_, replicateM, when)
+import Data.Primitive.PrimArray qualified as PrimArray
+import Equidistant qualified
+import Geometry.Outline (Outline)
+import Geometry.Outline qualified as Outline
+import System.CPUTime (getCPUTime)
+import System.Environment (getArgs)
+import System.Exit (die)
+import System.Mem (performGC)
+import Text.Read (readMaybe)
+
+main :: IO ()
+main = do
+  arguments <- getArgs
+  case arguments of
+    [file, d, r, b] | Just distance <- readMaybe d, Just runs <- readMaybe r, Just batches <- readMaybe b -> measure file distance runs batches
+    _ -> die "kernel FILE D RUNS BATCHES"
+
+measure :: FilePath -> Double -> Int -> Int -> IO ()
+measure file distance runs batches = do
+  source <- ContourFile.read file
+  performGC
+  writeFile "/proc/self/clear_refs" "5"
+  before <- peak
+  (first, result) <- timed 1 distance source
+  after <- peak
+  when (batches == 0) $ putStrLn ("run " <> show first)
+  times <- replicateM batches (fst <$> timed runs distance source)
+  forM_ times $ \t -> putStrLn ("run " <> show t)
+  putStrLn ("area " <> show (sum (map Outline.area result)))
+  putStrLn ("length " <> show (sum [l | o <- result, let Mm l = Outline.length o]))
+  putStrLn ("loops " <> show (length result) <> "\nopen 0")
+  putStrLn ("vertices " <> show (sum (map (PrimArray.sizeofPrimArray . Outline.xs) result)))
+  putStrLn ("memory " <> show (1024 * (after - before)))
+
+-- | Nanoseconds of processor time of one of so many runs, and what the last one gave. Collecting the garbage of a run is part of
+-- it; that of the runs before is collected before the clock starts.
+timed :: Int -> Double -> Outline -> IO (Integer, [Outline])
+timed runs distance source = do
+  performGC
+  begin <- getCPUTime
+  result <- go runs
+  end <- getCPUTime
+  pure ((end - begin) `div` (1000 * fromIntegral runs), result)
+  where
+    go left = do
+      result <- once distance source
+      if left <= 1 then pure result else go (left - 1)
+
+-- | One run, with every array of its result.
+once :: Double -> Outline -> IO [Outline]
+once distance source = case Equidistant.offset distance source of
+  Left why -> die ("kernel: " <> why)
+  Right result -> result <$ evaluate (sum (map Outline.size result))
+{-# NOINLINE once #-}
+
+-- | The most kilobytes that the process has held.
+peak :: IO Int
+peak = do
+  status <- readFile "/proc/self/status"
+  pure (sum [k | line <- lines status, "VmHWM:" : number : _ <- [words line], Just k <- [readMaybe number]])

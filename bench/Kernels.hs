@@ -1,0 +1,181 @@
+-- | The kernel beside its peers: time, growth, memory, and whether they agree.
+module Kernels
+  ( Peers (..),
+    compared,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import ContourFile qualified
+import Contours (Family (..))
+import Contours qualified
+import Control.Monad (forM)
+import Data.List (sortOn)
+import Data.Maybe (listToMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.IO qualified as Text
+import Peer (Outcome (..), Peer)
+import Peer qualified
+import System.Directory (createDirectoryIfMissing)
+import System.FilePath ((</>))
+import System.IO (hFlush, stdout)
+import Table qualified
+
+-- | Ours; those that keep arcs; those that know chords only, by the sagitta in mm.
+data Peers = Peers {ours :: Peer, keepers :: [Peer], chorders :: [Double -> Peer]}
+
+-- | One contour and one distance, and what became of it: ours and the keepers, then the chorders where they were asked.
+data Case = Case {family :: Family, segments :: Int, distance :: Double, exact :: [Either Text Outcome], chorded :: [Either Text Outcome], finer :: [Either Text Outcome]}
+
+-- | Sagittas of the chords in mm; the first is the one that is timed.
+coarse, fine :: Double
+coarse = 0.01
+fine = 0.001
+
+-- | Run all up to so many segments, with the files in a folder. Gives the names of the page's places and their texts, and what does not
+-- hold.
+compared :: FilePath -> Int -> Peers -> IO ([(Text, Text)], [Text])
+compared folder most peers = do
+  createDirectoryIfMissing True folder
+  cases <- sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat <$> forM [(f, n) | f <- [minBound ..], n <- Contours.sizes f, n <= most] (uncurry (ofContour folder peers))
+  pure
+    ( [ ("times", timesOf peers cases),
+        ("memory", memoryOf peers cases),
+        ("agreement", agreement cases),
+        ("chords", chordsOf peers cases)
+      ],
+      concatMap (broken (length (keepers peers))) cases
+    )
+
+ofContour :: FilePath -> Peers -> Family -> Int -> IO [Case]
+ofContour folder peers family segments = do
+  let file = folder </> Text.unpack (Contours.name family) <> "_" <> show segments <> ".bin"
+  ContourFile.write file (Contours.contour family segments)
+  forM (Contours.distances family) $ \distance -> do
+    Text.putStr (Contours.name family <> " " <> signed distance <> ", " <> Decimal.whole segments <> " segments:")
+    exact <- Peer.interleaved rounds file distance runs batches (ours peers : keepers peers)
+    chorded <- if bearable then Peer.interleaved (if small then 3 else 1) file distance (if small then 3 else 1) 1 (map ($ coarse) (chorders peers)) else pure []
+    finer <- if middling then Peer.interleaved 1 file distance 1 0 (map ($ fine) (chorders peers)) else pure []
+    Text.putStrLn (Text.concat ["  " <> either (const "fails") (Table.number . perSegment segments) o | o <- exact <> chorded])
+    hFlush stdout
+    pure Case {family, segments, distance, exact, chorded, finer}
+  where
+    small = segments <= 2000
+    middling = segments > 2000 && segments <= 20000
+    last' = segments > 200000 || (family == FixedStar && segments > 20000)
+    -- The chorders would need minutes here.
+    bearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
+    (rounds, runs, batches)
+      | small = (5, 20, 5)
+      | middling = (5, 3, 3)
+      | last' = (1, 1, 1)
+      | otherwise = (3, 1, 2)
+
+perSegment :: Int -> Outcome -> Double
+perSegment segments o = Peer.middle (times o) / fromIntegral segments
+
+signed :: Double -> Text
+signed d = (if d > 0 then "+" else "−") <> (if abs d == fromIntegral whole then Decimal.whole whole else Decimal.fixed 1 (abs d))
+  where
+    whole = round (abs d) :: Int
+
+label :: Case -> Text
+label c = Contours.name (family c) <> " " <> signed (distance c)
+
+-- | A cell of an outcome that there may not be.
+cell :: (Outcome -> Text) -> Maybe (Either Text Outcome) -> Text
+cell shown = maybe "–" (either (const "fails") shown)
+
+at :: Int -> [a] -> Maybe a
+at i list = listToMaybe (drop i list)
+
+timesOf :: Peers -> [Case] -> Text
+timesOf peers cases =
+  Table.table
+    (["input", "segments", Peer.title (ours peers)] <> map Peer.title (keepers peers) <> map (Peer.title . ($ coarse)) (chorders peers) <> ["ours / " <> Peer.title k | k <- keepers peers] <> ["growth of " <> Peer.title p | p <- ours peers : keepers peers])
+    (map (\c -> row c (before c)) cases)
+  where
+    count = 1 + length (keepers peers)
+    before c = foldl (\found x -> if label x == label c && segments x < segments c then Just x else found) Nothing cases
+    row c earlier =
+      [label c, Decimal.whole (segments c)]
+        <> [cell (Table.number . perSegment (segments c)) (Just o) | o <- exact c]
+        <> [cell (Table.number . perSegment (segments c)) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
+        <> [maybe "–" Table.number (quotient (exact c) i) | i <- [1 .. count - 1]]
+        <> [maybe "" growth (both i c earlier) | i <- [0 .. count - 1]]
+    quotient outcomes i = case (at 0 outcomes, at i outcomes) of
+      (Just (Right a), Just (Right b)) -> Just (Peer.middle (times a) / Peer.middle (times b))
+      _ -> Nothing
+    both i c earlier = case (at i (exact c), earlier >>= at i . exact, earlier) of
+      (Just (Right now), Just (Right then'), Just e) -> Just ((segments e, Peer.middle (times then')), (segments c, Peer.middle (times now)))
+      _ -> Nothing
+    growth (a, b) = Decimal.fixed 2 (Table.exponent a b)
+
+-- | Of each family the largest contour that all keepers, and the largest that the chorders were given.
+memoryOf :: Peers -> [Case] -> Text
+memoryOf peers cases =
+  Table.table
+    (["input", "segments"] <> map Peer.title (ours peers : keepers peers) <> map (Peer.title . ($ coarse)) (chorders peers))
+    [ [label c, Decimal.whole (segments c)] <> [cell (bytes c) (Just o) | o <- exact c] <> [cell (bytes c) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
+      | c <- cases,
+        segments c >= 50000
+    ]
+  where
+    bytes c o = Table.number (max 0 (memory o) / fromIntegral (segments c))
+
+-- | How far ours and the first keeper are apart.
+agreement :: [Case] -> Text
+agreement cases =
+  Table.table
+    ["input", "segments", "area, mm²", "apart", "length, mm", "apart", "loops", "of the peer", "open"]
+    [row c | c <- cases]
+  where
+    row c = case exact c of
+      Right a : Right b : _ ->
+        [label c, Decimal.whole (segments c), Decimal.fixed 2 (area a), relative area a b, Decimal.fixed 2 (long a), relative long a b, Decimal.whole (loops a), Decimal.whole (loops b), Decimal.whole (open b)]
+      Right a : _ -> [label c, Decimal.whole (segments c), Decimal.fixed 2 (area a), "–", Decimal.fixed 2 (long a), "–", Decimal.whole (loops a), "–", "–"]
+      _ -> [label c, Decimal.whole (segments c)] <> replicate 7 "–"
+    relative part a b = scientific (apart part a b)
+
+apart :: (Outcome -> Double) -> Outcome -> Outcome -> Double
+apart part a b = abs (part a - part b) / max 1e-300 (abs (part a))
+
+-- | One digit and the power of ten.
+scientific :: Double -> Text
+scientific x
+  | x == 0 = "0"
+  | otherwise = let e = floor (logBase 10 x) :: Int in Decimal.fixed 1 (x / 10 ^^ e) <> "e" <> (if e < 0 then "−" <> Decimal.whole (-e) else Decimal.whole e)
+
+-- | How far the chorders' boundaries lie from ours in the mean, in sagittas: the difference of the areas by the length.
+chordsOf :: Peers -> [Case] -> Text
+chordsOf peers cases =
+  Table.table
+    (["input", "segments"] <> concat [[Peer.title (p coarse) <> ", " <> s | s <- ["0.01 mm", "0.001 mm"]] | p <- chorders peers])
+    [[label c, Decimal.whole (segments c)] <> concat [[shown c coarse (at i (chorded c)), shown c fine (at i (finer c))] | i <- [0 .. length (chorders peers) - 1]] | c <- cases, not (null (finer c))]
+  where
+    shown c sagitta o = case (exact c, o) of
+      (Right a : _, Just (Right b)) -> Decimal.fixed 2 (sagittas sagitta a b)
+      (_, Just (Left _)) -> "fails"
+      _ -> "–"
+
+sagittas :: Double -> Outcome -> Outcome -> Double
+sagittas sagitta a b = abs (area a - area b) / long a / sagitta
+
+-- | What does not hold of a case.
+broken :: Int -> Case -> [Text]
+broken kept c = map ((label c <> ", " <> Decimal.whole (segments c) <> " segments: ") <>) (failures <> differences <> chords <> known)
+  where
+    failures = [why | Left why <- take 1 (exact c)]
+    others = take kept (drop 1 (exact c))
+    differences = case exact c of
+      Right a : _ -> [what <> " of the peer is " <> scientific d <> " apart" <> (if open b > 0 then "; it returned " <> Decimal.whole (open b) <> " open pieces" else "") | Right b <- others, (what, d) <- [("the area", apart area a b), ("the length", apart long a b)], d > 1e-9]
+      _ -> []
+    -- A boundary may be off by the chords of the contour and those of the offset.
+    chords = case exact c of
+      Right a : _ -> [Decimal.fixed 2 (sagittas s a b) <> " sagittas of " <> Decimal.fixed 3 s <> " mm between ours and a peer with chords" | (s, os) <- [(coarse, chorded c), (fine, finer c)], Right b <- os, sagittas s a b > 2]
+      _ -> []
+    -- Known from independent computations.
+    known = case (family c, segments c, distance c, exact c) of
+      (Star, 1000000, 5, Right a : _) | loops a /= 1 || abs (area a - 79584382771.36) > 1e-9 * area a -> ["one loop of 79584382771.36 mm² was expected, not " <> Decimal.whole (loops a) <> " of " <> Decimal.fixed 2 (area a)]
+      _ -> []

@@ -1,0 +1,69 @@
+-- | Programs that offset a contour, run one after the other.
+module Peer
+  ( Peer (..),
+    Outcome (..),
+    interleaved,
+    command,
+    repeated,
+    middle,
+  )
+where
+
+import Control.Monad (foldM)
+import Data.Functor ((<&>))
+import Data.List (sort)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import System.Exit (ExitCode (..))
+import System.Process (readProcessWithExitCode)
+import Text.Read (readMaybe)
+
+-- | Its name; the words that start it, before the file, the distance, and how often.
+data Peer = Peer {title :: Text, start :: [String]}
+
+-- | What came out: nanoseconds of each batch; mm², mm; loops, open pieces, vertices; bytes.
+data Outcome = Outcome {times :: [Double], area :: Double, long :: Double, loops :: Int, open :: Int, vertices :: Int, memory :: Double}
+  deriving stock (Eq, Show)
+
+-- | Every program once in each of so many rounds; each begins anew, so that none profits from the one before. A program
+-- that fails once is not asked again.
+interleaved :: Int -> FilePath -> Double -> Int -> Int -> [Peer] -> IO [Either Text Outcome]
+interleaved rounds file distance runs batches peers = foldM once (map (const (Right Nothing)) peers) [1 .. rounds] <&> map (>>= maybe (Left "not run") Right)
+  where
+    once found _ = traverse further (zip peers found)
+    further (peer, before) = case before of
+      Left why -> pure (Left why)
+      Right earlier -> do
+        new <- offset peer file distance runs batches
+        pure (fmap (\o -> Just o {times = maybe [] times earlier <> times o}) new)
+
+offset :: Peer -> FilePath -> Double -> Int -> Int -> IO (Either Text Outcome)
+offset peer file distance runs batches = (>>= read') <$> command 300 (start peer <> [file, show distance, show runs, show batches])
+  where
+    read' out =
+      let found key = [v | line <- Text.lines out, [k, w] <- [Text.words line], k == key, Just v <- [readMaybe (Text.unpack w)]]
+       in case (found "run", found "area", found "length", map found ["loops", "open", "vertices"], found "memory") of
+            (ts@(_ : _), [area], [long], [[loops], [open], [vertices]], [memory]) -> Right Outcome {times = ts, area, long, loops, open, vertices, memory}
+            _ -> Left ("what it printed is not understood: " <> Text.take 200 out)
+
+-- | What a command prints, unless it fails or takes longer than so many seconds.
+command :: Int -> [String] -> IO (Either Text Text)
+command seconds wanted = do
+  (status, out, err) <- readProcessWithExitCode "timeout" (show seconds : wanted) ""
+  pure $ case status of
+    ExitSuccess -> Right (Text.pack out)
+    ExitFailure 124 -> Left ("longer than " <> Text.pack (show seconds) <> " s")
+    ExitFailure n -> Left (Text.strip (Text.unlines (take 2 (Text.lines (Text.pack (err <> out))))) <> " (status " <> Text.pack (show n) <> ")")
+
+-- | The median.
+middle :: [Double] -> Double
+middle values = case drop ((length values - 1) `div` 2) (sort values) of
+  low : high : _ | even (length values) -> (low + high) / 2
+  m : _ -> m
+  [] -> 0
+
+-- | The same so many times; a failure ends it.
+repeated :: Int -> IO (Either Text Text) -> IO (Either Text [Text])
+repeated count action
+  | count <= 0 = pure (Right [])
+  | otherwise = action >>= either (pure . Left) (\out -> fmap (out :) <$> repeated (count - 1) action)

@@ -1,0 +1,120 @@
+-- | Programs of any size for the benchmark of the whole compile.
+module Programs
+  ( Kind (..),
+    name,
+    Written (..),
+    written,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Noise qualified
+
+data Kind
+  = -- | a contour of corners: points
+    Corners
+  | -- | a contour of circles that are joined by tangents
+    Lobes
+  | -- | statements of many kinds: points, circles, tangent lines, functions and their calls, assertions, contours, holes
+    Statements
+  | -- | a closed spline through the rows of a table, 3 mm apart, so smooth that one arc goes along many rows
+    Rows
+  | -- | the same with noise of 0.1 mm: every row bends it
+    Wavy
+  | -- | the noisy table in a file of comma-separated values
+    WavyFile
+  deriving stock (Eq, Show, Read, Enum, Bounded)
+
+name :: Kind -> Text
+name kind = case kind of
+  Corners -> "corners"
+  Lobes -> "lobes"
+  Statements -> "statements"
+  Rows -> "smooth rows"
+  Wavy -> "noisy rows"
+  WavyFile -> "noisy rows, csv"
+
+-- | The text of a program, and the files beside it.
+data Written = Written {text :: Text, files :: [(FilePath, Text)]}
+
+-- | A program of so many written elements, statements or rows.
+written :: Kind -> Int -> Written
+written kind n = case kind of
+  Corners -> Written (ring 5 n (\x y -> "(" <> x <> ", " <> y <> ")")) []
+  Lobes -> Written (ring 6 n (\x y -> "ccw circle((" <> x <> ", " <> y <> "), 4) tangent")) []
+  Statements -> Written (statements n) []
+  Rows -> inline 0
+  Wavy -> inline 0.1
+  WavyFile -> Written (splined n "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 0.1))]
+  where
+    inline noise = Written (splined n (Text.unlines (["table t {", "x y"] <> rows " " n noise <> ["}"]))) []
+
+-- | Elements around a circle, so far apart that half of what lies between them is given.
+ring :: Double -> Int -> (Text -> Text -> Text) -> Text
+ring half n element =
+  header "ring" 10 (r + 20)
+    <> "contour c closed {\n"
+    <> Text.unlines ["  " <> element (coordinate (r * cos a)) (coordinate (r * sin a)) | k <- [0 .. n - 1], let a = 2 * pi * fromIntegral k / fromIntegral n]
+    <> "}\nmill c outside { }\n"
+  where
+    r = half / sin (pi / fromIntegral n)
+
+-- | A closed spline through a table.
+splined :: Int -> Text -> Text
+splined n table =
+  header "wave" 6 (0.7 * r + 40)
+    <> table
+    <> "curve skin = closed_spline(t)\ncontour c closed { skin }\nmill c outside { start near ("
+    <> coordinate r
+    <> ", 0) }\n"
+  where
+    r = fromIntegral n :: Double
+
+-- | Rows of x and y around a wave of five crests.
+rows :: Text -> Int -> Double -> [Text]
+rows separator n noise = map row [0 .. n - 1]
+  where
+    r = fromIntegral n :: Double
+    row k =
+      let a = 2 * pi * fromIntegral k / r
+          d = 0.5 * r * (1 + 0.1 * sin (5 * a)) + noise * (2 * Noise.uniform 7 (fromIntegral k) - 1)
+       in coordinate (d * cos a) <> separator <> coordinate (d * sin a)
+
+header :: Text -> Int -> Double -> Text
+header part diameter away =
+  Text.unlines
+    [ "part " <> part,
+      "machine lkp-01f",
+      "tool mill(diameter " <> Decimal.whole diameter <> " mm)",
+      "feed 60 mm/min",
+      "tolerance 0.02 mm",
+      "from (" <> Decimal.whole (ceiling away) <> ", -20)"
+    ]
+
+statements :: Int -> Text
+statements n =
+  Text.unlines
+    ( ["part many", "machine lkp-01f", "tool mill(diameter 2 mm)", "feed 60 mm/min", "tolerance 0.02 mm", "clearance 5 mm", "from (-20, -20, 5)", "let twice(x) = 2 * x"]
+        <> take n (concatMap group [0 ..])
+    )
+  where
+    group :: Int -> [Text]
+    group k =
+      let i = Decimal.whole k
+          x = Decimal.whole (20 * (k `mod` 1000))
+          y = Decimal.whole (20 * (k `div` 1000))
+       in [ "let p" <> i <> " = (" <> x <> ", " <> y <> ") + polar(twice(1), 30)",
+            "let c" <> i <> " = circle(p" <> i <> ", twice(2 mm))",
+            "let t" <> i <> " = line((-50, -50), right c" <> i <> ")",
+            "let f" <> i <> "(a) = moved(c" <> i <> ", polar(twice(a), 90 deg))",
+            "assert distance(p" <> i <> ", centre_of(f" <> i <> "(1))) = 2 mm within 0.001",
+            "let q" <> i <> " = intersection(t" <> i <> ", f" <> i <> "(1), near p" <> i <> ")",
+            "contour k" <> i <> " closed { ccw c" <> i <> " }",
+            "mill k" <> i <> " inside { depth 2 }",
+            "drill at p" <> i <> " depth 3 mm"
+          ]
+
+coordinate :: Double -> Text
+coordinate = Decimal.fixed 6

@@ -1,0 +1,32 @@
+//! areas FILE: the offsets of many small contours. FILE holds one record after another, all numbers little-endian of eight
+//! bytes: how many vertices (an integer), the offset D in mm, then x y bulge for each vertex. Prints a line for each
+//! contour: the area of its offset, the length, the number of closed loops, the number of open pieces. D > 0 leads outwards
+//! when the contour is counter-clockwise.
+
+use cavalier::{measures, number, vertices};
+use cavalier_contours::polyline::PlineSource;
+use std::fs::File;
+use std::io::{BufReader, BufWriter, ErrorKind, Write};
+
+fn main() -> std::io::Result<()> {
+    let Some(path) = std::env::args().nth(1) else {
+        eprintln!("areas FILE");
+        std::process::exit(2);
+    };
+    let mut file = BufReader::new(File::open(path)?);
+    let mut out = BufWriter::new(std::io::stdout());
+    while let Some(count) = number(&mut file)? {
+        let distance = f64::from_le_bytes(number(&mut file)?.ok_or(ErrorKind::UnexpectedEof)?);
+        let source = vertices(&mut file, u64::from_le_bytes(count) as usize)?;
+        let (mut area, mut length, mut open) = (0.0, 0.0, 0);
+        let result = source.parallel_offset(-distance);
+        for piece in &result {
+            let (a, l) = measures(piece);
+            area += a;
+            length += l;
+            open += usize::from(!piece.is_closed());
+        }
+        writeln!(out, "{area:?} {length:?} {} {open}", result.len() - open)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Fetches and builds the peers of the benchmark as far as they can be had, and runs it.
+# Its argument is the folder in which stack has built; everything else is written below build/bench,
+# but for the tables, which go to docs/performance.md.
+#
+# PARTC_BENCH_MOST=10000 leaves larger inputs out; PARTC_BENCH_PARTS='kernel stages whole' chooses;
+# PARTC_BENCH_SECONDS is how long a stage's run may take to be expected.
+set -euo pipefail
+
+dist=$1
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+work=$root/build/bench
+page=$root/docs/performance.md
+mkdir -p "$work"
+
+source "$root/scripts/bench-peers.sh"
+
+about() {
+  sed -n 's/^model name[^:]*: */processor: /p' /proc/cpuinfo | head -n 1
+  printf 'processors: %s, memory: %s GB\n' "$(nproc)" "$(awk '/^MemTotal/ { print int($2 / 1048576 + 0.5) }' /proc/meminfo)"
+  printf 'system: %s, Linux %s\n' "$(. /etc/os-release && echo "$PRETTY_NAME")" "$(uname -r)"
+  printf 'compiler: GHC %s\n' "$(ghc --numeric-version)"
+  if [[ -n $cavalier ]]; then
+    printf 'cavalier_contours %s, rustc %s\n' "$(grep -A 1 'name = "cavalier_contours"' "$root/bench/peers/cavalier/Cargo.lock" | sed -n 's/version = "\(.*\)"/\1/p')" "$(rustc --version | cut -d ' ' -f 2)"
+  fi
+  if [[ -n $chords ]]; then "$venv/bin/python" "$root/bench/peers/chords.py" versions; fi
+  if [[ -n $rs274 ]]; then printf 'LinuxCNC %s\n' "$(dpkg-query -W -f '${Version}' linuxcnc-uspace 2>/dev/null || echo 'of unknown version')"; fi
+}
+
+fetch_cavalier
+fetch_chords
+rs274=$(command -v rs274 || true)
+[[ -n $rs274 ]] || printf 'bench: rs274 is not installed; nothing stands beside the whole compile\n'
+
+options=(
+  "about=$(about)"
+  "kernel=$dist/build/kernel/kernel"
+  "stages=$dist/build/stages/stages"
+  "partc=$dist/build/partc/partc"
+  "cost=python3 $root/bench/peers/cost.py"
+  "parts=${PARTC_BENCH_PARTS:-kernel stages whole}"
+  "most=${PARTC_BENCH_MOST:-1000000}"
+  "seconds=${PARTC_BENCH_SECONDS:-20}"
+)
+[[ -z $cavalier ]] || options+=("cavalier=$cavalier/offset")
+[[ -z $chords ]] || options+=("chords=$chords")
+[[ -z $rs274 ]] || options+=("rs274=$rs274")
+
+"$dist/build/bench/bench" "$page" "$work" "${options[@]}"

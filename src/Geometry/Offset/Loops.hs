@@ -1,0 +1,60 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | The closed loops that bound what the cutter's centre can reach, in flat arrays.
+module Geometry.Offset.Loops
+  ( Loops (..),
+    none,
+    count,
+    outlines,
+    area,
+    only,
+  )
+where
+
+import Data.Int (Int32)
+import Data.Primitive.PrimArray
+import Geometry.Contour (Ends (..))
+import Geometry.Outline (Outline (Outline))
+import Geometry.Outline qualified as Outline
+
+-- | One loop after the other, each segment with the number of the segment of the raw equidistant that it is a part of.
+data Loops = Loops
+  { -- | where the loops begin, and where one more would
+    starts :: PrimArray Int,
+    xs :: PrimArray Double,
+    ys :: PrimArray Double,
+    bulges :: PrimArray Double,
+    raws :: PrimArray Int32
+  }
+
+none :: Loops
+none = Loops (primArrayFromList [0]) (primArrayFromList []) (primArrayFromList []) (primArrayFromList []) (primArrayFromList [])
+
+count :: Loops -> Int
+count l = sizeofPrimArray (starts l) - 1
+
+-- | Each loop by itself.
+outlines :: Loops -> [Outline]
+outlines l = map one [0 .. count l - 1]
+  where
+    one k =
+      let a = indexPrimArray (starts l) k
+          n = indexPrimArray (starts l) (k + 1) - a
+          cut s = clonePrimArray s a n
+       in Outline Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
+
+-- | The area inside of all, in mm²; loops that are walked clockwise count as holes.
+area :: Loops -> Double
+area = sum . map Outline.area . outlines
+
+-- | The loops for which something holds.
+only :: (Int -> Bool) -> Loops -> Loops
+only keep l
+  | length kept == count l = l
+  | otherwise = Loops {starts = primArrayFromList (scanl (+) 0 (map size kept)), xs = gathered (xs l), ys = gathered (ys l), bulges = gathered (bulges l), raws = gathered (raws l)}
+  where
+    kept = filter keep [0 .. count l - 1]
+    begin = indexPrimArray (starts l)
+    size k = begin (k + 1) - begin k
+    gathered a = mconcat [clonePrimArray a (begin k) (size k) | k <- kept]

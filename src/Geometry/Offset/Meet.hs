@@ -1,0 +1,257 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | How two segments of a chain meet: where they cross, and where, to within rounding, an end of one lies on the other or
+-- they touch. Whoever asks decides what to do with the latter.
+module Geometry.Offset.Meet
+  ( Visitor (..),
+    meet,
+    liesOn,
+  )
+where
+
+import Control.Monad (unless, when)
+import Control.Monad.ST (ST)
+import Data.Primitive.PrimArray
+import Geometry.Offset.Chain (Chain)
+import Geometry.Offset.Chain qualified as Chain
+
+-- | What is told of a meeting.
+data Visitor s = Visitor
+  { -- | the first segment and how far along its chord (0 to 1), the second one likewise, the point, and the cross product
+    -- of the two directions, whose sign says to which side the second one crosses
+    crossing :: Int -> Double -> Int -> Double -> Double -> Double -> Double -> ST s (),
+    -- | a segment, and a vertex that lies on it
+    resting :: Int -> Int -> ST s (),
+    -- | two segments that touch between their ends, and where
+    touching :: Int -> Int -> Double -> Double -> ST s ()
+  }
+
+-- | Visit the meetings of two different segments, the first before the second in the chain, but for the vertices that they
+-- share as neighbours. The tolerance (in mm) is that of rounding; boxes of segments that meet within it overlap.
+meet :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+meet !tolerance !c visitor !i !j
+  | after && before = when (curved i || curved j) (alike tolerance c visitor i j)
+  | after = neighbours tolerance c visitor i j (i + 1)
+  | before = neighbours tolerance c visitor j i i
+  | curved i && curved j = if Chain.diameter c i <= Chain.diameter c j then arcs tolerance c visitor i j else arcs tolerance c visitor j i
+  | curved i = lineArc tolerance c visitor j i
+  | curved j = lineArc tolerance c visitor i j
+  | otherwise = lines' tolerance c visitor i j
+  where
+    curved k = indexPrimArray (Chain.bulges c) k /= 0
+    -- Where the one ends the other begins.
+    after = j == i + 1
+    before =
+      Chain.marked Chain.opening (indexPrimArray (Chain.marks c) i) && Chain.marked Chain.closing (indexPrimArray (Chain.marks c) j)
+        && Chain.marked Chain.copied (indexPrimArray (Chain.marks c) (j + 1))
+        && sameWalk
+    sameWalk = indexPrimArray (Chain.xs c) (j + 1) == indexPrimArray (Chain.xs c) i && indexPrimArray (Chain.ys c) (j + 1) == indexPrimArray (Chain.ys c) i
+{-# INLINE meet #-}
+
+-- | Two lines that are no neighbours.
+lines' :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+lines' !tolerance !c visitor !i !j =
+  Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy -> do
+    let x i' = indexPrimArray (Chain.xs c) i'
+        y i' = indexPrimArray (Chain.ys c) i'
+        wx = x j - x i
+        wy = y j - y i
+        -- Twice the areas between a line and the other one's ends.
+        startJ = ux * wy - uy * wx
+        den = ux * vy - uy * vx
+        endJ = startJ + den
+        startI = wx * vy - wy * vx
+        endI = startI - den
+        nearU = tolerance * sqrt (ux * ux + uy * uy)
+        nearV = tolerance * sqrt (vx * vx + vy * vy)
+        apart a b near = (a > near && b > near) || (a < -near && b < -near)
+    unless (apart startJ endJ nearU || apart startI endI nearV) $
+      if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV
+        then do
+          let s = startI / den
+              t = -(startJ / den)
+          crossing visitor i s j t (x i + s * ux) (y i + s * uy) den
+        else rests tolerance c visitor i j
+{-# INLINE lines' #-}
+
+-- | The ends of two segments that lie on the other one.
+rests :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+rests !tolerance !c visitor !i !j = do
+  when (liesOn tolerance c j i) (resting visitor j i)
+  when (liesOn tolerance c j (i + 1)) (resting visitor j (i + 1))
+  when (liesOn tolerance c i j) (resting visitor i j)
+  when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
+
+-- | Whether an end of one of two segments lies on the other.
+eitherRests :: Double -> Chain -> Int -> Int -> Bool
+eitherRests tolerance c i j = liesOn tolerance c i j || liesOn tolerance c i (j + 1) || liesOn tolerance c j i || liesOn tolerance c j (i + 1)
+
+-- | Whether a vertex lies on a segment.
+liesOn :: Double -> Chain -> Int -> Int -> Bool
+liesOn !tolerance !c !i !k =
+  Chain.chord c i $ \ux uy ->
+    let px = indexPrimArray (Chain.xs c) k
+        py = indexPrimArray (Chain.ys c) k
+        ax = px - indexPrimArray (Chain.xs c) i
+        ay = py - indexPrimArray (Chain.ys c) i
+        bx = px - indexPrimArray (Chain.xs c) (i + 1)
+        by = py - indexPrimArray (Chain.ys c) (i + 1)
+        b = indexPrimArray (Chain.bulges c) i
+        aside = ux * ay - uy * ax
+        along = ux * ax + uy * ay
+        square = ux * ux + uy * uy
+        nearEnds = ax * ax + ay * ay <= tolerance * tolerance || bx * bx + by * by <= tolerance * tolerance
+     in nearEnds
+          || if b == 0
+            then aside * aside <= tolerance * tolerance * square && along > 0 && along < square
+            else aside * b <= 0 && abs (Chain.power c i px py) <= tolerance * (Chain.diameter c i + tolerance)
+
+-- | A line and an arc that are no neighbours.
+lineArc :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+lineArc !tolerance !c visitor !i !j = do
+  when rest (rests tolerance c visitor i j)
+  if abs disc <= aa * tolerance * (Chain.diameter c j + tolerance)
+    then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
+    else when (disc > 0) $ do
+      let q = if half > 0 then -half - sqrt disc else sqrt disc - half
+      try (q / aa)
+      try (c0 / q)
+  where
+    rest = eitherRests tolerance c i j
+    lx = indexPrimArray (Chain.xs c) i
+    ly = indexPrimArray (Chain.ys c) i
+    ux = indexPrimArray (Chain.xs c) (i + 1) - lx
+    uy = indexPrimArray (Chain.ys c) (i + 1) - ly
+    aa = ux * ux + uy * uy
+    -- A place on the line that is near the arc, and how the power goes on from there: aa·s² + 2·half·s + c0.
+    s0 = (ux * (indexPrimArray (Chain.xs c) j - lx) + uy * (indexPrimArray (Chain.ys c) j - ly)) / aa
+    x0 = lx + s0 * ux
+    y0 = ly + s0 * uy
+    half = Chain.gradient c j x0 y0 (\gx gy -> 0.5 * (gx * ux + gy * uy))
+    c0 = Chain.power c j x0 y0
+    disc = half * half - aa * c0
+    foot = s0 - half / aa
+    footX = lx + foot * ux
+    footY = ly + foot * uy
+    try step = when (s0 + step > 0 && s0 + step < 1) $ do
+      let px = x0 + step * ux
+          py = y0 + step * uy
+      when (onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) $
+        crossing visitor i (s0 + step) j (parameter c j px py) px py (Chain.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy)))
+{-# NOINLINE lineArc #-}
+
+-- | Two arcs that are no neighbours, the one with the smaller circle first.
+arcs :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+arcs !tolerance !c visitor !i !j
+  | dist <= 4 * tolerance = rests tolerance c visitor i j
+  | otherwise = do
+    when rest (rests tolerance c visitor i j)
+    if abs disc <= 4 * gg * tolerance * (opening + tolerance)
+      then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)
+      else when (disc > 0) $ do
+        let q = if half > 0 then -half - sqrt disc else sqrt disc - half
+        try (q / gg)
+        try (c0 / q)
+  where
+    rest = eitherRests tolerance c i j
+    x0 = indexPrimArray (Chain.xs c) i
+    y0 = indexPrimArray (Chain.ys c) i
+    -- The powers differ by a linear function, which is 0 where the circles meet.
+    gx = Chain.gradient c i x0 y0 (\ax _ -> Chain.gradient c j x0 y0 (\bx _ -> ax - bx))
+    gy = Chain.gradient c i x0 y0 (\_ ay -> Chain.gradient c j x0 y0 (\_ by -> ay - by))
+    gg = gx * gx + gy * gy
+    dist = 0.5 * sqrt gg
+    -- The square of half the chord in which two circles meet grows by twice this for each mm that they overlap.
+    opening = 0.5 * Chain.diameter c i * Chain.diameter c j / (2 * dist)
+    g0 = -(Chain.power c j x0 y0)
+    -- A point of that line, and how the first circle's power goes along it: gg·s² + 2·half·s + c0.
+    lx = x0 - g0 * gx / gg
+    ly = y0 - g0 * gy / gg
+    half = Chain.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
+    c0 = Chain.power c i lx ly
+    disc = half * half - gg * c0
+    footX = lx + half / gg * gy
+    footY = ly - half / gg * gx
+    try s = do
+      let px = lx - s * gy
+          py = ly + s * gx
+      when (onArc c i px py && onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) $
+        crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ax ay -> Chain.gradient c j px py (\bx by -> turned c i (turned c j (ax * by - ay * bx)))))
+{-# NOINLINE arcs #-}
+
+-- | Two segments of which the second begins where the first ends, at a vertex.
+neighbours :: Double -> Chain -> Visitor s -> Int -> Int -> Int -> ST s ()
+neighbours !tolerance !c visitor !i !j !vertex
+  | bi == 0 && bj == 0 =
+    Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy ->
+      when (ux * vx + uy * vy < 0) $ do
+        let d = abs (ux * vy - uy * vx)
+            a = sqrt (ux * ux + uy * uy)
+            b = sqrt (vx * vx + vy * vy)
+        when (d <= tolerance * (if a > b then a else b)) farEnds
+  | Chain.marked Chain.smooth (indexPrimArray (Chain.marks c) j) = pure ()
+  | liesOn tolerance c j i || liesOn tolerance c i (j + 1) = farEnds
+  | bi == 0 = other i j False
+  | bj == 0 = other j i True
+  | otherwise = otherOfArcs
+  where
+    bi = indexPrimArray (Chain.bulges c) i
+    bj = indexPrimArray (Chain.bulges c) j
+    farEnds = do
+      when (liesOn tolerance c j i) (resting visitor j i)
+      when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
+    vx0 = indexPrimArray (Chain.xs c) vertex
+    vy0 = indexPrimArray (Chain.ys c) vertex
+    -- The other point in which a line l through the vertex meets the circle of an arc.
+    other l arc lineIsSecond = Chain.chord c l $ \ux uy -> Chain.gradient c arc vx0 vy0 $ \gx gy -> do
+      let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
+          s = if lineIsSecond then step else 1 + step
+          px = vx0 + step * ux
+          py = vy0 + step * uy
+      when (s > 0 && s < 1 && onArc c arc px py) $
+        if (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0) <= tolerance * tolerance
+          then pure ()
+          else crossing visitor l s arc (parameter c arc px py) px py (Chain.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
+    otherOfArcs = Chain.gradient c i vx0 vy0 $ \ax ay -> Chain.gradient c j vx0 vy0 $ \bx by -> do
+      let gx = ax - bx
+          gy = ay - by
+          gg = gx * gx + gy * gy
+          -- Back along the line in which both powers agree.
+          k = (ay * gx - ax * gy) / gg
+          px = vx0 + k * gy
+          py = vy0 - k * gx
+      when (gg > 16 * tolerance * tolerance && onArc c i px py && onArc c j px py && (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0) > tolerance * tolerance) $
+        crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ex ey -> Chain.gradient c j px py (\hx hy -> turned c i (turned c j (ex * hy - ey * hx)))))
+{-# NOINLINE neighbours #-}
+
+-- | Two segments that share both ends, not both of them lines: they are the same one, or meet nowhere else.
+alike :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+alike !tolerance !c visitor !i !j =
+  -- Walked back, an arc has its bulge with the sign turned.
+  Chain.chord c i $ \ux uy ->
+    when (0.5 * abs (indexPrimArray (Chain.bulges c) i + indexPrimArray (Chain.bulges c) j) * sqrt (ux * ux + uy * uy) <= tolerance) $
+      resting visitor i j
+
+-- | Whether a point of the circle belongs to the arc: it lies on the arc's side of the chord.
+onArc :: Chain -> Int -> Double -> Double -> Bool
+onArc c i px py = Chain.chord c i $ \ux uy ->
+  (ux * (py - indexPrimArray (Chain.ys c) i) - uy * (px - indexPrimArray (Chain.xs c) i)) * indexPrimArray (Chain.bulges c) i < 0
+{-# INLINE onArc #-}
+
+-- | How far along the chord a point of a segment lies.
+parameter :: Chain -> Int -> Double -> Double -> Double
+parameter c i px py = Chain.chord c i $ \ux uy ->
+  (ux * (px - indexPrimArray (Chain.xs c) i) + uy * (py - indexPrimArray (Chain.ys c) i)) / (ux * ux + uy * uy)
+{-# INLINE parameter #-}
+
+-- | Whether a point is an end of a segment.
+atEnd :: Double -> Chain -> Int -> Double -> Double -> Bool
+atEnd tolerance c i px py = near i || near (i + 1)
+  where
+    near k = let dx = px - indexPrimArray (Chain.xs c) k; dy = py - indexPrimArray (Chain.ys c) k in dx * dx + dy * dy <= 16 * tolerance * tolerance
+
+-- | The sign of the walk on an arc: what holds counter-clockwise is turned when it is walked clockwise.
+turned :: Chain -> Int -> Double -> Double
+turned c i a = if indexPrimArray (Chain.bulges c) i < 0 then -a else a
+{-# INLINE turned #-}

@@ -1,0 +1,202 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | The raw equidistant: every segment moved to its side, and joined to the next.
+--
+-- Outer corners get an arc about the corner (or two lines to where the ways meet), smooth joints nothing; at an inner corner two
+-- lines that keep a rest are cut where they meet, others are joined over the corner itself. Arcs keep their bulge when
+-- the distance is larger than their radius: they then run backwards. The raw equidistant grows out of the source without
+-- a jump when the distance grows from 0, so that its winding number tells what the cutter's centre can reach.
+module Geometry.Offset.Raw
+  ( Corners (..),
+    raw,
+  )
+where
+
+import Control.Monad.ST (ST, runST)
+import Data.Int (Int32)
+import Data.Primitive.PrimArray
+import Data.Word (Word8)
+import Geometry.Offset.Chain (Chain (Chain))
+import Geometry.Offset.Chain qualified as Chain
+
+-- | How outer corners are gone round; 'Sharp' only up to a turn of 120°.
+data Corners = Round | Sharp
+  deriving stock (Eq, Show)
+
+-- | Arrays that are filled from the front.
+data Filling s = Filling (MutablePrimArray s Double) (MutablePrimArray s Double) (MutablePrimArray s Double) (MutablePrimArray s Word8) (MutablePrimArray s Int32)
+
+-- | What lies between two segments.
+data Joint = Smooth | Step | Outer | Trimmed | Over
+  deriving stock (Eq)
+
+-- | The raw equidistant of a chain at a distance in mm that is given by the number of the source's segment, positive to the
+-- right of the walk; and the chain with its smooth joints marked. What is shorter than the
+-- tolerance (mm) is left out; directions whose sine is no larger than the smoothness are one.
+raw :: Double -> Double -> Corners -> (Int -> Double) -> Chain -> (Chain, Chain)
+raw !tolerance !smoothness corners distance !c = runST $ do
+  let n = sizeofPrimArray (Chain.xs c)
+      room = 6 * n + 8
+  rx <- newPrimArray room
+  ry <- newPrimArray room
+  rb <- newPrimArray room
+  rm <- newPrimArray room
+  rs <- newPrimArray room
+  rh <- newPrimArray (Chain.walks c + 1)
+  marks <- thawPrimArray (Chain.marks c) 0 n
+  let filling = Filling rx ry rb rm rs
+      each !w !k !kept
+        | w >= Chain.walks c = writePrimArray rh kept k >> pure (k, kept)
+        | otherwise = do
+          k' <- walk tolerance smoothness corners distance c marks filling (Chain.first c w) (Chain.behind c w) k
+          if k' - k < 2
+            then each (w + 1) k kept
+            else do
+              closeUp filling k k'
+              writePrimArray rh kept k
+              each (w + 1) (k' + 1) (kept + 1)
+  (used, kept) <- each 0 0 0
+  shrinkMutablePrimArray rx used
+  shrinkMutablePrimArray ry used
+  shrinkMutablePrimArray rb used
+  shrinkMutablePrimArray rm used
+  shrinkMutablePrimArray rs used
+  shrinkMutablePrimArray rh (kept + 1)
+  result <- Chain <$> unsafeFreezePrimArray rx <*> unsafeFreezePrimArray ry <*> unsafeFreezePrimArray rb <*> unsafeFreezePrimArray rm <*> unsafeFreezePrimArray rs <*> unsafeFreezePrimArray rh
+  marks' <- unsafeFreezePrimArray marks
+  pure (result, c {Chain.marks = marks'})
+{-# INLINE raw #-}
+
+-- | The copy of a walk's first vertex behind its last segment, and the marks of both.
+closeUp :: Filling s -> Int -> Int -> ST s ()
+closeUp (Filling rx ry rb rm rs) k k' = do
+  readPrimArray rx k >>= writePrimArray rx k'
+  readPrimArray ry k >>= writePrimArray ry k'
+  writePrimArray rb k' 0
+  writePrimArray rm k' Chain.copied
+  writePrimArray rs k' 0
+  m <- readPrimArray rm k
+  writePrimArray rm k (m + Chain.opening)
+  m' <- readPrimArray rm (k' - 1)
+  writePrimArray rm (k' - 1) (m' + Chain.closing)
+
+-- | One walk, from the place in the arrays where it begins; gives the place behind it.
+walk :: Double -> Double -> Corners -> (Int -> Double) -> Chain -> MutablePrimArray s Word8 -> Filling s -> Int -> Int -> Int -> ST s Int
+walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !a !e !k0 =
+  tangents a $ \sx sy ex ey l ->
+    tangents (e - 1) $ \_ _ zx zy lz ->
+      joint (e - 1) a zx zy sx sy lz l $ \closing bend cut -> do
+        markSmooth a closing
+        go a k0 sx sy ex ey l cut (if closing == Smooth then Chain.smooth else 0) $ \_ -> (closing, bend, cut)
+  where
+    bulge i = indexPrimArray (Chain.bulges c) i
+    -- The directions at both ends, and the length of the chord: half the sweep is turned off the chord.
+    tangents i k =
+      let x0 = indexPrimArray (Chain.xs c) i
+          y0 = indexPrimArray (Chain.ys c) i
+          dx = indexPrimArray (Chain.xs c) (i + 1) - x0
+          dy = indexPrimArray (Chain.ys c) (i + 1) - y0
+          l = sqrt (dx * dx + dy * dy)
+          ux = dx / l
+          uy = dy / l
+          b = bulge i
+       in if b == 0
+            then k ux uy ux uy l
+            else
+              let q = 1 / (1 + b * b)
+                  co = (1 - b * b) * q
+                  si = 2 * b * q
+               in k (ux * co + uy * si) (uy * co - ux * si) (ux * co - uy * si) (uy * co + ux * si) l
+    {-# INLINE tangents #-}
+    dist i = distance (fromIntegral (indexPrimArray (Chain.sources c) i))
+    markSmooth i j = case j of
+      Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + Chain.smooth)
+      _ -> pure ()
+    -- From the end of segment i into segment j: the kind of joint, tan(θ/4) of an outer one, and by how much lines are cut
+    -- that are so long at least.
+    joint i j ax ay bx by restI restJ k
+      | dt > 0 && abs cr <= smoothness = k (if di == dj then Smooth else Step) 0 0
+      | dt < 0 && abs (cr * d) <= tolerance = k Outer (signum d) 0
+      | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
+      | bulge i == 0 && bulge j == 0 && di == dj && cut <= restI && cut <= restJ = k Trimmed 0 cut
+      | otherwise = k Over 0 0
+      where
+        di = dist i
+        dj = dist j
+        d = if abs di > abs dj then di else dj
+        cr = ax * by - ay * bx
+        dt = ax * bx + ay * by
+        cut = abs (d * cr / (1 + dt))
+    {-# INLINE joint #-}
+    put !k !x !y !b !m !s = do
+      writePrimArray rx k x
+      writePrimArray ry k y
+      writePrimArray rb k b
+      writePrimArray rm k (m :: Word8)
+      writePrimArray rs k (indexPrimArray (Chain.sources c) s)
+    -- Segment i with its directions, the length of its chord, what is cut off at its beginning, and whether it begins smoothly;
+    -- the joint at the end of the walk is known.
+    go !i !k !sx !sy !ex !ey !l !cut !begins closing
+      | i == e - 1 = case closing () of
+        (kind, bend, back) -> segment i a k sx sy ex ey l cut back begins kind bend $ \k' _ -> pure k'
+      | otherwise =
+        tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
+          let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
+          joint i (i + 1) ex ey sx' sy' (l - cut) kept $ \kind bend cut' -> do
+            markSmooth (i + 1) kind
+            segment i (i + 1) k sx sy ex ey l cut cut' begins kind bend $ \k' begins' ->
+              go (i + 1) k' sx' sy' ex' ey' l' cut' begins' closing
+    -- Write a segment and the joint behind it.
+    segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !begins kind !bend next = do
+      let d = dist i
+          b = bulge i
+          x = indexPrimArray (Chain.xs c) i + d * sy + cut * sx
+          y = indexPrimArray (Chain.ys c) i - d * sx + cut * sy
+          vx = indexPrimArray (Chain.xs c) (i + 1)
+          vy = indexPrimArray (Chain.ys c) (i + 1)
+          fx = vx + d * ey
+          fy = vy - d * ex
+          -- An arc about a centre on its left has its radius grow to the right.
+          remains = if b == 0 then l - cut - cut' > tolerance else abs (l + 4 * d * b / (1 + b * b)) > tolerance
+          k1 = if remains then k + 1 else k
+          ends = if remains then Chain.smooth else 0
+      if remains then put k x y b begins i else pure ()
+      case kind of
+        Smooth -> next k1 ends
+        Step -> put k1 fx fy 0 Chain.around i >> next (k1 + 1) 0
+        Trimmed -> next k1 0
+        Over -> do
+          put k1 fx fy 0 Chain.connecting i
+          put (k1 + 1) vx vy 0 Chain.connecting i
+          next (k1 + 2) 0
+        Outer -> do
+          let dj = dist j
+              wide = if abs dj > abs d then dj else d
+          k2 <- if wide == d then pure k1 else put k1 fx fy 0 Chain.around i >> pure (k1 + 1)
+          let gx = vx + wide * ey
+              gy = vy - wide * ex
+              ends' = (if wide == d then ends else 0) + Chain.around
+          -- bend is tan(θ/4); up to 120°, the ways meet at wide·tan(θ/2) from either end.
+          k3 <-
+            if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
+              then do
+                let out = abs (wide * 2 * bend / (1 - bend * bend))
+                put k2 gx gy 0 ends' i
+                put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 Chain.around i
+                pure (k2 + 2)
+              else put k2 gx gy bend ends' i >> pure (k2 + 1)
+          if wide == dj
+            then next k3 (if corners == Sharp && d == dj then 0 else Chain.smooth)
+            else do
+              -- The direction behind the corner: before it, turned by θ.
+              let p = (1 - bend * bend) / (1 + bend * bend)
+                  q = 2 * bend / (1 + bend * bend)
+                  co = p * p - q * q
+                  si = 2 * p * q
+                  ex' = ex * co - ey * si
+                  ey' = ey * co + ex * si
+              put k3 (vx + wide * ey') (vy - wide * ex') 0 Chain.around i
+              next (k3 + 1) 0
+    {-# INLINE segment #-}
+{-# INLINE walk #-}

@@ -1,0 +1,99 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Winding numbers of a chain: at a point, and on the left of a walk at its outermost places.
+module Geometry.Offset.Winding
+  ( at,
+    Extreme (..),
+    Outward (..),
+    extreme,
+  )
+where
+
+import Data.Primitive.PrimArray
+import Geometry.Offset.Boxes (Boxes)
+import Geometry.Offset.Boxes qualified as Boxes
+import Geometry.Offset.Chain (Chain)
+import Geometry.Offset.Chain qualified as Chain
+
+-- | How often the chain goes round a point that is not on it, counter-clockwise: the chords that a ray to the left meets, and
+-- the arcs that have the point between them and their chord.
+at :: Chain -> Boxes -> Double -> Double -> Int
+at c bs px py = Boxes.around bs (-1e300) py px py 0 $ \total i ->
+  let x0 = indexPrimArray (Chain.xs c) i
+      y0 = indexPrimArray (Chain.ys c) i
+      x1 = indexPrimArray (Chain.xs c) (i + 1)
+      y1 = indexPrimArray (Chain.ys c) (i + 1)
+      b = indexPrimArray (Chain.bulges c) i
+      side = (x1 - x0) * (py - y0) - (y1 - y0) * (px - x0)
+      crossed
+        | y0 <= py && y1 > py = if side < 0 then -1 else 0
+        | y1 <= py && y0 > py = if side > 0 then 1 else 0
+        | otherwise = 0
+      between = if b /= 0 && side * b < 0 && Chain.power c i px py < 0 then (if b > 0 then 1 else -1) else 0
+   in total + crossed + between
+
+-- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on the left of the walk
+-- beside what there is outside: 1 or 0; nothing if it runs back along itself there.
+data Extreme = Extreme {segment :: Int, place :: Double, x :: Double, y :: Double, leftMore :: Maybe Int}
+
+data Outward = Leftmost | Rightmost
+  deriving stock (Eq)
+
+-- | The leftmost or rightmost place of a walk.
+extreme :: Outward -> Chain -> Boxes -> Int -> Extreme
+extreme outward c bs w = go start start 0 (1e300 :: Double)
+  where
+    start = Chain.first c w
+    end = Chain.behind c w
+    sign = case outward of
+      Leftmost -> 1
+      Rightmost -> -1
+    go !i !best !t !least
+      | i >= end = found best t least
+      | edge >= least = go (i + 1) best t least
+      | otherwise =
+        let x0 = sign * indexPrimArray (Chain.xs c) i
+            best1 = if x0 < least then i else best
+            t1 = if x0 < least then 0 else t
+            least1 = if x0 < least then x0 else least
+            b = indexPrimArray (Chain.bulges c) i
+         in if b == 0
+              then go (i + 1) best1 t1 least1
+              else Chain.chord c i $ \dx dy ->
+                let co = 1 - b * b
+                    si = 2 * b
+                    -- x of the directions at both ends
+                    out = sign * (dx * co + dy * si)
+                    into = sign * (dx * co - dy * si)
+                    l = sqrt (dx * dx + dy * dy)
+                    r = l * (1 + b * b) / (4 * abs b)
+                    cx = indexPrimArray (Chain.xs c) i + 0.5 * dx - co / (4 * b) * dy
+                    cy = indexPrimArray (Chain.ys c) i + 0.5 * dy + co / (4 * b) * dx
+                    ex = sign * cx - r
+                    t' = (dx * (sign * ex - indexPrimArray (Chain.xs c) i) + dy * (cy - indexPrimArray (Chain.ys c) i)) / (l * l)
+                 in if out < 0 && into > 0 && ex < least1 && t' > 0 && t' < 1 then go (i + 1) i t' ex else go (i + 1) best1 t1 least1
+      where
+        edge = Boxes.leaf bs i (\lx _ hx _ -> case outward of Leftmost -> lx; Rightmost -> -hx)
+    found i t least
+      | t > 0 = Extreme i t (sign * least) (indexPrimArray (Chain.ys c) i + 0.5 * dyOf i + heightOf i) (Just (if b > 0 then 1 else 0))
+      | otherwise = Extreme i 0 (sign * least) (indexPrimArray (Chain.ys c) i) (atVertex i)
+      where
+        b = indexPrimArray (Chain.bulges c) i
+    dyOf i = Chain.chord c i (\_ dy -> dy)
+    heightOf i = Chain.chord c i (\dx _ -> let b = indexPrimArray (Chain.bulges c) i in (1 - b * b) / (4 * b) * dx)
+    -- The walk turns left at its outermost vertex: its inside is on its left.
+    atVertex i
+      | abs turning > 1e-9 * size = Just (if turning > 0 then 1 else 0)
+      | ix * ox + iy * oy < 0 = Nothing
+      | otherwise = Just (if sign * oy < 0 then 1 else 0)
+      where
+        previous = if i == start then end - 1 else i - 1
+        bp = indexPrimArray (Chain.bulges c) previous
+        b = indexPrimArray (Chain.bulges c) i
+        ix = Chain.chord c previous (\dx dy -> dx * (1 - bp * bp) - dy * 2 * bp)
+        iy = Chain.chord c previous (\dx dy -> dy * (1 - bp * bp) + dx * 2 * bp)
+        ox = Chain.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
+        oy = Chain.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
+        turning = ix * oy - iy * ox
+        size = sqrt ((ix * ix + iy * iy) * (ox * ox + oy * oy))

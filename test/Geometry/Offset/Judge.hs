@@ -1,0 +1,135 @@
+-- | Whether an answer of the offset kernel is right, by naive distances and winding numbers at many places.
+module Geometry.Offset.Judge
+  ( Verdict (..),
+    judge,
+    answer,
+    scaleOf,
+    apart,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Control.Applicative ((<|>))
+import Data.Bits (shiftR, xor)
+import Data.List (foldl', tails)
+import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Word (Word64)
+import Generate.Outline (Case (..), Family (..))
+import Geometry.Contour (Ends (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Offset.Kernel (Fault (..), Side (..))
+import Geometry.Offset.Kernel qualified as Kernel
+import Geometry.Offset.Loops qualified as Loops
+import Geometry.Offset.Naive (Piece (..))
+import Geometry.Offset.Naive qualified as Naive
+import Geometry.Outline qualified as Outline
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+
+data Verdict
+  = -- | so many places were looked at
+    Right' Int
+  | -- | rightly at fault
+    Refused
+  | Wrong String
+  deriving stock (Eq, Show)
+
+answer :: Case -> Either Fault Kernel.Reach
+answer c = Kernel.offset (Kernel.plain (side c) (Mm (radius c))) (outlines c)
+
+-- | Lengths are measured by this: the largest coordinate and the radius.
+scaleOf :: Case -> Double
+scaleOf c = radius c + maximum (1e-3 : [max (abs x) (abs y) | o <- outlines c, (x, y, _) <- Outline.vertices o])
+
+judge :: Case -> Verdict
+judge c = case answer c of
+  Left Uncertain -> Wrong "uncertain"
+  Left fault
+    | sound c -> Wrong ("fault of a sound source: " <> show fault)
+    | apart c -> Wrong ("fault of a source whose segments keep apart: " <> show fault)
+    | Crossed i j <- fault, not (meeting i j) -> Wrong ("no crossing: " <> show fault)
+    | otherwise -> Refused
+  Right reach -> case places c reach of
+    Left problem -> Wrong problem
+    Right n -> Right' n
+  where
+    segments = concatMap Outline.segments (outlines c)
+    meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-8 * scaleOf c
+
+-- | Whether all segments keep clearly apart but for the vertices that they share.
+apart :: Case -> Bool
+apart c = and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
+  where
+    numbered = zip [0 :: Int ..] (concatMap (\o -> map (o,) (Outline.segments o)) (outlines c))
+    total = length numbered
+    clear (i, (o, a)) (j, (_, b))
+      | j == i + 1 || (i == 0 && j == total - 1 && Outline.ends o == Closed) = trimmed a b i j
+      | otherwise = far a b
+    trimmed a b i j
+      | j == i + 1 = far (front a) (back b)
+      | otherwise = far (front b) (back a)
+    far a b = let Mm d = Distance.distance (Distance.segments a b) in d > 1e-6
+    front s = fst (Segment.cutAt 0.999 s)
+    back :: Segment -> Segment
+    back s = snd (Segment.cutAt 0.001 s)
+
+-- | The result's boundary is everywhere as far from the source as asked; and whether a place is free by the result is
+-- whether it is free and far enough by the source: beside the boundary, and at random.
+places :: Case -> Kernel.Reach -> Either String Int
+places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|> firstJust beside spots <|> firstJust thin loops)
+  where
+    firstJust f = listToMaybe . mapMaybe f
+    loops = Loops.outlines (Kernel.loops reach)
+    result = concatMap Naive.pieces loops
+    sources = concatMap Naive.pieces (outlines c)
+    isOpen = any ((== Open) . Outline.ends) (outlines c)
+    scale = scaleOf c
+    near = 2e-9 * scale
+    d = radius c
+    blocked = case side c of
+      LeftOf -> free c - 1
+      RightOf -> free c + 1
+    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, not (abs e <= near)]
+    thin o
+      | family c /= Noise && abs (Outline.area o) < 1e-10 * scale * scale = Just ("no area " <> show (Outline.area o))
+      | otherwise = Nothing
+    spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let (x, y, nx, ny) = on p t] <> take 24 scattered
+    h = 1e-6 * scale
+    beside (x, y)
+      | abs (far - d) <= 0.3 * h = Nothing
+      | not isOpen && far > h && start /= free c && start /= blocked = Just ("crossed source not noticed " <> show (x, y, start))
+      | number == expected = Nothing
+      | otherwise = Just ("wrong number " <> show number <> " not " <> show expected <> " at " <> show (x, y) <> " distance " <> show far <> " source " <> show start)
+      where
+        far = Naive.distance sources x y
+        start = if isOpen then free c else Naive.winding sources x y
+        number = Naive.winding result x y
+        expected = if start == free c && far > d then free c else blocked
+    corners = [(x0 p, y0 p) | p <- sources]
+    (lx, hx, ly, hy) = foldl' (\(a, b, a', b') (x, y) -> (min a x, max b x, min a' y, max b' y)) (1 / 0, -1 / 0, 1 / 0, -1 / 0) corners
+    margin = 1.3 * d + 0.1 * (hx - lx)
+    scattered = pairs (randoms (fromIntegral (length result) + truncate (1e6 * abs (sum (map fst corners)))))
+    pairs us = case us of
+      u : v : more -> (lx - margin + u * (hx - lx + 2 * margin), ly - margin + v * (hy - ly + 2 * margin)) : pairs more
+      _ -> []
+
+-- | A place of a piece, and the direction there.
+on :: Piece -> Double -> (Double, Double, Double, Double)
+on (Piece ax ay bx by b) t
+  | b == 0 = (ax + t * dx, ay + t * dy, dx / l, dy / l)
+  | otherwise = (ax + m * (co * dx + si * dy), ay + m * (co * dy - si * dx), (co' * dx + si' * dy) / l, (co' * dy - si' * dx) / l)
+  where
+    (dx, dy) = (bx - ax, by - ay)
+    l = sqrt (dx * dx + dy * dy)
+    half = 2 * atan b
+    -- The chord to the place is turned from the whole chord by half of what is left of the sweep.
+    m = sin (t * half) / sin half
+    (co, si) = (cos ((1 - t) * half), sin ((1 - t) * half))
+    (co', si') = (cos ((1 - 2 * t) * half), sin ((1 - 2 * t) * half))
+
+-- | Numbers from 0 to 1.
+randoms :: Word64 -> [Double]
+randoms = map unit . drop 1 . iterate step . (+ 88172645463325252)
+  where
+    step s0 = let s1 = s0 `xor` (s0 * 8192); s2 = s1 `xor` (s1 `shiftR` 7) in s2 `xor` (s2 * 131072)
+    unit s = fromIntegral (s `shiftR` 11) / 9007199254740992
