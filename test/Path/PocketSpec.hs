@@ -9,6 +9,8 @@ import Generate.Pocket (Pocket (..))
 import Generate.Pocket qualified as Generate
 import Geometry.Box (Box (Box))
 import Geometry.Box qualified as Box
+import Geometry.Contour (Contour (Contour), Ends (Closed))
+import Geometry.Contour qualified as Contour
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment)
@@ -16,6 +18,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Winding qualified as Winding
+import Path.Inset qualified as Inset
 import Path.Pocket (Leg (..), Room (..))
 import Path.Pocket qualified as Pocket
 import Test.Hspec
@@ -52,6 +55,11 @@ spec = modifyMaxSuccess (const 60) $ do
       fmap Pocket.begins (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20)))) `shouldBe` [Vec.point 30 20]
     it "of a pocket into which the cutter does not fit are none" $
       Pocket.clear (Generate.roomOf plain {cutter = Mm 21}) (Mm 5) Nothing `shouldBe` []
+  describe "the passes by the kernel" $ do
+    prop "sweep every place that the cutter can reach (catches a loop that the kernel and the passes see differently)" $
+      forAll Generate.pocket $ \p -> let way = byKernel p in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+    prop "cut into no wall (catches walls with the free space on the wrong side)" $
+      forAll Generate.pocket $ \p -> conjoin [deepEnough p s | s <- concatMap Pocket.segments (byKernel p)]
   describe "the passes along the walls" $
     prop "sweep what was left at them (catches a pass too few)" $
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
@@ -85,6 +93,12 @@ isAside leg = isPass leg && null [() | Round _ _ <- [leg]]
 
 isLong :: Pocket -> Leg -> Bool
 isLong p leg = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [leg]]
+
+-- | As 'cleared', with walls that are walked any way, and the loops of the kernel.
+byKernel :: Pocket -> [Leg]
+byKernel p = Pocket.clear (Generate.roomOf p) {offsetBy = Inset.inset (Inset.oriented outline islands)} (step p) Nothing
+  where
+    outline :| islands = fmap (Contour.reverse . Contour Closed) (loops p)
 
 cleared :: Pocket -> [Leg]
 cleared p = Pocket.clear (Generate.roomOf p) (step p) Nothing
