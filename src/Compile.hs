@@ -123,7 +123,7 @@ data Analysis = Analysis
 analyse :: [(Text, Text)] -> Loaded -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluated values loaded
-  path <- mapErrors id Path.toReport (Path.lay part)
+  path <- mapErrors Path.warningReport Path.toReport (Path.lay part)
   pure Analysis {checked, part, path}
 
 -- | From the texts to the exact geometry.

@@ -39,6 +39,7 @@ plot part path =
     [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Sheet.page],
       Svg.layer "material" (material (shapes scene)),
       Svg.layer "axes" (axes (sheet scene)),
+      Svg.layer "rests" (map (Svg.area Sign.restColour) (rests scene)),
       Svg.layer "contours" (map contourLine (shapes scene)),
       Svg.layer "ways" (ways scene),
       Svg.layer "path" (concatMap cutLine (cuts scene)),

@@ -9,11 +9,12 @@ module Draw.Scene
   )
 where
 
-import Base.Quantity (Mm, Rad (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Located (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict qualified as Map
 import Data.Maybe (isNothing, mapMaybe)
 import Data.Semigroup (sconcat)
 import Draw.Sheet (Sheet)
@@ -31,7 +32,7 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Milling (contour, radius), Operation (..), Pace (..), Part)
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
-import Path.Path (Block (..), Move, Path)
+import Path.Path (Block (Commanding, Cutting, Holing, Travelling, approach, cut, job, pass, retract), Move, Path)
 import Path.Path qualified as Path
 import Prelude hiding (lines)
 
@@ -40,6 +41,8 @@ data Scene = Scene
   { sheet :: Sheet,
     shapes :: [Shape],
     cuts :: [Cut],
+    -- | what stays standing because the cutter does not get there
+    rests :: [[Segment]],
     -- | straight moves without cutting
     feeds :: [Segment],
     rapids :: [Segment],
@@ -84,6 +87,7 @@ set part path =
     { sheet,
       shapes = map (shapeOf sheet millings) contours <> map (holeOf sheet) (nub (concatMap holesOf (Part.operations part))),
       cuts = mapMaybe (cutOf sheet) (Path.blocks path),
+      rests = map (map (Sheet.segment sheet)) (restsOf path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
       start = Sheet.place sheet begin,
@@ -104,6 +108,14 @@ millingOf operation = case operation of
   Drill _ -> []
   Travel _ -> []
   Command _ -> []
+
+-- | What stays beside contours in their last passes: its outline, or where that is not known a circle where the cutter turns back.
+restsOf :: Path -> [[Segment]]
+restsOf path = nub (concatMap drawn (Map.elems lastPasses))
+  where
+    lastPasses = Map.fromList [(Path.number pass, (Path.reach pass, found)) | Cutting {pass, Path.rests = found} <- Path.blocks path, not (null found)]
+    drawn (Mm r, found) = [if null outline then spot (Offset.middle f) (r / 4) else outline | f <- found, let outline = Offset.standing f]
+    spot p r = [Segment.fullCircle CounterClockwise (Circle p (Mm r)) (Vec.shift (Vec.vec r 0) p)]
 
 -- | The holes that are drilled.
 holesOf :: Operation -> [Circle]

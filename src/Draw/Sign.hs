@@ -4,6 +4,7 @@ module Draw.Sign
     blue,
     red,
     matterColour,
+    restColour,
     contourPen,
     edgePen,
     bedPen,
@@ -57,6 +58,10 @@ axisPen = Pen grey 0.13 []
 -- | The grey of cut material.
 matterColour :: Text
 matterColour = "#e4e4e4"
+
+-- | What stays standing because the cutter does not get there.
+restColour :: Text
+restColour = "#f0a090"
 
 -- | Small letters, for coordinates and the legend.
 small :: Style

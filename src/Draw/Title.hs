@@ -57,9 +57,10 @@ legend scene = concat (zipWith entry [0 ..] [(sample, words') | (True, sample, w
 
 -- | Whether the drawing has a sign, how it is drawn about the left end of its place, and what it means.
 signs :: Scene -> [(Bool, Point -> [Svg], Text)]
-signs Scene {sheet, shapes, cuts, feeds, rapids} =
+signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
   [ (any (\s -> matter s == Unknown) shapes, line Sign.contourPen, "contour"),
-    (any (\s -> matter s /= Unknown) shapes, \p -> surface p <> line Sign.contourPen p, "part"),
+    (any (\s -> matter s /= Unknown) shapes, \p -> surface Sign.matterColour p <> line Sign.contourPen p, "part"),
+    (not (null rests), surface Sign.restColour, "material left"),
     (not (null cuts), line Sign.pathPen, "cutter path"),
     (any upon cuts, \p -> concatMap (`line` p) [Sign.edgePen, Sign.bedPen, Sign.pathPen], "on a contour"),
     (not (null cuts), \p -> [Sign.node True (middle p)], "node"),
@@ -72,7 +73,7 @@ signs Scene {sheet, shapes, cuts, feeds, rapids} =
   where
     line pen p = [Svg.stroke pen [Straight p (right p)]]
     way pen p = line pen p <> [Svg.arrow Sign.red 2.4 (Vec.vec 1 0) (Vec.shift (Vec.vec 5.2 0) p)]
-    surface p = [Svg.rectangle (Pen "none" 0 []) Sign.matterColour (Area (Vec.x p) (Vec.y p) (Vec.x p + 8) (Vec.y p + 2))]
+    surface colour p = [Svg.rectangle (Pen "none" 0 []) colour (Area (Vec.x p) (Vec.y p) (Vec.x p + 8) (Vec.y p + 2))]
     right = Vec.shift (Vec.vec 8 0)
     middle = Vec.shift (Vec.vec 4 0)
 

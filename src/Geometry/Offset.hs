@@ -17,6 +17,7 @@ module Geometry.Offset
     equidistant,
     styled,
     Way (..),
+    Rest (..),
     reachable,
   )
 where
@@ -205,16 +206,41 @@ halved fits low high
 
 -- What can be reached --------------------------------------------------------------------------------
 
+-- | Material that stays because the cutter cannot get at it: what stops the cutter, the place of its centre then, and what
+-- bounds the material, if it is all that lies along the contour there.
+data Rest = Rest {stop :: Obstacle, middle :: Point, standing :: [Segment]}
+  deriving stock (Eq, Show)
+
 -- | The ways beside a contour that the centre can go, in the order of the contour; and for every place where a stretch of it is cut
--- away, what is in the way there, with the largest cutter that would not be stopped by it. The radius is positive.
-reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Obstacle])
-reachable style side radius contour = (ways, map obstacle (cuts contour (radiusAt style radius) ways))
+-- away, what stays there. The radius is positive.
+reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
+reachable style side radius contour = (ways, map rest (cuts contour (radiusAt style radius) ways))
   where
     ways = Way.along style side radius contour
-    obstacle cause = Obstacle {cause, largest = largestPast style side radius contour cause}
+    onWays = IntSet.fromList [numberOf (origin p) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
+    rest (cause, i, j, at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays contour i j at)}
+    -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side.
+    closedBy at along' = along' <> [Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (last along')) (Segment.start (head' along'))]
+    head' = foldr const (Straight contourStart contourStart)
+    contourStart = Segment.start (NonEmpty.head (segments contour))
 
--- | What is in the way wherever a way goes over from one segment to another that does not follow it.
-cuts :: Contour -> (Int -> Mm) -> [Way] -> [Cause]
+-- | The contour from where a cutter touches one segment to where it touches a later one; nothing when a way goes along what lies
+-- between.
+stretchBetween :: IntSet.IntSet -> Contour -> Int -> Int -> Point -> Maybe [Segment]
+stretchBetween onWays contour i j at
+  | i == j || any (`IntSet.member` onWays) between = Nothing
+  | otherwise = Just (behind (whole Vector.! i) <> map (whole Vector.!) between <> upTo (whole Vector.! j))
+  where
+    whole = Vector.fromList (NonEmpty.toList (segments contour))
+    n = Vector.length whole
+    between = takeWhile (/= j) (drop 1 (take n (iterate (\k -> (k + 1) `mod` n) i)))
+    behind s = [snd (Segment.cutAt t s) | let t = touched s, t < 1]
+    upTo s = [fst (Segment.cutAt t s) | let t = touched s, t > 0]
+    touched s = max 0 (min 1 (Segment.fraction s (snd (Distance.nearest at s))))
+
+-- | What is in the way wherever a way goes over from one segment to another that does not follow it; both segments, and
+-- where the centre then is.
+cuts :: Contour -> (Int -> Mm) -> [Way] -> [(Cause, Int, Int, Point)]
 cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
   where
     whole = Vector.fromList (NonEmpty.toList (segments contour))
@@ -222,7 +248,8 @@ cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
     along' way = concat (zipWith between list (drop 1 list <> [NonEmpty.head (Way.pieces way) | Way.ends way == Closed]))
       where
         list = NonEmpty.toList (Way.pieces way)
-    between p q = case (origin p, origin q) of
+    between p q = [(cause, numberOf (origin p), numberOf (origin q), Segment.end (segment p)) | cause <- inTheWay p q]
+    inTheWay p q = case (origin p, origin q) of
       (Around i, Along j) | j == next i -> []
       (Around i, Around j) | j == i -> []
       (Along i, Around j) | j == i -> []
@@ -247,7 +274,7 @@ largestPast style side radius contour cause = case cause of
       | fits smallest = Just (halved fits smallest radius)
       | otherwise = Nothing
     smallest = times 10 Tolerance.clearance
-    passes r = not (any (same cause) (cuts contour (radiusAt style r) found)) && reached found
+    passes r = not (any (\(other, _, _, _) -> same cause other) (cuts contour (radiusAt style r) found)) && reached found
       where
         found = Way.along style side r contour
     same a b = case (a, b) of

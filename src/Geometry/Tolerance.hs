@@ -32,6 +32,7 @@ module Geometry.Tolerance
     tangential,
     deviationShare,
     finestStep,
+    hair,
   )
 where
 
@@ -151,6 +152,10 @@ deviationShare = 0.02
 -- | No step along a curve is smaller than this share of a span.
 finestStep :: Double
 finestStep = 1e-6
+
+-- | A share of a segment too short to matter.
+hair :: Double
+hair = 1e-9
 
 -- | A curve is replaced by arcs that stay so near to it.
 curve :: Mm

@@ -4,6 +4,9 @@ module Path.Error
     Tool (..),
     Unsent (..),
     toReport,
+    Warning (..),
+    Stay (..),
+    warningReport,
   )
 where
 
@@ -75,6 +78,49 @@ data Error
   | -- | there is no path that clears a pocket: the statement's first word, the outline
     NoPathInPocket Region Contour
   deriving stock (Eq, Show)
+
+-- | What is to be known of a path, though nothing is wrong with it.
+data Warning
+  = -- | the statement, the cutter, the places where it leaves material on the contour
+    Leaves Region Tool [Stay]
+  deriving stock (Eq, Show)
+
+-- | A place where material stays because the cutter does not get there; and the largest cutter that would.
+data Stay
+  = -- | in a corner between two elements
+    InCorner Element Element Point
+  | -- | in a concave arc of this radius
+    InHollow Element Mm (Maybe Mm)
+  | -- | behind where the cutter, with its centre there, touches two elements
+    Between Element Element Point (Maybe Mm)
+  deriving stock (Eq, Show)
+
+-- | The words for a warning.
+warningReport :: Warning -> Report
+warningReport warning = case warning of
+  Leaves region tool stays ->
+    (report Report.Warning "W0401" (InSource region) (cutter tool <> " leaves material at " <> places (length stays)))
+      { others = take 6 (distinct (concatMap labels stays)),
+        message = map (stayWords tool) (take shown stays) <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
+        hints = ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
+      }
+  where
+    shown = 8
+    places n = if n == 1 then "one place" else Decimal.whole n <> " places"
+    distinct ls = case ls of
+      [] -> []
+      l : more -> l : distinct (filter (/= l) more)
+    labels s = case s of
+      InCorner a _ _ -> [Label (origin a) "in the corner behind this"]
+      InHollow a _ _ -> [Label (origin a) "in this hollow"]
+      Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
+
+-- | Where material stays, in words.
+stayWords :: Tool -> Stay -> Text
+stayWords tool s = case s of
+  InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
+  InHollow a old largest -> "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool {leaves = Mm 0} largest
+  Between a b p largest -> "Between " <> shape a <> " and " <> shape b <> ", with the centre at " <> Vec.written 3 p <> ". " <> fits tool {leaves = Mm 0} largest
 
 -- | What a control that is sent the edge of the part does not do.
 data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial

@@ -34,7 +34,7 @@ import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, 
 import Part.Part qualified as Part
 import Path.Compensation (Ways (Ways))
 import Path.Compensation qualified as Compensation
-import Path.Error (Error (..), Tool (Tool))
+import Path.Error (Error (..), Stay (..), Tool (Tool), Warning (..))
 import Path.Error qualified
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
@@ -42,15 +42,27 @@ import Path.Swivel qualified as Swivel
 
 -- | Lay the path. No path when an operation has none, or when there are operations but the start is
 -- unknown, which is reported already; a part that is only drawn has a path without moves.
-lay :: Part -> Result w Error Path
+lay :: Part -> Result Warning Error Path
 lay part = case (Part.start part, Part.operations part) of
   (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Spot (Vec.point 0 0) (Mm 0))) []))
   (Nothing, _) -> Result [] [] Nothing
   (Just begin, operations) -> case collect 0 (firstTool operations) (value begin) operations of
     ([], blocks) ->
       let path = Path begin blocks
-       in Result [] (intrusions path) (Just path)
+       in Result (staying path) (intrusions path) (Just path)
     (errors, _) -> Result [] errors Nothing
+
+-- | What stays standing beside a milled contour, once for a statement: that of its last pass.
+staying :: Path -> [Warning]
+staying path = [Leaves region (toolOf milling (Path.left pass)) (map (stay milling) rests) | (_, (Located region milling, pass, rests)) <- Map.toAscList byStatement, not (null rests)]
+  where
+    byStatement = Map.fromList [(number pass, (job, pass, rests)) | Cutting {job, pass, rests} <- Path.blocks path]
+    stay milling r = case Offset.cause (Offset.stop r) of
+      Offset.InnerCorner i j p -> InCorner (element milling i) (element milling j) p
+      Offset.Concave i old -> InHollow (element milling i) old (largestTool milling r)
+      Offset.Collision i j _ -> Between (element milling i) (element milling j) (Offset.middle r) (largestTool milling r)
+    element milling i = elements (contour milling) NonEmpty.!! i
+    largestTool _ r = Offset.largest (Offset.stop r)
 
 -- | The radius of the cutter with which a program begins.
 firstTool :: [Operation] -> Mm
@@ -105,15 +117,20 @@ blocksOf number tool at operation = case operation of
     standing milling = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     next job count before (k, (allowance, z)) = do
       (spot, done) <- before
-      b <- passOf number job (k == 1) (k == count) spot allowance z
-      Right (foldl after spot (Path.moves b), b : done)
+      (found, rests) <- along job allowance
+      let cuts = length found
+          one before' (n, pieces) = do
+            (spot', done') <- before'
+            b <- passOf number job (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
+            Right (foldl after spot' (Path.moves b), b : done')
+      foldl one (Right (spot, done)) (zip [1 :: Int ..] (NonEmpty.toList found))
 
 -- Machining a contour
 
--- | One pass from where the cutter stands: whether it is the first one and the last one, what it leaves, its height.
-passOf :: Int -> Located Milling -> Bool -> Bool -> Spot -> Mm -> Mm -> Either Error Block
-passOf number job@(Located region milling) isFirst isLast at allowance z = do
-  pieces <- along job allowance
+-- | One pass, or one way of it, from where the cutter stands: whether it is the first one and the last one, what it leaves, its
+-- height, the way beside the contour, what stays there.
+passOf :: Int -> Located Milling -> Bool -> Bool -> Spot -> Mm -> Mm -> NonEmpty Offset.Piece -> [Offset.Rest] -> Either Error Block
+passOf number job@(Located region milling) isFirst isLast at allowance z pieces rests = do
   side' <- leadingSide milling
   swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
@@ -156,7 +173,7 @@ passOf number job@(Located region milling) isFirst isLast at allowance z = do
       inwards = map (level inZ) leadIn
       outwards = map (level outZ) leadOut
   sent <- Compensation.sent (keyword region) milling side' Ways {Compensation.before, Compensation.inwards, Compensation.cut, Compensation.outwards, Compensation.behind = behind'}
-  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> inwards, cut, retract = outwards <> behind', sent}
+  Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> inwards, cut, retract = outwards <> behind', rests, sent}
   where
     -- Without depth the ways keep the height at which the cutter stands.
     flat outZ toBegin finish =
@@ -223,16 +240,20 @@ ways at stops = case stops of
     where
       z = fromMaybe (height at) level
 
--- | The cutter's way along the contour itself, with so much left standing.
-along :: Located Milling -> Mm -> Either Error (NonEmpty Offset.Piece)
+-- | The cutter's ways along the contour itself, with so much left standing; where material may stay, what stays.
+along :: Located Milling -> Mm -> Either Error (NonEmpty (NonEmpty Offset.Piece), [Offset.Rest])
 along (Located region milling) allowance = do
   side' <- leadingSide milling
   case side' of
-    Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)))
-    Just s -> first obstacle (Offset.styled style s r (Part.outline (contour milling)))
+    Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
+    Just s -> case (Offset.styled style s r outline, Part.rest milling) of
+      (Right pieces, _) -> Right (pieces :| [], [])
+      (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachable style s r outline -> if null rests then Left (obstacle o) else Right (fmap Offset.pieces (w :| ws), rests)
+      (Left o, _) -> Left (obstacle o)
   where
+    outline = Part.outline (contour milling)
     r = plus (radius milling) allowance
-    used = Tool {Path.Error.work = Part.work milling, Path.Error.radius = radius milling, Path.Error.leaves = allowance}
+    used = toolOf milling allowance
     finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
     style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
     element i = elements (contour milling) NonEmpty.!! i
@@ -242,6 +263,10 @@ along (Located region milling) allowance = do
       Offset.Concave i old -> ConcaveRadius region used (element i) old (listToMaybe (tool largest))
       Offset.InnerCorner i j p -> InnerCorner region used (element i) (element j) p (listToMaybe (tool largest))
       Offset.Collision i j p -> Collision region used (element i) (element j) p (listToMaybe (tool largest))
+
+-- | The cutter at work, and what it leaves.
+toolOf :: Milling -> Mm -> Tool
+toolOf milling allowance = Tool {Path.Error.work = Part.work milling, Path.Error.radius = radius milling, Path.Error.leaves = allowance}
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
 touchedRadius :: Milling -> Mm

@@ -19,6 +19,7 @@ import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Offset (Side)
+import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Part.Part (Command, Drilling, Milling, Pace, Spot (..))
@@ -39,6 +40,8 @@ data Block
         -- | along the contour
         cut :: NonEmpty Move,
         retract :: [Move],
+        -- | what stays on the contour where the cutter does not reach, in the first cut of the pass
+        rests :: [Offset.Rest],
         -- | if the control keeps the cutter beside the contour
         sent :: Maybe Sent
       }

@@ -14,6 +14,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
+import Geometry.Nearest (Nearest)
+import Geometry.Nearest qualified as Nearest
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -22,7 +24,7 @@ import Prelude hiding (lines)
 
 -- | What may lie within reach, by an index of it.
 data Others a = Others
-  { index :: Box.Index a,
+  { index :: Nearest a,
     -- | what has to be within reach of it: all of these
     lines :: a -> NonEmpty Segment,
     -- | whether it counts at all
@@ -69,7 +71,7 @@ halve holds low high
 
 -- | The others that have a point of a segment within a distance.
 near :: Others a -> Mm -> Segment -> [a]
-near others distance segment = filter (counts others) (filter reaches (Box.within (Box.inflate distance (Box.ofSegment segment)) (index others)))
+near others distance segment = filter (counts others) (filter reaches (Nearest.within (Box.inflate distance (Box.ofSegment segment)) (index others)))
   where
     -- No point of a segment is further from its middle than half of its length.
     reaches a = distanceTo (Segment.at 0.5 segment) (lines others a) <= plus distance (times 0.5 (Segment.length segment))
@@ -88,12 +90,12 @@ isCovered others distance segment
       Just other -> case [g | g@(_, b) <- uncovered distance [lines others other] segment, b > t] of
         [] -> True
         (a, _) : _
-          | a > t + hair -> from a
+          | a > t + Tolerance.hair -> from a
           -- It ends right here, and what is nearest a hair further on does not begin before.
-          | otherwise -> maybe False (const together) (nearestAt (min 1 (t + hair)))
+          | otherwise -> maybe False (const together) (nearestAt (min 1 (t + Tolerance.hair)))
     nearestAt t =
       let p = Segment.at t segment
-       in case Box.closest (away p) p (index others) of
+       in case Nearest.closest (away p) p (index others) of
             Just (d, other) | d <= distance -> Just other
             _ -> Nothing
     away p other =
@@ -127,7 +129,3 @@ inEither stretches = case stretches of
 -- | So many others are taken together.
 fewAtMost :: Int
 fewAtMost = 30
-
--- | A share of a segment too short to matter.
-hair :: Double
-hair = 1e-9

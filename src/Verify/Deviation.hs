@@ -2,7 +2,6 @@
 module Verify.Deviation
   ( Pass (..),
     examine,
-    boxOf,
     isAt,
     atLevel,
     allowedOff,
@@ -14,14 +13,15 @@ import Control.Walk (Stroke (number))
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrd)
 import Data.IntSet qualified as IntSet
-import Data.List (minimumBy, sortOn)
+import Data.List (foldl', minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Box qualified as Box
-import Geometry.Distance (Nearest (Nearest))
 import Geometry.Distance qualified as Distance
+import Geometry.Nearest (Nearest)
+import Geometry.Nearest qualified as Nearest
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -32,11 +32,14 @@ import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
+import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
-import Verify.Passage (Job (..), Trace (..), elementsOf, isUpright)
+import Verify.Passage (Edge (..), Job (..), Trace (..), isUpright)
 import Verify.Passage qualified as Passage
 import Verify.Pointed qualified as Pointed
-import Verify.Proof (Finding (..), Passage (..), Witness (..))
+import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
+import Verify.Proof qualified
+import Verify.Reachable qualified as Reachable
 
 -- | A pass and what was found of it.
 data Pass = Pass {job :: Job, passNumber :: Int, level :: Mm, found :: Passage.Found}
@@ -46,8 +49,6 @@ data Pass = Pass {job :: Job, passNumber :: Int, level :: Mm, found :: Passage.F
 examine :: Machine -> Bool -> (Trace -> Mm) -> Bool -> [Trace] -> (Box.Box -> [Trace]) -> Pass -> (Passage, [Finding])
 examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (passage, if null findings then order else findings)
   where
-    elements = elementsOf job
-    elementIndex = Box.index (Box.ofSegment . Part.segment) elements
     contourBox = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour (milling job))))
     pulse = Machine.pulse machine
     (inside, outside) = allowedOff (milling job)
@@ -56,66 +57,96 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     allowance' = max inside outside
     upon = isNothing (side job)
     (milled, within) = case found of
-      Passage.Followed arrival along _ -> (arrival <> along, along)
+      Passage.Followed arrival along _ -> (if mayStay then atHeight traces else arrival <> along, along)
       Passage.Lost _ along _ -> (atHeight traces, along)
       Passage.NeverBegun -> (atHeight traces, [])
     atHeight = filter (\t -> flat || isAt machine level t)
-    ownNumbers = IntSet.fromList (map (number . stroke) within)
+    ownNumbers = IntSet.fromDistinctAscList (ascending (map (number . stroke) within))
     -- Its own strokes stay away from the contour by what they leave; all others have to spare the contour.
     looked = if upon then [] else filter belowTop (if isFirst then nearby (Box.inflate (outreach job) contourBox) else within)
-    requirement t = if IntSet.member (number (stroke t)) ownNumbers then (\e p -> plus (reach job) (leftAt elementIndex e p)) else (\_ _ -> toolOf t)
-    gouges = mapMaybe (\t -> gougeOf (max (outreach job) (toolOf t)) (requirement t) elementIndex t) looked <> pierced
+    isOwn t = IntSet.member (number (stroke t)) ownNumbers
+    spared t
+      | isOwn t = Spared {upTo = furthest t, most = plus (reach job) mostLeft, required = \e p -> plus (reach job) (leftAt (edges job) e p)}
+      | otherwise = Spared {upTo = furthest t, most = toolOf t, required = \_ _ -> toolOf t}
+    furthest t = max (outreach job) (toolOf t)
+    mostLeft = maximum (Mm 0 : map (Part.allowance . Part.finish . element) (Nearest.toList (edges job)))
+    gouges = mapMaybe (\t -> gougeOf (spared t) (edges job) t) looked <> pierced
     -- No distance tells when a tool without a radius crosses the contour; nor, then, that it leaves nothing.
-    pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) elementIndex mayGouge t]]
-    deepest = if null gouges then Nothing else Just (minimumBy (comparing (negated . amount)) gouges)
-    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex es | (more, es) <- byAllowance elements]
-    milledIndex = Box.index boxOf (filter (\t -> flat || isAt machine level t) milled)
-    strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave} elementIndex) level'
+    pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) (edges job) mayGouge t]]
+    deepest = foldl' deeper (foldl' (\best t -> if mayExceed (spared t) (edges job) best t then maybe best (deeper best) (gougeOf (spared t) (edges job) t) else best) Nothing looked) pierced
+    deeper best w = case best of
+      Just b | amount b >= amount w -> best
+      _ -> Just w
+    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex (concatMap (touchable (plus (reach job) more)) es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
+    -- What the cutter cannot touch may stay, where that is allowed.
+    touchable distance e = case (Part.rest (milling job), side job) of
+      (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance elementSegments (Part.segment (element e))]
+      _ -> [e]
+    elementSegments = Nearest.index Box.ofSegment (map (Part.segment . element) (Nearest.toList (edges job)))
+    mayStay = Part.rest (milling job) == Part.Allowed
+    milledIndex = Nearest.index box (filter (\t -> flat || isAt machine level t) milled)
+    strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave}) level'
     level' = filter (not . isUpright) within
-    most = listToMaybe (sortOn (negated . amount) (missed <> strayed))
-    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most, allowedGouge = mayGouge, allowedExcess = mayLeave}
+    most' = listToMaybe (sortOn (negated . amount) (missed <> strayed))
+    passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most', allowedGouge = mayGouge, allowedExcess = mayLeave}
     tooDeep w = amount w > mayGouge
     tooMuch w = amount w > mayLeave
     findings =
-      [Gouge first worst mayGouge | Just worst <- [deepest], first : _ <- [filter tooDeep gouges]]
-        <> [Excess first (fromMaybe first most) mayLeave | not (any tooDeep pierced), first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
-        <> take 1 (mapMaybe (wrongSide job elementIndex) level')
+      [Gouge first worst mayGouge | Just worst <- [deepest], tooDeep worst, first : _ <- [filter tooDeep gouges]]
+        <> [Excess first (fromMaybe first most') mayLeave | not (any tooDeep pierced), first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
+        <> take 1 (mapMaybe (wrongSide job) level')
     -- Nothing else is wrong with the contour but the order in which it is walked.
     order = case found of
       Passage.Followed {} -> []
-      Passage.Lost {} -> [NotFollowed (statement job) | Passage.measurable job]
+      -- A way that leaves stretches out does not go along the contour in one go.
+      Passage.Lost {} -> [NotFollowed (statement job) | Passage.measurable job, not mayStay]
       Passage.NeverBegun -> [NeverBegun (statement job)]
     negated (Mm x) = -x
     -- Above the top of the part nothing is cut.
     belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
 
+-- | Numbers that do not fall, each once.
+ascending :: [Int] -> [Int]
+ascending ns = case ns of
+  a : b : more | a == b -> ascending (b : more)
+  a : more -> a : ascending more
+  [] -> []
+
 -- | Elements by what is left on them besides what the pass leaves.
-byAllowance :: [Element] -> [(Mm, [Element])]
-byAllowance elements = [(more, [e | e <- elements, Part.allowance (Part.finish e) == more]) | more <- nubOrd (map (Part.allowance . Part.finish) elements)]
+byAllowance :: [Edge] -> [(Mm, [Edge])]
+byAllowance es = [(more, [e | e <- es, left' e == more]) | more <- nubOrd (map left' es)]
+  where
+    left' = Part.allowance . Part.finish . element
+
+-- | What a stroke has to spare: elements up to a distance, at most and at a point beside one of them.
+data Spared = Spared {upTo :: Mm, most :: Mm, required :: Element -> Point -> Mm}
+
+-- | Whether a stroke may cut deeper than the deepest so far, by what can be told without comparing exactly.
+mayExceed :: Spared -> Nearest Edge -> Maybe Witness -> Trace -> Bool
+mayExceed spared es best t = any (\e -> any (\c -> Course.apart c (course e) < least) lines') (Nearest.within (Box.inflate (upTo spared) (box t)) es)
+  where
+    lines' = courses t <> bridges t
+    least = let Mm d = most spared in d - maybe 0 (\w -> let Mm a = amount w in a) best + Course.unsure
 
 -- | How deep a stroke cuts into the contour, if it does: how much nearer it comes to an element than it may.
-gougeOf :: Mm -> (Element -> Point -> Mm) -> Box.Index Element -> Trace -> Maybe Witness
-gougeOf furthest' required index t
+gougeOf :: Spared -> Nearest Edge -> Trace -> Maybe Witness
+gougeOf Spared {upTo, required} es t
   | null near = Nothing
   | otherwise = Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) near)
   where
     near =
-      [ Witness {amount = minus (required e p) d, frame = number (stroke t), element = Part.origin e, place = p}
+      [ Witness {amount = minus (required e p) d, frame = number (stroke t), Verify.Proof.element = Part.origin e, place = p}
         | way <- NonEmpty.toList (ways t) <> Control.across (ways t),
-          e <- Box.select (\box -> Box.meets (around way) box && Box.atLeast (`Distance.toPoint` way) box <= furthest') index,
-          let Nearest d p = Distance.segments way (Part.segment e),
+          e <- map element (Nearest.select (\b -> Box.meets (around way) b && Box.atLeast (`Distance.toPoint` way) b <= upTo) es),
+          let Distance.Nearest d p = Distance.segments way (Part.segment e),
           d < required e p
       ]
-    around way = Box.inflate furthest' (Box.ofSegment way)
-
--- | A box that holds a stroke.
-boxOf :: Trace -> Box.Box
-boxOf t = foldr1 Box.union (fmap Box.ofSegment (ways t))
+    around way = Box.inflate upTo (Box.ofSegment way)
 
 -- | What is left on an element where it is nearest to a point; where elements join, no more than on any of them, and nothing
 -- of its own where another is nearer.
-leftAt :: Box.Index Element -> Element -> Point -> Mm
-leftAt index e p
+leftAt :: Nearest Edge -> Element -> Point -> Mm
+leftAt es e p
   | own <= Mm 0 = own
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined = Mm 0
   | otherwise = minimum (own : map left' joined)
@@ -123,21 +154,30 @@ leftAt index e p
     own = left' e
     left' = Part.allowance . Part.finish
     (d, foot) = Distance.nearest p (Part.segment e)
-    joined = [other | other <- Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) index, Distance.toPoint foot (Part.segment other) <= Tolerance.coincident]
+    joined = [other | other <- map element (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) es), Distance.toPoint foot (Part.segment other) <= Tolerance.coincident]
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
 -- or more than is allowed.
-uncut :: Job -> Box.Index Trace -> [Element] -> [Witness]
+uncut :: Job -> Nearest Trace -> [Edge] -> [Witness]
 uncut job index = go (Mm 0)
   where
-    go least elements = case elements of
+    go least es = case es of
       [] -> []
-      e : rest -> case Cover.furthest (others e) least (Part.segment e) of
-        Nothing -> go least rest
-        Just Cover.Beyond {Cover.most, Cover.place = p, Cover.around} ->
-          let nearest = minimumBy (comparing (Cover.distanceTo p . ways)) around
-              next = if most > allowance job then least else most
-           in Witness {amount = most, frame = number (stroke nearest), element = Part.origin e, place = p} : go next rest
+      e : rest
+        | surely least e -> go least rest
+        | otherwise -> case Cover.furthest (others (element e)) least (Part.segment (element e)) of
+          Nothing -> go least rest
+          Just Cover.Beyond {Cover.most = left', Cover.place = p, Cover.around} ->
+            let nearest = minimumBy (comparing (Cover.distanceTo p . ways)) around
+                next = if left' > allowance job then least else left'
+             in Witness {amount = left', frame = number (stroke nearest), Verify.Proof.element = Part.origin (element e), place = p} : go next rest
+    surely least e =
+      let far@(Mm d) = plus (reach job) least
+       in Course.isCovered d [courses t | t <- Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index, all (surelyOn (course e)) (courses t)] (course e)
+    surelyOn e c = case side job of
+      Nothing -> True
+      Just Offset.LeftOf -> Course.isLeftOf c e
+      Just Offset.RightOf -> Course.isRightOf c e
     others e = Cover.Others {Cover.index, Cover.lines = ways, Cover.counts = all (onLeadingSide job (Part.segment e)) . ways, Cover.reach = reach job, Cover.allowance = allowance job}
 
 -- | Whether a stroke runs on the side of an element on which the cutter has to stand: another one would reach
@@ -148,41 +188,56 @@ onLeadingSide job element t = case side job of
   Just keeps -> leftOf == (keeps == Offset.LeftOf) || d <= allowance job
   where
     -- Where the stroke is nearest: an arc's inside and outside are not those of the whole stroke.
-    Nearest d p = Distance.segments t element
+    Distance.Nearest d p = Distance.segments t element
     leftOf = case element of
       Straight a b -> Vec.cross (Vec.to a b) (Vec.to a p) > 0
       Arc {start, centre, sweep = Rad s} -> (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
 -- | How far a stroke strays from the contour, if it is more than is allowed.
-strayOf :: Job -> Box.Index Element -> Trace -> Maybe Witness
-strayOf job index t = case mapMaybe beyond (NonEmpty.toList (ways t)) of
-  [] -> Nothing
-  ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
+strayOf :: Job -> Trace -> Maybe Witness
+strayOf job t
+  | all (Course.isCovered d [[course e] | e <- Nearest.within (Box.inflate far (box t)) (edges job)]) (courses t) = Nothing
+  | otherwise = case mapMaybe beyond (NonEmpty.toList (ways t)) of
+    [] -> Nothing
+    ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
   where
+    far@(Mm d) = plus (reach job) (allowance job)
     beyond way = case Cover.furthest others (allowance job) way of
       Nothing -> Nothing
-      Just Cover.Beyond {Cover.most, Cover.place = p, Cover.around} ->
-        let e = minimumBy (comparing (Distance.toPoint p . Part.segment)) around
-         in Just Witness {amount = most, frame = number (stroke t), element = Part.origin e, place = p}
-    others = Cover.Others {Cover.index, Cover.lines = (:| []) . Part.segment, Cover.counts = const True, Cover.reach = reach job, Cover.allowance = allowance job}
+      Just Cover.Beyond {Cover.most = strays, Cover.place = p, Cover.around} ->
+        let e = element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)
+         in Just Witness {amount = strays, frame = number (stroke t), Verify.Proof.element = Part.origin e, place = p}
+    others = Cover.Others {Cover.index = edges job, Cover.lines = (:| []) . Part.segment . element, Cover.counts = const True, Cover.reach = reach job, Cover.allowance = allowance job}
 
 -- | A stroke that lies beside an element on the wrong side: a straight one by its middle, an arc by places close to one
 -- another.
-wrongSide :: Job -> Box.Index Element -> Trace -> Maybe Finding
-wrongSide job index t = case side job of
+wrongSide :: Job -> Trace -> Maybe Finding
+wrongSide job t = case side job of
   Nothing -> Nothing
-  Just keeps -> listToMaybe (mapMaybe (\k -> beside keeps (Segment.at k (line t))) looked)
+  Just keeps -> listToMaybe (mapMaybe (\p -> if mayBe keeps p then beside keeps p else Nothing) looked)
   where
-    looked = let ks = Passage.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) (if isArc then ks else [1])
+    looked = map (\k -> Segment.at k (line t)) (if isArc then let ks = Passage.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) ks else [0.5])
     isArc = case line t of
       Arc {} -> True
       Straight _ _ -> False
-    beside keeps p = case Box.closest (\e -> if Box.meets around (Box.ofSegment (Part.segment e)) then Distance.toPoint p (Part.segment e) else Mm (1 / 0)) p index of
+    near = Nearest.within around (edges job)
+    -- Of those that are nearest, to a hair, one may have the place on its wrong side.
+    mayBe keeps p =
+      let (x, y) = (Vec.x p, Vec.y p)
+          away = [(Course.distance (course e) x y, e) | e <- near]
+          least = foldl' (\d (d', _) -> min d d') (1 / 0) away
+          wrong e = not (case keeps of Offset.LeftOf -> Course.isLeftOf (Course.spot x y) (course e); Offset.RightOf -> Course.isRightOf (Course.spot x y) (course e))
+          Mm a = allowance job
+       in least > a - Course.unsure && any (\(d, e) -> d <= least + Course.unsure && Course.spansAbout (course e) x y && wrong e) away
+    beside keeps p = case closestOf [(Distance.toPoint p s, e) | e <- near, let s = Part.segment (element e)] of
       Just (d, nearest)
-        | d < Mm (1 / 0) && d > allowance job && Segment.spans (Part.segment nearest) p && sideOf p (Part.segment nearest) /= keeps ->
+        | d > allowance job && Segment.spans (Part.segment nearest) p && sideOf p (Part.segment nearest) /= keeps ->
           Just (WrongSide (number (stroke t)) (Part.origin nearest))
       _ -> Nothing
-    around = Box.inflate (plus (outreach job) (allowance job)) (boxOf t)
+    closestOf away = case away of
+      [] -> Nothing
+      _ -> let (d, e) = minimumBy (comparing fst) away in Just (d, element e)
+    around = Box.inflate (plus (outreach job) (allowance job)) (box t)
     sideOf p s =
       let foot = Segment.at (Segment.fraction s p) s
           ahead = Segment.directionAt (Segment.fraction s p) s

@@ -30,6 +30,7 @@ import Frame.Frame (Frame (..), Program)
 import Frame.Frame qualified as Frame
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
+import Geometry.Nearest qualified as Nearest
 import Geometry.Offset (Side (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -71,8 +72,8 @@ prove machine path program frames =
     located = follow machine flat (Frame.position machine begin, Frame.height machine begin) traces [b | b@Path.Cutting {} <- Path.blocks path]
     toolOf = if sameCount then ownTool program else supposedTool located
     -- The strokes that may touch what lies in a box, in the order of the tape.
-    nearby box = sortOn (number . stroke) (Box.within (Box.inflate largestTool box) strokesByPlace)
-    strokesByPlace = Box.index Deviation.boxOf traces
+    nearby about = Nearest.within (Box.inflate largestTool about) strokesByPlace
+    strokesByPlace = Nearest.index box traces
     largestTool = maximum (Mm 0 : map toolOf traces)
     (passages, found) = unzip (zipWith (\isFirst l -> Deviation.examine machine flat toolOf isFirst traces nearby l) (firsts located) located)
     closure = begin + sum (map increment frames) - Frame.end program
@@ -134,7 +135,7 @@ follow machine flat begin = go begin
       Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut} : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
-            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine)}
+            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine), edges = Passage.edgesOf milling}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (filter (\t -> flat || Deviation.isAt machine atHeight t) rest)
             behind = case reverse (stretch found) of

@@ -9,6 +9,8 @@ module Verify.Passage
     places,
     Found (..),
     elementsOf,
+    Edge (..),
+    edgesOf,
     find,
     measurable,
   )
@@ -21,13 +23,13 @@ import Control.Compensation qualified as Compensation
 import Control.Monad (foldM)
 import Control.Walk (Stroke)
 import Control.Walk qualified as Control
-import Data.List (minimumBy)
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe, mapMaybe)
-import Data.Ord (comparing)
+import Data.Maybe (mapMaybe)
 import Geometry.Box qualified as Box
-import Geometry.Distance qualified as Distance
+import Geometry.Nearest (Nearest)
+import Geometry.Nearest qualified as Nearest
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -36,6 +38,8 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
+import Verify.Course (Course)
+import Verify.Course qualified as Course
 
 -- | What the cutter's centre does in a stroke, or in one of several parts of it, in mm.
 data Trace = Trace
@@ -46,18 +50,29 @@ data Trace = Trace
     line :: Segment,
     -- | the ways between which the control goes there
     ways :: NonEmpty Segment,
+    -- | the same as bare numbers, and the ways across from one to another
+    courses :: [Course],
+    bridges :: [Course],
+    -- | all of them lie in it
+    box :: Box.Box,
     -- | at its beginning and its end
     heights :: (Mm, Mm)
   }
 
 -- | What the cutter's centre does in a stroke on a machine. If there are several parts, it rises in the last one.
 tracesOf :: Machine -> Moved -> [Trace]
-tracesOf machine m = [Trace {stroke = s, part = n, line = leg, ways = Control.between leg, heights = if n < final then (low, low) else (low, high)} | (n, leg) <- zip [0 ..] (NonEmpty.toList legs)]
+tracesOf machine m = [trace s n leg (if n < final then (low, low) else (low, high)) | (n, leg) <- zip [0 ..] (NonEmpty.toList legs)]
   where
     s = Compensation.stroke m
     legs = Compensation.legs m
     final = NonEmpty.length legs - 1
     (low, high) = Control.height machine s
+
+-- | What is done in a part of a stroke.
+trace :: Stroke -> Int -> Segment -> (Mm, Mm) -> Trace
+trace stroke part line heights = Trace {stroke, part, line, ways, courses = map Course.ofSegment (NonEmpty.toList ways), bridges = map Course.ofSegment (Control.across ways), box = foldr1 Box.union (fmap Box.ofSegment ways), heights}
+  where
+    ways = Control.between line
 
 -- | Whether two are the same part of the same stroke.
 isSame :: Trace -> Trace -> Bool
@@ -89,8 +104,20 @@ data Job = Job
     -- | from the contour to the cutter's centre at most: round sharp corners, along elements with an allowance
     outreach :: Mm,
     -- | how far the chords may be off on one side or the other, and one pulse
-    allowance :: Mm
+    allowance :: Mm,
+    edges :: Nearest Edge
   }
+
+-- | An element with its place along the contour and its length in mm, and as bare numbers.
+data Edge = Edge {element :: Element, before :: Double, long :: Double, course :: Course}
+
+-- | The elements of a contour by their places.
+edgesOf :: Milling -> Nearest Edge
+edgesOf job = Nearest.index (Box.ofSegment . Part.segment . element) (zipWith edge (scanl (+) 0 lengths) (zip elements lengths))
+  where
+    elements = NonEmpty.toList (Part.elements (Part.contour job))
+    lengths = [l | e <- elements, let Mm l = Segment.length (Part.segment e)]
+    edge before (element, long) = Edge {element, before, long, course = Course.ofSegment (Part.segment element)}
 
 -- | The strokes of one contour.
 data Found
@@ -117,7 +144,7 @@ find job at traces = case if measurable job then mapMaybe followed starts else [
     followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
     starts = begun Nothing traces
     -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
-    staysBeside rest = let (along, _) = untilExit job rest in not (null along) && all (\t -> all (\k -> beside job ruler (Segment.at k (line t))) (final t)) along
+    staysBeside rest = let (along, _) = untilExit job rest in not (null along) && all (\t -> all (\k -> beside job (Segment.at k (line t))) (final t)) along
     -- A straight stroke may cut across.
     final t = case line t of
       Straight _ _ -> [1]
@@ -129,8 +156,8 @@ find job at traces = case if measurable job then mapMaybe followed starts else [
       t : rest -> [([b | Just b <- [before], endsNear job (entry job) b], ts) | isNear job (entry job) (Segment.start (line t))] <> begun (Just t) rest
 
 -- | Whether the cutter with its centre at a point touches the contour at all.
-beside :: Job -> Ruler -> Point -> Bool
-beside job ruler p = maybe False ((<= plus (outreach job) (allowance job)) . fst) (Box.closest (Distance.toPoint p . snd) p (marks ruler))
+beside :: Job -> Point -> Bool
+beside job p = not (null (touched job (around job p) p))
 
 isNear :: Job -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
@@ -154,9 +181,8 @@ untilExit job traces = (leaving <> along <> arrival, behind)
     (along, back) = break (endsNear job (exit job)) away
     (arrival, behind) = span (endsNear job (exit job)) back
 
--- | A contour as a ruler: its elements with their distances from the beginning along it, its length, and how far
--- back a step of the cutter may seem to go by rounding alone.
-data Ruler = Ruler {marks :: Box.Index (Double, Segment), whole :: Double, slack :: Double, closed :: Bool}
+-- | A contour as a ruler: its length, and how far back a step of the cutter may seem to go by rounding alone.
+data Ruler = Ruler {whole :: Double, slack :: Double, closed :: Bool}
 
 -- | Whether the place of the cutter's centre tells where it touches: not in a hollow in which the centre
 -- hardly moves while the cutter touches all of it. The arcs of a curve count together.
@@ -218,52 +244,52 @@ closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed
 measure :: Job -> Ruler
 measure job =
   Ruler
-    { marks = Box.index (Box.ofSegment . snd) (zip (scanl (+) 0 lengths) segments),
-      whole = sum lengths,
+    { whole = foldl' (+) 0 (map long (Nearest.toList (edges job))),
       slack = maximum (0 : [b | run <- runsOf job, let Mm b = blurAlong job run]),
       closed = closedOf job
     }
-  where
-    segments = map Part.segment (elementsOf job)
-    lengths = [l | s <- segments, let Mm l = Segment.length s]
 
 -- | The strokes that follow the contour to its end, and the rest; none when they stray from it, turn back on
 -- it, or end before.
 follows :: Job -> Ruler -> [Trace] -> Maybe ([Trace], [Trace])
-follows job ruler = go 0 0 (entry job)
+follows job ruler = go [] 0 0 (entry job)
   where
-    go gone mark at traces
-      | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler = Just (span (staysNear job (exit job)) traces)
+    go done gone mark at traces
+      | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler =
+        let (standing, behind) = span (staysNear job (exit job)) traces in Just (reverse done <> standing, behind)
       | otherwise = case traces of
         [] -> Nothing
-        t : rest -> do
-          (gone', mark') <- foldM step (gone, mark) [Segment.at k (line t) | k <- places t]
-          (along, behind) <- go gone' mark' (Segment.end (line t)) rest
-          Just (t : along, behind)
+        t : rest -> case foldM (step (Nearest.within (Box.inflate (reaches job) (box t)) (edges job))) (Along gone mark) [Segment.at k (line t) | k <- places t] of
+          Just (Along gone' mark') -> go (t : done) gone' mark' (Segment.end (line t)) rest
+          Nothing -> Nothing
     -- How far on the furthest place is that the cutter touches.
-    ahead mark p = maximum (0 : map (difference mark) (touched p))
+    ahead mark p = maximum (0 : map (difference mark) (touched job (around job p) p))
     -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
-    step (gone, mark) p = do
-      delta <- listToMaybe' (filter (>= negate (slack ruler)) (map (difference mark) (touched p)))
-      Just (gone + delta, mark + delta)
-    listToMaybe' ds = listToMaybe [minimumBy (comparing abs) ds | not (null ds)]
+    step near (Along gone mark) p = case filter (>= negate (slack ruler)) (map (difference mark) (touched job near p)) of
+      [] -> Nothing
+      d : ds -> let delta = foldl' (\a b -> if abs b < abs a then b else a) d ds in Just (Along (gone + delta) (mark + delta))
     difference mark s
-      | closed ruler = let d = s - mark - whole ruler * fromIntegral (round' ((s - mark) / whole ruler)) in d
+      | closed ruler = let d = s - mark - whole ruler * fromIntegral (floor ((s - mark) / whole ruler + 0.5) :: Int) in d
       | otherwise = s - mark
-    round' x = floor (x + 0.5) :: Int
-    -- What the cutter touches is nearest to it.
-    touched p = case Box.closest (Distance.toPoint p . snd) p (marks ruler) of
-      Just (nearest, _) ->
-        let far = min near (plus nearest (plus (allowance job) (allowance job)))
-         in [ before + max 0 (min 1 (footOf s p)) * len
-              | (before, s) <- Box.select ((<= far) . Box.distance p) (marks ruler),
-                Distance.toPoint p s <= far,
-                let Mm len = Segment.length s
-            ]
-      Nothing -> []
-    near = plus (outreach job) (allowance job)
-    -- Beside an arc the nearer of its ends counts.
-    footOf s p
-      | Segment.spans s p = Segment.fraction s p
-      | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
-      | otherwise = 1
+
+-- | How far the walk has gone along a contour, and which place of it that is.
+data Along = Along Double Double
+
+-- | How far the centre of a cutter that touches an element may be from it.
+reaches :: Job -> Mm
+reaches job = plus (outreach job) (allowance job)
+
+-- | The elements around a point that a cutter with its centre there may touch.
+around :: Job -> Point -> [Edge]
+around job p = Nearest.within (Box.inflate (reaches job) (Box.ofPoints p [])) (edges job)
+
+-- | The places along the contour that the cutter with its centre at a point touches, among elements with all that lie
+-- within its reach. What it touches is nearest to it; beside an arc the nearer of its ends counts.
+touched :: Job -> [Edge] -> Point -> [Double]
+touched job near p = [before e + Course.footOn (course e) x y * long e | (e, d) <- away, d <= far]
+  where
+    (x, y) = (Vec.x p, Vec.y p)
+    Mm most = reaches job
+    Mm a = allowance job
+    away = [(e, Course.distance (course e) x y) | e <- near]
+    far = min most (foldl' (\d (_, d') -> min d d') most away + 2 * a)

@@ -18,33 +18,36 @@ import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
+import Geometry.Nearest (Nearest)
+import Geometry.Nearest qualified as Nearest
 import Geometry.Offset (Side (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour, Element)
+import Part.Part (Contour)
 import Part.Part qualified as Part
 import Verify.Cover (Beyond (Beyond, around, most), Others (..))
 import Verify.Cover qualified as Cover
-import Verify.Passage (Trace (..))
-import Verify.Proof (Witness (..))
+import Verify.Passage (Edge (element), Trace (..))
+import Verify.Proof (Witness (Witness, amount, frame, place))
+import Verify.Proof qualified
 import Prelude hiding (lines)
 
 -- | The deepest that a stroke goes into the material beside a contour, if it does; the tool has to stay on a side of it.
-gougeOf :: Side -> Contour -> Box.Index Element -> Mm -> Trace -> Maybe Witness
+gougeOf :: Side -> Contour -> Nearest Edge -> Mm -> Trace -> Maybe Witness
 gougeOf side contour elements allowance t = case concatMap deep (NonEmpty.toList (ways t)) of
   [] -> Nothing
   ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
   where
     deep way = mapMaybe depth (concatMap (judged contour elements) (stretches (marks way) way))
-    marks way = concatMap (Distance.crossings way . Part.segment) (Box.within (Box.inflate Tolerance.coincident (Box.ofSegment way)) elements) <> beside way
+    marks way = concatMap (Distance.crossings way . Part.segment . element) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofSegment way)) elements) <> beside way
     beside way = [p | n <- normals contour, p <- Distance.crossings way n]
     depth (s, stretch) = if s == side then Nothing else witness <$> Cover.furthest others (Mm 0) stretch
-    others = Others {index = elements, lines = (:| []) . Part.segment, counts = const True, reach = Mm 0, allowance}
+    others = Others {index = elements, lines = (:| []) . Part.segment . element, counts = const True, reach = Mm 0, allowance}
     witness Beyond {most, Cover.place = p, around} =
-      Witness {amount = most, frame = number (stroke t), element = Part.origin (minimumBy (comparing (Distance.toPoint p . Part.segment)) around), place = p}
+      Witness {amount = most, frame = number (stroke t), Verify.Proof.element = Part.origin (element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)), place = p}
 
 -- | The stretches of a segment between some of its points.
 stretches :: [Point] -> Segment -> [Segment]
@@ -69,7 +72,7 @@ normals contour = case Part.ends contour of
 
 -- | A stretch that does not cross the contour with its side; a stretch whose middle lies beyond an end of the contour in parts, of which those
 -- are left out that do so, too.
-judged :: Contour -> Box.Index Element -> Segment -> [(Side, Segment)]
+judged :: Contour -> Nearest Edge -> Segment -> [(Side, Segment)]
 judged contour elements s = case sideOf contour elements (Segment.at 0.5 s) of
   Just side -> [(side, s)]
   Nothing -> [(side, part) | part <- stretches [Segment.at (fromIntegral k / parts) s | k <- [1 .. parts - 1 :: Int]] s, Just side <- [sideOf contour elements (Segment.at 0.5 part)]]
@@ -78,17 +81,17 @@ judged contour elements s = case sideOf contour elements (Segment.at 0.5 s) of
     parts = 8
 
 -- | The side of a contour on which a point lies, by where it is nearest; none beyond its ends, nor on it.
-sideOf :: Contour -> Box.Index Element -> Point -> Maybe Side
-sideOf contour elements p = case Box.closest (Distance.toPoint p . Part.segment) p elements of
+sideOf :: Contour -> Nearest Edge -> Point -> Maybe Side
+sideOf contour elements p = case Nearest.closest (Distance.toPoint p . Part.segment . element) p elements of
   Just (d, nearest)
     | d <= Tolerance.coincident -> Nothing
-    | Part.ends contour == Part.Open && (Vec.near foot begin || Vec.near foot finish) && not (Segment.spans (Part.segment nearest) p) -> Nothing
+    | Part.ends contour == Part.Open && (Vec.near foot begin || Vec.near foot finish) && not (Segment.spans (Part.segment (element nearest)) p) -> Nothing
     | otherwise -> Just (if leftward > 0 then LeftOf else RightOf)
     where
-      foot = snd (Distance.nearest p (Part.segment nearest))
+      foot = snd (Distance.nearest p (Part.segment (element nearest)))
       -- In a corner the elements before and behind it count together.
-      touching = filter (\e -> Distance.toPoint foot (Part.segment e) <= Tolerance.coincident) (Box.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) elements)
-      leftward = sum [Vec.cross (directionBeside foot (Part.segment e)) (Vec.to foot p) | e <- touching]
+      touching = filter (\e -> Distance.toPoint foot (Part.segment (element e)) <= Tolerance.coincident) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) elements)
+      leftward = sum [Vec.cross (directionBeside foot (Part.segment (element e))) (Vec.to foot p) | e <- touching]
   Nothing -> Nothing
   where
     begin = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))

@@ -6,6 +6,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Generate.Run qualified as Curve
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
+import Geometry.Nearest qualified as Nearest
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
@@ -26,7 +27,7 @@ spec =
               out = Vec.scale r (Vec.left (Segment.startDirection arc))
               begin = Vec.shift out (Segment.start arc)
               stroke = Straight begin (Vec.shift (Vec.scale l (Vec.add (Segment.startDirection arc) (Vec.scale turned (Vec.unit out)))) begin)
-              others = Others {index = Box.index Box.ofSegment arcs, lines = (:| []), counts = const True, reach = Mm r, allowance = Mm 0.03}
+              others = Others {index = Nearest.index Box.ofSegment arcs, lines = (:| []), counts = const True, reach = Mm r, allowance = Mm 0.03}
               beyond p = minimum [d | a <- arcs, let { Mm d = Distance.toPoint p a }] - r
               sampled = maximum [beyond (Segment.at (k / 400) stroke) | k <- [0 .. 400]]
            in classify (sampled > 0.01) "beyond" $ case Cover.furthest others (Mm 0.01) stroke of

@@ -1,0 +1,297 @@
+-- | Lines and arcs as bare numbers in mm, and what can be said of two of them at once.
+--
+-- The proof is about whole strokes and whole elements. Of nearly all of them a few products tell that they are far enough
+-- from one another, or near enough; what is not told here, to 'unsure', is left to the exact comparison.
+module Verify.Course
+  ( Course,
+    ofSegment,
+    spot,
+    distance,
+    apart,
+    furthest,
+    isCovered,
+    isLeftOf,
+    isRightOf,
+    spansAbout,
+    footOn,
+    at,
+    unsure,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (sort)
+import Geometry.Segment (Segment (..))
+import Geometry.Vec qualified as Vec
+
+-- | A line by its ends, or an arc by its ends, its centre, its radius and its sweep in radians.
+data Course
+  = Line Double Double Double Double
+  | Bow Double Double Double Double Double Double Double Double
+
+-- | What is nearer to a bound than this is not decided here, in mm. Products of coordinates are exact to less than a hundredth of it.
+unsure :: Double
+unsure = 1e-8
+
+-- | More than any distance.
+never :: Double
+never = 1 / 0
+
+ofSegment :: Segment -> Course
+ofSegment s = case s of
+  Straight a b -> Line (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b)
+  Arc {start = a, end = b, centre = c, sweep = Rad angle} ->
+    let Mm r = Vec.distance c a in Bow (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b) (Vec.x c) (Vec.y c) r angle
+
+-- | A single point.
+spot :: Double -> Double -> Course
+spot x y = Line x y x y
+
+-- | From a point.
+distance :: Course -> Double -> Double -> Double
+distance course px py = case course of
+  Line ax ay bx by ->
+    let ux = bx - ax
+        uy = by - ay
+        vx = px - ax
+        vy = py - ay
+        uu = ux * ux + uy * uy
+        along = ux * vx + uy * vy
+     in if along <= 0 || uu <= 0
+          then hypotenuse vx vy
+          else if along >= uu then hypotenuse (px - bx) (py - by) else abs (ux * vy - uy * vx) / sqrt uu
+  Bow ax ay bx by cx cy r _
+    | inSector course px py -> abs (hypotenuse (px - cx) (py - cy) - r)
+    | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
+
+hypotenuse :: Double -> Double -> Double
+hypotenuse a b = sqrt (a * a + b * b)
+{-# INLINE hypotenuse #-}
+
+-- | Whether a point lies in the sector of an arc.
+inSector :: Course -> Double -> Double -> Bool
+inSector course px py = case course of
+  Line {} -> False
+  Bow ax ay bx by cx cy _ s ->
+    let sense = if s > 0 then 1 else -1
+        vx = px - cx
+        vy = py - cy
+        behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
+        before = sense * (vx * (by - cy) - vy * (bx - cx))
+     in if abs s > pi
+          then behind >= 0 || before >= 0
+          else behind >= 0 && before >= 0 && (abs s > pi / 2 || (ax - cx) * vx + (ay - cy) * vy >= 0)
+
+-- | The least distance of two, or less than that by no more than rounding. Those that cross have none.
+apart :: Course -> Course -> Double
+apart a b
+  | cross a b = 0
+  | otherwise = min (ends a b) (min (ends b a) (min (normals a b) (normals b a)))
+  where
+    ends c other = case c of
+      Line ax ay bx by -> min (distance other ax ay) (distance other bx by)
+      Bow ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
+
+-- | From where a normal of the first course meets the second, an arc, at a right angle, too.
+normals :: Course -> Course -> Double
+normals a b = case (a, b) of
+  (Line ax ay bx by, Bow _ _ _ _ cx cy _ _) ->
+    let t = shareOf ax ay bx by cx cy
+     in if t > 0 && t < 1 then distance b (ax + t * (bx - ax)) (ay + t * (by - ay)) else never
+  (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy _ _) ->
+    let ex = dx - cx
+        ey = dy - cy
+        e = hypotenuse ex ey
+        from sense = let x = cx + sense * r * ex / e; y = cy + sense * r * ey / e in if inSector a x y then distance b x y else never
+     in if e > 0 then min (from 1) (from (-1)) else never
+  _ -> never
+
+-- | Where the foot of a point lies on a line, as a share of its length.
+shareOf :: Double -> Double -> Double -> Double -> Double -> Double -> Double
+shareOf ax ay bx by px py = let ux = bx - ax; uy = by - ay; uu = ux * ux + uy * uy in if uu > 0 then (ux * (px - ax) + uy * (py - ay)) / uu else 0
+{-# INLINE shareOf #-}
+
+-- | Whether two cross. What only touches has an end or a normal there.
+cross :: Course -> Course -> Bool
+cross a b = case (a, b) of
+  (Line ax ay bx by, Line cx cy dx dy) ->
+    let side x y = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
+        side' x y = (dx - cx) * (y - cy) - (dy - cy) * (x - cx)
+     in side cx cy * side dx dy <= 0 && side' ax ay * side' bx by <= 0 && boxesMeet
+    where
+      boxesMeet = max (min ax bx) (min cx dx) <= min (max ax bx) (max cx dx) && max (min ay by) (min cy dy) <= min (max ay by) (max cy dy)
+  (Line ax ay bx by, Bow _ _ _ _ cx cy r _) ->
+    let ux = bx - ax
+        uy = by - ay
+        l = hypotenuse ux uy
+        along = (ux * (cx - ax) + uy * (cy - ay)) / l
+        off = (ux * (cy - ay) - uy * (cx - ax)) / l
+        half = sqrt (r * r - off * off)
+        meets t = t >= 0 && t <= l && inSector b (ax + t * ux / l) (ay + t * uy / l)
+     in l > 0 && abs off <= r && (meets (along - half) || meets (along + half))
+  (Bow {}, Line {}) -> cross b a
+  (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy q _) ->
+    let ex = dx - cx
+        ey = dy - cy
+        ee = ex * ex + ey * ey
+        e = sqrt ee
+        along = (ee + r * r - q * q) / (2 * e)
+        half = sqrt (r * r - along * along)
+        meets sense =
+          let x = cx + (along * ex - sense * half * ey) / e
+              y = cy + (along * ey + sense * half * ex) / e
+           in inSector a x y && inSector b x y
+     in e > 0 && abs along <= r && (meets 1 || meets (-1))
+
+-- | No point of the first course is further than this from the second. That is exact where the one runs beside the
+-- other, or about one of its ends.
+furthest :: Course -> Course -> Double
+furthest e t = min (beside e t) (min (fromPoint e tx ty) (fromPoint e ux uy))
+  where
+    (tx, ty, ux, uy) = case t of
+      Line ax ay bx by -> (ax, ay, bx, by)
+      Bow ax ay bx by _ _ _ _ -> (ax, ay, bx, by)
+
+-- | How far the furthest point of a course is from a point.
+fromPoint :: Course -> Double -> Double -> Double
+fromPoint e px py = case e of
+  Line ax ay bx by -> max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
+  Bow ax ay bx by cx cy r _ ->
+    let d = hypotenuse (cx - px) (cy - py)
+        ends = max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
+     in if d > 0 && inSector e (cx + (cx - px)) (cy + (cy - py)) then d + r else if d > 0 then ends else max ends r
+
+-- | The same, where every point of the first course has its foot on the second; else 'never'.
+beside :: Course -> Course -> Double
+beside e t = case (e, t) of
+  (Line ax ay bx by, Line {}) -> max (distance t ax ay) (distance t bx by)
+  (Line ax ay bx by, Bow _ _ _ _ cx cy r s)
+    | abs s <= pi && inLoosely t ax ay && inLoosely t bx by ->
+      let near = distance e cx cy
+       in max (abs (near - r)) (max (abs (hypotenuse (ax - cx) (ay - cy) - r)) (abs (hypotenuse (bx - cx) (by - cy) - r)))
+  (Bow ax ay bx by cx cy r _, Line px py qx qy) ->
+    let ux = qx - px
+        uy = qy - py
+        l = hypotenuse ux uy
+        (ix, iy) = (ux / l, uy / l)
+        height x y = abs (ix * (y - py) - iy * (x - px))
+        footed x y = let f = ix * (x - px) + iy * (y - py) in f >= -unsure && f <= l + unsure
+        outermost x y = if inSector e x y then height x y else 0
+        extreme x y = not (inSector e x y) || footed x y
+     in if l > 0 && footed ax ay && footed bx by && extreme (cx + r * ix) (cy + r * iy) && extreme (cx - r * ix) (cy - r * iy)
+          then max (max (height ax ay) (height bx by)) (max (outermost (cx - r * iy) (cy + r * ix)) (outermost (cx + r * iy) (cy - r * ix)))
+          else never
+  (Bow ax ay bx by cx cy r s, Bow _ _ _ _ dx dy q z) ->
+    let (ex, ey) = (cx - dx, cy - dy)
+        off = hypotenuse ex ey
+        (mx, my) = middle e
+        from x y = abs (hypotenuse (x - dx) (y - dy) - q)
+        outermost sense = let x = cx + sense * r * ex / off; y = cy + sense * r * ey / off in if off > 0 && inSector e x y then from x y else 0
+     in if abs s <= pi && abs z <= pi && off <= r / 2 && inLoosely t ax ay && inLoosely t bx by && inLoosely t mx my
+          then max (max (from ax ay) (from bx by)) (max (from mx my) (max (outermost 1) (outermost (-1))))
+          else never
+  _ -> never
+
+-- | The middle of a course.
+middle :: Course -> (Double, Double)
+middle e = at e 0.5
+
+-- | The point at a share of the length.
+at :: Course -> Double -> (Double, Double)
+at e t = case e of
+  Line ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
+  Bow ax ay _ _ cx cy _ s -> let c = cos (t * s); n = sin (t * s); vx = ax - cx; vy = ay - cy in (cx + c * vx - n * vy, cy + n * vx + c * vy)
+
+-- | Whether a point lies in the sector of an arc of at most half a turn, or beside it by no more than 'unsure'.
+inLoosely :: Course -> Double -> Double -> Bool
+inLoosely t px py = case t of
+  Line {} -> False
+  Bow ax ay bx by cx cy r s ->
+    let sense = if s > 0 then 1 else -1
+        vx = px - cx
+        vy = py - cy
+        behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
+        before = sense * (vx * (by - cy) - vy * (bx - cx))
+     in behind >= -(unsure * r) && before >= -(unsure * r) && (abs s > pi / 2 || (ax - cx) * vx + (ay - cy) * vy >= -(unsure * r))
+
+-- | Whether every point of a course surely has one of some others within a distance, all courses of that other.
+isCovered :: Double -> [[Course]] -> Course -> Bool
+isCovered reach others e
+  | within e = True
+  | otherwise = case marks of
+    [] -> False
+    _ -> null (drop mostParts marks) && and (zipWith (\a b -> within (between e a b)) (0 : marks) (marks <> [1]))
+  where
+    within part = any (all (\t -> furthest part t <= reach - 2 * unsure)) others
+    -- Where what is nearest changes there is an end of one of them.
+    marks = [m | m <- sort (concatMap (concatMap (footsOn e)) others), m > 0, m < 1]
+
+-- | So many parts are looked at by themselves.
+mostParts :: Int
+mostParts = 24
+
+-- | Where on a course the feet of the ends of another one lie, as shares of its length.
+footsOn :: Course -> Course -> [Double]
+footsOn e t = case t of
+  Line ax ay bx by -> [foot e ax ay, foot e bx by]
+  Bow ax ay bx by _ _ _ _ -> [foot e ax ay, foot e bx by]
+
+-- | Where the foot of a point lies on a course, as a share of its length; of an arc in its sense from its beginning on.
+foot :: Course -> Double -> Double -> Double
+foot e x y = case e of
+  Line ax ay bx by -> shareOf ax ay bx by x y
+  Bow ax ay _ _ cx cy _ s ->
+    let vx = ax - cx
+        vy = ay - cy
+        turned = atan2 (vx * (y - cy) - vy * (x - cx)) (vx * (x - cx) + vy * (y - cy)) / s
+     in if turned < 0 then turned + 2 * pi / abs s else turned
+
+-- | The part of a course between two shares of its length.
+between :: Course -> Double -> Double -> Course
+between e a b = case e of
+  Line {} -> Line px py qx qy
+  Bow _ _ _ _ cx cy r s -> Bow px py qx qy cx cy r (s * (b - a))
+  where
+    (px, py) = at e a
+    (qx, qy) = at e b
+
+-- | Whether all of a course surely lies to the left of an element, or of the circle or line that carries it.
+isLeftOf :: Course -> Course -> Bool
+isLeftOf t e = case e of
+  Line ax ay bx by -> let (low, _) = heights ax ay bx by t in low > unsure
+  Bow _ _ _ _ cx cy r s -> let (near, far) = ranges cx cy t in if s > 0 then far < r - unsure else near > r + unsure
+
+isRightOf :: Course -> Course -> Bool
+isRightOf t e = case e of
+  Line ax ay bx by -> let (_, high) = heights ax ay bx by t in high < -unsure
+  Bow _ _ _ _ cx cy r s -> let (near, far) = ranges cx cy t in if s > 0 then near > r + unsure else far < r - unsure
+
+-- | How far to the left of a line a course lies at least and at most, or beyond both.
+heights :: Double -> Double -> Double -> Double -> Course -> (Double, Double)
+heights ax ay bx by t = case t of
+  Line px py qx qy -> let h = height px py; k = height qx qy in (min h k, max h k)
+  Bow _ _ _ _ cx cy r _ -> let h = height cx cy in (h - r, h + r)
+  where
+    l = hypotenuse (bx - ax) (by - ay)
+    height x y = if l > 0 then ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / l else 0
+
+-- | How far from a point a course lies at least and at most, or beyond both.
+ranges :: Double -> Double -> Course -> (Double, Double)
+ranges cx cy t = case t of
+  Line px py qx qy -> (distance t cx cy, max (hypotenuse (px - cx) (py - cy)) (hypotenuse (qx - cx) (qy - cy)))
+  Bow _ _ _ _ dx dy q _ -> let d = hypotenuse (dx - cx) (dy - cy) in (abs (d - q), d + q)
+
+-- | Whether the foot of a point may fall on a course rather than before or behind it.
+spansAbout :: Course -> Double -> Double -> Bool
+spansAbout e px py = case e of
+  Line ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
+  Bow _ _ _ _ _ _ _ s -> abs s > pi || inLoosely e px py
+
+-- | Where the foot of a point lies on a course, as a share of its length; of one before or behind it the nearer end.
+footOn :: Course -> Double -> Double -> Double
+footOn e px py = case e of
+  Line ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
+  Bow ax ay bx by _ _ _ _
+    | inSector e px py -> max 0 (min 1 (foot e px py))
+    | hypotenuse (px - ax) (py - ay) <= hypotenuse (px - bx) (py - by) -> 0
+    | otherwise -> 1
