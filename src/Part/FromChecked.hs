@@ -317,6 +317,8 @@ pocketing state at e step' settings = do
   islands <- concat <$> Eval.gather (map (\i -> namedIn i <$> Value.evaluate env i) (Checked.islands settings))
   apart <- Walks.lengthOf env "the step from pass to pass" step'
   Eval.spend at (sum [length (elements (Pocket.contour c)) | c <- outline' : islands])
+  let count = over (Pocket.halfWidth outline') apart
+  when (count > 10000) (Eval.mistake (NotWhole (region step') "the number of passes" "up to 10000" (fromIntegral (ceiling (min 1e9 count) :: Int))))
   case [Error (NoPocket m) [] | m <- Pocket.misfits outline' islands <> [StepTooWide (region step') apart d | Just d <- [times 2 . cutterRadius <$> cutter' state], apart > d]] of
     [] -> pure ((\w -> Pocketing {wall = w, islands = map Pocket.contour islands, apart}) <$> wall)
     found -> Eval.mistakes found

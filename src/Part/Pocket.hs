@@ -2,11 +2,13 @@
 -- from it and from one another.
 module Part.Pocket
   ( misfits,
+    halfWidth,
     Named (..),
   )
 where
 
 import Base.Name (Name)
+import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List (nubBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -64,6 +66,10 @@ segments n = NonEmpty.toList (Geometry.segments (Part.outline (contour n)))
 
 boxOf :: Named -> Box
 boxOf n = let s :| more = fmap Box.ofSegment (Geometry.segments (Part.outline (contour n))) in foldl Box.union s more
+
+-- | No place in the contour lies further from it.
+halfWidth :: Named -> Mm
+halfWidth n = let Box.Box l b r t = boxOf n in Mm (min (r - l) (t - b) / 2)
 
 beginning :: Named -> Point
 beginning n = Segment.start (Part.segment (NonEmpty.head (elements (contour n))))

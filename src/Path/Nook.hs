@@ -68,7 +68,7 @@ gapsIn edge marks = case break isBeside marks of
     isBeside m = case m of
       Beside _ -> True
       Free _ -> False
-    walk owner ms = case span (not . isBeside) ms of
+    walk owner ms = case break isBeside ms of
       (free, Beside next : more) -> [Gap owner gap next | Just gap <- [worth [s | Free s <- free]]] <> walk next more
       (_, _) -> []
     worth ss

@@ -14,6 +14,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Generate qualified
+import Geometry.Box (Box (Box))
+import Geometry.Box qualified as Box
 import Geometry.Contour qualified as Contour
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
@@ -53,7 +55,7 @@ sized' loops = do
 -- | One island more, if it has room.
 island :: Loop -> [Loop] -> Gen [Loop]
 island outline before = do
-  p <- Vec.point <$> choose (-50, 60) <*> choose (-50, 60)
+  p <- Vec.point <$> choose (l, right) <*> choose (bottom, top)
   r <- choose (1, 9)
   k <- choose (3, 5)
   a <- choose (0, 2 * pi)
@@ -63,6 +65,8 @@ island outline before = do
       polygon = NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))
       fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all (\l -> Winding.about p l == 0) before
   pure ([if round' then circle else polygon | fits] <> before)
+  where
+    Box l bottom right top = foldr1 Box.union (fmap Box.ofSegment outline)
 
 roomOf :: Pocket -> Room
 roomOf p =

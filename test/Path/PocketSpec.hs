@@ -2,12 +2,15 @@
 module Path.PocketSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
+import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Generate.Pocket (Pocket (..))
 import Generate.Pocket qualified as Generate
 import Geometry.Box (Box (Box))
 import Geometry.Box qualified as Box
+import Geometry.Contour (Contour (Contour), Ends (Closed))
+import Geometry.Contour qualified as Contour
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment)
@@ -15,6 +18,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Winding qualified as Winding
+import Path.Inset qualified as Inset
 import Path.Pocket (Leg (..), Room (..))
 import Path.Pocket qualified as Pocket
 import Test.Hspec
@@ -34,16 +38,28 @@ spec = modifyMaxSuccess (const 60) $ do
       forAll Generate.pocket $ \p ->
         let way = cleared p
             back = Pocket.clear (Generate.roomOf p) {turned = True} (step p) Nothing
-         in counterexample "not joined" (conjoin (zipWith joined back (drop 1 back)))
+         in counterexample "joined" (conjoin (zipWith joined back (drop 1 back)))
               .&&. counterexample (show (area way, area back)) (abs (area way + area back) <= 1e-6 * abs (area way))
     prop "of a rectangle come nearer and nearer to the wall (catches passes from the outside in)" $
       forAll Generate.rectangle $ \p -> let ds = [d | Round d _ <- cleared p] in ds === reverse (sorted ds)
-    prop "of a rectangle need no lift (catches a link that is not the shortest)" $
-      forAll Generate.rectangle $ \p -> filter isOver (cleared p) === []
+    prop "of a rectangle are linked by ways no longer than the step (catches a loop entered anywhere)" $
+      forAll Generate.rectangle $ \p -> [leg | leg <- cleared p, isOver leg || isLong p leg] === []
+    prop "come behind those that lie in them (catches the first part of two left for the end)" $
+      forAll (Generate.pocket `suchThat` (null . NonEmpty.tail . loops)) $ \p ->
+        let rounds = [(d, ss) | Round d ss <- cleared p]
+         in [(d, d') | (d, ss) : later <- tails rounds, Vec.near (Segment.start (NonEmpty.head ss)) (Segment.end (NonEmpty.last ss)), (d', s :| _) <- later, d' > plus d (Mm 1e-3), Winding.about (Segment.start s) ss /= 0] === []
+    it "take trips aside and lifts now and then" $ do
+      ways <- map cleared <$> generate (vectorOf 100 Generate.pocket)
+      [length (filter (any isAside) ways) > 5, length (filter (any isOver) ways) > 5] `shouldBe` [True, True]
     it "begin at the place given" $
       fmap Pocket.begins (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20)))) `shouldBe` [Vec.point 30 20]
     it "of a pocket into which the cutter does not fit are none" $
       Pocket.clear (Generate.roomOf plain {cutter = Mm 21}) (Mm 5) Nothing `shouldBe` []
+  describe "the passes by the kernel" $ do
+    prop "sweep every place that the cutter can reach (catches a loop that the kernel and the passes see differently)" $
+      forAll Generate.pocket $ \p -> let way = byKernel p in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+    prop "cut into no wall (catches walls with the free space on the wrong side)" $
+      forAll Generate.pocket $ \p -> conjoin [deepEnough p s | s <- concatMap Pocket.segments (byKernel p)]
   describe "the passes along the walls" $
     prop "sweep what was left at them (catches a pass too few)" $
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
@@ -57,7 +73,7 @@ spec = modifyMaxSuccess (const 60) $ do
     sorted = foldr insert []
     insert x xs = let (a, b) = span (< x) xs in a <> [x] <> b
     -- What the passes go round, counter-clockwise.
-    area way = sum (map part [s | leg <- way, isPass leg, s <- Pocket.segments leg])
+    area way = sum [part s | leg <- way, isPass leg, s <- Pocket.segments leg]
     part s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2 + bow s
     bow s = case s of
       Segment.Straight _ _ -> 0
@@ -71,6 +87,18 @@ isPass leg = case leg of
   Aside _ -> True
   Across _ -> False
   Over _ _ -> False
+
+isAside :: Leg -> Bool
+isAside leg = isPass leg && null [() | Round _ _ <- [leg]]
+
+isLong :: Pocket -> Leg -> Bool
+isLong p leg = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [leg]]
+
+-- | As 'cleared', with walls that are walked any way, and the loops of the kernel.
+byKernel :: Pocket -> [Leg]
+byKernel p = Pocket.clear (Generate.roomOf p) {offsetBy = Inset.inset (Inset.oriented outline islands)} (step p) Nothing
+  where
+    outline :| islands = fmap (Contour.reverse . Contour Closed) (loops p)
 
 cleared :: Pocket -> [Leg]
 cleared p = Pocket.clear (Generate.roomOf p) (step p) Nothing

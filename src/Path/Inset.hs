@@ -1,0 +1,42 @@
+-- | The loops that bound what the cutter's centre can reach in a pocket, by the offset kernel.
+module Path.Inset
+  ( oriented,
+    inset,
+  )
+where
+
+import Base.Crash qualified as Crash
+import Base.Quantity (Mm (..))
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (mapMaybe)
+import Geometry.Box (Box (..))
+import Geometry.Box qualified as Box
+import Geometry.Contour (Contour)
+import Geometry.Contour qualified as Contour
+import Geometry.Offset.Kernel qualified as Kernel
+import Geometry.Offset.Loops qualified as Loops
+import Geometry.Outline qualified as Outline
+import Path.Nest (Loop)
+
+-- | An outline and islands, each walked with the free space on its left.
+oriented :: Contour -> [Contour] -> NonEmpty Contour
+oriented outline islands = turned (> 0) outline :| map (turned (< 0)) islands
+  where
+    turned wanted c = if wanted (Contour.signedArea c) then c else Contour.reverse c
+
+-- | The loops at a distance to the left of an outline and islands, which are oriented, simple and apart. They are made
+-- ready once for all distances. None where contours meet that have to be apart.
+inset :: NonEmpty Contour -> Mm -> [Loop]
+inset contours@(outline :| _) = within
+  where
+    walls = map (fst . Outline.fromContour) (NonEmpty.toList contours)
+    Box l b r t = let s :| more = fmap Box.ofSegment (Contour.segments outline) in foldl Box.union s more
+    within distance@(Mm d)
+      -- No circle in the outline is larger; the kernel would have to tell a cutter that covers all of it from one that fits.
+      | 2 * d >= min (r - l) (t - b) = []
+      | otherwise = case Kernel.offset (Kernel.plain Kernel.LeftOf distance) walls of
+        Right reach -> mapMaybe (NonEmpty.nonEmpty . Outline.segments) (Loops.outlines (Kernel.loops reach))
+        Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
+        Left (Kernel.Crossed _ _) -> []
+        Left Kernel.Misplaced -> []
