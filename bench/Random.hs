@@ -5,7 +5,6 @@ module Main (main) where
 
 import Base.Quantity (Mm (..))
 import ContourFile qualified
-import Control.Exception (evaluate)
 import Control.Monad (forM_, when)
 import Data.ByteString.Builder qualified as Builder
 import Data.Maybe (catMaybes, fromMaybe)
@@ -75,7 +74,7 @@ judged seed index given = case (given, Equidistant.offset d source) of
   (Nothing, _) -> pure [(index `mod` 3, True, place <> "what the peer printed is not understood")]
   (_, Left why) -> pure [(index `mod` 3, False, place <> "ours fails: " <> Text.pack why)]
   (Just theirs, Right result) -> do
-    ours <- evaluate (sumsOf result)
+    let ours = sumsOf (Equidistant.outlines result)
     let lines' = catMaybes [differs "area" area' ours theirs, differs "length" long' ours theirs, if loops ours == loops theirs then Nothing else Just ("loops " <> shown (loops ours) <> ", theirs " <> shown (loops theirs))]
     pure [(index `mod` 3, open theirs > 0, place <> Text.intercalate "; " lines' <> (if open theirs > 0 then "; open " <> shown (open theirs) else "")) | not (null lines')]
   where

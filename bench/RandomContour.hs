@@ -23,12 +23,13 @@ contour seed index = (Outline.outline Closed vertices, distance)
     stream = Noise.bits seed (fromIntegral index)
     u place = Noise.uniform stream (1000000 + place)
     count = 3 + floor (u 0 * u 1 * 40) :: Int
-    grid = if u 4 < 0.5 then cells stream (1 + floor (u 5 * 24)) else corners stream (3 + floor (u 5 * 10)) (3 + floor (u 6 * 9))
+    grid = if u 4 < 0.5 then [(wide * x, wide * y) | (x, y) <- cells stream (1 + floor (u 5 * 50))] else corners stream (3 + floor (u 5 * 10)) (3 + floor (u 6 * 9))
+    wide = 1 + floor (u 8 * 4) :: Int
     (vertices, distance) = case index `mod` 3 of
       -- Halves and whole numbers meet the most coincidences.
       0 -> (map whole grid, signOf (if u 2 < 0.8 then fromIntegral (1 + floor (u 3 * 6) :: Int) / 2 else 0.1 + 3 * u 3))
       1 -> (curved stream (star stream count 10 0.6), signOf (0.05 + 3 * u 3 * u 3))
-      _ -> (star stream (10 + 3 * count) 20 (0.3 * u 4), signOf (0.05 + 4 * u 3))
+      _ -> (star stream (10 + 3 * count) 20 (0.7 * u 4), signOf (0.05 + 4 * u 3))
     signOf d = if u 7 < 0.6 then d else -d
     whole (x, y) = (fromIntegral x, fromIntegral y, 0)
 
