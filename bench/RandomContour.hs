@@ -37,9 +37,11 @@ contour seed index = (Outline.outline Closed vertices, distance)
 star :: Word64 -> Int -> Double -> Double -> [Vertex]
 star stream count radius part = [vertex (fromIntegral i) | i <- [0 .. count - 1]]
   where
+    -- The origin stays inside: no two neighbours are half a turn apart.
+    jitter = if count == 3 then 0.4 else 0.8
     vertex :: Word64 -> Vertex
     vertex i =
-      let a = 2 * pi * (fromIntegral i + 0.8 * Noise.uniform stream (2 * i)) / fromIntegral count
+      let a = 2 * pi * (fromIntegral i + jitter * Noise.uniform stream (2 * i)) / fromIntegral count
           r = radius * (1 + part * (2 * Noise.uniform stream (2 * i + 1) - 1))
        in (r * cos a, r * sin a, 0)
 
