@@ -68,7 +68,7 @@ ofContour folder peers family segments = do
     bearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
       | small = (5, 20, 5)
-      | middling = (5, 3, 3)
+      | middling = (3, 2, 3)
       | last' = (1, 1, 1)
       | otherwise = (3, 1, 2)
 

@@ -116,17 +116,19 @@ besideInterpreter tools folder programs allowed = do
           cells = either (const "–") Table.number
       Text.putStrLn (Programs.name kind <> ", " <> Decimal.whole n <> ": partc " <> either id (\rs -> Table.number (seconds rs) <> " s") ours <> ", rs274 " <> either id (\rs -> Table.number (seconds rs) <> " s") theirs)
       hFlush stdout
-      pure . (either (const True) (const False) ours,) $
-        [ Programs.name kind,
-          Decimal.whole n,
-          if count == 0 then "–" else Decimal.whole count,
-          either (Text.take 80) (Table.number . seconds) ours,
-          cells (seconds <$> theirs),
-          cells ((\a b -> seconds a / seconds b) <$> ours <*> theirs),
-          cells ((\rs -> 1e6 * seconds rs / fromIntegral n) <$> ours),
-          cells ((\rs -> 1e6 * seconds rs / fromIntegral (max 1 count)) <$> theirs),
-          cells ((\rs -> maximum (0 : map snd rs) / 1024) <$> ours)
-        ]
+      let fails = either (const True) (const False) ours
+          row =
+            [ Programs.name kind,
+              Decimal.whole n,
+              if count == 0 then "–" else Decimal.whole count,
+              either (Text.take 80) (Table.number . seconds) ours,
+              cells (seconds <$> theirs),
+              cells ((\a b -> seconds a / seconds b) <$> ours <*> theirs),
+              cells ((\rs -> 1e6 * seconds rs / fromIntegral n) <$> ours),
+              cells ((\rs -> 1e6 * seconds rs / fromIntegral (max 1 count)) <$> theirs),
+              cells ((\rs -> maximum (0 : map snd rs) / 1024) <$> ours)
+            ]
+      pure (fails, row)
     seconds = Peer.middle . map fst
     timed words' = (>>= costs) <$> Peer.command (round allowed) (cost tools <> words')
     costs out = case map (readMaybe . Text.unpack) (Text.words out) of
