@@ -5,6 +5,7 @@ module Generate.Outline
     Family (..),
     problem,
     open,
+    uneven,
     simple,
     cells,
     starred,
@@ -27,8 +28,9 @@ import Geometry.Outline (Outline)
 import Geometry.Outline qualified as Outline
 import Test.QuickCheck
 
--- | What the kernel is asked; the winding number of the free places; whether the outlines are known not to cross themselves.
-data Case = Case {family :: Family, outlines :: [Outline], side :: Side, radius :: Double, free :: Int, sound :: Bool}
+-- | What the kernel is asked, with how much further it stays from the segments (in turn, none if empty); the winding number of
+-- the free places; whether the outlines are known not to cross themselves.
+data Case = Case {family :: Family, outlines :: [Outline], side :: Side, radius :: Double, extras :: [Double], free :: Int, sound :: Bool}
   deriving stock (Eq, Show)
 
 data Family = Cells | Lattice | Arcs | Noise
@@ -57,6 +59,14 @@ open = do
         if Outline.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
+-- | Some segments want more.
+uneven :: Gen Case
+uneven = do
+  c <- oneof [problem, open]
+  k <- choose (1, 4)
+  es <- replicateM k (elements [0, 0, 0.5, 0.1, 1.3])
+  pure c {extras = map (* radius c) es}
+
 -- | Walked one way or the other.
 eitherWay :: Case -> Gen Case
 eitherWay c = elements [c, c {outlines = map Outline.reverse (outlines c), side = other (side c), free = -(free c)}]
@@ -71,7 +81,7 @@ somewhere c = do
   size <- frequency [(5, pure 1), (1, elements [0.1, 10, 2, 25.4])]
   angle <- frequency [(4, pure 0), (1, choose (0, 2 * pi)), (1, elements [pi / 4, pi / 6])]
   (mx, my) <- frequency [(4, pure (0, 0)), (1, (,) <$> choose (-100, 100) <*> choose (-100, 100)), (1, pure (1000, 300))]
-  pure c {outlines = map (turned size angle (mx, my)) (outlines c), radius = size * radius c}
+  pure c {outlines = map (turned size angle (mx, my)) (outlines c), radius = size * radius c, extras = map (size *) (extras c)}
 
 -- | Scaled, turned, moved.
 turned :: Double -> Double -> (Double, Double) -> Outline -> Outline
@@ -86,7 +96,7 @@ onLattice = do
   radius <- elements [0.25, 0.5, 0.5, 1, 1, 1.5, 2, 3, 1 / 3, 0.7]
   inside <- arbitrary
   (family, loops) <- frequency [(4, (Cells,) <$> (cells >>= mapM decorated)), (1, (Lattice,) . pure <$> latticePolygon)]
-  pure Case {family, outlines = map loop loops, side = if inside then LeftOf else RightOf, radius, free = if inside then 1 else 0, sound = True}
+  pure Case {family, outlines = map loop loops, side = if inside then LeftOf else RightOf, radius, extras = [], free = if inside then 1 else 0, sound = True}
 
 -- | The boundary of a union of unit cells, counter-clockwise outside and clockwise around holes.
 cells :: Gen [[(Int, Int)]]
@@ -212,7 +222,7 @@ withArcs = do
   (sound, vs, special) <- oneof [bent, rounded, round', keyhole, slot, blob]
   radius <- frequency [(2, choose (0.05, 4)), (1, elements (1 : 0.5 : special)), (1, elements (0.5 : special))]
   let outward = Outline.area (loop vs) < 0
-  pure Case {family = Arcs, outlines = [loop vs], side = if inside then LeftOf else RightOf, radius, free = (if inside then 1 else 0) - (if outward then 1 else 0), sound}
+  pure Case {family = Arcs, outlines = [loop vs], side = if inside then LeftOf else RightOf, radius, extras = [], free = (if inside then 1 else 0) - (if outward then 1 else 0), sound}
 
 -- | A star-shaped polygon with some edges bent; it may cross itself.
 bent :: Gen (Bool, [Vertex], [Double])
@@ -296,7 +306,7 @@ noisy = do
   inside <- arbitrary
   ps <- frequency [(3, starred), (1, tangled)]
   radius <- oneof [choose (0.01, 1), choose (0.5, 6)]
-  pure Case {family = Noise, outlines = [loop [(x, y, 0) | (x, y) <- ps]], side = if inside then LeftOf else RightOf, radius, free = if inside then 1 else 0, sound = True}
+  pure Case {family = Noise, outlines = [loop [(x, y, 0) | (x, y) <- ps]], side = if inside then LeftOf else RightOf, radius, extras = [], free = if inside then 1 else 0, sound = True}
 
 -- | In the order of their angles.
 starred :: Gen [(Double, Double)]

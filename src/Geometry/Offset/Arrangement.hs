@@ -45,6 +45,8 @@ data Edge = Edge {from :: Int, to :: Int, times :: Int, bulge :: Double, segment
 data Arrangement = Arrangement
   { chain :: Chain,
     nodes :: Vector (Double, Double),
+    -- | The node of every vertex of the chain.
+    owned :: PrimArray Int,
     edges :: Vector Edge,
     -- | The half-edges that leave a node, counter-clockwise: @2e@ leaves the beginning of the edge @e@, @2e + 1@ its end.
     rings :: IntMap (Vector Int),
@@ -66,7 +68,7 @@ arrange tolerance c bs
     found = Vector.fromList (merged tolerance places (slices c places nodeOf cutNodes))
     outgoing = IntMap.fromListWith (<>) (concat [[(from e, [2 * i]), (to e, [2 * i + 1])] | (i, e) <- Vector.toList (Vector.indexed found)])
     ordered = fmap (Vector.fromList . ring places found) outgoing
-    arrangement = Arrangement {chain = c, nodes = places, edges = found, rings = ordered, lefts = propagated places found ordered, proper = pairs}
+    arrangement = Arrangement {chain = c, nodes = places, owned = nodeOf, edges = found, rings = ordered, lefts = propagated places found ordered, proper = pairs}
 
 -- | Where each segment has to be cut, and which segments cross properly. Arcs are also cut where they are leftmost, so that the
 -- leftmost place of everything that hangs together is a node.
@@ -156,9 +158,11 @@ merged tolerance places cut = concatMap edgesOf (Map.toList (Map.fromListWith (<
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
       EQ -> []
-      GT -> [edge a b net one | one : _ <- [[s | s@(True, _, _) <- list]]]
-      LT -> [edge a b (-net) one | one : _ <- [[s | s@(False, _, _) <- list]]]
+      -- Of several segments it is the first, along the whole stretch that they share.
+      GT -> [edge a b net one | one : _ <- [sortOn second [s | s@(True, _, _) <- list]]]
+      LT -> [edge a b (-net) one | one : _ <- [sortOn second [s | s@(False, _, _) <- list]]]
       where
+        second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
 -- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap; at the leftmost node of
@@ -310,4 +314,7 @@ loops turn wanted a = Loops (primArrayFromList (scanl (+) 0 (map length made))) 
           e' = edges a Vector.! NonEmpty.last run
           (x, y) = nodes a Vector.! from e
           (x', y') = nodes a Vector.! to e'
-       in (x, y, if NonEmpty.length run == 1 then bulge e else Chain.part (chain a) (segment e) x y x' y', segment e)
+          i = segment e
+          -- A whole segment has its own bulge again.
+          entire = indexPrimArray (owned a) i == from e && indexPrimArray (owned a) (i + 1) == to e'
+       in (x, y, if NonEmpty.length run == 1 then bulge e else if entire then indexPrimArray (Chain.bulges (chain a)) i else Chain.part (chain a) i x y x' y', i)

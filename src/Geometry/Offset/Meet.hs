@@ -116,7 +116,7 @@ lineArc !tolerance !c visitor !i !j = do
     else when (disc > 0) $ do
       let q = if half > 0 then -half - sqrt disc else sqrt disc - half
       try (q / aa)
-      try (c0 / q)
+      try (if half == 0 then -(q / aa) else c0 / q)
   where
     rest = eitherRests tolerance c i j
     lx = indexPrimArray (Chain.xs c) i
@@ -152,7 +152,7 @@ arcs !tolerance !c visitor !i !j
       else when (disc > 0) $ do
         let q = if half > 0 then -half - sqrt disc else sqrt disc - half
         try (q / gg)
-        try (c0 / q)
+        try (if half == 0 then -(q / gg) else c0 / q)
   where
     rest = eitherRests tolerance c i j
     x0 = indexPrimArray (Chain.xs c) i

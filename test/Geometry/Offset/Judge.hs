@@ -2,6 +2,8 @@
 module Geometry.Offset.Judge
   ( Verdict (..),
     judge,
+    consistent,
+    rounds,
     answer,
     scaleOf,
     apart,
@@ -11,10 +13,10 @@ where
 import Base.Quantity (Mm (..))
 import Control.Applicative ((<|>))
 import Data.Bits (shiftR, xor)
-import Data.List (foldl', tails)
+import Data.List (foldl', sort, tails)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Word (Word64)
-import Generate.Outline (Case (..), Family (..))
+import Generate.Outline (Case (..), Family (..), turned)
 import Geometry.Contour (Ends (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Offset.Kernel (Fault (..), Side (..))
@@ -36,11 +38,15 @@ data Verdict
   deriving stock (Eq, Show)
 
 answer :: Case -> Either Fault Kernel.Reach
-answer c = Kernel.offset (Kernel.plain (side c) (Mm (radius c))) (outlines c)
+answer c = Kernel.offset (Kernel.plain (side c) (Mm (radius c))) {Kernel.extra = more} (outlines c)
+  where
+    more = case extras c of
+      [] -> Nothing
+      es -> Just (\i -> Mm (es !! (i `mod` length es)))
 
 -- | Lengths are measured by this: the largest coordinate and the radius.
 scaleOf :: Case -> Double
-scaleOf c = radius c + maximum (1e-3 : [max (abs x) (abs y) | o <- outlines c, (x, y, _) <- Outline.vertices o])
+scaleOf c = radius c + maximum (0 : extras c) + maximum (1e-3 : [max (abs x) (abs y) | o <- outlines c, (x, y, _) <- Outline.vertices o])
 
 judge :: Case -> Verdict
 judge c = case answer c of
@@ -56,6 +62,63 @@ judge c = case answer c of
   where
     segments = concatMap (Outline.segments . straightened) (outlines c)
     meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-5 * scaleOf c
+
+-- | Whether the answer does not depend on how the same is asked.
+consistent :: Case -> Verdict
+consistent c = case answer c of
+  Left _ -> Refused
+  Right reach -> maybe (Right' 1) Wrong (firstOf ((if illConditioned then [] else exactly reach) <> [same "start" (started 1), same "start" (started 3), same "reversed" (map Outline.reverse (outlines c)), same "moved" (map (turned 1 1.234 (3, -7)) (outlines c))]))
+    where
+      firstOf = listToMaybe . concat
+      started k = map (fromVertex k) (outlines c)
+      total = Loops.area (Kernel.loops reach)
+      size = scaleOf c
+      same name os
+        | name == ("start" :: String) && any ((== Open) . Outline.ends) (outlines c) = []
+        | not (null (extras c)) || illConditioned = []
+        | otherwise = case answer c {outlines = os, side = if name == "reversed" then other (side c) else side c} of
+          Left fault -> [name <> ": " <> show fault]
+          Right r
+            | abs (abs (Loops.area (Kernel.loops r)) - abs total) <= 1e-8 * size * perimeter -> []
+            | otherwise -> [name <> " area " <> show (Loops.area (Kernel.loops r)) <> " not " <> show total]
+      illConditioned = or [abs b > 100 | o <- outlines c, (_, _, b) <- Outline.vertices o]
+      perimeter = size + sum [l | o <- Loops.outlines (Kernel.loops reach), let Mm l = Outline.length o]
+      exactly r = [twin "quarter" quarter False r, twin "half" (quarter . quarter) False r, twin "mirror" mirror True r]
+      twin name f flipped r = case answer c {outlines = map f (outlines c), side = if flipped then other (side c) else side c} of
+        Left fault -> [name <> ": " <> show fault]
+        Right r'
+          | cyclic (map f (Loops.outlines (Kernel.loops r))) == cyclic (Loops.outlines (Kernel.loops r')) -> []
+          | otherwise -> [name <> " differs: " <> show (take 2 (zip (cyclic (map f (Loops.outlines (Kernel.loops r)))) (cyclic (Loops.outlines (Kernel.loops r')))))]
+      quarter o = Outline.outline (Outline.ends o) [(-y, x, b) | (x, y, b) <- Outline.vertices o]
+      mirror o = Outline.outline (Outline.ends o) [(-x, y, -b) | (x, y, b) <- Outline.vertices o]
+      cyclic = sort . map (canonical . Outline.vertices)
+      canonical vs = let n = length vs; best = snd (minimum (zip vs [0 ..])) in take n (drop best (cycle vs))
+
+other :: Side -> Side
+other s = case s of
+  LeftOf -> RightOf
+  RightOf -> LeftOf
+
+-- | Begun at another vertex.
+fromVertex :: Int -> Outline -> Outline
+fromVertex k o = Outline.outline (Outline.ends o) (let (a, b) = splitAt k (Outline.vertices o) in b <> a)
+
+-- | In two steps as in one; and in, out, in as in.
+rounds :: Case -> Verdict
+rounds c = case answer c of
+  Left _ -> Refused
+  Right reach -> maybe (Right' 1) Wrong (listToMaybe (steps <> (if family c == Cells then [] else back reach)))
+    where
+      size = scaleOf c
+      total = Loops.area (Kernel.loops reach)
+      go s d os = Kernel.loops <$> Kernel.offset (Kernel.plain s (Mm d)) os
+      steps = close "in two steps" (go (side c) (0.375 * radius c) (outlines c) >>= go (side c) (0.625 * radius c) . Loops.outlines)
+      back r = close "there and back" (go (other (side c)) (radius c) (Loops.outlines (Kernel.loops r)) >>= go (side c) (radius c) . Loops.outlines)
+      close name r = case r of
+        Left fault -> [name <> ": " <> show fault]
+        Right l
+          | abs (Loops.area l - total) <= 1e-7 * size * size -> []
+          | otherwise -> [name <> " area " <> show (Loops.area l) <> " not " <> show total]
 
 -- | Whether all segments keep clearly apart but for the vertices that they share.
 apart :: Case -> Bool
@@ -91,28 +154,30 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     scale = scaleOf c
     near = 2e-9 * scale
     d = radius c
+    asked = zip sources (map (d +) (cycle (if null (extras c) then [0] else extras c)))
     blocked = case side c of
       LeftOf -> free c - 1
       RightOf -> free c + 1
-    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, not (abs e <= near)]
+    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.beyond asked x y, not (abs e <= near)]
     thin o
       | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-12 * scale * (let Mm l = Outline.length o in l) = Just ("no area " <> show (Outline.area o))
       | otherwise = Nothing
     spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let { (x, y, nx, ny) = on p t }] <> take 24 scattered
     h = 1e-6 * scale
     beside (x, y)
-      | abs (far - d) <= 0.3 * h = Nothing
+      | abs over <= 0.3 * h = Nothing
       | not isOpen && far > h && start /= free c && start /= blocked = Just ("crossed source not noticed " <> show (x, y, start))
       | number == expected = Nothing
       | otherwise = Just ("wrong number " <> show number <> " not " <> show expected <> " at " <> show (x, y) <> " distance " <> show far <> " source " <> show start)
       where
         far = Naive.distance sources x y
+        over = Naive.beyond asked x y
         start = if isOpen then free c else Naive.winding sources x y
         number = Naive.winding result x y
-        expected = if start == free c && far > d then free c else blocked
+        expected = if start == free c && over > 0 then free c else blocked
     corners = [(x0 p, y0 p) | p <- sources]
     (lx, hx, ly, hy) = foldl' (\(a, b, a', b') (x, y) -> (min a x, max b x, min a' y, max b' y)) (1 / 0, -1 / 0, 1 / 0, -1 / 0) corners
-    margin = 1.3 * d + 0.1 * (hx - lx)
+    margin = 1.3 * (d + maximum (0 : extras c)) + 0.1 * (hx - lx)
     scattered = pairs (randoms (fromIntegral (length result) + truncate (1e6 * abs (sum (map fst corners)))))
     pairs us = case us of
       u : v : more -> (lx - margin + u * (hx - lx + 2 * margin), ly - margin + v * (hy - ly + 2 * margin)) : pairs more

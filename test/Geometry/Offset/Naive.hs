@@ -4,6 +4,7 @@ module Geometry.Offset.Naive
   ( Piece (..),
     pieces,
     distance,
+    beyond,
     winding,
     between,
   )
@@ -26,6 +27,10 @@ pieces o = [Piece (at (Outline.xs o) i) (at (Outline.ys o) i) (at (Outline.xs o)
 -- | From a point to the nearest place of all.
 distance :: [Piece] -> Double -> Double -> Double
 distance ps x y = minimum (1 / 0 : map (\p -> toPiece p x y) ps)
+
+-- | The least distance of a point from a piece beyond the one that is asked of it.
+beyond :: [(Piece, Double)] -> Double -> Double -> Double
+beyond ps x y = minimum (1 / 0 : map (\(p, d) -> toPiece p x y - d) ps)
 
 toPiece :: Piece -> Double -> Double -> Double
 toPiece p@(Piece ax ay bx by b) x y
