@@ -1,5 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
 -- | Boxes around segments in the order of the walk: eight consecutive ones in a box, eight boxes in a larger one, and so
 -- on. A walk's own order is a good order in the plane, so nothing is sorted.
@@ -107,15 +107,6 @@ leaf (Boxes cs _ _ _) i k = k (indexPrimArray cs (4 * i)) (indexPrimArray cs (4 
 whole :: Boxes -> (Double -> Double -> Double -> Double -> r) -> r
 whole bs@(Boxes _ begins _ highest) = leaf bs (indexPrimArray begins highest)
 
-overlap :: PrimArray Double -> Int -> Int -> Bool
-overlap cs i j =
-  at p 0 <= at q 2 && at q 0 <= at p 2 && at p 1 <= at q 3 && at q 1 <= at p 3
-  where
-    p = 4 * i
-    q = 4 * j
-    at o k = indexPrimArray cs (o + k)
-{-# INLINE overlap #-}
-
 -- | Visit every two segments whose boxes overlap, the earlier one first, as long as the test allows.
 pairs :: Boxes -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs (Boxes cs bs ns highest) goesOn visit = within highest 0
@@ -123,31 +114,42 @@ pairs (Boxes cs bs ns highest) goesOn visit = within highest 0
     within !l !a
       | l == 0 = pure ()
       | otherwise = do
-        let o = indexPrimArray bs (l - 1)
-            e = let c = indexPrimArray ns (l - 1) in if c < (a + 1) * fan then c else (a + 1) * fan
+        let !o = indexPrimArray bs (l - 1)
+            !e = let c = indexPrimArray ns (l - 1) in if c < (a + 1) * fan then c else (a + 1) * fan
             outer !i
               | i >= e = pure ()
-              | otherwise = within (l - 1) i >> inner i (i + 1) >> outer (i + 1)
-            inner !i !j
+              | otherwise = within (l - 1) i >> leaf' (o + i) (inner i (i + 1)) >> outer (i + 1)
+            inner !i !j !lx !ly !hx !hy
               | j >= e = pure ()
-              | otherwise = when (overlap cs (o + i) (o + j)) (between (l - 1) i j) >> inner i (j + 1)
+              | otherwise = when (meets (o + j) lx ly hx hy) (between (l - 1) i j) >> inner i (j + 1) lx ly hx hy
         more <- if l == 1 then pure True else goesOn
         when more (outer (a * fan))
     between !l !a !b
       | l == 0 = visit a b
       | otherwise = do
-        let o' = indexPrimArray bs l
-            o = indexPrimArray bs (l - 1)
-            c = indexPrimArray ns (l - 1)
-            ea = if c < (a + 1) * fan then c else (a + 1) * fan
-            eb = if c < (b + 1) * fan then c else (b + 1) * fan
-            outer !i
+        let !o' = indexPrimArray bs l
+            !o = indexPrimArray bs (l - 1)
+            !c = indexPrimArray ns (l - 1)
+            !ea = if c < (a + 1) * fan then c else (a + 1) * fan
+            !eb = if c < (b + 1) * fan then c else (b + 1) * fan
+            outer !i !lx !ly !hx !hy
               | i >= ea = pure ()
-              | otherwise = when (overlap cs (o + i) (o' + b)) (inner i (b * fan)) >> outer (i + 1)
-            inner !i !j
+              | otherwise = when (meets (o + i) lx ly hx hy) (leaf' (o + i) (inner i (b * fan))) >> outer (i + 1) lx ly hx hy
+            inner !i !j !lx !ly !hx !hy
               | j >= eb = pure ()
-              | otherwise = when (overlap cs (o + i) (o + j)) (between (l - 1) i j) >> inner i (j + 1)
-        outer (a * fan)
+              | otherwise = when (meets (o + j) lx ly hx hy) (between (l - 1) i j) >> inner i (j + 1) lx ly hx hy
+        leaf' (o' + b) (outer (a * fan))
+    leaf' !i k =
+      let !lx = at i 0
+          !ly = at i 1
+          !hx = at i 2
+          !hy = at i 3
+       in k lx ly hx hy
+    {-# INLINE leaf' #-}
+    meets !i !lx !ly !hx !hy = at i 0 <= hx && lx <= at i 2 && at i 1 <= hy && ly <= at i 3
+    {-# INLINE meets #-}
+    at i k = indexPrimArray cs (4 * i + k)
+    {-# INLINE at #-}
 {-# INLINE pairs #-}
 
 -- | Gather over the segments whose boxes overlap a box, in order.

@@ -150,7 +150,18 @@ fromOutlines tolerance outlines = runST $ do
                         else do
                           emit k' x y (if rise2 <= tolerance * tolerance then 0 else b) (base + i)
                           go (i + 1) (k' + 1) x1 y1
-          k1 <- if n == 0 then pure k else go 0 k (indexPrimArray px 0) (indexPrimArray py 0)
+              -- Most outlines are taken as they are.
+              asIs = do
+                copyPrimArray rx k px 0 n
+                copyPrimArray ry k py 0 n
+                copyPrimArray rb k pb 0 n
+                setPrimArray rm k n 0
+                number 0
+                pure (k + n)
+              number !i
+                | i >= n = pure ()
+                | otherwise = writePrimArray rs (k + i) (fromIntegral (base + i)) >> number (i + 1)
+          k1 <- if n == 0 then pure k else if isPlain tolerance px py pb then asIs else go 0 k (indexPrimArray px 0) (indexPrimArray py 0)
           if k1 - k < 2
             then walk w k (base + n) more
             else do
@@ -165,6 +176,21 @@ fromOutlines tolerance outlines = runST $ do
   (count, used) <- walk 0 0 0 outlines
   when (count == 0) (writePrimArray rh 0 0)
   finish rx ry rb rm rs rh used count
+
+-- | Whether no segment is shorter than a tolerance, no arc flatter, and none over half a turn.
+isPlain :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
+isPlain !tolerance !px !py !pb = go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))
+  where
+    !n = sizeofPrimArray px
+    !least = tolerance * tolerance
+    -- The segment that ends at a vertex.
+    go !i !x !y !b
+      | i >= n = True
+      | otherwise =
+        let !x1 = indexPrimArray px i
+            !y1 = indexPrimArray py i
+            !c2 = (x1 - x) * (x1 - x) + (y1 - y) * (y1 - y)
+         in c2 > least && (b == 0 || abs b <= 1 && b * b * c2 / 4 > least) && go (i + 1) x1 y1 (indexPrimArray pb i)
 
 -- | The arrays cut to what is used of them.
 finish :: MutablePrimArray s Double -> MutablePrimArray s Double -> MutablePrimArray s Double -> MutablePrimArray s Word8 -> MutablePrimArray s Int32 -> MutablePrimArray s Int -> Int -> Int -> ST s Chain

@@ -1,5 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
 -- | The places where a chain crosses itself, when it does so in general position: not at an end of a segment, and not
 -- along one.

@@ -104,8 +104,8 @@ offset task outlines = do
       LeftOf -> -1
       RightOf -> 1
     raw c = case extra task of
-      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d)) c
-      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i)) c
+      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) True (const (signed * d)) c
+      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) False (\i -> signed * (d + more i)) c
 
 turnOf :: Side -> Turn
 turnOf s = case s of

@@ -1,5 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
 -- | How two segments of a chain meet: where they cross, and where, to within rounding, an end of one lies on the other or
 -- they touch. Whoever asks decides what to do with the latter.
@@ -31,23 +31,47 @@ data Visitor s = Visitor
 -- share as neighbours. The tolerance (in mm) is that of rounding; boxes of segments that meet within it overlap.
 meet :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor !i !j
-  | after && before = when (curved i || curved j) (alike tolerance c visitor i j)
+  | j == i + 1 = unless (goesOn c i j) (joined tolerance c visitor i j)
+  | mark Chain.opening i && mark Chain.closing j = joined tolerance c visitor i j
+  | otherwise = apart' tolerance c visitor i j
+  where
+    mark m k = Chain.marked m (indexPrimArray (Chain.marks c) k)
+{-# INLINE meet #-}
+
+-- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back. Not for a walk of two segments.
+goesOn :: Chain -> Int -> Int -> Bool
+goesOn c i j
+  | Chain.marked Chain.opening (indexPrimArray (Chain.marks c) i) = False
+  | curved c i || curved c j = Chain.marked Chain.smooth (indexPrimArray (Chain.marks c) j)
+  | otherwise = Chain.chord c i (\ux uy -> Chain.chord c j (\vx vy -> ux * vx + uy * vy >= 0))
+{-# INLINE goesOn #-}
+
+curved :: Chain -> Int -> Bool
+curved c k = indexPrimArray (Chain.bulges c) k /= 0
+{-# INLINE curved #-}
+
+-- | Two segments that are neighbours, or the first and the last of walks that may be different ones.
+joined :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+joined !tolerance !c visitor !i !j
+  | after && before = when (curved c i || curved c j) (alike tolerance c visitor i j)
   | after = neighbours tolerance c visitor i j (i + 1)
   | before = neighbours tolerance c visitor j i i
-  | curved i && curved j = if Chain.diameter c i <= Chain.diameter c j then arcs tolerance c visitor i j else arcs tolerance c visitor j i
-  | curved i = lineArc tolerance c visitor j i
-  | curved j = lineArc tolerance c visitor i j
-  | otherwise = lines' tolerance c visitor i j
+  | otherwise = apart' tolerance c visitor i j
   where
-    curved k = indexPrimArray (Chain.bulges c) k /= 0
     -- Where the one ends the other begins.
     after = j == i + 1
-    before =
-      Chain.marked Chain.opening (indexPrimArray (Chain.marks c) i) && Chain.marked Chain.closing (indexPrimArray (Chain.marks c) j)
-        && Chain.marked Chain.copied (indexPrimArray (Chain.marks c) (j + 1))
-        && sameWalk
-    sameWalk = indexPrimArray (Chain.xs c) (j + 1) == indexPrimArray (Chain.xs c) i && indexPrimArray (Chain.ys c) (j + 1) == indexPrimArray (Chain.ys c) i
-{-# INLINE meet #-}
+    mark m k = Chain.marked m (indexPrimArray (Chain.marks c) k)
+    before = mark Chain.opening i && mark Chain.closing j && mark Chain.copied (j + 1) && at (Chain.xs c) && at (Chain.ys c)
+    at a = indexPrimArray a (j + 1) == indexPrimArray a i
+{-# NOINLINE joined #-}
+
+-- | Two segments that are no neighbours.
+apart' :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+apart' !tolerance !c visitor !i !j
+  | curved c i = if curved c j then arcsBySize tolerance c visitor i j else lineArc tolerance c visitor j i
+  | curved c j = lineArc tolerance c visitor i j
+  | otherwise = lines' tolerance c visitor i j
+{-# INLINE apart' #-}
 
 -- | Two lines that are no neighbours.
 lines' :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
@@ -55,23 +79,27 @@ lines' !tolerance !c visitor !i !j =
   Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy -> do
     let x i' = indexPrimArray (Chain.xs c) i'
         y i' = indexPrimArray (Chain.ys c) i'
-        wx = x j - x i
-        wy = y j - y i
+        !wx = x j - x i
+        !wy = y j - y i
         -- Twice the areas between a line and the other one's ends.
-        startJ = ux * wy - uy * wx
-        den = ux * vy - uy * vx
-        endJ = startJ + den
-        startI = wx * vy - wy * vx
-        endI = startI - den
-        nearU = tolerance * sqrt (ux * ux + uy * uy)
-        nearV = tolerance * sqrt (vx * vx + vy * vy)
-        apart a b near = (a > near && b > near) || (a < -near && b < -near)
+        !startJ = ux * wy - uy * wx
+        !den = ux * vy - uy * vx
+        !endJ = startJ + den
+        !startI = wx * vy - wy * vx
+        !endI = startI - den
+        -- A little more than the tolerance calls for a closer look.
+        !nearU = tolerance * (abs ux + abs uy)
+        !nearV = tolerance * (abs vx + abs vy)
+        apart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
+        crosses = do
+          let !s = startI / den
+              !t = -(startJ / den)
+              !px = x i + s * ux
+              !py = y i + s * uy
+          crossing visitor i s j t px py den
     unless (apart startJ endJ nearU || apart startI endI nearV) $
-      if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV
-        then do
-          let s = startI / den
-              t = -(startJ / den)
-          crossing visitor i s j t (x i + s * ux) (y i + s * uy) den
+      if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV || not (eitherRests tolerance c i j) && startJ * endJ < 0 && startI * endI < 0
+        then crosses
         else rests tolerance c visitor i j
 {-# INLINE lines' #-}
 
@@ -101,83 +129,163 @@ liesOn !tolerance !c !i !k =
         aside = ux * ay - uy * ax
         along = ux * ax + uy * ay
         square = ux * ux + uy * uy
-        nearEnds = ax * ax + ay * ay <= tolerance * tolerance || bx * bx + by * by <= tolerance * tolerance
-     in nearEnds
+        atAnEnd = ax * ax + ay * ay <= tolerance * tolerance || bx * bx + by * by <= tolerance * tolerance
+     in atAnEnd
           || if b == 0
             then aside * aside <= tolerance * tolerance * square && along > 0 && along < square
             else aside * b <= 0 && abs (Chain.power c i px py) <= tolerance * (Chain.diameter c i + tolerance)
 
--- | A line and an arc that are no neighbours.
+-- | A line and an arc that are no neighbours. Along the line the power is @aa·s² + 2·half·s + c0@, from a place near the arc.
+--
+-- Where both cross at an angle, a point of one may be off by the tolerance over its sine. Nearer to an end than that
+-- nothing is decided here.
 lineArc :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
-lineArc !tolerance !c visitor !i !j = do
-  when rest (rests tolerance c visitor i j)
-  if abs disc <= aa * tolerance * (Chain.diameter c j + tolerance)
-    then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
-    else when (disc > 0) $ do
-      let q = if half > 0 then -half - sqrt disc else sqrt disc - half
-      try (q / aa)
-      try (if half == 0 then -(q / aa) else c0 / q)
+lineArc !tolerance !c visitor !i !j
+  | disc < -verge = pure ()
+  | disc <= verge = closely
+  | otherwise = do
+    let !root = sqrt disc
+        !q = if half > 0 then -half - root else root - half
+        !blurred = 4 * tolerance * (1 + r * sqrt aa / root)
+        !margin = blurred / sqrt aa
+        !s1 = s0 + q / aa
+        !s2 = s0 + (if half == 0 then -(q / aa) else c0 / q)
+        !sure1 = verdict blurred margin s1
+        !sure2 = verdict blurred margin s2
+    if sure1 == Doubtful || sure2 == Doubtful
+      then closely
+      else do
+        when (sure1 == Crosses) (tell s1)
+        when (sure2 == Crosses) (tell s2)
   where
-    rest = eitherRests tolerance c i j
-    lx = indexPrimArray (Chain.xs c) i
-    ly = indexPrimArray (Chain.ys c) i
-    ux = indexPrimArray (Chain.xs c) (i + 1) - lx
-    uy = indexPrimArray (Chain.ys c) (i + 1) - ly
-    aa = ux * ux + uy * uy
-    -- A place on the line that is near the arc, and how the power goes on from there: aa·s² + 2·half·s + c0.
-    s0 = (ux * (indexPrimArray (Chain.xs c) j - lx) + uy * (indexPrimArray (Chain.ys c) j - ly)) / aa
-    x0 = lx + s0 * ux
-    y0 = ly + s0 * uy
-    half = Chain.gradient c j x0 y0 (\gx gy -> 0.5 * (gx * ux + gy * uy))
-    c0 = Chain.power c j x0 y0
-    disc = half * half - aa * c0
-    foot = s0 - half / aa
-    footX = lx + foot * ux
-    footY = ly + foot * uy
-    try step = when (s0 + step > 0 && s0 + step < 1) $ do
-      let px = x0 + step * ux
-          py = y0 + step * uy
-      when (onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) $
-        crossing visitor i (s0 + step) j (parameter c j px py) px py (Chain.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy)))
+    !lx = indexPrimArray (Chain.xs c) i
+    !ly = indexPrimArray (Chain.ys c) i
+    !ux = indexPrimArray (Chain.xs c) (i + 1) - lx
+    !uy = indexPrimArray (Chain.ys c) (i + 1) - ly
+    !aa = ux * ux + uy * uy
+    !s0 = (ux * (indexPrimArray (Chain.xs c) j - lx) + uy * (indexPrimArray (Chain.ys c) j - ly)) / aa
+    !x0 = lx + s0 * ux
+    !y0 = ly + s0 * uy
+    !half = Chain.gradient c j x0 y0 (\gx gy -> 0.5 * (gx * ux + gy * uy))
+    !c0 = Chain.power c j x0 y0
+    !disc = half * half - aa * c0
+    !r = 0.5 * Chain.diameter c j
+    !verge = aa * tolerance * (2 * r + tolerance)
+    verdict blurred margin s
+      | s < -margin || s > 1 + margin = Passes
+      | nearEnds c j blurred px py = Doubtful
+      | not (onArc c j px py) = Passes
+      | s > margin && s < 1 - margin = Crosses
+      | otherwise = Doubtful
+      where
+        !px = lx + s * ux
+        !py = ly + s * uy
+    {-# INLINE verdict #-}
+    tell s = do
+      let !px = lx + s * ux
+          !py = ly + s * uy
+      crossing visitor i s j (parameter c j px py) px py (Chain.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy)))
+    -- Touching, or at an end.
+    closely = do
+      let rest = eitherRests tolerance c i j
+          foot = s0 - half / aa
+          footX = lx + foot * ux
+          footY = ly + foot * uy
+          q = if half > 0 then -half - sqrt disc else sqrt disc - half
+          try step = when (s0 + step > 0 && s0 + step < 1) $ do
+            let px = lx + (s0 + step) * ux
+                py = ly + (s0 + step) * uy
+            when (onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) (tell (s0 + step))
+      when rest (rests tolerance c visitor i j)
+      if abs disc <= verge
+        then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
+        else try (q / aa) >> try (if half == 0 then -(q / aa) else c0 / q)
 {-# NOINLINE lineArc #-}
+
+-- | What is known of a point in which two carriers meet.
+data Verdict = Crosses | Passes | Doubtful
+  deriving stock (Eq)
+
+-- | Whether a point is so near to an end of a segment.
+nearEnds :: Chain -> Int -> Double -> Double -> Double -> Bool
+nearEnds c i within px py = near i || near (i + 1)
+  where
+    near k =
+      let dx = px - indexPrimArray (Chain.xs c) k
+          dy = py - indexPrimArray (Chain.ys c) k
+       in dx * dx + dy * dy <= within * within
+{-# INLINE nearEnds #-}
+
+-- | Two arcs that are no neighbours.
+arcsBySize :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
+arcsBySize tolerance c visitor i j
+  | Chain.diameter c i <= Chain.diameter c j = arcs tolerance c visitor i j
+  | otherwise = arcs tolerance c visitor j i
+{-# NOINLINE arcsBySize #-}
 
 -- | Two arcs that are no neighbours, the one with the smaller circle first.
 arcs :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
 arcs !tolerance !c visitor !i !j
   | dist <= 4 * tolerance = rests tolerance c visitor i j
+  | disc < -verge = pure ()
+  | disc <= verge = closely
   | otherwise = do
-    when rest (rests tolerance c visitor i j)
-    if abs disc <= 4 * gg * tolerance * (opening + tolerance)
-      then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)
-      else when (disc > 0) $ do
-        let q = if half > 0 then -half - sqrt disc else sqrt disc - half
-        try (q / gg)
-        try (if half == 0 then -(q / gg) else c0 / q)
+    let !root = sqrt disc
+        !q = if half > 0 then -half - root else root - half
+        !blurred = 4 * tolerance * (1 + opening * 2 * dist / root)
+        !s1 = q / gg
+        !s2 = if half == 0 then -(q / gg) else c0 / q
+        !sure1 = verdict blurred s1
+        !sure2 = verdict blurred s2
+    if sure1 == Doubtful || sure2 == Doubtful
+      then closely
+      else do
+        when (sure1 == Crosses) (tell s1)
+        when (sure2 == Crosses) (tell s2)
   where
-    rest = eitherRests tolerance c i j
-    x0 = indexPrimArray (Chain.xs c) i
-    y0 = indexPrimArray (Chain.ys c) i
+    !x0 = indexPrimArray (Chain.xs c) i
+    !y0 = indexPrimArray (Chain.ys c) i
     -- The powers differ by a linear function, which is 0 where the circles meet.
-    gx = Chain.gradient c i x0 y0 (\ax _ -> Chain.gradient c j x0 y0 (\bx _ -> ax - bx))
-    gy = Chain.gradient c i x0 y0 (\_ ay -> Chain.gradient c j x0 y0 (\_ by -> ay - by))
-    gg = gx * gx + gy * gy
-    dist = 0.5 * sqrt gg
+    !gx = Chain.gradient c i x0 y0 (\ax _ -> Chain.gradient c j x0 y0 (\bx _ -> ax - bx))
+    !gy = Chain.gradient c i x0 y0 (\_ ay -> Chain.gradient c j x0 y0 (\_ by -> ay - by))
+    !gg = gx * gx + gy * gy
+    !dist = 0.5 * sqrt gg
     -- The square of half the chord in which two circles meet grows by twice this for each mm that they overlap.
-    opening = 0.5 * Chain.diameter c i * Chain.diameter c j / (2 * dist)
-    g0 = -(Chain.power c j x0 y0)
+    !opening = 0.5 * Chain.diameter c i * Chain.diameter c j / (2 * dist)
+    !g0 = -(Chain.power c j x0 y0)
     -- A point of that line, and how the first circle's power goes along it: gg·s² + 2·half·s + c0.
-    lx = x0 - g0 * gx / gg
-    ly = y0 - g0 * gy / gg
-    half = Chain.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
-    c0 = Chain.power c i lx ly
-    disc = half * half - gg * c0
-    footX = lx + half / gg * gy
-    footY = ly - half / gg * gx
-    try s = do
-      let px = lx - s * gy
-          py = ly + s * gx
-      when (onArc c i px py && onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) $
-        crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ax ay -> Chain.gradient c j px py (\bx by -> turned c i (turned c j (ax * by - ay * bx)))))
+    !lx = x0 - g0 * gx / gg
+    !ly = y0 - g0 * gy / gg
+    !half = Chain.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
+    !c0 = Chain.power c i lx ly
+    !disc = half * half - gg * c0
+    !verge = 4 * gg * tolerance * (opening + tolerance)
+    verdict blurred s
+      | nearEnds c i blurred px py || nearEnds c j blurred px py = Doubtful
+      | onArc c i px py && onArc c j px py = Crosses
+      | otherwise = Passes
+      where
+        !px = lx - s * gy
+        !py = ly + s * gx
+    {-# INLINE verdict #-}
+    tell s = do
+      let !px = lx - s * gy
+          !py = ly + s * gx
+      crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ax ay -> Chain.gradient c j px py (\bx by -> turned c i (turned c j (ax * by - ay * bx)))))
+    -- Touching, or at an end.
+    closely = do
+      let rest = eitherRests tolerance c i j
+          footX = lx + half / gg * gy
+          footY = ly - half / gg * gx
+          q = if half > 0 then -half - sqrt disc else sqrt disc - half
+          try s = do
+            let px = lx - s * gy
+                py = ly + s * gx
+            when (onArc c i px py && onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) (tell s)
+      when rest (rests tolerance c visitor i j)
+      if abs disc <= verge
+        then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)
+        else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# NOINLINE arcs #-}
 
 -- | Two segments of which the second begins where the first ends, at a vertex.
@@ -208,7 +316,7 @@ neighbours !tolerance !c visitor !i !j !vertex
       let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
           s = if lineIsSecond then step else 1 + step
           px = vx0 + step * ux
-          py = vy0 + step * uy
+          !py = vy0 + step * uy
       when (s > 0 && s < 1 && onArc c arc px py) $
         if (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0) <= tolerance * tolerance
           then pure ()
@@ -220,7 +328,7 @@ neighbours !tolerance !c visitor !i !j !vertex
           -- Back along the line in which both powers agree.
           k = (ay * gx - ax * gy) / gg
           px = vx0 + k * gy
-          py = vy0 - k * gx
+          !py = vy0 - k * gx
       when (gg > 16 * tolerance * tolerance && onArc c i px py && onArc c j px py && (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0) > tolerance * tolerance) $
         crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ex ey -> Chain.gradient c j px py (\hx hy -> turned c i (turned c j (ex * hy - ey * hx)))))
 {-# NOINLINE neighbours #-}

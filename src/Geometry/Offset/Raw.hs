@@ -4,7 +4,7 @@
 -- | The raw equidistant: every segment moved to its side, and joined to the next.
 --
 -- Outer corners get an arc about the corner (or two lines to where the ways meet), smooth joints nothing; at an inner corner two
--- lines that keep a rest are cut where they meet, others are joined over the corner itself. Arcs keep their bulge when
+-- lines that keep a rest are cut where they meet, others are joined straight on. Arcs keep their bulge when
 -- the distance is larger than their radius: they then run backwards. The raw equidistant grows out of the source without
 -- a jump when the distance grows from 0, so that its winding number tells what the cutter's centre can reach.
 module Geometry.Offset.Raw
@@ -31,13 +31,14 @@ data Filling s = Filling (MutablePrimArray s Double) (MutablePrimArray s Double)
 data Joint = Smooth | Step | Outer | Trimmed | Over
   deriving stock (Eq)
 
--- | The raw equidistant of a chain at a distance in mm that is given by the number of the source's segment, positive to the
+-- | The raw equidistant of a chain, whether at the same distance everywhere, at a distance in mm that is given by the number of the source's segment, positive to the
 -- right of the walk; and the chain with its smooth joints marked. What is shorter than the
 -- tolerance (mm) is left out; directions whose sine is no larger than the smoothness are one.
-raw :: Double -> Double -> Corners -> (Int -> Double) -> Chain -> (Chain, Chain)
-raw !tolerance !smoothness corners distance !c = runST $ do
+raw :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> Chain -> (Chain, Chain)
+raw !tolerance !smoothness corners even' distance !c = runST $ do
   let n = sizeofPrimArray (Chain.xs c)
-      room = 6 * n + 8
+      -- A segment and what lies behind it: an arc or a line, two lines for a sharp corner; two steps more between distances.
+      room = n * (if even' then (if corners == Sharp then 3 else 2) else 5) + 8
   rx <- newPrimArray room
   ry <- newPrimArray room
   rb <- newPrimArray room
@@ -166,10 +167,7 @@ walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !
         Smooth -> next k1 ends
         Step -> put k1 fx fy 0 Chain.around i >> next (k1 + 1) 0
         Trimmed -> next k1 0
-        Over -> do
-          put k1 fx fy 0 Chain.connecting i
-          put (k1 + 1) vx vy 0 Chain.connecting i
-          next (k1 + 2) 0
+        Over -> put k1 fx fy 0 Chain.connecting i >> next (k1 + 1) 0
         Outer -> do
           let dj = dist j
               wide = if abs dj > abs d then dj else d
