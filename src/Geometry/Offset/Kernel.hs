@@ -97,9 +97,11 @@ offset task outlines = do
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
     tolerance = Tolerance.rounding * (Chain.extent outlines + largest)
     chain = Chain.fromOutlines tolerance (if open then map Chain.twoSided outlines else outlines)
-    raws@(_, source) = raw chain
+    raws@(_, source) = rawOf problem chain
     sourceBoxes = Boxes.boxes tolerance source
-    problem = Problem {turn, rounding = tolerance, widest = largest, distances = \i -> d + more i, rawOf = raw}
+    problem = Problem {turn, rounding = tolerance, widest = largest, distances = \i -> d + more i, rawOf = if largest == 0 then still else raw}
+    -- At no distance there is nothing to join.
+    still c = let (_, marked) = raw c in (marked, marked)
     signed = case side task of
       LeftOf -> -1
       RightOf -> 1
