@@ -149,14 +149,17 @@ reachOf Problem {turn, rounding, least, widest, distances} wanted (rough, source
       certified (Arrangement.loops turn wanted a)
     measure = Certificate.Measure {Certificate.slack = 1e5 * rounding, Certificate.least = least, Certificate.largest = widest, Certificate.distance = distances, Certificate.turn = turn}
     -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are those of free places.
-    certified found
+    certified answer
       | all sound loops' = Just found
       | Chain.walks source == 1 && all (\k -> sound k || covering k) loops' = Just (Loops.only sound found)
       | otherwise = Nothing
       where
+        found = Loops.only (not . flat) answer
         loops' = [0 .. Loops.count found - 1]
         sound = Certificate.clear measure source sourceBoxes found
         covering = Certificate.covers measure source found
+        -- A loop of few segments may be there by rounding alone.
+        flat k = Loops.size answer k <= 4 && abs (Outline.area (Loops.outline answer k)) <= rounding * rounding
 
 -- | Whether one of several walks goes round free places that are too small for the cutter. Where a cutter covers such a one
 -- wholly, it would count as free; by itself it is recognised.

@@ -161,7 +161,7 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     asked = map (\ps -> if isOpen then ps <> map backwards (reverse ps) else ps) . walks (outlines c) $ (map (d +) (cycle (if null (extras c) then [0] else extras c)))
     walks os es = case os of
       [] -> []
-      o : rest -> let ps = Naive.pieces o; (mine, others) = splitAt (length ps) es in [(p, e) | (p, e) <- zip ps mine, (x0 p, y0 p) /= (x1 p, y1 p)] : walks rest others
+      o : rest -> let ps = Naive.pieces o; (mine, others) = splitAt (length ps) es in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] : walks rest others
     backwards (Piece ax ay bx by b, e) = (Piece bx by ax ay (-b), e)
     blocked = case side c of
       LeftOf -> free c - 1
