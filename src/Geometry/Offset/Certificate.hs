@@ -3,7 +3,8 @@
 -- | Whether the kernel's answer is true, looked at without what led to it: a place on every loop is as far from the source
 -- as was asked.
 module Geometry.Offset.Certificate
-  ( clear,
+  ( Measure (..),
+    clear,
     covers,
   )
 where
@@ -15,18 +16,25 @@ import Geometry.Offset.Chain (Chain)
 import Geometry.Offset.Chain qualified as Chain
 import Geometry.Offset.Loops (Loops)
 import Geometry.Offset.Loops qualified as Loops
+import Geometry.Shape (Turn (..))
 
--- | Whether the middle of a loop's first segment is no nearer to any segment of the source than that one's distance less
--- an error (both in mm). The largest distance limits the search.
-clear :: Double -> Double -> (Int -> Double) -> Chain -> Boxes -> Loops -> Int -> Bool
-clear slack largest distance source bs l k = uncurry (farFrom slack largest distance source bs) (witness l k)
+-- | What a place is measured by, in mm: the error allowed; the distance that is kept from all segments, the largest one, and
+-- that of each segment, which holds on the cutter's side and between the segment's ends.
+data Measure = Measure {slack :: Double, least :: Double, largest :: Double, distance :: Int -> Double, turn :: Turn}
+
+-- | Whether the middle of a loop's first segment is no nearer to any segment of the source than is asked.
+clear :: Measure -> Chain -> Boxes -> Loops -> Int -> Bool
+clear measure source bs l k = uncurry (farFrom measure source bs) (witness l k)
 
 -- | Whether a cutter that stands where that place is reaches every segment of the source.
-covers :: Double -> (Int -> Double) -> Chain -> Loops -> Int -> Bool
-covers slack distance source l k = and [fromPoint source i x y <= abs (reach i) + slack | i <- [0 .. sizeofPrimArray (Chain.xs source) - 1], not (Chain.marked Chain.copied (indexPrimArray (Chain.marks source) i))]
+covers :: Measure -> Chain -> Loops -> Int -> Bool
+covers measure source l k = and [fromPoint source i x y (\d _ -> d <= asked measure source i + slack measure) | i <- [0 .. sizeofPrimArray (Chain.xs source) - 1], not (Chain.marked Chain.copied (indexPrimArray (Chain.marks source) i))]
   where
     (x, y) = witness l k
-    reach i = distance (fromIntegral (indexPrimArray (Chain.sources source) i))
+
+-- | What is asked of a segment.
+asked :: Measure -> Chain -> Int -> Double
+asked measure source i = distance measure (fromIntegral (indexPrimArray (Chain.sources source) i))
 
 -- | The middle of a loop's first segment.
 witness :: Loops -> Int -> (Double, Double)
@@ -38,19 +46,35 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
     (dx, dy) = (indexPrimArray (Loops.xs l) j - x0, indexPrimArray (Loops.ys l) j - y0)
     b = indexPrimArray (Loops.bulges l) i
 
--- | Whether a point is no nearer to any segment than that one's distance less an error.
-farFrom :: Double -> Double -> (Int -> Double) -> Chain -> Boxes -> Double -> Double -> Bool
-farFrom slack largest distance source bs x y = Boxes.around bs (x - largest) (y - largest) (x + largest) (y + largest) True $ \good i ->
-  good && fromPoint source i x y >= abs (distance (fromIntegral (indexPrimArray (Chain.sources source) i))) - slack
+-- | Whether a point is far enough from every segment.
+farFrom :: Measure -> Chain -> Boxes -> Double -> Double -> Bool
+farFrom measure source bs x y = Boxes.around bs (x - widest) (y - widest) (x + widest) (y + widest) True $ \good i ->
+  good && fromPoint source i x y (\d beside -> d >= (if beside > slack measure && facing i then asked measure source i else least measure) - slack measure)
+  where
+    widest = largest measure
+    facing i = case turn measure of
+      CounterClockwise -> leftOf source i x y
+      Clockwise -> not (leftOf source i x y)
 
--- | The distance of a point from a segment.
-fromPoint :: Chain -> Int -> Double -> Double -> Double
-fromPoint c i x y
+-- | Whether a point lies on the left of a segment or its circle.
+leftOf :: Chain -> Int -> Double -> Double -> Bool
+leftOf c i x y
+  | b == 0 = Chain.chord c i $ \ux uy -> ux * (y - indexPrimArray (Chain.ys c) i) - uy * (x - indexPrimArray (Chain.xs c) i) > 0
+  | otherwise = Chain.power c i x y * b < 0
+  where
+    b = indexPrimArray (Chain.bulges c) i
+
+-- | The distance of a point from a segment, and how far between the segment's ends the foot lies: not more than 0 if the
+-- nearest place is an end.
+fromPoint :: Chain -> Int -> Double -> Double -> (Double -> Double -> r) -> r
+fromPoint c i x y k
   | b == 0 = Chain.chord c i $ \ux uy ->
-    let t = max 0 (min 1 ((ux * ax + uy * ay) / (ux * ux + uy * uy)))
-     in hypotenuse (ax - t * ux) (ay - t * uy)
-  | inSector = abs (Chain.power c i x y) / (0.5 * hypotenuse gx gy + 0.5 * Chain.diameter c i)
-  | otherwise = min (hypotenuse ax ay) (hypotenuse bx by)
+    let square = ux * ux + uy * uy
+        along = (ux * ax + uy * ay) / square
+        t = max 0 (min 1 along)
+     in k (hypotenuse (ax - t * ux) (ay - t * uy)) (min along (1 - along) * sqrt square)
+  | inSector > 0 = k (abs (Chain.power c i x y) / (0.5 * hypotenuse gx gy + 0.5 * Chain.diameter c i)) inSector
+  | otherwise = k (min (hypotenuse ax ay) (hypotenuse bx by)) inSector
   where
     b = indexPrimArray (Chain.bulges c) i
     x0 = indexPrimArray (Chain.xs c) i
@@ -62,5 +86,6 @@ fromPoint c i x y
     (gx, gy) = Chain.gradient c i x y (,)
     (px, py) = Chain.gradient c i x0 y0 (,)
     (qx, qy) = Chain.gradient c i x1 y1 (,)
-    inSector = (px * gy - py * gx) * b >= 0 && (gx * qy - gy * qx) * b >= 0
+    -- The foot's distances from the rays to both ends.
+    inSector = 0.5 * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx)) / max 1e-300 (hypotenuse gx gy)
     hypotenuse u v = sqrt (u * u + v * v)

@@ -97,31 +97,40 @@ offset task outlines = do
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
     tolerance = Tolerance.rounding * (Chain.extent outlines + largest)
     chain = Chain.fromOutlines tolerance (if open then map Chain.twoSided outlines else outlines)
-    raws@(_, source) = raw chain
+    raws@(_, source) = rawOf problem chain
     sourceBoxes = Boxes.boxes tolerance source
-    problem = Problem {turn, rounding = tolerance, widest = largest, distances = \i -> d + more i, rawOf = raw}
+    problem = Problem {turn, rounding = tolerance, least = d, widest = largest, distances = \i -> d + more i, rawOf = if largest == 0 then still else raw}
+    -- At no distance there is nothing to join.
+    still c = let (_, marked) = raw c in (marked, marked)
     signed = case side task of
       LeftOf -> -1
       RightOf -> 1
     raw c = case extra task of
-      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) True (const (signed * d)) c
-      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) False (\i -> signed * (d + more i)) c
+      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) False (const (signed * d)) (const (signed * d)) c
+      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) True (\i -> signed * within c i) (\i -> signed * wanting c i) c
+    -- More than its radius towards its centre fills an arc's sector and no more.
+    within c i
+      | asked > d && signed * indexPrimArray (Chain.bulges c) i < 0 = min asked (max d (0.5 * Chain.diameter c i))
+      | otherwise = asked
+      where
+        asked = wanting c i
+    wanting c i = d + more (fromIntegral (indexPrimArray (Chain.sources c) i))
 
 turnOf :: Side -> Turn
 turnOf s = case s of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | What is asked of all walks: the way round the free places that an outline has, the tolerance of rounding, the largest
--- distance and that of every segment (in mm), and how the raw equidistant is made.
-data Problem = Problem {turn :: Turn, rounding :: Double, widest :: Double, distances :: Int -> Double, rawOf :: Chain -> (Chain, Chain)}
+-- | What is asked of all walks: the way round the free places that an outline has, the tolerance of rounding, the least and the
+-- largest distance and that of every segment (in mm), and how the raw equidistant is made.
+data Problem = Problem {turn :: Turn, rounding :: Double, least :: Double, widest :: Double, distances :: Int -> Double, rawOf :: Chain -> (Chain, Chain)}
 
 reached :: Problem -> Int -> Chain -> Either Fault Reach
 reached problem wanted c = let raws@(_, source) = rawOf problem c in reachOf problem wanted raws (Boxes.boxes (rounding problem) source)
 
 -- | The loops from the raw equidistant, its source, and the boxes of that.
 reachOf :: Problem -> Int -> (Chain, Chain) -> Boxes -> Either Fault Reach
-reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) sourceBoxes = case maybe id (:) inGeneral decided of
+reachOf Problem {turn, rounding, least, widest, distances} wanted (rough, source) sourceBoxes = case maybe id (:) inGeneral decided of
   found : _ -> Right Reach {loops = found, raw = rough}
   [] -> Left Uncertain
   where
@@ -138,15 +147,19 @@ reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) sourc
     byArrangement within = do
       a <- Arrangement.arrange within rough (Boxes.boxes within rough)
       certified (Arrangement.loops turn wanted a)
+    measure = Certificate.Measure {Certificate.slack = 1e5 * rounding, Certificate.least = least, Certificate.largest = widest, Certificate.distance = distances, Certificate.turn = turn}
     -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are those of free places.
-    certified found
+    certified answer
       | all sound loops' = Just found
       | Chain.walks source == 1 && all (\k -> sound k || covering k) loops' = Just (Loops.only sound found)
       | otherwise = Nothing
       where
+        found = Loops.only (not . flat) answer
         loops' = [0 .. Loops.count found - 1]
-        sound = Certificate.clear (1e5 * rounding) widest distances source sourceBoxes found
-        covering = Certificate.covers (1e5 * rounding) distances source found
+        sound = Certificate.clear measure source sourceBoxes found
+        covering = Certificate.covers measure source found
+        -- A loop of few segments may be there by rounding alone.
+        flat k = Loops.size answer k <= 4 && abs (Outline.area (Loops.outline answer k)) <= rounding * rounding
 
 -- | Whether one of several walks goes round free places that are too small for the cutter. Where a cutter covers such a one
 -- wholly, it would count as free; by itself it is recognised.

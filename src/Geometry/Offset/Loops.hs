@@ -1,4 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
 -- | The closed loops that bound what the cutter's centre can reach, in flat arrays.
@@ -6,6 +5,8 @@ module Geometry.Offset.Loops
   ( Loops (..),
     none,
     count,
+    size,
+    outline,
     outlines,
     area,
     only,
@@ -34,15 +35,20 @@ none = Loops (primArrayFromList [0]) (primArrayFromList []) (primArrayFromList [
 count :: Loops -> Int
 count l = sizeofPrimArray (starts l) - 1
 
+-- | How many segments a loop has.
+size :: Loops -> Int -> Int
+size l k = indexPrimArray (starts l) (k + 1) - indexPrimArray (starts l) k
+
+-- | One loop by itself.
+outline :: Loops -> Int -> Outline
+outline l k = Outline Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
+  where
+    cut :: PrimArray Double -> PrimArray Double
+    cut s = clonePrimArray s (indexPrimArray (starts l) k) (size l k)
+
 -- | Each loop by itself.
 outlines :: Loops -> [Outline]
-outlines l = map one [0 .. count l - 1]
-  where
-    one k =
-      let a = indexPrimArray (starts l) k
-          n = indexPrimArray (starts l) (k + 1) - a
-          cut s = clonePrimArray s a n
-       in Outline Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
+outlines l = map (outline l) [0 .. count l - 1]
 
 -- | The area inside of all, in mm²; loops that are walked clockwise count as holes.
 area :: Loops -> Double
@@ -52,9 +58,8 @@ area = sum . map Outline.area . outlines
 only :: (Int -> Bool) -> Loops -> Loops
 only keep l
   | length kept == count l = l
-  | otherwise = Loops {starts = primArrayFromList (scanl (+) 0 (map size kept)), xs = gathered (xs l), ys = gathered (ys l), bulges = gathered (bulges l), raws = gathered (raws l)}
+  | otherwise = Loops {starts = primArrayFromList (scanl (+) 0 (map (size l) kept)), xs = gathered (xs l), ys = gathered (ys l), bulges = gathered (bulges l), raws = gathered (raws l)}
   where
     kept = filter keep [0 .. count l - 1]
     begin = indexPrimArray (starts l)
-    size k = begin (k + 1) - begin k
-    gathered a = mconcat [clonePrimArray a (begin k) (size k) | k <- kept]
+    gathered a = mconcat [clonePrimArray a (begin k) (size l k) | k <- kept]

@@ -309,6 +309,9 @@ neighbours !tolerance !c visitor !i !j !vertex
     farEnds = do
       when (liesOn tolerance c j i) (resting visitor j i)
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
+    -- Whether what two segments enclose between two places where they meet is no wider than rounding: from the square of the
+    -- distance of both, and half the curvature of the one towards the other.
+    thin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
     vx0 = indexPrimArray (Chain.xs c) vertex
     vy0 = indexPrimArray (Chain.ys c) vertex
     -- The other point in which a line l through the vertex meets the circle of an arc.
@@ -318,9 +321,8 @@ neighbours !tolerance !c visitor !i !j !vertex
           px = vx0 + step * ux
           !py = vy0 + step * uy
       when (s > 0 && s < 1 && onArc c arc px py) $
-        if (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0) <= tolerance * tolerance
-          then pure ()
-          else crossing visitor l s arc (parameter c arc px py) px py (Chain.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
+        unless (thin ((px - vx0) * (px - vx0) + (py - vy0) * (py - vy0)) (1 / Chain.diameter c arc)) $
+          crossing visitor l s arc (parameter c arc px py) px py (Chain.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
     otherOfArcs = Chain.gradient c i vx0 vy0 $ \ax ay -> Chain.gradient c j vx0 vy0 $ \bx by -> do
       let gx = ax - bx
           gy = ay - by
@@ -328,9 +330,13 @@ neighbours !tolerance !c visitor !i !j !vertex
           -- Back along the line in which both powers agree.
           k = (ay * gx - ax * gy) / gg
           px = vx0 + k * gy
-          !py = vy0 - k * gx
-      when (gg > 16 * tolerance * tolerance && onArc c i px py && onArc c j px py && (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0) > tolerance * tolerance) $
-        crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ex ey -> Chain.gradient c j px py (\hx hy -> turned c i (turned c j (ex * hy - ey * hx)))))
+          py = vy0 - k * gx
+          -- Arcs about centres on opposite sides of the chord bend apart.
+          hx = px - vx0
+          hy = py - vy0
+          bend = abs (1 / Chain.diameter c i - signum ((hx * ay - hy * ax) * (hx * by - hy * bx)) / Chain.diameter c j)
+      when (gg > 16 * tolerance * tolerance && onArc c i px py && onArc c j px py && not (thin (hx * hx + hy * hy) bend)) $
+        crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ex ey -> Chain.gradient c j px py (\fx fy -> turned c i (turned c j (ex * fy - ey * fx)))))
 {-# NOINLINE neighbours #-}
 
 -- | Two segments that share both ends, not both of them lines: they are the same one, or meet nowhere else.

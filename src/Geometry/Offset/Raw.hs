@@ -31,14 +31,14 @@ data Filling s = Filling (MutablePrimArray s Double) (MutablePrimArray s Double)
 data Joint = Smooth | Step | Outer | Trimmed | Over
   deriving stock (Eq)
 
--- | The raw equidistant of a chain, whether at the same distance everywhere, at a distance in mm that is given by the number of the source's segment, positive to the
+-- | The raw equidistant of a chain at a distance in mm that is given by the chain's segment, and another one about its ends (uneven if they are not all the same), positive to the
 -- right of the walk; and the chain with its smooth joints marked. What is shorter than the
 -- tolerance (mm) is left out; directions whose sine is no larger than the smoothness are one.
-raw :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> Chain -> (Chain, Chain)
-raw !tolerance !smoothness corners even' distance !c = runST $ do
+raw :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> (Int -> Double) -> Chain -> (Chain, Chain)
+raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   let n = sizeofPrimArray (Chain.xs c)
       -- A segment and what lies behind it: an arc or a line, two lines for a sharp corner; two steps more between distances.
-      room = n * (if even' then (if corners == Sharp then 3 else 2) else 5) + 8
+      room = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
   rx <- newPrimArray room
   ry <- newPrimArray room
   rb <- newPrimArray room
@@ -50,7 +50,7 @@ raw !tolerance !smoothness corners even' distance !c = runST $ do
       each !w !k !kept
         | w >= Chain.walks c = writePrimArray rh kept k >> pure (k, kept)
         | otherwise = do
-          k' <- walk tolerance smoothness corners distance c marks filling (Chain.first c w) (Chain.behind c w) k
+          k' <- walk tolerance smoothness corners uneven distance corner c marks filling (Chain.first c w) (Chain.behind c w) k
           if k' - k < 2
             then each (w + 1) k kept
             else do
@@ -83,8 +83,8 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   writePrimArray rm (k' - 1) (m' + Chain.closing)
 
 -- | One walk, from the place in the arrays where it begins; gives the place behind it.
-walk :: Double -> Double -> Corners -> (Int -> Double) -> Chain -> MutablePrimArray s Word8 -> Filling s -> Int -> Int -> Int -> ST s Int
-walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !a !e !k0 =
+walk :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> (Int -> Double) -> Chain -> MutablePrimArray s Word8 -> Filling s -> Int -> Int -> Int -> ST s Int
+walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx ry rb rm rs) !a !e !k0 =
   tangents a $ \sx sy ex ey l ->
     tangents (e - 1) $ \_ _ zx zy lz ->
       joint (e - 1) a zx zy sx sy lz l $ \closing bend cut -> do
@@ -110,7 +110,7 @@ walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !
                   si = 2 * b * q
                in k (ux * co + uy * si) (uy * co - ux * si) (ux * co - uy * si) (uy * co + ux * si) l
     {-# INLINE tangents #-}
-    dist i = distance (fromIntegral (indexPrimArray (Chain.sources c) i))
+    dist = distance
     markSmooth i j = case j of
       Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + Chain.smooth)
       _ -> pure ()
@@ -120,7 +120,7 @@ walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !
       | dt > 0 && abs cr <= smoothness = k (if di == dj then Smooth else Step) 0 0
       | dt < 0 && abs (cr * d) <= tolerance = k Outer (signum d) 0
       | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
-      | bulge i == 0 && bulge j == 0 && di == dj && cut <= restI && cut <= restJ = k Trimmed 0 cut
+      | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ = k Trimmed 0 cut
       | otherwise = k Over 0 0
       where
         di = dist i
@@ -129,6 +129,10 @@ walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !
         cr = ax * by - ay * bx
         dt = ax * bx + ay * by
         cut = abs (d * cr / (1 + dt))
+        -- What is cut off lies beside that much of both lines. At one distance, what lies beyond is blocked all the same.
+        taken
+          | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
+          | otherwise = cut
     {-# INLINE joint #-}
     put !k !x !y !b !m !s = do
       writePrimArray rx k x
@@ -170,7 +174,7 @@ walk !tolerance !smoothness corners distance !c marks (Filling rx ry rb rm rs) !
         Over -> put k1 fx fy 0 Chain.connecting i >> next (k1 + 1) 0
         Outer -> do
           let dj = dist j
-              wide = if abs dj > abs d then dj else d
+              wide = if abs (corner j) > abs (corner i) then corner j else corner i
           k2 <- if wide == d then pure k1 else put k1 fx fy 0 Chain.around i >> pure (k1 + 1)
           let gx = vx + wide * ey
               gy = vy - wide * ex

@@ -67,7 +67,7 @@ judge c = case answer c of
 consistent :: Case -> Verdict
 consistent c = case answer c of
   Left _ -> Refused
-  Right reach -> maybe (Right' 1) Wrong (firstOf ((if illConditioned then [] else exactly reach) <> [same "start" (started 1), same "start" (started 3), same "reversed" (map Outline.reverse (outlines c)), same "moved" (map (turned 1 1.234 (3, -7)) (outlines c))]))
+  Right reach -> maybe (Right' 1) Wrong (firstOf ((if illConditioned c then [] else exactly reach) <> [same "start" (started 1), same "start" (started 3), same "reversed" (map Outline.reverse (outlines c)), same "moved" (map (turned 1 1.234 (3, -7)) (outlines c))]))
     where
       firstOf = listToMaybe . concat
       started k = map (fromVertex k) (outlines c)
@@ -75,13 +75,12 @@ consistent c = case answer c of
       size = scaleOf c
       same name os
         | name == ("start" :: String) && any ((== Open) . Outline.ends) (outlines c) = []
-        | not (null (extras c)) || illConditioned = []
+        | not (null (extras c)) || illConditioned c = []
         | otherwise = case answer c {outlines = os, side = if name == "reversed" then other (side c) else side c} of
           Left fault -> [name <> ": " <> show fault]
           Right r
             | abs (abs (Loops.area (Kernel.loops r)) - abs total) <= 1e-8 * size * perimeter -> []
             | otherwise -> [name <> " area " <> show (Loops.area (Kernel.loops r)) <> " not " <> show total]
-      illConditioned = or [abs b > 100 | o <- outlines c, (_, _, b) <- Outline.vertices o]
       perimeter = size + sum [l | o <- Loops.outlines (Kernel.loops reach), let Mm l = Outline.length o]
       exactly r = [twin "quarter" quarter False r, twin "half" (quarter . quarter) False r, twin "mirror" mirror True r]
       twin name f flipped r = case answer c {outlines = map f (outlines c), side = if flipped then other (side c) else side c} of
@@ -103,11 +102,15 @@ other s = case s of
 fromVertex :: Int -> Outline -> Outline
 fromVertex k o = Outline.outline (Outline.ends o) (let (a, b) = splitAt k (Outline.vertices o) in b <> a)
 
+-- | Circles of next to nothing but a gap, whose radius depends on the last digits of the gap.
+illConditioned :: Case -> Bool
+illConditioned c = or [abs b > 100 | o <- outlines c, (_, _, b) <- Outline.vertices o]
+
 -- | In two steps as in one; and in, out, in as in.
 rounds :: Case -> Verdict
 rounds c = case answer c of
   Left _ -> Refused
-  Right reach -> maybe (Right' 1) Wrong (listToMaybe (steps <> (if family c == Cells then [] else back reach)))
+  Right reach -> if illConditioned c || not (null (extras c)) then Right' 0 else maybe (Right' 1) Wrong (listToMaybe (steps <> (if family c == Cells then [] else back reach)))
     where
       size = scaleOf c
       total = Loops.area (Kernel.loops reach)
@@ -154,27 +157,32 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     scale = scaleOf c
     near = 2e-9 * scale
     d = radius c
-    asked = zip sources (map (d +) (cycle (if null (extras c) then [0] else extras c)))
+    tooNear (x, y) = or [Naive.blocked (if side c == LeftOf then 1 else -1) d ps x y | ps <- asked]
+    asked = map (\ps -> if isOpen then ps <> map backwards (reverse ps) else ps) . walks (outlines c) $ (map (d +) (cycle (if null (extras c) then [0] else extras c)))
+    walks os es = case os of
+      [] -> []
+      o : rest -> let ps = Naive.pieces o; (mine, others) = splitAt (length ps) es in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] : walks rest others
+    backwards (Piece ax ay bx by b, e) = (Piece bx by ax ay (-b), e)
     blocked = case side c of
       LeftOf -> free c - 1
       RightOf -> free c + 1
-    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.beyond asked x y, not (abs e <= near)]
+    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, if null (extras c) then not (abs e <= near) else e < -near]
     thin o
       | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-12 * scale * (let Mm l = Outline.length o in l) = Just ("no area " <> show (Outline.area o))
       | otherwise = Nothing
     spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let { (x, y, nx, ny) = on p t }] <> take 24 scattered
     h = 1e-6 * scale
     beside (x, y)
-      | abs over <= 0.3 * h = Nothing
+      | null (extras c) && abs (far - d) <= 0.3 * h = Nothing
+      | not (null (extras c)), any ((/= tooNear (x, y)) . tooNear) [(x + h, y), (x - h, y), (x, y + h), (x, y - h)] = Nothing
       | not isOpen && far > h && start /= free c && start /= blocked = Just ("crossed source not noticed " <> show (x, y, start))
       | number == expected = Nothing
       | otherwise = Just ("wrong number " <> show number <> " not " <> show expected <> " at " <> show (x, y) <> " distance " <> show far <> " source " <> show start)
       where
         far = Naive.distance sources x y
-        over = Naive.beyond asked x y
         start = if isOpen then free c else Naive.winding sources x y
         number = Naive.winding result x y
-        expected = if start == free c && over > 0 then free c else blocked
+        expected = if start == free c && (if null (extras c) then far > d else not (tooNear (x, y))) then free c else blocked
     corners = [(x0 p, y0 p) | p <- sources]
     (lx, hx, ly, hy) = foldl' (\(a, b, a', b') (x, y) -> (min a x, max b x, min a' y, max b' y)) (1 / 0, -1 / 0, 1 / 0, -1 / 0) corners
     margin = 1.3 * (d + maximum (0 : extras c)) + 0.1 * (hx - lx)

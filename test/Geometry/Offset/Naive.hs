@@ -4,7 +4,7 @@ module Geometry.Offset.Naive
   ( Piece (..),
     pieces,
     distance,
-    beyond,
+    blocked,
     winding,
     between,
   )
@@ -28,9 +28,28 @@ pieces o = [Piece (at (Outline.xs o) i) (at (Outline.ys o) i) (at (Outline.xs o)
 distance :: [Piece] -> Double -> Double -> Double
 distance ps x y = minimum (1 / 0 : map (\p -> toPiece p x y) ps)
 
--- | The least distance of a point from a piece beyond the one that is asked of it.
-beyond :: [(Piece, Double)] -> Double -> Double -> Double
-beyond ps x y = minimum (1 / 0 : map (\(p, d) -> toPiece p x y - d) ps)
+-- | Whether a point is too near to a closed or doubled walk of pieces that ask for different distances, from the side (1 left,
+-- −1 right): beside a piece its own distance holds, about a corner away from that side the larger one of both, and the least
+-- of all everywhere.
+blocked :: Double -> Double -> [(Piece, Double)] -> Double -> Double -> Bool
+blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> take 1 ps))
+  where
+    near (p, d) = let far = toPiece p x y in far < least || (far < d && beside p && side * leftward p > 0)
+    beside p@(Piece ax ay bx by b)
+      | b == 0 = let t = (x - ax) * (bx - ax) + (y - ay) * (by - ay) in t > 0 && t < (bx - ax) * (bx - ax) + (by - ay) * (by - ay)
+      | otherwise = onSweep p x y
+    leftward p@(Piece ax ay bx by b)
+      | b == 0 = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
+      | otherwise = let (cx, cy, r) = circle p in b * (abs r - norm (x - cx) (y - cy))
+    corner (p, d) (q, e) =
+      let (ux, uy) = direction p 1
+          (vx, vy) = direction q (-1)
+          turn = ux * vy - uy * vx
+          (wx, wy) = (x - x0 q, y - y0 q)
+          outer = side * turn < -1e-9 || (abs turn <= 1e-9 && ux * vx + uy * vy < 0)
+       in outer && ux * wx + uy * wy > 0 && vx * wx + vy * wy < 0 && norm wx wy < max d e
+    direction (Piece ax ay bx by b) end =
+      let h = end * 2 * atan b; l = norm (bx - ax) (by - ay) in (((bx - ax) * cos h - (by - ay) * sin h) / l, ((by - ay) * cos h + (bx - ax) * sin h) / l)
 
 toPiece :: Piece -> Double -> Double -> Double
 toPiece p@(Piece ax ay bx by b) x y
@@ -45,11 +64,18 @@ toPiece p@(Piece ax ay bx by b) x y
     toEnd = norm (x - bx) (y - by)
     (cx, cy, radius) = circle p
     r = norm (x - cx) (y - cy)
-    -- The way round from the start to the point is no longer than the sweep.
-    sweep = 4 * atan b
+    within = onSweep p x y
+
+-- | Whether the way round from an arc's start to a point's direction is no longer than its sweep.
+onSweep :: Piece -> Double -> Double -> Bool
+onSweep p@(Piece ax ay _ _ b) x y
+  | b > 0 = (if turn < 0 then turn + 2 * pi else turn) <= sweep
+  | turn > 0 = 2 * pi - turn <= sweep
+  | otherwise = -turn <= sweep
+  where
+    (cx, cy, _) = circle p
+    sweep = 4 * atan (abs b)
     turn = atan2 ((ax - cx) * (y - cy) - (ay - cy) * (x - cx)) ((ax - cx) * (x - cx) + (ay - cy) * (y - cy))
-    along = if b > 0 then (if turn < 0 then turn + 2 * pi else turn) else (if turn > 0 then 2 * pi - turn else -turn)
-    within = along <= abs sweep
 
 -- | Of an arc that is nearly its chord, as a parabola; of a line.
 toFlat :: Piece -> Double -> Double -> Double

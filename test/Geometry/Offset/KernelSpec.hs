@@ -1,0 +1,141 @@
+-- | The laws of the offset kernel. Each says which bug it would catch.
+module Geometry.Offset.KernelSpec (spec) where
+
+import Base.Quantity (Mm (..))
+import Generate.Outline (Case (..), turned)
+import Generate.Outline qualified as Generate
+import Geometry.Contour (Ends (..))
+import Geometry.Offset.Judge (Verdict (..), consistent, judge, rounds)
+import Geometry.Offset.Kernel (Corners (..), Fault (..), Side (..), Task (..))
+import Geometry.Offset.Kernel qualified as Kernel
+import Geometry.Offset.Loops qualified as Loops
+import Geometry.Outline (Outline)
+import Geometry.Outline qualified as Outline
+import System.Environment (lookupEnv)
+import Test.Hspec
+import Test.QuickCheck
+import Test.QuickCheck.Gen (unGen)
+import Test.QuickCheck.Random (mkQCGen)
+
+spec :: Spec
+spec = do
+  count <- runIO (maybe 3000 read <$> lookupEnv "PARTC_CONTOURS")
+  describe "laws of the offset kernel" $ do
+    each count "reach: whether a place is free is whether it is far enough, and the boundary is at the distance asked (catches a slice that is kept with the wrong number)" Generate.problem judge
+    each (count `div` 3) "reach, beside open outlines (catches an end that is not gone round)" Generate.open judge
+    each (count `div` 3) "sameness: quarter turns and mirrors give the same loops digit for digit, another start, motion and reversal the same area (catches an order round a node that knows the axes)" Generate.problem consistent
+    each (count `div` 6) "sameness, beside open outlines (catches a side that counts from one end)" Generate.open consistent
+    each (count `div` 3) "composition: by a and then by b is by a + b; there, back and there is there (catches a loop that is walked the wrong way)" Generate.problem rounds
+    it "nothing: an offset by nothing is the outline itself (catches a joint that leaves a trace)" $
+      property . forAll Generate.simple $ \o -> forAll (elements [LeftOf, RightOf]) $ \s ->
+        fmap (map Outline.vertices) (loopsOf s 0 [o]) === Right [Outline.vertices o]
+    it "Steiner: round a convex outline the area is A + LR + πR², the length L + 2πR (catches a corner that is cut off)" $
+      property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r -> steiner (Generate.loop vs) r
+    it "back: in after out is the identity for a convex outline (catches an arc that does not vanish at its own radius)" $
+      property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r ->
+        let o = Generate.loop vs
+         in fmap (sum . map Outline.area) (loopsOf RightOf r [o] >>= loopsOf LeftOf r) `nearly` Right (Outline.area o)
+    it "crossed: two sides that cross are named (catches a source that is taken for simple)" $
+      property (forAll bowTie crossedLaw)
+  describe "slots, pockets and islands" $ do
+    it "a gap of exactly the cutter's width is closed" $
+      loopsOf LeftOf 1 [Generate.loop [(0, 0, 0), (10, 0, 0), (10, 2, 0), (0, 2, 0)]] `shouldBe` Right []
+    it "a cutter of an arc's own radius stands still in its centre: nothing to walk" $
+      loopsOf LeftOf 2 [circle 2] `shouldBe` Right []
+    it "a cutter much larger than a round pocket finds no place (catches a loop that turns inside out)" $
+      map (\r -> loopsOf LeftOf r [circle 2]) [2.5, 4, 10, 1000] `shouldBe` replicate 4 (Right [])
+    it "nor one that covers all of a pocket but its corners" $
+      loopsOf LeftOf 0.7 [lens] `shouldBe` Right []
+    it "a pocket too small does not spoil the one beside it" $
+      areaOf LeftOf 1 [square 0 0 10, square 20 0 1] `nearly` Right 64
+    it "an island is gone round in a pocket" $
+      areaOf LeftOf 1 [square 0 0 10, Outline.reverse (square 4 4 2)] `nearly` Right (64 - (4 + 8 + pi))
+    it "islands by themselves are gone round from outside" $
+      areaOf LeftOf 1 [Outline.reverse (square 0 0 2), Outline.reverse (square 10 0 2)] `nearly` Right (-(2 * (4 + 8 + pi)))
+    it "islands nearer than the cutter is wide are one" $
+      fmap length (loopsOf LeftOf 1 [Outline.reverse (square 0 0 2), Outline.reverse (square 3 0 2)]) `shouldBe` Right 1
+    it "an outline in another one the wrong way is misplaced" $
+      loopsOf LeftOf 1 [square 0 0 10, square 4 4 2] `shouldBe` Left Misplaced
+    it "corners that touch, and sides, are no fault" $
+      fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1]) `shouldBe` Right 1
+    it "sharp corners stay where the ways meet" $
+      fmap (map Outline.vertices) (fmap found (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2])) `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
+    it "an open line is gone round on both sides and at both ends" $
+      areaOf LeftOf 1 [Outline.outline Open [(0, 0, 0), (5, 0, 0)]] `nearly` Right (-(10 + pi))
+    it "the side of an open line does not matter but for the way round" $
+      areaOf RightOf 1 [Outline.outline Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]] `nearly` Right (20 + pi - 1 + pi / 4)
+
+-- | A law of so many random problems; the seed of one that breaks it is told.
+each :: Int -> String -> Gen Case -> (Case -> Verdict) -> Spec
+each count title gen law = it title (filter wrong verdicts `shouldBe` [])
+  where
+    verdicts = [(seed, law (unGen gen (mkQCGen seed) 30)) | seed <- [1 .. count]]
+    wrong (_, v) = case v of
+      Wrong _ -> True
+      Right' _ -> False
+      Refused -> False
+
+found :: Kernel.Reach -> [Outline]
+found = Loops.outlines . Kernel.loops
+
+loopsOf :: Side -> Double -> [Outline] -> Either Fault [Outline]
+loopsOf s r os = found <$> Kernel.offset (Kernel.plain s (Mm r)) os
+
+areaOf :: Side -> Double -> [Outline] -> Either Fault Double
+areaOf s r os = sum . map Outline.area <$> loopsOf s r os
+
+nearly :: Either Fault Double -> Either Fault Double -> Expectation
+nearly a b = case (a, b) of
+  (Right x, Right y) -> x `shouldSatisfy` (\v -> abs (v - y) < 1e-9 * (1 + abs y))
+  _ -> a `shouldBe` b
+
+nearly' :: Either Fault [[(Double, Double, Double)]] -> [(Double, Double)] -> Expectation
+nearly' a expected = case a of
+  Right [vs] -> [(x, y) | (x, y) <- expected, not (any (\(x', y', _) -> abs (x - x') + abs (y - y') < 1e-9) vs)] `shouldBe` []
+  _ -> fmap length a `shouldBe` Right 1
+
+square :: Double -> Double -> Double -> Outline
+square x y a = Generate.loop [(x, y, 0), (x + a, y, 0), (x + a, y + a, 0), (x, y + a, 0)]
+
+circle :: Double -> Outline
+circle r = Generate.loop [(-r, 0, 1), (r, 0, 1)]
+
+-- | Two right corners, joined by lines and round ends.
+lens :: Outline
+lens = turned 1 (pi / 4) (0, 0) (Generate.loop [(0, 0, 0), (0.75, 0, tan (pi / 8)), (1, 0.25, 0), (1, 1, 0), (0.25, 1, tan (pi / 8)), (0, 0.75, 0)])
+
+steiner :: Outline -> Double -> Property
+steiner o r = case loopsOf RightOf r [o] of
+  Right [q] ->
+    let Mm l = Outline.length o
+        Mm l' = Outline.length q
+     in counterexample (show q) (abs (Outline.area q - (Outline.area o + l * r + pi * r * r)) < 1e-9 * Outline.area q && abs (l' - (l + 2 * pi * r)) < 1e-9 * l')
+  other -> counterexample (show other) False
+
+-- | A simple polygon with two neighbouring vertices exchanged so that their sides cross: the polygon, and the two sides.
+bowTie :: Gen (Outline, Int, Int)
+bowTie = do
+  o <- Generate.simple
+  let vs = Outline.vertices o
+      n = length vs
+  k <- choose (0, n - 1)
+  let (a, b) = splitAt k vs
+      at i = (b <> a) !! (i `mod` n)
+      exchanged = [at 0, at 2, at 1] <> map at [3 .. n - 1]
+      point i = let (x, y, _) = exchanged !! (i `mod` n) in (x, y)
+  if n >= 4 && crossing (point 0) (point 1) (point 2) (point 3) then pure (Generate.loop exchanged, 0, 2) else bowTie
+
+crossing :: (Double, Double) -> (Double, Double) -> (Double, Double) -> (Double, Double) -> Bool
+crossing a b c d = side' a b c * side' a b d < 0 && side' c d a * side' c d b < 0
+
+side' :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Double
+side' (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+-- | The sides that are named do cross; others may as well.
+crossedLaw :: (Outline, Int, Int) -> Property
+crossedLaw (o, _, _) = case loopsOf LeftOf 0.1 [o] of
+  Left (Crossed i j) -> counterexample (show (i, j)) (crossing (point i) (point (i + 1)) (point j) (point (j + 1)))
+  other -> counterexample (show other) False
+  where
+    vs = Outline.vertices o
+    point i = let (x, y, _) = vs !! (i `mod` length vs) in (x, y)
