@@ -34,7 +34,7 @@ data Region = Region {start :: Int, end :: Int}
   deriving stock (Eq, Ord, Show)
 
 -- | A thing and where it stands.
-data Located a = Located {region :: Region, value :: a}
+data Located a = Located {region :: {-# UNPACK #-} Region, value :: a}
   deriving stock (Eq, Show)
 
 instance Functor Located where
@@ -51,7 +51,8 @@ merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 -- | Texts with an index of their lines, the program's own first. Lines end with LF, CR or CR LF.
 data Source = Source {own :: File, imported :: Boxed.Vector File}
 
-data File = File {path :: Text, base :: Int, content :: Text, length :: Int, starts :: Vector.Vector Int, contents :: Boxed.Vector Text}
+-- The lines are looked for only when a place is asked for.
+data File = File {path :: Text, base :: Int, content :: Text, length :: Int, starts :: ~(Vector.Vector Int), contents :: ~(Boxed.Vector Text)}
 
 -- | A file, a line and a column; the numbers count from 1.
 data Position = Position {file :: Text, line :: Int, column :: Int}
@@ -79,9 +80,12 @@ mainFile = path . own
 
 indexed :: Text -> Int -> Text -> File
 indexed path base content =
-  File {path, base, content, length = Text.length content, starts = Vector.fromList (map fst found), contents = Boxed.fromList (map snd found)}
+  File {path, base, content, length = Text.length content, starts = Vector.fromList (map fst (numbered content)), contents = Boxed.fromList (map snd (numbered content))}
+
+-- | The lines with the offsets at which they begin.
+numbered :: Text -> [(Int, Text)]
+numbered = go 0
   where
-    found = go 0 content
     go at rest =
       let (before, after) = Text.break (\c -> c == '\n' || c == '\r') rest
           ending = case Text.unpack (Text.take 2 after) of

@@ -9,6 +9,7 @@ module Checked.Builtin
     Fresh (..),
     lookup,
     forms,
+    labelled,
     isConstant,
     names,
     name,
@@ -24,6 +25,7 @@ import Checked.Syntax (Builtin (..), Choice (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Data.Containers.ListUtils (nubOrd)
+import Data.Map.Lazy qualified as Lazy
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
@@ -38,7 +40,7 @@ data Parameter = Parameter {label :: Label, title :: Text, type' :: Type}
 
 -- | What stands before an argument.
 data Label = Bare | Word Choice | Rank
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | Unknowns that are new at every call.
 data Fresh = Fresh {dimension :: Dimension, anything :: Type}
@@ -240,6 +242,23 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
         [ Form more Placement : [Form (given "what" t : more) t | t <- [Type.aPoint, Circle, Line, Contour, Curve anything, ListOf (Curve anything), ListOf Type.aPoint, ListOf Circle, ListOf Line, ListOf Contour]]
           | more <- extra
         ]
+
+-- | The forms of a function with these labels, in order.
+labelled :: Fresh -> Builtin -> [Label] -> [Form]
+labelled Fresh {dimension, anything} builtin labels = map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))
+  where
+    made form = form {parameters = [p {type' = own (type' p)} | p <- parameters form], result = own (result form)}
+    own = Type.replaced (Dimension.substitute anyUnknown dimension) (\n -> if n == anyUnknown then anything else Variable n)
+
+-- | All forms by their labels; what is new at every call is 'anyUnknown' in them.
+byLabels :: Lazy.Map Builtin (Map [Label] [Form])
+byLabels = Lazy.fromList [(b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms template b]) | b <- [minBound .. maxBound]]
+  where
+    template = Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
+
+-- | An unknown that no check has.
+anyUnknown :: Int
+anyUnknown = -1
 
 -- | A form as a call.
 written :: Builtin -> Form -> Text

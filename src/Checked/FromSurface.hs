@@ -31,7 +31,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (catMaybes, isNothing)
+import Data.Maybe (catMaybes, isJust, isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
@@ -252,11 +252,11 @@ unused (Located at name@(Name text)) = do
     Just (Poisoned before) -> Infer.mistake (DefinedTwice at name before)
     Just (Local _ _) -> pure ()
     Nothing -> pure ()
-  when (text `elem` Builtin.names) (Infer.mistake (NameTaken at name))
+  when (isBuiltin text) (Infer.mistake (NameTaken at name))
 
 function :: Defined -> Located Name -> NonEmpty (Located Name) -> Surface.Expr -> Infer (Entry, Later Checked.Expr)
 function defined name parameters body = do
-  mapM_ (\(Located at n@(Name text)) -> when (text `elem` Builtin.names) (Infer.mistake (NameTaken at n))) parameters
+  mapM_ (\(Located at n@(Name text)) -> when (isBuiltin text) (Infer.mistake (NameTaken at n))) parameters
   twice (NonEmpty.toList parameters)
   (scheme, body') <- Infer.generalising $ do
     ts <- mapM (const Infer.freshType) (NonEmpty.toList parameters)
@@ -269,6 +269,9 @@ function defined name parameters body = do
       n : rest -> do
         mapM_ (\again -> Infer.mistake (DefinedTwice (region again) (value n) (region n))) (take 1 (filter ((== value n) . value) rest))
         twice rest
+
+isBuiltin :: Text -> Bool
+isBuiltin = isJust . Builtin.lookup
 
 nameText :: Located Name -> Text
 nameText (Located _ (Name text)) = text
@@ -303,7 +306,7 @@ places defined e = do
 -- | The variable and the list of a repetition.
 repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 repetition defined counter list = do
-  when (nameText counter `elem` Builtin.names) (Infer.mistake (NameTaken (region counter) (value counter)))
+  when (isBuiltin (nameText counter)) (Infer.mistake (NameTaken (region counter) (value counter)))
   t <- Infer.freshType
   (found, list') <- infer defined list
   fine <- agrees (region list) (Type.ListOf t) found
@@ -348,24 +351,28 @@ modified defined columns (Located at m) = fmap (Located at .) $ case m of
 
 -- | A circle with its sense, or a line, a point, a curve or a contour without one.
 walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Type, Later Checked.Expr)
-walked defined walk e = do
-  (t, e') <- infer defined e
-  t' <- Infer.known t
-  case (t', walk) of
-    (Type.Circle, Nothing) -> Infer.mistake (SenseMissing (region e))
-    (Type.Circle, Just _) -> pure ()
-    (Type.Line, Nothing) -> pure ()
-    (Type.Contour, Nothing) -> pure ()
-    (Type.Curve _, Nothing) -> pure ()
-    (Type.Curve _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
-    (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
-    (Type.Line, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
-    (Type.Contour, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
-    (Type.Spatial _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
-    (Type.Variable _, Just _) -> equal (region e) Type.Circle t
-    (Type.Wrong, _) -> pure ()
-    _ -> Infer.mistake (NotWalkable (region e) t')
-  pure (t, e')
+walked defined walk e = case (walk, value e) of
+  (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect defined Type.aPoint e
+  _ -> inferred
+  where
+    inferred = do
+      (t, e') <- infer defined e
+      t' <- Infer.known t
+      case (t', walk) of
+        (Type.Circle, Nothing) -> Infer.mistake (SenseMissing (region e))
+        (Type.Circle, Just _) -> pure ()
+        (Type.Line, Nothing) -> pure ()
+        (Type.Contour, Nothing) -> pure ()
+        (Type.Curve _, Nothing) -> pure ()
+        (Type.Curve _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+        (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
+        (Type.Line, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+        (Type.Contour, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+        (Type.Spatial _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+        (Type.Variable _, Just _) -> equal (region e) Type.Circle t
+        (Type.Wrong, _) -> pure ()
+        _ -> Infer.mistake (NotWalkable (region e) t')
+      pure (t, e')
 
 linked :: Defined -> Surface.Link -> Infer (Later Checked.Link)
 linked defined (Located at l) = fmap (Located at .) $ case l of
@@ -381,10 +388,25 @@ linked defined (Located at l) = fmap (Located at .) $ case l of
 
 -- | An expression where a type is needed.
 expect :: Defined -> Type -> Surface.Expr -> Infer (Later Checked.Expr)
-expect defined wanted e = do
-  (t, e') <- infer defined e
-  equal (region e) wanted t
-  pure e'
+expect defined wanted e = case (value e, wanted) of
+  _ | Just e' <- bareNumber wanted e -> pure (const e')
+  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> do
+    x' <- expect defined Type.len x
+    y' <- expect defined Type.len y
+    pure (\sol -> Located (region e) (Checked.Pair (x' sol) (y' sol)))
+  _ -> do
+    (t, e') <- infer defined e
+    equal (region e) wanted t
+    pure e'
+
+-- | A number as it is written where a quantity is needed whose dimension is known, without a detour by unknowns; a
+-- unit has to be one of it.
+bareNumber :: Type -> Surface.Expr -> Maybe Checked.Expr
+bareNumber wanted (Located at e) = case (e, wanted) of
+  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d) | Dimension.isKnown d -> Just (Located at (Checked.Number (x * Dimension.defaultUnit d)))
+  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d) | (Type.Quantity own, factor) <- unitType unit, own == d -> Just (Located at (Checked.Number (x * factor)))
+  (Surface.Negate inner, Type.Quantity _) -> Located at . Checked.Negate <$> bareNumber wanted inner
+  _ -> Nothing
 
 -- | The found type at a place has to be the wanted one.
 equal :: Region -> Type -> Type -> Infer ()
@@ -515,10 +537,13 @@ variable defined at name@(Name text) = do
 
 -- | The forms of a builtin with unknowns of their own.
 fresh :: Checked.Builtin -> Infer [Form]
-fresh builtin = do
+fresh builtin = (`Builtin.forms` builtin) <$> freshUnknowns
+
+freshUnknowns :: Infer Builtin.Fresh
+freshUnknowns = do
   d <- Infer.freshDimension
   t <- Infer.freshType
-  pure (Builtin.forms Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t} builtin)
+  pure Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t}
 
 builtinMeaning :: Checked.Builtin -> Text
 builtinMeaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (Builtin.formsOf builtin))
@@ -568,12 +593,14 @@ call defined at (Located place name@(Name text)) arguments = do
       fine <- agrees (region e) wanted t
       pure (fine, e')
     builtinCall builtin = do
-      forms <- fresh builtin
-      case [f | f <- forms, map Builtin.label (Builtin.parameters f) == labels] of
+      unknowns <- freshUnknowns
+      let forms = Builtin.forms unknowns builtin
+          isOnly = null (drop 1 forms)
+      case Builtin.labelled unknowns builtin labels of
         []
           | Just es <- plain, [form] <- forms -> wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
           | otherwise -> wrong (NoSuchCall at text (Builtin.formsOf builtin))
-        [form] | length forms == 1 || any (/= Builtin.Bare) labels -> do
+        [form] | isOnly || any (/= Builtin.Bare) labels -> do
           checked <- zipWithM argument (map Builtin.type' (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))) (concatMap valueOf given)
           pure (if all fst checked then Builtin.result form else Type.Wrong, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
         _ -> do

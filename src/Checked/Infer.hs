@@ -473,7 +473,7 @@ settledAs region wanted found' = do
 
 -- | The forms with the number and the words of a call's arguments. The unknowns of a form are its own.
 alternatives :: Choice -> [Form]
-alternatives c = [f | f <- Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} (builtin c), map label (Builtin.parameters f) == labels c]
+alternatives c = Builtin.labelled Fresh {dimension = Dimension.none, anything = Wrong} (builtin c) (labels c)
 
 -- | The forms that the arguments fit as far as they are known.
 fitting :: Choice -> Infer [Form]
@@ -481,7 +481,7 @@ fitting c = do
   arguments <- traverse (known . snd) (given c)
   fresh <- Fresh <$> freshDimension <*> freshType
   outcome' <- known (chosen c)
-  let same = [f | f <- Builtin.forms fresh (builtin c), map label (Builtin.parameters f) == labels c]
+  let same = Builtin.labelled fresh (builtin c) (labels c)
       fits = [f | f <- same, and (zipWith mayBe arguments (wantedBy f))]
   -- The use of the result helps to choose, but is not what is wrong when nothing fits.
   pure (case filter (mayBe outcome' . Builtin.result) fits of [] -> fits; some -> some)

@@ -48,7 +48,9 @@ table checker name written = case written of
         order = concatMap (`named` columns) ["x", "y"] <> [i | (i, c) <- zip [0 ..] columns, value (called c) `elem` map (value . called) extra]
     pure
       ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
-        \sol -> Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] [Located place [es !! i | i <- order] | r <- rows', let Located place es = r sol]
+        \sol ->
+          let sizes = [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
+           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (map (fmap (inOrder order) . filled sol sizes) rows')
       )
     where
       twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
@@ -64,6 +66,15 @@ table checker name written = case written of
     firstOf xs = case xs of
       [] -> Nothing
       x : _ -> Just x
+    inOrder order es = if order == [0 .. length es - 1] then es else [es !! i | i <- order]
+
+-- | The cells of a row, with the sizes of the bare numbers of their columns.
+filled :: Solution -> [Double] -> Located [Cell] -> Located [Checked.Expr]
+filled sol sizes = fmap (zipWith expression sizes)
+  where
+    expression s c = case c of
+      Bare at x -> Located at (Checked.Number (x * s))
+      Written later -> later sol
 
 -- | The lengths x and y; what the others are is said by their unit, or by their use.
 column :: Surface.Heading -> Infer Column
@@ -80,7 +91,7 @@ column (Surface.Heading name unit) = case (unit, value name) of
       pure (Column name (Type.Quantity d) Nothing)
 
 -- | The cells of a row, which has its number from 1.
-row :: Checker -> [Column] -> (Int, Surface.Line) -> Infer (Maybe (Solution -> Located [Checked.Expr]))
+row :: Checker -> [Column] -> (Int, Surface.Line) -> Infer (Maybe (Located [Cell]))
 row checker columns (number, Located at line) = case line of
   Surface.Header _ -> Nothing <$ Infer.mistake (HeadingsAgain at)
   Surface.BrokenLine -> Nothing <$ Infer.taint
@@ -88,13 +99,15 @@ row checker columns (number, Located at line) = case line of
     | length cells /= length columns -> Nothing <$ Infer.mistake (RowLength at number (length columns) (length cells))
     | otherwise -> do
       cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
-      pure (Just (\sol -> Located at (map ($ sol) cells')))
+      pure (Just (Located at cells'))
 
--- | A bare number has the unit of its column.
-cell :: Checker -> Column -> Surface.Expr -> Infer (Solution -> Checked.Expr)
+-- | What stands in a cell: a bare number, which has the unit of its column, or something else.
+data Cell = Bare Region Double | Written (Solution -> Checked.Expr)
+
+cell :: Checker -> Column -> Surface.Expr -> Infer Cell
 cell checker c e = case bare e of
-  Just x -> pure (\sol -> Located (region e) (Checked.Number (x * fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c))))
-  Nothing -> expect checker (kind c) e
+  Just x -> pure (Bare (region e) x)
+  Nothing -> Written <$> expect checker (kind c) e
   where
     bare (Located _ written) = case written of
       Surface.Literal (Numeral _ x) Nothing -> Just x

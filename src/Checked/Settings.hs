@@ -25,8 +25,11 @@ import Surface.Syntax qualified as Surface
 
 -- | The statements that a program needs: the part's name first, the others once and before their use.
 settings :: [Statement] -> [Error]
-settings written = begins <> snd (foldl step (Map.empty, []) (concatMap (flat False) written))
+settings written = begins <> go Map.empty (concatMap (flat False) written)
   where
+    go seen ss = case ss of
+      s : rest | (seen', errors) <- step seen s -> seen' `seq` (errors <> go seen' rest)
+      [] -> []
     begins = case written of
       Located _ (Surface.Part _ _) : _ -> []
       Located _ (Surface.Broken (Just "part") _) : _ -> []
@@ -41,15 +44,15 @@ flat inBlock s = case s of
   Located _ (Surface.With _ body) -> concatMap (flat True) body
   _ -> [(inBlock, s)]
 
-step :: (Map Setting Region, [Error]) -> (Bool, Statement) -> (Map Setting Region, [Error])
-step (seen, errors) (inBlock, Located at s) = (seen', errors <> misplaced <> missing <> twice)
+step :: Map Setting Region -> (Bool, Statement) -> (Map Setting Region, [Error])
+step seen (inBlock, Located at s) = (seen', misplaced <> missing <> twice)
   where
     Use {word, given, needed, global} = use s
     keyword = at {end = start at + word}
     misplaced = [NotInBlock keyword (firstWord s) | inBlock && global]
     missing = maybe [] (\some -> [SettingsMissing keyword some]) (NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed))
     twice = [SettingTwice at one before | Just one <- [given], one `notElem` [FeedSetting, ClearanceSetting], not (isChange s), null misplaced, Just before <- [Map.lookup one seen]]
-    seen' = foldr (\one -> Map.insertWith (\_ old -> old) one at) seen (needed <> maybe [] pure given)
+    seen' = foldr (\one before -> if Map.member one before then before else Map.insert one at before) seen (needed <> maybe [] pure given)
     isChange statement' = case statement' of
       Surface.Change _ _ -> True
       Surface.Broken (Just "change") _ -> True

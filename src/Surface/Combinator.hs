@@ -171,7 +171,7 @@ onThisLine p = do
 endOfLine :: Grammar p => p ()
 endOfLine = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
-  inBlock <- ((> 0) . within) <$> memory
+  inBlock <- (> 0) . within <$> memory
   case next of
     Just t | not (newLine t) && not (inBlock && shape t == Symbol "}") -> Parsec.customFailure (Trailing (shape t))
     _ -> pure ()
@@ -346,7 +346,7 @@ isTooDeep failure = case failure of
 -- and the name that was to be defined.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
-  inBlock <- ((> 0) . within) <$> memory
+  inBlock <- (> 0) . within <$> memory
   more <- skipped inBlock (sum (map braces taken))
   pure (Located (foldr (Region.merge . Token.place) (place' taken) taken) (uncurry Broken (meaning (taken <> more))))
   where

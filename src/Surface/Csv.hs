@@ -8,10 +8,12 @@ module Surface.Csv
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Either (partitionEithers)
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
@@ -33,8 +35,33 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
           Header hs -> Just (length hs)
           Entries _ -> Nothing
           BrokenLine -> Nothing
-        (wrongs, others) = unzip (zipWith (numbers separator columns) [1 ..] rest)
-     in (wrong <> concat wrongs, first : others)
+        Rows _ wrongs others = foldl' (further separator columns) (Rows 1 [] []) rest
+     in (wrong <> reverse wrongs, first : reverse others)
+
+-- | The number of the next row, what is wrong with the rows before it, and these, the last one first.
+data Rows = Rows Int [Error] [Line]
+
+further :: Char -> Maybe Int -> Rows -> Located Text -> Rows
+further separator columns (Rows k wrongs others) line = case columns >>= \n -> plain separator n line of
+  Just found -> Rows (k + 1) wrongs (found : others)
+  Nothing -> let (wrong, found) = numbers separator columns k line in Rows (k + 1) (reverse wrong <> wrongs) (found : others)
+
+-- | A row of so many numbers without spaces, signs other than minus, and exponents, as most are.
+plain :: Char -> Int -> Located Text -> Maybe Line
+plain separator columns (Located at line) = case cells (start at) (Text.split (== separator) line) of
+  Just (e : es) | length es == columns - 1 -> Just (Located at (Entries (e :| es)))
+  _ -> Nothing
+  where
+    cells from parts = case parts of
+      [] -> Just []
+      part : more -> do
+        let size = Text.length part
+            place = Region from (from + size)
+        cell <- case Text.uncons part of
+          Just ('-', digits) -> Located place . Negate <$> literal (Region (from + 1) (from + size)) digits
+          _ -> literal place part
+        (cell :) <$> cells (from + size + 1) more
+    literal place digits = (\x -> Located place (Literal (Numeral digits x) Nothing)) <$> Decimal.amount digits
 
 -- | The lines with their places, without a mark of the byte order.
 linesOf :: Int -> Text -> [Located Text]
@@ -43,7 +70,7 @@ linesOf begin text = go begin text
     go at rest
       | Text.null rest = []
       | otherwise =
-        let (line, after) = Text.break (`elem` ['\n', '\r', '\xFEFF']) rest
+        let (line, after) = Text.break (\c -> c == '\n' || c == '\r' || c == '\xFEFF') rest
          in Located (Region at (at + Text.length line)) line : go (at + Text.length line + 1) (Text.drop 1 after)
 
 separatorOf :: Text -> Char

@@ -160,7 +160,7 @@ data Switch = SwitchOn | SwitchOff
 type Expr = Located Expr_
 
 data Expr_
-  = Literal Numeral (Maybe Unit)
+  = Literal {-# UNPACK #-} Numeral (Maybe Unit)
   | Variable Name
   | -- | the name and its arguments
     Call (Located Name) (NonEmpty Argument)

@@ -16,7 +16,7 @@ import Data.Text qualified as Text
 
 -- | A token, where it stands, and what stands before it.
 data Token = Token
-  { place :: Region,
+  { place :: {-# UNPACK #-} Region,
     shape :: Token_,
     -- | it is the first on its line
     newLine :: Bool,
@@ -30,7 +30,7 @@ data Token_
   = -- | a name or a keyword; which of them is for the parser to say
     Word Text
   | -- | a number as written, and the unit behind it
-    Number Numeral (Maybe Unit)
+    Number {-# UNPACK #-} Numeral (Maybe Unit)
   | Text Text
   | Symbol Text
   | -- | a number that is none: @1.2.3@, or one too large to hold
@@ -42,7 +42,7 @@ data Token_
   deriving stock (Eq, Ord, Show)
 
 -- | A number: its digits as they are written, and how much they are.
-data Numeral = Numeral {digits :: Text, amount :: Double}
+data Numeral = Numeral {digits :: {-# UNPACK #-} Text, amount :: Double}
   deriving stock (Eq, Ord, Show)
 
 -- | The units of a drawing.
