@@ -16,7 +16,8 @@ module Frame.Arc
 where
 
 import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
-import Data.List (nub)
+import Data.List (foldl', sortOn)
+import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Frame.Pulses qualified as Pulses
 import Geometry.Distance qualified as Distance
@@ -53,13 +54,19 @@ data Task = Task
     room :: Room,
     -- | how it is walked in chords, from a position
     chorded :: V3 Pulses -> Segment -> [V3 Pulses],
-    height :: Mm
+    height :: Mm,
+    -- | the ways of one pulse in mm
+    grainX :: Double,
+    grainY :: Double
   }
 
 -- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
 -- chords.
 steps :: Machine -> Room -> (V3 Pulses -> Segment -> [V3 Pulses]) -> Mm -> V3 Pulses -> Segment -> [Step]
-steps machine room chorded height = walk deepest Task {machine, room, chorded, height}
+steps machine room chorded height = walk deepest Task {machine, room, chorded, height, grainX, grainY}
+  where
+    Mm grainX = Machine.pulseOf machine X
+    Mm grainY = Machine.pulseOf machine Y
 
 -- | How often an arc is halved before it goes as chords.
 deepest :: Int
@@ -71,7 +78,7 @@ walk left task begin s = case s of
   Arc {sweep}
     | isFlat (machine task) s && goesStraight task s (flat begin : map (flat . stop) straight) -> straight
     | left <= 0 || not (holds task begin s) -> map alone (chorded task begin s)
-    | otherwise -> case best [a | c <- centres task begin finish s, Just a <- [attempt task begin finish s (sense sweep) c]] of
+    | otherwise -> case truest task begin finish s (sense sweep) (centres task begin finish s) of
       Just found -> found
       Nothing ->
         let (front, back) = Segment.cutAt 0.5 s
@@ -122,9 +129,13 @@ holds task (V3 x y _) s = case s of
 centres :: Task -> V3 Pulses -> V3 Pulses -> Segment -> [V2 Pulses]
 centres task begin finish s = case s of
   Straight _ _ -> []
-  Arc {centre} -> nub (concatMap around (centre : [level centre | begin /= finish]))
+  Arc {centre}
+    | begin == finish -> around (middle centre)
+    | otherwise -> let first = middle centre in around first <> filter (not . isBeside first) (around (middle (level centre)))
   where
-    around c = let V3 i j _ = place task c in [V2 (i + di) (j + dj) | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
+    middle c = flat (place task c)
+    around (V2 i j) = [V2 (i + di) (j + dj) | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
+    isBeside (V2 i j) (V2 k l) = abs (i - k) <= neighbours && abs (j - l) <= neighbours
     a = point task (flat begin)
     b = point task (flat finish)
     -- Equally far from both ends.
@@ -144,6 +155,22 @@ best attempts = case attempts of
   first : others -> Just (way (foldl (\x y -> if comparing cost y x == LT then y else x) first others))
   where
     cost a = (length (way a), off a)
+
+-- | The best about any of some lattice points. Where the whole arc can be one step, it is the one that is least off and can be
+-- walked; those are left out of which a place tells that they are further off than another one.
+truest :: Task -> V3 Pulses -> V3 Pulses -> Segment -> Turn -> [V2 Pulses] -> Maybe [Step]
+truest task begin finish s turn cs = case sortOn offAtMiddle whole of
+  (_, _, c) : _ | Just a <- try c, Just found <- bestWithin (off a) -> Just found
+  _ -> best (mapMaybe try cs)
+  where
+    try = attempt task begin finish s turn
+    offAtMiddle (o, _, _) = o
+    whole = [(offAt leg 0.5, leg, c) | begin /= finish, c <- cs, inOneStep c, Just leg <- [legOf task s turn c (flat begin, flat finish)]]
+    inOneStep c = case Machine.arcs (machine task) of
+      NoArcs -> False
+      Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
+    bestWithin most = listToMaybe (mapMaybe (fmap way . try . snd) (sortOn fst [(evenly (deviationOf leg), c) | (o, leg, c) <- whole, o <= most, keepsWithin most leg]))
+    keepsWithin most leg = all (\k -> offAt leg (k / 8) <= most) [2, 6, 1, 7, 3, 5, 0, 8]
 
 -- | The arc about a lattice point, if the machine can walk it and it is true enough.
 attempt :: Task -> V3 Pulses -> V3 Pulses -> Segment -> Turn -> V2 Pulses -> Maybe Attempt
@@ -234,10 +261,7 @@ flat (V3 x y _) = V2 x y
 
 -- | A lattice point in mm.
 point :: Task -> V2 Pulses -> Point
-point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
-  where
-    Mm px = Machine.pulseOf (machine task) X
-    Mm py = Machine.pulseOf (machine task) Y
+point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * grainX task) (fromIntegral y * grainY task)
 
 -- | One frame's arc about a centre; a full circle where it ends where it begins.
 arcOf :: Task -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Segment
@@ -265,22 +289,49 @@ data Deviation = Deviation
 
 -- | It is looked at in eighths, and where it is furthest from and nearest to the exact centre.
 deviate :: Task -> Segment -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Deviation
-deviate task exact turn c leg = case (exact, arcOf task turn c leg) of
-  (Arc {start = p, centre = true}, Arc {start = a, end = b, centre = m, sweep = Rad s}) ->
-    let Mm r = Segment.radius true p
-        Mm ra = Vec.distance m a
-        Mm rb = Vec.distance m b
-        out = Vec.to m a
-        aside = Vec.to true m
-        Rad toward = Vec.turn out aside
-        share angle = let t = angle * signum s in (if t < 0 then t + 2 * pi else t) / abs s
-        extremes = if Vec.norm aside > 0 then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)] else []
-        beyond radius t = let Mm d = Vec.distance true (Vec.shift (Vec.rotate (Rad (t * s)) (Vec.scale (radius / ra) out)) m) in d - r
-        places = extremes <> [k / 8 | k <- [0 .. 8]]
-        (first, final) = (map (beyond ra) places, map (beyond rb) places)
-     in Deviation
-          { evenly = maximum (zipWith max (map abs first) [abs (beyond (ra + t * (rb - ra)) t) | t <- places]),
-            innermost = -(minimum (first <> final)),
-            outermost = maximum (first <> final)
-          }
-  _ -> Deviation 0 0 0
+deviate task exact turn c ends = maybe (Deviation 0 0 0) deviationOf (legOf task exact turn c ends)
+
+deviationOf :: Leg -> Deviation
+deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) (extremes <> [k / 8 | k <- [1 .. 8]])
+  where
+    out = Vec.vec (outX leg) (outY leg)
+    aside = Vec.vec (middleX leg - trueX leg) (middleY leg - trueY leg)
+    Rad toward = Vec.turn out aside
+    share angle = let t = angle * signum (turned leg) in (if t < 0 then t + 2 * pi else t) / abs (turned leg)
+    extremes = if Vec.norm aside > 0 then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)] else []
+    further (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
+
+-- | A frame's arc beside an exact one, in bare numbers: its centre, where it begins from there, its radii at both ends, how far it
+-- turns in radians; the exact centre and radius.
+data Leg = Leg {middleX :: Double, middleY :: Double, outX :: Double, outY :: Double, radiusFirst :: Double, radiusLast :: Double, turned :: Double, trueX :: Double, trueY :: Double, trueRadius :: Double}
+
+legOf :: Task -> Segment -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Maybe Leg
+legOf task exact turn c ends = case (exact, arcOf task turn c ends) of
+  (Arc {start = p, centre = true}, Arc {start = a, end = b, centre = m, sweep = Rad turned}) ->
+    let Mm trueRadius = Segment.radius true p
+        Mm radiusFirst = Vec.distance m a
+        Mm radiusLast = Vec.distance m b
+     in Just Leg {middleX = Vec.x m, middleY = Vec.y m, outX = Vec.x a - Vec.x m, outY = Vec.y a - Vec.y m, radiusFirst, radiusLast, turned, trueX = Vec.x true, trueY = Vec.y true, trueRadius}
+  _ -> Nothing
+
+-- | How far it is off at a share of its sweep.
+offsAt :: Leg -> Double -> Deviation
+offsAt leg t = Deviation {evenly = max (abs first) (abs even'), innermost = -(min first final), outermost = max first final}
+  where
+    first = beyond leg t (radiusFirst leg)
+    even' = beyond leg t (radiusFirst leg + t * (radiusLast leg - radiusFirst leg))
+    final = beyond leg t (radiusLast leg)
+
+-- | The same as far as the control goes evenly.
+offAt :: Leg -> Double -> Double
+offAt leg t = max (abs (beyond leg t (radiusFirst leg))) (abs (beyond leg t (radiusFirst leg + t * (radiusLast leg - radiusFirst leg))))
+
+-- | How far beyond the exact circle the place at a share of its sweep is, on a radius.
+beyond :: Leg -> Double -> Double -> Double
+beyond Leg {middleX, middleY, outX, outY, radiusFirst, turned, trueX, trueY, trueRadius} t radius = sqrt (dx * dx + dy * dy) - trueRadius
+  where
+    (along, across) = (cos (t * turned), sin (t * turned))
+    (vx, vy) = (radius / radiusFirst * outX, radius / radiusFirst * outY)
+    dx = middleX + (along * vx + across * negate vy) - trueX
+    dy = middleY + (along * vy + across * vx) - trueY
+{-# INLINE beyond #-}
