@@ -83,6 +83,7 @@ import Geometry.Curve.Base (Base, Ends (..), Flaw (..), Method (..), Row)
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
+import Geometry.Curve.Cubics qualified as Cubics
 import Geometry.Curve.Distance (Distance (..), Growth (..), Joggle (..), ramp)
 import Geometry.Curve.Distance qualified as Distance
 import Geometry.Curve.Fold (Fold, fold)
@@ -167,13 +168,9 @@ joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     needed = times 2 (ramp joggle)
     there = minus (lengthTo curve ends) (lengthTo curve begins)
 
--- | The spans in x and y, if all are cubics and none is shifted.
-cubics :: Curve -> Maybe (Cubics, Cubics)
-cubics curve = case curve of
-  Plain b -> case Base.course b of
-    Base.Cubical xs ys -> Just (xs, ys)
-    Base.Mixed _ -> Nothing
-  Shifted {} -> Nothing
+-- | Spans in x and y that stay so near to a curve, and how near; see 'Cubics.along'.
+cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
+cubics = Cubics.along
 
 -- | How many spans there are.
 spans :: Curve -> Int

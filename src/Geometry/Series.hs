@@ -6,6 +6,7 @@
 module Geometry.Series
   ( Series,
     constant,
+    ofFour,
     fromList,
     coefficients,
     order,
@@ -38,6 +39,10 @@ newtype Series = Series (Vector Double)
 -- | The same everywhere, up to an order.
 constant :: Int -> Double -> Series
 constant n c = Series (Unboxed.generate (n + 1) (\k -> if k == 0 then c else 0))
+
+-- | Four coefficients, up to an order; those behind them are zero.
+ofFour :: Int -> Double -> Double -> Double -> Double -> Series
+ofFour n a b c d = Series (Unboxed.generate (n + 1) (\k -> case k of 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
 
 -- | The first coefficients, up to an order; those that are not named are zero.
 fromList :: Int -> [Double] -> Series

@@ -54,7 +54,7 @@ rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 -- | The power series about a place, up to an order.
 series :: Int -> Cubic -> Double -> Series
 series n (Cubic a b c d) t =
-  Series.fromList n [a + t * (b + t * (c + t * d)), b + t * (2 * c + 3 * t * d), c + 3 * t * d, d]
+  Series.ofFour n (a + t * (b + t * (c + t * d))) (b + t * (2 * c + 3 * t * d)) (c + 3 * t * d) d
 
 -- | The same walked from 1 to 0.
 reversed :: Cubic -> Cubic

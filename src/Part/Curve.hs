@@ -17,7 +17,7 @@ module Part.Curve
 where
 
 import Base.Name (Name)
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), minus, times)
 import Base.Region (Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -67,8 +67,8 @@ curve fields fitting exact = Curve {exact, fields, fitting, laid = arcsAlong Tol
 
 -- | Arcs and lines that stay within a distance of a curve.
 arcsAlong :: Mm -> Exact.Curve -> Polyarc
-arcsAlong tolerance exact = case Exact.cubics exact of
-  Just (xs, ys) -> Polyarc.fromOutline (Cubic.approximate tolerance xs ys (track exact))
+arcsAlong tolerance exact = case Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact of
+  Just (off, xs, ys) -> Polyarc.fromOutline (Cubic.approximate (minus tolerance off) xs ys)
   Nothing -> Polyarc.fromSegments (sconcat (Track.approximate tolerance (track exact)))
 
 -- | A curve without a table.

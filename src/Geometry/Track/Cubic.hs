@@ -20,16 +20,17 @@ import Geometry.Outline (Outline)
 import Geometry.Spline (Cubic (..), Cubics)
 import Geometry.Spline qualified as Spline
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Track (Track)
+import Geometry.Track (Side (..), Track (Track))
 import Geometry.Track qualified as Track
 import Geometry.Track.Vertices qualified as Vertices
 import Geometry.Track.Walk (Off (..), Spans (..), Stretch (..))
 import Geometry.Track.Walk qualified as Walk
+import Geometry.Vec qualified as Vec
 
--- | Arcs and lines that stay within a distance of a curve, both ways, as 'Track.approximate' gives them: the curve's
--- spans in x and y, which move at their ends, and the same curve as a track, for the places that are too sharp for the bound.
-approximate :: Mm -> Cubics -> Cubics -> Track -> Outline
-approximate (Mm tolerance) xs ys track = runST $ do
+-- | Arcs and lines that stay within a distance of the curve with these spans in x and y, both ways, as 'Track.approximate' gives
+-- them. The spans move at their ends.
+approximate :: Mm -> Cubics -> Cubics -> Outline
+approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Vertices.new
   let stretches from
         | from >= n = pure ()
@@ -50,13 +51,7 @@ approximate (Mm tolerance) xs ys track = runST $ do
   Vertices.outline vertices
   where
     n = Spline.count xs
-    -- Of a stretch that goes on to the end of a span no more than is needed is looked at.
-    sharp to u = Track.further (Mm tolerance) track {Track.begin = fromIntegral i, Track.breaks = i' :| more} final u
-      where
-        i = max 0 (min (to - 1) (truncate u)) :: Int
-        i' = fromIntegral (i + 1)
-        final = fromIntegral (min to (i + 64))
-        more = map fromIntegral [i + 2 .. min to (i + 64)]
+    sharp to u = let i = max 0 (min (to - 1) (truncate u)) in Track.further (Mm tolerance) (trackOf xs ys i (min to (i + 64))) (fromIntegral (min to (i + 64))) u
     aim = tolerance * (1 - Tolerance.roundingShare)
 
 -- | Whether the curve has a corner at the beginning of a span, behind another.
@@ -203,3 +198,25 @@ greatest c0 c1 c2 c3
     square = c2 * c2 - 3 * c1 * c3
     q = if c2 > 0 then -(c2 + sqrt square) else sqrt square - c2
     inside t d = if t > 0 && t < 1 then greater d (abs (c0 + t * (c1 + t * (c2 + t * c3)))) else d
+
+-- | Some of the spans, from one to before another, as a track: no more than is needed where the bound says nothing.
+trackOf :: Cubics -> Cubics -> Int -> Int -> Track
+trackOf xs ys from to = Track {Track.place = place, Track.direction = direction, Track.begin = fromIntegral from, Track.breaks = fromIntegral (from + 1) :| map fromIntegral [from + 2 .. to]}
+  where
+    place u = let i = held (truncate u); t = u - fromIntegral i in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
+    direction side u = case side of
+      Arriving -> heading (-1) (held (ceiling u - 1)) u
+      Leaving -> heading 1 (held (truncate u)) u
+    held i = max from (min (to - 1) i)
+    -- Where the curve stands still, the second derivative tells.
+    heading way i u
+      | Mm (Vec.norm first) > Tolerance.still = Vec.unit first
+      | Vec.norm second > 0 = Vec.unit (Vec.scale way second)
+      | otherwise = Vec.vec 1 0
+      where
+        t = u - fromIntegral i
+        first = Vec.vec (Spline.rate x t) (Spline.rate y t)
+        second = Vec.vec (bending x) (bending y)
+        bending (Cubic _ _ c d) = 2 * c + 6 * d * t
+        x = Spline.at xs i
+        y = Spline.at ys i

@@ -118,7 +118,7 @@ smoothLaw t@(Tracked _ _ pieces) =
     ss = arcsOf t
 
 fewLaw :: Tracked -> Property
-fewLaw t@(Tracked _ tolerance pieces) = all ((< 1.5) . sweepOf) pieces ==> counterexample (show (found, general)) (fromIntegral found <= (1.5 * fromIntegral general + 4 * fromIntegral (1 + cornersOf (toList pieces)) :: Double))
+fewLaw t@(Tracked _ tolerance pieces) = all ((< 1.5) . sweepOf) pieces ==> counterexample (show (found, general)) (fromIntegral found <= (2 * fromIntegral general + 4 * fromIntegral (1 + cornersOf (toList pieces)) :: Double))
   where
     -- Arcs of more are looked at in parts.
     sweepOf s = case s of

@@ -1,0 +1,71 @@
+-- | The laws of the cubics that stand for a curve.
+module Geometry.Curve.CubicsSpec (spec) where
+
+import Base.Quantity (Mm (..))
+import Data.List (sort)
+import Data.Maybe (isNothing)
+import Generate.Curve qualified as Generate
+import Geometry.Curve (Curve)
+import Geometry.Curve qualified as Curve
+import Geometry.Curve.Fold qualified as Fold
+import Geometry.Spline qualified as Spline
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec =
+  describe "cubics for curves" $ do
+    it "every point of a shifted curve is near them (catches a stretch whose middle alone is looked at)" $
+      property $
+        forAll ((,) <$> shifted <*> ((10 **) <$> choose (-7, -3))) (uncurry nearLaw)
+    it "they join, and run from the beginning of the curve to its end (catches a half that is left out)" $
+      property $
+        forAll shifted joinedLaw
+    it "those of a spline are its own, exactly" $
+      property $
+        forAll Generate.smooth $ \c -> fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0
+
+shifted :: Gen Curve
+shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Fold.fold)
+
+nearLaw :: Curve -> Double -> Property
+nearLaw c tolerance = case placesOf tolerance c of
+  Nothing -> classify True "stands still" True
+  Just (n, place) -> forAll (vectorOf 30 (choose (0, 1))) $ \fs ->
+    let known = [(w, place w) | k <- [0 .. 16 * n], let w = fromIntegral k / 16]
+        held = max 0 . min (fromIntegral n)
+        closer :: Point -> Int -> Double -> Double -> Double
+        closer p k h w
+          | k == 0 = away p (place w)
+          | otherwise = let (_, v) = minimum [(away p (place x), x) | x <- map held [w - h, w - h / 2, w, w + h / 2, w + h]] in closer p (k - 1) (h / 2) v
+        valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
+        nearest p = minimum [closer p 44 (1 / 16) w | (_, w) <- take 3 (sort (valleys [(away p q, w) | (w, q) <- known]))]
+     in conjoin [counterexample (show (u, d)) (d <= tolerance + 1e-9) | f <- fs, let u = f * Curve.domain c, let d = nearest (Curve.at c u)]
+
+joinedLaw :: Curve -> Property
+joinedLaw c = case placesOf 1e-6 c of
+  Nothing -> property True
+  -- A shift opens corners.
+  _ | any torn (Curve.breaks c) -> classify True "torn" True
+  Just (n, place) ->
+    conjoin
+      [ counterexample (show k) (away (place (fromIntegral k - 1e-9)) (place (fromIntegral k)) < 1e-4)
+        | k <- [1 .. n - 1]
+      ]
+      .&&. counterexample "ends" (away (place 0) (Curve.start c) < 1e-9 && away (place (fromIntegral n)) (Curve.end c) < 1e-9)
+  where
+    torn u = away (Curve.placeFrom Curve.Before c u) (Curve.placeFrom Curve.After c u) > 1e-6
+
+-- | How many spans there are, and the place by the spans.
+placesOf :: Double -> Curve -> Maybe (Int, Double -> Point)
+placesOf tolerance c = case Curve.cubics (Mm tolerance) c of
+  Nothing -> Nothing
+  Just (_, xs, ys) ->
+    let n = Spline.count xs
+        place w = let i = max 0 (min (n - 1) (floor w)); t = w - fromIntegral i in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
+     in Just (n, place)
+
+away :: Point -> Point -> Double
+away a b = let Mm d = Vec.distance a b in d
