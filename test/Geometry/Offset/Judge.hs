@@ -50,6 +50,7 @@ scaleOf c = radius c + maximum (0 : extras c) + maximum (1e-3 : [max (abs x) (ab
 
 judge :: Case -> Verdict
 judge c = case answer c of
+  _ | illConditioned c && not (null (extras c)) -> Right' 0
   Left Uncertain -> Wrong "uncertain"
   Left fault
     | sound c -> Wrong ("fault of a sound source: " <> show fault)
