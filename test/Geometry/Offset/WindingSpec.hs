@@ -24,6 +24,11 @@ spec = do
             naive = concatMap Naive.pieces os
             at (u, v) = let (lx, ly, hx, hy) = Boxes.whole bs (,,,) in (lx + u * (hx - lx), ly + v * (hy - ly))
          in conjoin [counterexample (show (x, y)) (Naive.distance naive x y < 1e-6 .||. Winding.at chain bs x y === Naive.winding naive x y) | (x, y) <- map at ps]
+    it "are so on the chord of an arc (catches a point that belongs to neither side)" $
+      let chain = Chain.fromOutlines 1e-14 [Generate.loop [(2, 0, b), (0, 2, b), (-2, 0, b), (0, -2, b)], Generate.loop [(3, 1, 1), (1, 1, 1)]]
+          b = tan (pi / 8)
+          bs = Boxes.boxes 0 chain
+       in [Winding.at chain bs x y | (x, y) <- [(1, 1), (-1, 1), (-1, -1), (1, -1), (0.5, 1.5), (2, 1)]] `shouldBe` [1, 1, 1, 1, 1, 1]
     it "beside the outermost places of a simple outline are those of its sense (catches an arc taken for its chord)" $
       property . forAll Generate.simple $ \o ->
         let chain = Chain.fromOutlines 1e-14 [o]
