@@ -278,22 +278,30 @@ crossed (low, high) a = listToMaybe (proper a <> [(min i j, max i j) | (k, e) <-
 
 -- | The loops along which the wanted number is on the left and the free places on a side: there they have the number
 -- itself, or one less on the right.
-loops :: Turn -> Int -> Arrangement -> Loops
-loops turn wanted a = Loops (primArrayFromList (scanl (+) 0 (map length made))) (listed (\(x, _, _, _) -> x)) (listed (\(_, y, _, _) -> y)) (listed (\(_, _, b, _) -> b)) (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
+loops :: Turn -> Int -> Arrangement -> Maybe Loops
+loops turn wanted a = gathered . map vertices <$> walks (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], kept e])
   where
-    made = map vertices (walks (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], kept e]))
-    listed f = primArrayFromList (map f (concat made))
+    gathered made =
+      let listed f = primArrayFromList (map f (concat made))
+       in Loops (primArrayFromList (scanl (+) 0 (map length made))) (listed (\(x, _, _, _) -> x)) (listed (\(_, y, _, _) -> y)) (listed (\(_, _, b, _) -> b)) (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
     kept e =
       let (l, r) = sides a (2 * e)
        in case turn of
             CounterClockwise -> l == wanted
             Clockwise -> r == wanted - 1
     walks left = case IntSet.minView left of
-      Nothing -> []
-      Just (e, rest) -> let (loop, rest') = follow e e rest in loop : walks rest'
+      Nothing -> Just []
+      Just (e, rest) -> do
+        (loop, rest') <- follow e e rest
+        (loop :) <$> walks rest'
+    -- A loop that does not come back to its beginning is none.
     follow first e rest = case next e of
-      Just e' | e' /= first, IntSet.member e' rest -> let (more, rest') = follow first e' (IntSet.delete e' rest) in (e : more, rest')
-      _ -> ([e], rest)
+      Just e'
+        | e' == first -> Just ([e], rest)
+        | IntSet.member e' rest -> do
+          (more, rest') <- follow first e' (IntSet.delete e' rest)
+          Just (e : more, rest')
+      _ -> Nothing
     -- The edge that bounds the same free places: the neighbour of this one round the node where it ends.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)

@@ -146,7 +146,7 @@ reachOf Problem {turn, rounding, least, widest, distances} wanted (rough, source
     decided = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
     byArrangement within = do
       a <- Arrangement.arrange within rough (Boxes.boxes within rough)
-      certified (Arrangement.loops turn wanted a)
+      Arrangement.loops turn wanted a >>= certified
     measure = Certificate.Measure {Certificate.slack = 1e5 * rounding, Certificate.least = least, Certificate.largest = widest, Certificate.distance = distances, Certificate.turn = turn}
     -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are those of free places.
     certified answer

@@ -35,7 +35,12 @@ passed c px py i = crossed + between
       | y0 <= py && y1 > py = if side < 0 then -1 else 0
       | y1 <= py && y0 > py = if side > 0 then 1 else 0
       | otherwise = 0
-    between = if b /= 0 && side * b < 0 && Chain.power c i px py < 0 then (if b > 0 then 1 else -1) else 0
+    between = if b /= 0 && aside * b < 0 && Chain.power c i px py < 0 then (if b > 0 then 1 else -1) else 0
+    -- A point on the chord itself counts as one a little to its left, as above, or over a level one.
+    aside
+      | side /= 0 = side
+      | y1 /= y0 = y1 - y0
+      | otherwise = x1 - x0
 {-# INLINE passed #-}
 
 -- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on the left of the walk

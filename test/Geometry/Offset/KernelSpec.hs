@@ -23,6 +23,7 @@ spec = do
   describe "laws of the offset kernel" $ do
     each count "reach: whether a place is free is whether it is far enough, and the boundary is at the distance asked (catches a slice that is kept with the wrong number)" Generate.problem judge
     each (count `div` 3) "reach, beside open outlines (catches an end that is not gone round)" Generate.open judge
+    each (count `div` 3) "uneven: where segments ask for different distances, each holds beside its own segment (catches a step where there is none)" Generate.uneven judge
     each (count `div` 3) "sameness: quarter turns and mirrors give the same loops digit for digit, another start, motion and reversal the same area (catches an order round a node that knows the axes)" Generate.problem consistent
     each (count `div` 6) "sameness, beside open outlines (catches a side that counts from one end)" Generate.open consistent
     each (count `div` 3) "composition: by a and then by b is by a + b; there, back and there is there (catches a loop that is walked the wrong way)" Generate.problem rounds
@@ -59,7 +60,7 @@ spec = do
     it "corners that touch, and sides, are no fault" $
       fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1]) `shouldBe` Right 1
     it "sharp corners stay where the ways meet" $
-      fmap (map Outline.vertices) (fmap found (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2])) `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
+      fmap (map Outline.vertices . found) (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2]) `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
     it "an open line is gone round on both sides and at both ends" $
       areaOf LeftOf 1 [Outline.outline Open [(0, 0, 0), (5, 0, 0)]] `nearly` Right (-(10 + pi))
     it "the side of an open line does not matter but for the way round" $

@@ -1,0 +1,70 @@
+-- | Winding numbers, boxes and arrangements against what is counted naively.
+module Geometry.Offset.WindingSpec (spec) where
+
+import Generate.Outline qualified as Generate
+import Geometry.Offset.Arrangement qualified as Arrangement
+import Geometry.Offset.Boxes qualified as Boxes
+import Geometry.Offset.Chain qualified as Chain
+import Geometry.Offset.Naive qualified as Naive
+import Geometry.Offset.Winding (Extreme (..), Outward (..))
+import Geometry.Offset.Winding qualified as Winding
+import Geometry.Outline (Outline)
+import Geometry.Outline qualified as Outline
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  describe "winding numbers" $ do
+    it "are those of the naive count (catches an arc whose inside is forgotten)" $
+      property . forAll Generate.problem $ \c -> forAll places $ \ps ->
+        let os = Generate.outlines c
+            chain = Chain.fromOutlines 1e-14 os
+            bs = Boxes.boxes 1e-14 chain
+            naive = concatMap Naive.pieces os
+            at (u, v) = let (lx, ly, hx, hy) = Boxes.whole bs (,,,) in (lx + u * (hx - lx), ly + v * (hy - ly))
+         in conjoin [counterexample (show (x, y)) (Naive.distance naive x y < 1e-6 .||. Winding.at chain bs x y === Naive.winding naive x y) | (x, y) <- map at ps]
+    it "are so on the chord of an arc (catches a point that belongs to neither side)" $
+      let chain = Chain.fromOutlines 1e-14 [Generate.loop [(2, 0, b), (0, 2, b), (-2, 0, b), (0, -2, b)], Generate.loop [(3, 1, 1), (1, 1, 1)]]
+          b = tan (pi / 8)
+          bs = Boxes.boxes 0 chain
+       in [Winding.at chain bs x y | (x, y) <- [(1, 1), (-1, 1), (-1, -1), (1, -1), (0.5, 1.5), (2, 1)]] `shouldBe` [1, 1, 1, 1, 1, 1]
+    it "beside the outermost places of a simple outline are those of its sense (catches an arc taken for its chord)" $
+      property . forAll Generate.simple $ \o ->
+        let chain = Chain.fromOutlines 1e-14 [o]
+            bs = Boxes.boxes 1e-14 chain
+         in map (\w -> leftMore (Winding.extreme w chain bs 0)) [Leftmost, Rightmost] === [Just 1, Just 1]
+    it "a circle is leftmost in the middle of an arc" $
+      let chain = Chain.fromOutlines 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
+          e = Winding.extreme Leftmost chain (Boxes.boxes 0 chain) 0
+       in (segment e, x e, abs (y e) < 1e-15, leftMore e) `shouldBe` (1, -1, True, Just 1)
+  describe "boxes" $
+    it "around a place are those that a look at all of them finds (catches a level that is cut short)" $
+      property . forAll Generate.simple $ \o -> forAll (choose (-8, 8)) $ \px -> forAll (choose (-8, 8)) $ \py -> forAll (choose (0, 4)) $ \r ->
+        let chain = Chain.fromOutlines 1e-14 [o]
+            bs = Boxes.boxes 0 chain
+            hit i = Boxes.leaf bs i (\lx ly hx hy -> lx <= px + r && px - r <= hx && ly <= py + r && py - r <= hy)
+         in reverse (Boxes.around bs (px - r) (py - r) (px + r) (py + r) [] (flip (:))) === filter hit [0 .. Outline.size o - 1]
+  describe "arrangements" $ do
+    it "of a square that is walked twice has the numbers 0 and 2" $
+      numbersOf [square 0 0 1, square 0 0 1] `shouldBe` Just (0, 2)
+    it "of squares side by side, walked alike, has 0 and 1" $
+      numbersOf [square 0 0 1, square 1 0 1] `shouldBe` Just (0, 1)
+    it "of a square and the same one walked back has nothing" $
+      numbersOf [square 0 0 1, Outline.reverse (square 0 0 1)] `shouldBe` Just (0, 0)
+    it "of a figure of eight has both senses" $
+      numbersOf [Generate.loop [(0, 0, 0), (1, 1, 0), (2, 2, 0), (2, 0, 0), (1, 1, 0), (0, 2, 0)]] `shouldBe` Just (-1, 1)
+    it "of something inside, beside lines that cancel out (catches a number taken from a line that is none)" $
+      numbersOf [square 5 (-1) 2, Generate.loop [(0, 0, 0), (4, 0, 0)]] `shouldBe` Just (0, 1)
+    it "whose leftmost place is smooth (catches an order that begins on the right)" $
+      numbersOf [Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)], Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]] `shouldBe` Just (0, 2)
+  where
+    places = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
+
+numbersOf :: [Outline] -> Maybe (Int, Int)
+numbersOf os = Arrangement.numbers <$> Arrangement.arrange 1e-12 chain (Boxes.boxes 1e-12 chain)
+  where
+    chain = Chain.fromOutlines 1e-14 os
+
+square :: Double -> Double -> Double -> Outline
+square x y a = Generate.loop [(x, y, 0), (x + a, y, 0), (x + a, y + a, 0), (x, y + a, 0)]
