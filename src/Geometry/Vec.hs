@@ -1,7 +1,7 @@
 -- | Points and vectors of the plane, in millimetres.
 --
 -- A point is a place, a vector a displacement; only the differences of points are
--- vectors. The components come from @linear@.
+-- vectors. Both are two bare numbers: there are millions of them.
 module Geometry.Vec
   ( Point (..),
     Vec (..),
@@ -34,60 +34,55 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..))
 import Data.Text (Text)
 import Geometry.Tolerance qualified as Tolerance
-import Linear.Metric qualified as Linear
-import Linear.V2 (V2 (..))
-import Linear.V2 qualified as Linear (crossZ, perp)
-import Linear.Vector qualified as Linear ((*^), (^+^), (^-^))
 import Prelude hiding (negate)
+import Prelude qualified
 
 -- | A place; components in mm.
-newtype Point = Point (V2 Double)
-  deriving newtype (Eq, Ord)
-  deriving stock (Show)
+data Point = Point Double Double
+  deriving stock (Eq, Ord, Show)
 
 -- | A displacement; components in mm, or without a dimension for a direction.
-newtype Vec = Vec (V2 Double)
-  deriving newtype (Eq, Ord)
-  deriving stock (Show)
+data Vec = Vec Double Double
+  deriving stock (Eq, Ord, Show)
 
 point :: Double -> Double -> Point
-point px py = Point (V2 px py)
+point = Point
 
 vec :: Double -> Double -> Vec
-vec vx vy = Vec (V2 vx vy)
+vec = Vec
 
 x :: Point -> Double
-x (Point (V2 px _)) = px
+x (Point px _) = px
 
 y :: Point -> Double
-y (Point (V2 _ py)) = py
+y (Point _ py) = py
 
 -- | The displacement from one point to another.
 to :: Point -> Point -> Vec
-to (Point a) (Point b) = Vec (b Linear.^-^ a)
+to (Point ax ay) (Point bx by) = Vec (bx - ax) (by - ay)
 
 -- | A point displaced.
 shift :: Vec -> Point -> Point
-shift (Vec v) (Point p) = Point (p Linear.^+^ v)
+shift (Vec vx vy) (Point px py) = Point (px + vx) (py + vy)
 
 add :: Vec -> Vec -> Vec
-add (Vec a) (Vec b) = Vec (a Linear.^+^ b)
+add (Vec ax ay) (Vec bx by) = Vec (ax + bx) (ay + by)
 
 scale :: Double -> Vec -> Vec
-scale k (Vec a) = Vec (k Linear.*^ a)
+scale k (Vec ax ay) = Vec (k * ax) (k * ay)
 
 negate :: Vec -> Vec
 negate = scale (-1)
 
 dot :: Vec -> Vec -> Double
-dot (Vec a) (Vec b) = Linear.dot a b
+dot (Vec ax ay) (Vec bx by) = ax * bx + ay * by
 
 -- | Positive when the second vector points to the left of the first.
 cross :: Vec -> Vec -> Double
-cross (Vec a) (Vec b) = Linear.crossZ a b
+cross (Vec ax ay) (Vec bx by) = ax * by - ay * bx
 
 norm :: Vec -> Double
-norm (Vec a) = Linear.norm a
+norm v = sqrt (dot v v)
 
 -- | The direction of a vector that is not zero.
 unit :: Vec -> Vec
@@ -95,7 +90,7 @@ unit v = scale (1 / norm v) v
 
 -- | The vector turned by 90° counter-clockwise.
 left :: Vec -> Vec
-left (Vec a) = Vec (Linear.perp a)
+left (Vec ax ay) = Vec (Prelude.negate ay) ax
 
 -- | The vector turned counter-clockwise.
 rotate :: Rad -> Vec -> Vec
@@ -107,7 +102,7 @@ polar (Mm r) (Rad a) = vec (r * cos a) (r * sin a)
 
 -- | The direction of a vector, in (−π, π].
 angle :: Vec -> Rad
-angle (Vec (V2 vx vy)) = Rad (atan2 vy vx)
+angle (Vec vx vy) = Rad (atan2 vy vx)
 
 -- | The angle from the first vector to the second, in (−π, π], counter-clockwise positive.
 turn :: Vec -> Vec -> Rad
