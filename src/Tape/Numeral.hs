@@ -124,6 +124,7 @@ data Digits = Digits
 exactly :: Plan -> Content -> ByteString -> Int -> Digits -> Either Fault Digits
 exactly plan c rows n ds
   | n <= 0 = Right ds
+  | isBare plan ds, let done = bareDigits plan rows n ds, at done == at ds + n = Right done
   | otherwise = do
     d <- digit plan (Just c) rows (at ds)
     served <- noted plan c (ByteString.index rows (at ds)) ds
@@ -133,11 +134,26 @@ exactly plan c rows n ds
 upTo :: Plan -> Content -> ByteString -> Int -> Digits -> Either Fault Digits
 upTo plan c rows n ds
   | n <= 0 = Right ds
+  | isBare plan ds, let done = bareDigits plan rows n ds, at done > at ds = Right done
   | otherwise = do
     one <- exactly plan c rows 1 ds
     if at one < ByteString.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (ByteString.index rows (at one)))
       then upTo plan c rows (n - 1) one
       else Right one
+
+-- | Whether nothing can stand beside the digits.
+isBare :: Plan -> Digits -> Bool
+isBare plan ds = null (services ds) && Symbol.service (Plan.symbols plan) == 0
+
+-- | The digits up to a number of them, as many as there are.
+bareDigits :: Plan -> ByteString -> Int -> Digits -> Digits
+bareDigits plan rows n ds = go (at ds) (amount ds) (count ds)
+  where
+    end = min (at ds + n) (ByteString.length rows)
+    table = Plan.symbols plan
+    go k m w
+      | k < end, Just d <- Symbol.digitAt table (ByteString.index rows k) = go (k + 1) (10 * m + d) (w + Symbol.digitWeight table d)
+      | otherwise = ds {at = k, amount = m, count = w}
 
 -- | The decimal point.
 point :: Plan -> Content -> ByteString -> Digits -> Either Fault Digits

@@ -12,6 +12,7 @@ module Tape.Plan
     Piece (..),
     Stretch (..),
     frameMarks,
+    foldFrame,
     blanks,
     constant,
     after,
@@ -21,11 +22,11 @@ where
 import Data.Bits (testBit)
 import Data.List (foldl', nub)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Frame.Frame (Frame (..))
-import Machine.Machine (Axis (..), Content (..), Item (..), Machine, NumberForm (..), OrderName (..), Service (..), Sign (..), Word' (..))
+import Machine.Machine (Axis (..), Content (..), Item (..), Machine, MotionCodes, NumberForm (..), OrderName (..), Presence (..), Service (..), Sign (..), Word' (..))
 import Machine.Machine qualified as Machine
 import Tape.State (Axes, State (..))
 import Tape.State qualified as State
@@ -44,13 +45,19 @@ data Plan = Plan
     -- | the axes in the order of their words
     leaders :: [Axis],
     -- | the commands in the order of their words and bits, and whether 0 is a command of its own rather than none
-    commands :: [(OrderName, Bool)]
+    commands :: [(OrderName, Bool)],
+    -- | the word of motions, if there is one
+    motions :: Maybe (Word', MotionCodes),
+    -- | whether a feed that is said holds on
+    keepsFeed :: Bool,
+    -- | whether frames have a check digit
+    isChecked :: Bool
   }
 
 data Step
   = Fixed [Symbol]
-  | -- | a word and its address
-    Worded Word' [Symbol]
+  | -- | a word, its address, and the same behind another word
+    Worded Word' [Symbol] [Symbol]
   | Checked Int
 
 fromMachine :: Machine -> Plan
@@ -59,19 +66,24 @@ fromMachine machine =
     { machine,
       symbols,
       axes = State.axes machine,
-      steps = map step (NonEmpty.toList (Machine.items (Machine.layout machine))),
-      between = text (Machine.separator (Machine.layout machine)),
+      steps,
+      between,
       ws,
       leaders = [a | w <- ws, Along a <- [content w]],
-      commands = nub (concatMap commandsOf ws)
+      commands = nub (concatMap commandsOf ws),
+      motions = listToMaybe [(w, codes) | w <- ws, Motion codes <- [content w]],
+      keepsFeed = or [presence w == WhenChanged | w <- ws, content w == FeedWord],
+      isChecked = not (null [() | Checked _ <- steps])
     }
   where
+    steps = map step (NonEmpty.toList (Machine.items (Machine.layout machine)))
+    between = text (Machine.separator (Machine.layout machine))
     symbols = Symbol.fromMachine machine
     ws = Machine.wordsOf machine
     text = map (Symbol.symbol symbols) . Text.unpack
     step item = case item of
       Literal t -> Fixed (text t)
-      AWord w -> Worded w (text (address w))
+      AWord w -> let cs = text (address w) in Worded w cs (between <> cs)
       CheckDigit m -> Checked m
     commandsOf w = [(o, State.zeroCommands w) | Command o <- [content w]] <> [(o, False) | OrderBit o _ <- service (form w)]
 
@@ -114,21 +126,65 @@ blanks stretch n = replicate n (Mark 0 0 (Blank stretch))
 -- | The marks of a frame without the gap behind it.
 frameMarks :: Plan -> State -> Frame -> [Mark]
 frameMarks p state frame
-  | null [() | Checked _ <- steps p] = marks
-  | otherwise = map complete marks
+  | isChecked p = map complete marks
+  | otherwise = marks
   where
-    marks = go False (steps p)
-    go behindWord todo = case todo of
-      [] -> []
-      Fixed cs : more -> map (constant Constant) cs <> go False more
-      Checked m : more -> Mark 0 0 (CheckSymbol m) : go False more
-      Worded w cs : more -> case State.number (axes p) state frame w of
-        Nothing -> go behindWord more
-        Just n -> (if behindWord then map (constant Separator) (between p) else []) <> wordMarks p frame w cs n <> go True more
+    marks = foldFrame (\h n s rest -> Mark h n s : rest) p state frame []
     total = foldl' (\n m -> n + weight m) 0 marks
     complete m = case sense m of
       CheckSymbol modulus -> let d = checkDigit p modulus total in Mark (Symbol.digit (symbols p) d) (Symbol.digitWeight (symbols p) d) (CheckSymbol d)
       _ -> m
+
+-- | The rows of a frame, before something. A check digit is not known yet.
+foldFrame :: (Word8 -> Int -> Sense -> r -> r) -> Plan -> State -> Frame -> r -> r
+foldFrame mark p state frame = go False (steps p)
+  where
+    go behindWord todo end = case todo of
+      [] -> end
+      Fixed cs : more -> constants Constant cs (go False more end)
+      Checked m : more -> mark 0 0 (CheckSymbol m) (go False more end)
+      Worded w cs _ : more -> case State.number (axes p) state frame w of
+        Nothing -> go behindWord more end
+        Just n -> constants Separator (if behindWord then between p else []) (constants (InWord (content w) n . Address) cs (signMark w n (digitMarks w n (go True more end))))
+    constants use cs end = case cs of
+      [] -> end
+      Symbol.Symbol c h k : more -> mark h k (use c) (constants use more end)
+    signSymbol w n c end = let Symbol.Symbol _ h k = Symbol.symbol (symbols p) c in mark h k (InWord (content w) n (SignSymbol c)) end
+    signMark w n end = case sign (form w) of
+      Unsigned -> end
+      ServiceSign -> end
+      MinusSign -> if n < 0 then signSymbol w n '-' end else end
+      EitherSign -> signSymbol w n (if n < 0 then '-' else '+') end
+      Priority leadForth leadBack forth back
+        | leads p frame (content w) -> lead w n (if n < 0 then leadBack else leadForth) end
+        | otherwise -> lead w n (if n < 0 then back else forth) end
+    lead w n d = mark (Symbol.digit (symbols p) (d `mod` 10)) (Symbol.digitWeight (symbols p) (d `mod` 10)) (InWord (content w) n (Lead d))
+    digitMarks w n end =
+      let f = form w
+          count = digitCount f (abs n)
+          emit k services ds = case ds of
+            [] -> end
+            d : rest ->
+              let (s, others) = case services of
+                    [] -> (NoHole, [])
+                    now : later -> (now, later)
+                  hole = punched frame n s
+                  holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
+                  behind = mark holes (Symbol.digitWeight (symbols p) d) (InWord (content w) n (Digit d k s hole)) (emit (k - 1) others rest)
+               in if k == decimals f - 1 then let Symbol.Symbol _ h m = Symbol.symbol (symbols p) '.' in mark h m (InWord (content w) n Point) behind else behind
+       in emit (count - 1) (service f) (digitsOf count (abs n) [])
+{-# INLINE foldFrame #-}
+
+-- | How many digits a number has in a form.
+digitCount :: NumberForm -> Int -> Int
+digitCount f n = max (if padded f then digits f else least) (if padded f then 0 else lengthOf n)
+  where
+    least = min (digits f) (if decimals f > 0 then decimals f + 1 else 1)
+    lengthOf m = if m == 0 then 0 else 1 + lengthOf (m `quot` 10) :: Int
+
+-- | So many digits of a number, before others.
+digitsOf :: Int -> Int -> [Int] -> [Int]
+digitsOf k m ds = if k <= 0 then ds else digitsOf (k - 1) (m `quot` 10) (m `rem` 10 : ds)
 
 -- | A row that always is the same.
 constant :: (Char -> Sense) -> Symbol -> Mark
@@ -140,22 +196,6 @@ checkDigit p modulus total = case [d | d <- [0 .. 9], (total + Symbol.digitWeigh
   d : _ -> d
   [] -> 0
 
--- | The rows of a word: its address, what stands before the digits, the digits.
-wordMarks :: Plan -> Frame -> Word' -> [Symbol] -> Int -> [Mark]
-wordMarks p frame w cs n = map (constant (inWord . Address)) cs <> signMarks <> digitMarks p frame w n
-  where
-    inWord = InWord (content w) n
-    signSymbol c = constant (inWord . SignSymbol) (Symbol.symbol (symbols p) c)
-    signMarks = case sign (form w) of
-      Unsigned -> []
-      ServiceSign -> []
-      MinusSign -> [signSymbol '-' | n < 0]
-      EitherSign -> [signSymbol (if n < 0 then '-' else '+')]
-      Priority leadForth leadBack forth back
-        | leads p frame (content w) -> [lead (if n < 0 then leadBack else leadForth)]
-        | otherwise -> [lead (if n < 0 then back else forth)]
-    lead d = Mark (Symbol.digit (symbols p) (d `mod` 10)) (Symbol.digitWeight (symbols p) (d `mod` 10)) (inWord (Lead d))
-
 -- | Whether a word is that of the axis with most pulses; of several of the first.
 leads :: Plan -> Frame -> Content -> Bool
 leads p frame c = case c of
@@ -164,26 +204,6 @@ leads p frame c = case c of
   where
     pulses b = abs (State.along b (increment frame))
     most = maximum (0 : map pulses (leaders p))
-
-digitMarks :: Plan -> Frame -> Word' -> Int -> [Mark]
-digitMarks p frame w n = emit (count - 1) (service f) (split count (abs n) [])
-  where
-    f = form w
-    count = max (if padded f then digits f else least) (if padded f then 0 else lengthOf (abs n))
-    least = min (digits f) (if decimals f > 0 then decimals f + 1 else 1)
-    split k m ds = if k <= 0 then ds else split (k - 1 :: Int) (m `quot` 10) (m `rem` 10 : ds)
-    emit k services ds = case ds of
-      [] -> []
-      d : rest ->
-        let s = case services of
-              [] -> NoHole
-              now : _ -> now
-            hole = punched frame n s
-            holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
-            mark = Mark holes (Symbol.digitWeight (symbols p) d) (InWord (content w) n (Digit d k s hole))
-            tailMarks = mark : emit (k - 1) (drop 1 services) rest
-         in if k == decimals f - 1 then constant (InWord (content w) n . const Point) (Symbol.symbol (symbols p) '.') : tailMarks else tailMarks
-    lengthOf m = if m == 0 then 0 else 1 + lengthOf (m `quot` 10)
 
 -- | Whether there is a hole in the service track beside a digit of a number.
 punched :: Frame -> Int -> Service -> Bool

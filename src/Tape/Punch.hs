@@ -37,9 +37,21 @@ import Prelude hiding (read)
 
 -- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
 write :: Machine -> V3 Pulses -> [Frame] -> Tape
-write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (foldMap (foldMap (Builder.word8 . holes) . snd) (stretches plan start frames))))
+write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (holesOf (opened plan) <> go (State.first (State.rising frames) start) frames)))
   where
     plan = Plan.fromMachine machine
+    medium = Machine.medium machine
+    holesOf = foldMap (Builder.word8 . holes)
+    between = holesOf (Plan.blanks Gap (gap medium))
+    go state todo = case todo of
+      [] -> holesOf (closed plan)
+      f : more -> holesOf (shift plan state) <> punched plan state f (between <> go (Plan.after plan state f) more)
+
+-- | The rows of a frame, before others.
+punched :: Plan -> State -> Frame -> Builder.Builder -> Builder.Builder
+punched plan state f end
+  | Plan.isChecked plan = foldMap (Builder.word8 . holes) (Plan.frameMarks plan state f) <> end
+  | otherwise = Plan.foldFrame (\h _ _ rest -> Builder.word8 h <> rest) plan state f end
 
 -- | The rows of the same tape, each with what it means.
 rows :: Machine -> V3 Pulses -> [Frame] -> [Row]
@@ -49,17 +61,28 @@ rows machine start frames = [Layout.row plan n m | (n, marks) <- stretches plan 
 
 -- | The marks of a tape, those of each frame with its number.
 stretches :: Plan -> V3 Pulses -> [Frame] -> [(Maybe Int, [Mark])]
-stretches plan start frames =
-  (Nothing, Plan.blanks Leader (leader medium) <> map (Plan.constant Opening) (symbolsOf plan (opening medium))) :
-  go (State.first (State.rising frames) start) frames
+stretches plan start frames = (Nothing, opened plan) : go (State.first (State.rising frames) start) frames
   where
     medium = Machine.medium (Plan.machine plan)
     go state todo = case todo of
-      [] -> [(Nothing, map (Plan.constant Closing) (symbolsOf plan (closing medium)) <> Plan.blanks Trailer (leader medium))]
-      f : more ->
-        let shift = Plan.blanks Shift (shiftRows medium (State.ordinal state))
-            marks = shift <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)
-         in (Just (State.ordinal state), marks) : go (Plan.after plan state f) more
+      [] -> [(Nothing, closed plan)]
+      f : more -> (Just (State.ordinal state), shift plan state <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)) : go (Plan.after plan state f) more
+
+-- | What stands before the first frame.
+opened :: Plan -> [Mark]
+opened plan = Plan.blanks Leader (leader medium) <> map (Plan.constant Opening) (symbolsOf plan (opening medium))
+  where
+    medium = Machine.medium (Plan.machine plan)
+
+-- | What stands behind the last frame.
+closed :: Plan -> [Mark]
+closed plan = map (Plan.constant Closing) (symbolsOf plan (closing medium)) <> Plan.blanks Trailer (leader medium)
+  where
+    medium = Machine.medium (Plan.machine plan)
+
+-- | What stands right before the next frame.
+shift :: Plan -> State -> [Mark]
+shift plan state = Plan.blanks Shift (shiftRows (Machine.medium (Plan.machine plan)) (State.ordinal state))
 
 -- | The blank rows before a frame, by its number from 1.
 shiftRows :: Medium -> Int -> Int

@@ -56,7 +56,7 @@ readFrame plan state rows begin = do
     _ -> Right ()
   f <- frameOf plan state begin reading
   lawful plan begin reading f
-  written plan rows begin end (Plan.frameMarks plan state f)
+  if Plan.isChecked plan || not (isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
   Right (f, end)
 
 -- | The words of a frame in order.
@@ -71,14 +71,14 @@ readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
       Checked modulus : more -> do
         d <- Numeral.digit plan Nothing rows k
         go False more (now {total = total now + weightOf d, check = Just (k, modulus)}) (k + 1)
-      Worded w cs : more
+      Worded w cs joined : more
         | stands -> do
           n <- Numeral.numeral plan (content w) (form w) rows (k + length prefix)
           go True more (store w n now {total = total now + weights prefix + Numeral.total n}) (Numeral.next n)
         | presence w == Always -> Left (mismatch plan (Just (content w)) rows k prefix)
         | otherwise -> go behindWord more now k
         where
-          prefix = if behindWord then Plan.between plan <> cs else cs
+          prefix = if behindWord then joined else cs
           stands = matches rows k prefix && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows (k + length prefix))
     weights cs = sum (map Symbol.weight cs)
     weightOf = Symbol.digitWeight (Plan.symbols plan)
@@ -116,7 +116,7 @@ insteadOf plan w s = case Numeral.blemish plan w of
     _ | w == 0 -> Missing (Symbol.name s)
     Nothing -> if Symbol.holes s == 0 then NotBlank else NoSymbol (Machine.tracks (Machine.medium (Plan.machine plan))) w
     Just c
-      | or [Symbol.name a == c | Worded _ (a : _) <- Plan.steps plan] -> WordOutOfPlace c
+      | or [Symbol.name a == c | Worded _ (a : _) _ <- Plan.steps plan] -> WordOutOfPlace c
       | otherwise -> Unexpected c (Symbol.name s)
 
 -- The frame ---------------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ frameOf plan state begin reading = do
         centre = fmap Pulses (V2 i j),
         speed = FeedCode code,
         braking = braked reading,
-        orders = [(o, v) | (o, zero) <- Plan.commands plan, let vs = [v' | (o', v') <- commands reading, o' == o], not (null vs), let v = sum vs, v /= 0 || zero]
+        orders = if null (commands reading) then [] else [(o, v) | (o, zero) <- Plan.commands plan, let vs = [v' | (o', v') <- commands reading, o' == o], not (null vs), let v = sum vs, v /= 0 || zero]
       }
   where
     axes = Plan.axes plan
@@ -170,9 +170,9 @@ numbered plan state s = case find ((== FrameNumber) . content) (Plan.ws plan) of
   _ -> Right ()
 
 motionOf :: Plan -> Int -> Reading -> V3 Pulses -> Either Fault Motion
-motionOf plan begin reading moved = case [(w, codes) | w <- Plan.ws plan, Motion codes <- [content w]] of
-  [] -> Right (if moved == 0 then Still else Straightway)
-  (w, codes) : _ -> case saidOf reading (content w) of
+motionOf plan begin reading moved = case Plan.motions plan of
+  Nothing -> Right (if moved == 0 then Still else Straightway)
+  Just (w, codes) -> case saidOf reading (content w) of
     Nothing
       | moved == 0 -> Right Still
       | otherwise -> Left (Fault begin Nothing MoveWithoutMotion)
@@ -203,7 +203,7 @@ speedOf plan state begin reading m = case (saidOf reading FeedWord, m) of
     | number s == 0 -> wrong MoveWithoutSpeed
     | otherwise -> wrong (UnknownSpeed (number s))
   where
-    changing = or [presence w == WhenChanged | w <- Plan.ws plan, content w == FeedWord]
+    changing = Plan.keepsFeed plan
     wrong why = Left (faultOf begin reading FeedWord why)
 
 -- | The frame keeps the rules of frames.
@@ -223,9 +223,11 @@ lawful plan begin reading f
       Frame.Idle _ -> faultOf begin reading FeedWord
 
 motionWord :: Plan -> Maybe Content
-motionWord plan = case [content w | w <- Plan.ws plan, Motion _ <- [content w]] of
-  c : _ -> Just c
-  [] -> Nothing
+motionWord plan = fmap (content . fst) (Plan.motions plan)
+
+-- | Whether the rows of a frame without a check digit are those that would be written for it.
+isWritten :: Plan -> State -> ByteString -> Int -> Int -> Frame -> Bool
+isWritten plan state rows begin end f = Plan.foldFrame (\h _ _ others k -> k < end && ByteString.index rows k == h && others (k + 1)) plan state f (== end) begin
 
 -- | The rows of a frame are those that its marks are. A check digit that would be another one follows from the other rows:
 -- they are blamed first.
