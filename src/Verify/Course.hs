@@ -79,7 +79,7 @@ inSector course px py = case course of
         behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
         before = sense * (vx * (by - cy) - vy * (bx - cx))
      in if abs s > pi
-          then behind >= 0 || before >= 0
+          then behind >= 0 || before >= 0 || abs s > 3 / 2 * pi && (ax - cx) * vx + (ay - cy) * vy <= 0
           else behind >= 0 && before >= 0 && (abs s > pi / 2 || (ax - cx) * vx + (ay - cy) * vy >= 0)
 
 -- | The least distance of two, or less than that by no more than rounding. Those that cross have none.
@@ -161,40 +161,65 @@ fromPoint e px py = case e of
         ends = max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
      in if d > 0 && inSector e (cx + (cx - px)) (cy + (cy - py)) then d + r else if d > 0 then ends else max ends r
 
--- | The same, where every point of the first course has its foot on the second; else 'never'.
+-- | The same, where every point of the first course has its foot on the second, or beyond an end of it by no more than
+-- 'overlap'; else 'never'.
 beside :: Course -> Course -> Double
 beside e t = case (e, t) of
   (Line ax ay bx by, Line {}) -> max (distance t ax ay) (distance t bx by)
   (Line ax ay bx by, Bow _ _ _ _ cx cy r s)
-    | abs s <= pi && inLoosely t ax ay && inLoosely t bx by ->
+    | abs s <= pi ->
       let near = distance e cx cy
-       in max (abs (near - r)) (max (abs (hypotenuse (ax - cx) (ay - cy) - r)) (abs (hypotenuse (bx - cx) (by - cy) - r)))
+          high = max (abs (near - r)) (max (abs (hypotenuse (ax - cx) (ay - cy) - r)) (abs (hypotenuse (bx - cx) (by - cy) - r)))
+       in aside high (max (pastArc t ax ay) (pastArc t bx by)) near r
   (Bow ax ay bx by cx cy r _, Line px py qx qy) ->
     let ux = qx - px
         uy = qy - py
         l = hypotenuse ux uy
         (ix, iy) = (ux / l, uy / l)
         height x y = abs (ix * (y - py) - iy * (x - px))
-        footed x y = let f = ix * (x - px) + iy * (y - py) in f >= -unsure && f <= l + unsure
+        past x y = let f = ix * (x - px) + iy * (y - py) in max 0 (max (negate f) (f - l))
         outermost x y = if inSector e x y then height x y else 0
-        extreme x y = not (inSector e x y) || footed x y
-     in if l > 0 && footed ax ay && footed bx by && extreme (cx + r * ix) (cy + r * iy) && extreme (cx - r * ix) (cy - r * iy)
-          then max (max (height ax ay) (height bx by)) (max (outermost (cx - r * iy) (cy + r * ix)) (outermost (cx + r * iy) (cy - r * ix)))
+        furthestPast x y = if inSector e x y then past x y else 0
+        high = max (max (height ax ay) (height bx by)) (max (outermost (cx - r * iy) (cy + r * ix)) (outermost (cx + r * iy) (cy - r * ix)))
+     in if l > 0
+          then aside high (max (max (past ax ay) (past bx by)) (max (furthestPast (cx + r * ix) (cy + r * iy)) (furthestPast (cx - r * ix) (cy - r * iy)))) l 0
           else never
-  (Bow ax ay bx by cx cy r s, Bow _ _ _ _ dx dy q z) ->
-    let (ex, ey) = (cx - dx, cy - dy)
-        off = hypotenuse ex ey
-        (mx, my) = middle e
-        from x y = abs (hypotenuse (x - dx) (y - dy) - q)
-        outermost sense = let x = cx + sense * r * ex / off; y = cy + sense * r * ey / off in if off > 0 && inSector e x y then from x y else 0
-     in if abs s <= pi && abs z <= pi && off <= r / 2 && inLoosely t ax ay && inLoosely t bx by && inLoosely t mx my
-          then max (max (from ax ay) (from bx by)) (max (from mx my) (max (outermost 1) (outermost (-1))))
-          else never
+  (Bow ax ay bx by cx cy r s, Bow _ _ _ _ dx dy q z)
+    | abs s <= pi && abs z <= pi && off <= r / 2 ->
+      let (mx, my) = at e 0.5
+          from x y = abs (hypotenuse (x - dx) (y - dy) - q)
+          outermost sense = let x = cx + sense * r * ex / off; y = cy + sense * r * ey / off in if off > 0 && inSector e x y then from x y else 0
+          high = max (max (from ax ay) (from bx by)) (max (from mx my) (max (outermost 1) (outermost (-1))))
+       in aside high (max (pastArc t ax ay) (max (pastArc t bx by) (pastArc t mx my))) (r / 2) q
+    where
+      (ex, ey) = (cx - dx, cy - dy)
+      off = hypotenuse ex ey
   _ -> never
 
--- | The middle of a course.
-middle :: Course -> (Double, Double)
-middle e = at e 0.5
+-- | How far something is at most that is so far beside a course, and past an end of it by so much. Past the end of an arc its centre
+-- tells, how near that comes, and its radius: the square of the distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@, and
+-- up to a quarter turn that is no more than @(ρ − r)² + 2·(r/ρ)·(ρ·sin φ)²@.
+aside :: Double -> Double -> Double -> Double -> Double
+aside high past near r
+  | past <= 0 = high
+  | past <= overlap && (r <= 0 || near > 100 * overlap) = sqrt (high * high + past * past * (1 + 2 * r / near))
+  | otherwise = never
+
+-- | Beyond the end of one course by no more than this another one follows, in mm.
+overlap :: Double
+overlap = 0.01
+
+-- | How far a point lies beside the sector of an arc of at most half a turn; 'never' far away.
+pastArc :: Course -> Double -> Double -> Double
+pastArc t px py = case t of
+  Line {} -> never
+  Bow ax ay bx by cx cy r s ->
+    let sense = if s > 0 then 1 else -1
+        vx = px - cx
+        vy = py - cy
+        behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
+        before = sense * (vx * (by - cy) - vy * (bx - cx))
+     in if abs s <= pi / 2 && (ax - cx) * vx + (ay - cy) * vy < 0 then never else max 0 (max (negate behind) (negate before) / r)
 
 -- | The point at a share of the length.
 at :: Course -> Double -> (Double, Double)
@@ -202,29 +227,18 @@ at e t = case e of
   Line ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
   Bow ax ay _ _ cx cy _ s -> let c = cos (t * s); n = sin (t * s); vx = ax - cx; vy = ay - cy in (cx + c * vx - n * vy, cy + n * vx + c * vy)
 
--- | Whether a point lies in the sector of an arc of at most half a turn, or beside it by no more than 'unsure'.
-inLoosely :: Course -> Double -> Double -> Bool
-inLoosely t px py = case t of
-  Line {} -> False
-  Bow ax ay bx by cx cy r s ->
-    let sense = if s > 0 then 1 else -1
-        vx = px - cx
-        vy = py - cy
-        behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
-        before = sense * (vx * (by - cy) - vy * (bx - cx))
-     in behind >= -(unsure * r) && before >= -(unsure * r) && (abs s > pi / 2 || (ax - cx) * vx + (ay - cy) * vy >= -(unsure * r))
-
--- | Whether every point of a course surely has one of some others within a distance, all courses of that other.
-isCovered :: Double -> [[Course]] -> Course -> Bool
-isCovered reach others e
+-- | Whether every point of a course surely has one of some others within a distance, all courses of that other; whether it
+-- counts is asked last.
+isCovered :: Double -> (a -> [Course]) -> (a -> Bool) -> [a] -> Course -> Bool
+isCovered reach coursesOf counts others e
   | within e = True
   | otherwise = case marks of
     [] -> False
     _ -> null (drop mostParts marks) && and (zipWith (\a b -> within (between e a b)) (0 : marks) (marks <> [1]))
   where
-    within part = any (all (\t -> furthest part t <= reach - 2 * unsure)) others
+    within part = any (\other -> all (\t -> furthest part t <= reach - 2 * unsure) (coursesOf other) && counts other) others
     -- Where what is nearest changes there is an end of one of them.
-    marks = [m | m <- sort (concatMap (concatMap (footsOn e)) others), m > 0, m < 1]
+    marks = [m | m <- sort (concatMap (concatMap (footsOn e) . coursesOf) others), m > 0, m < 1]
 
 -- | So many parts are looked at by themselves.
 mostParts :: Int
@@ -285,7 +299,7 @@ ranges cx cy t = case t of
 spansAbout :: Course -> Double -> Double -> Bool
 spansAbout e px py = case e of
   Line ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
-  Bow _ _ _ _ _ _ _ s -> abs s > pi || inLoosely e px py
+  Bow _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure
 
 -- | Where the foot of a point lies on a course, as a share of its length; of one before or behind it the nearer end.
 footOn :: Course -> Double -> Double -> Double

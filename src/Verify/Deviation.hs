@@ -165,7 +165,8 @@ uncut job index = go (Mm 0)
              in Witness {amount = left', frame = number (stroke nearest), Verify.Proof.element = Part.origin (element e), place = p} : go next rest
     surely least e =
       let far@(Mm d) = plus (reach job) least
-       in Course.isCovered d [courses t | t <- Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index, all (surelyOn (course e)) (courses t)] (course e)
+       in Course.isCovered d courses (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index) (course e)
+    counts e t = all (surelyOn (course e)) (courses t) || all (onLeadingSide job (Part.segment (element e))) (ways t)
     surelyOn e c = case side job of
       Nothing -> True
       Just Offset.LeftOf -> Course.isLeftOf c e
@@ -188,7 +189,7 @@ onLeadingSide job element t = case side job of
 -- | How far a stroke strays from the contour, if it is more than is allowed.
 strayOf :: Job -> Trace -> Maybe Witness
 strayOf job t
-  | all (Course.isCovered d [[course e] | e <- Nearest.within (Box.inflate far (box t)) (edges job)]) (courses t) = Nothing
+  | all (Course.isCovered d (pure . course) (const True) (Nearest.within (Box.inflate far (box t)) (edges job))) (courses t) = Nothing
   | otherwise = case mapMaybe beyond (NonEmpty.toList (ways t)) of
     [] -> Nothing
     ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)

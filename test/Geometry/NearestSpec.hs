@@ -1,0 +1,51 @@
+-- | The flat index against looking at everything.
+module Geometry.NearestSpec (spec) where
+
+import Base.Quantity (Mm (..))
+import Data.List (minimumBy)
+import Data.Ord (comparing)
+import Geometry.Box (Box (..))
+import Geometry.Box qualified as Box
+import Geometry.Nearest qualified as Nearest
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  it "finds what meets a box, all of it and in order (catches the last group that is not full)" $
+    property $
+      forAll ((,) <$> boxes <*> box) $ \(things, b) ->
+        map fst (Nearest.within b (Nearest.index snd things)) === [i | (i, b') <- things, Box.meets b' b]
+  it "finds what is nearest to a point, of several the first (catches a group left out by the bound of another)" $
+    property $
+      forAll ((,) <$> boxes <*> point) $ \(things, p) ->
+        let distanceTo (_, b) = Box.distance p b
+            found = fmap (\(d, (i, _)) -> (d, i)) (Nearest.closest distanceTo p (Nearest.index snd things))
+            wanted = case things of
+              [] -> Nothing
+              _ -> let t = minimumBy (comparing distanceTo) things in Just (distanceTo t, fst t)
+         in found === wanted
+  it "gives everything back in order (catches a level taken for the things)" $
+    property $
+      forAll boxes $ \things -> map fst (Nearest.toList (Nearest.index snd things)) === map fst things
+
+point :: Gen Point
+point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
+
+box :: Gen Box
+box = do
+  p <- point
+  w <- choose (0, 20)
+  -- Some touch, to whole millimetres.
+  whole <- arbitrary
+  let b = Box.inflate (Mm w) (Box.ofPoints p [])
+      rounded x = fromIntegral (round x :: Int)
+  pure (if whole then let Box l c r t = b in Box (rounded l) (rounded c) (rounded r) (rounded t) else b)
+
+-- | Along a walk, as contours are.
+boxes :: Gen [(Int, Box)]
+boxes = do
+  n <- oneof [choose (0, 20), choose (60, 70), choose (500, 600)]
+  zip [0 ..] <$> vectorOf n box
