@@ -53,7 +53,7 @@ command seconds wanted = do
   pure $ case status of
     ExitSuccess -> Right (Text.pack out)
     ExitFailure 124 -> Left ("longer than " <> Text.pack (show seconds) <> " s")
-    ExitFailure n -> Left (Text.strip (Text.unlines (take 2 (Text.lines (Text.pack (err <> out))))) <> " (status " <> Text.pack (show n) <> ")")
+    ExitFailure n -> Left (Text.unwords (Text.words (Text.unlines (take 2 (Text.lines (Text.pack (err <> out)))))) <> " (status " <> Text.pack (show n) <> ")")
 
 -- | The median.
 middle :: [Double] -> Double

@@ -1,6 +1,6 @@
 -- | @random COUNT SEED FILE PEER [LIMIT]@: writes so many random contours with their offsets to a file, lets a peer (bench/peers/cavalier,
 -- @areas@) offset them, offsets them with the kernel, and lists those whose areas, lengths or numbers of loops differ. The peer
--- answers twice, the second time with a millionth of its tolerance for equal places: what agrees with one of both answers is not listed.
+-- answers twice, the second time with a millionth of its tolerances: what agrees with one of both answers is not listed.
 -- @random - SEED INDEX@ prints one contour.
 module Main (main) where
 
