@@ -30,7 +30,6 @@ import Geometry.Track.Vertices qualified as Vertices
 import Geometry.Track.Walk (Off (..), Spans (..), Stretch (..))
 import Geometry.Track.Walk qualified as Walk
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
 
 -- | A chain by its length in mm: where each piece begins along it and, at the very last, where it ends; seven numbers for each
 -- piece: the place where it begins, the directions at its beginning and at its end, the curvature (1/mm).
@@ -76,7 +75,7 @@ chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromList (map
         let Mm r = Segment.radius centre start
             k = signum a / r
          in all' start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
-    all' p (Vec.Vec (V2 sx sy)) (Vec.Vec (V2 ex ey)) k = [Vec.x p, Vec.y p, sx, sy, ex, ey, k]
+    all' p (Vec.Vec sx sy) (Vec.Vec ex ey) k = [Vec.x p, Vec.y p, sx, sy, ex, ey, k]
 
 station :: Chain -> Int -> Double
 station chain = Unboxed.unsafeIndex (stations chain)
