@@ -36,19 +36,21 @@ plot part path =
   Svg.document
     Sheet.page
     (Title.name part)
-    [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Sheet.page],
-      Svg.layer "material" (material (shapes scene)),
-      Svg.layer "axes" (axes (sheet scene)),
-      Svg.layer "rests" (map (Svg.area Sign.restColour) (rests scene)),
-      Svg.layer "contours" (map contourLine (shapes scene)),
-      Svg.layer "ways" (ways scene),
-      Svg.layer "path" (concatMap cutLine (cuts scene)),
-      Svg.layer "start" (Sign.start (start scene) <> originMark (sheet scene)),
-      Svg.layer "cutters" (concatMap cutter (cuts scene)),
-      Svg.layer "nodes" (concatMap Node.dots (cuts scene)),
-      Svg.layer "numbers" (numbers scene),
-      Svg.layer "title" (Title.block part scene)
-    ]
+    ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Sheet.page],
+        Svg.layer "material" (material (shapes scene)),
+        Svg.layer "axes" (axes (sheet scene))
+      ]
+        <> [Svg.layer "rests" (map (Svg.area Sign.restColour) (rests scene)) | not (null (rests scene))]
+        <> [ Svg.layer "contours" (map contourLine (shapes scene)),
+             Svg.layer "ways" (ways scene),
+             Svg.layer "path" (concatMap cutLine (cuts scene)),
+             Svg.layer "start" (Sign.start (start scene) <> originMark (sheet scene)),
+             Svg.layer "cutters" (concatMap cutter (cuts scene)),
+             Svg.layer "nodes" (concatMap Node.dots (cuts scene)),
+             Svg.layer "numbers" (numbers scene),
+             Svg.layer "title" (Title.block part scene)
+           ]
+    )
   where
     scene = Scene.set part path
 
