@@ -347,10 +347,17 @@ alike !tolerance !c visitor !i !j =
     when (0.5 * abs (indexPrimArray (Chain.bulges c) i + indexPrimArray (Chain.bulges c) j) * sqrt (ux * ux + uy * uy) <= tolerance) $
       resting visitor i j
 
--- | Whether a point of the circle belongs to the arc: it lies on the arc's side of the chord.
+-- | Whether a point of the circle belongs to the arc: it lies on the arc's side of the chord. Near the ends of a flat arc
+-- rounding would decide that; such an arc is what lies beside its chord, and the rest of the circle is far away.
 onArc :: Chain -> Int -> Double -> Double -> Bool
 onArc c i px py = Chain.chord c i $ \ux uy ->
-  (ux * (py - indexPrimArray (Chain.ys c) i) - uy * (px - indexPrimArray (Chain.xs c) i)) * indexPrimArray (Chain.bulges c) i < 0
+  let ax = px - indexPrimArray (Chain.xs c) i
+      ay = py - indexPrimArray (Chain.ys c) i
+      b = indexPrimArray (Chain.bulges c) i
+      aside = ux * ay - uy * ax
+      along = ux * ax + uy * ay
+      square = ux * ux + uy * uy
+   in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
 {-# INLINE onArc #-}
 
 -- | How far along the chord a point of a segment lies.

@@ -54,7 +54,7 @@ spec = do
       numbersOf [square 0 0 1, Outline.reverse (square 0 0 1)] `shouldBe` Just (0, 0)
     it "of a figure of eight has both senses" $
       numbersOf [Generate.loop [(0, 0, 0), (1, 1, 0), (2, 2, 0), (2, 0, 0), (1, 1, 0), (0, 2, 0)]] `shouldBe` Just (-1, 1)
-    it "of something inside, beside lines that cancel out (catches a number taken from a line that is none)" $
+    it "of something inside, beside lines that cancel out (catches lines that cancel out and stay)" $
       numbersOf [square 5 (-1) 2, Generate.loop [(0, 0, 0), (4, 0, 0)]] `shouldBe` Just (0, 1)
     it "whose leftmost place is smooth (catches an order that begins on the right)" $
       numbersOf [Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)], Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]] `shouldBe` Just (0, 2)
