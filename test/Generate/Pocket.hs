@@ -63,7 +63,7 @@ island outline before = do
   let corners = [Vec.shift (Vec.polar (Mm r) (Rad (a - 2 * pi * fromIntegral i / fromIntegral (k :: Int)))) p | i <- [0 .. k - 1]]
       circle = let (one, other) = Segment.cutAt 0.5 (Segment.fullCircle Clockwise (Circle p (Mm r)) (Vec.shift (Vec.polar (Mm r) (Rad a)) p)) in one :| [other]
       polygon = NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))
-      fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all (\l -> Winding.about p l == 0) before
+      fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all ((== 0) . Winding.about p) before
   pure ([if round' then circle else polygon | fits] <> before)
   where
     Box l bottom right top = foldr1 Box.union (fmap Box.ofSegment outline)
@@ -73,6 +73,7 @@ roomOf p =
   Room
     { walls = NonEmpty.fromList (concatMap NonEmpty.toList (loops p)),
       offsetBy = insetOf (NonEmpty.toList (loops p)),
+      further = \_ _ -> Nothing,
       radius = cutter p,
       leaves = left p,
       turned = False
