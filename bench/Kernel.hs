@@ -11,6 +11,7 @@ import Control.Exception (evaluate)
 import Control.Monad (forM_, replicateM, when)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Equidistant qualified
+import Geometry.Offset.Kernel (Reach)
 import Geometry.Outline (Outline)
 import Geometry.Outline qualified as Outline
 import System.CPUTime (getCPUTime)
@@ -32,10 +33,11 @@ measure file distance runs batches = do
   performGC
   writeFile "/proc/self/clear_refs" "5"
   before <- peak
-  (first, result) <- timed 1 distance source
+  (first, reach) <- timed 1 distance source
   after <- peak
   when (batches == 0) $ putStrLn ("run " <> show first)
   times <- replicateM batches (fst <$> timed runs distance source)
+  let result = Equidistant.outlines reach
   forM_ times $ \t -> putStrLn ("run " <> show t)
   putStrLn ("area " <> show (sum (map Outline.area result)))
   putStrLn ("length " <> show (sum [l | o <- result, let Mm l = Outline.length o]))
@@ -45,7 +47,7 @@ measure file distance runs batches = do
 
 -- | Nanoseconds of processor time of one of so many runs, and what the last one gave. Collecting the garbage of a run is part of
 -- it; that of the runs before is collected before the clock starts.
-timed :: Int -> Double -> Outline -> IO (Integer, [Outline])
+timed :: Int -> Double -> Outline -> IO (Integer, Reach)
 timed runs distance source = do
   performGC
   begin <- getCPUTime
@@ -57,15 +59,16 @@ timed runs distance source = do
       result <- once distance source
       if left <= 1 then pure result else go (left - 1)
 
--- | One run, with every array of its result.
-once :: Double -> Outline -> IO [Outline]
-once distance source = case Equidistant.offset distance source of
-  Left why -> die ("kernel: " <> why)
-  Right result -> result <$ evaluate (sum (map Outline.size result))
+-- | One run.
+once :: Double -> Outline -> IO Reach
+once distance source = do
+  found <- evaluate (Equidistant.offset distance source)
+  either (\why -> die ("kernel: " <> why)) evaluate found
 {-# NOINLINE once #-}
 
 -- | The most kilobytes that the process has held.
 peak :: IO Int
 peak = do
   status <- readFile "/proc/self/status"
-  pure (sum [k | line <- lines status, "VmHWM:" : number : _ <- [words line], Just k <- [readMaybe number]])
+  -- Read now, not when it is asked for.
+  evaluate (sum [k | line <- lines status, "VmHWM:" : number : _ <- [words line], Just k <- [readMaybe number]])

@@ -33,12 +33,12 @@ coarse, fine :: Double
 coarse = 0.01
 fine = 0.001
 
--- | Run all up to so many segments, with the files in a folder. Gives the names of the page's places and their texts, and what does not
+-- | Run all up to about so many segments, with the files in a folder. Gives the names of the page's places and their texts, and what does not
 -- hold.
 compared :: FilePath -> Int -> Peers -> IO ([(Text, Text)], [Text])
 compared folder most peers = do
   createDirectoryIfMissing True folder
-  cases <- sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat <$> forM [(f, n) | f <- [minBound ..], n <- Contours.sizes f, n <= most] (uncurry (ofContour folder peers))
+  cases <- sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat <$> forM [(f, n) | f <- [minBound ..], n <- Contours.sizes f, 10 * n <= 11 * most] (uncurry (ofContour folder peers))
   pure
     ( [ ("times", timesOf peers cases),
         ("memory", memoryOf peers cases),
@@ -68,7 +68,7 @@ ofContour folder peers family segments = do
     bearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
       | small = (5, 20, 5)
-      | middling = (5, 3, 3)
+      | middling = (3, 2, 3)
       | last' = (1, 1, 1)
       | otherwise = (3, 1, 2)
 

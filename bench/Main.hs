@@ -39,7 +39,7 @@ run page folder options = do
     let notes = if null broken then ["Nothing differs."] else map ("- " <>) broken
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools (min 100000 most) seconds >>= place "stages"
-  when ("whole" `elem` parts) $ Whole.besideInterpreter tools (folder </> "programs") (programs most) (4 * seconds) >>= place "whole"
+  when ("whole" `elem` parts) $ Whole.besideInterpreter tools (folder </> "programs") (programs most) (2 * seconds) >>= place "whole"
   where
     option name otherwise' = fromMaybe otherwise' (lookup name options)
     parts = words (option "parts" "kernel stages whole")

@@ -23,12 +23,13 @@ contour seed index = (Outline.outline Closed vertices, distance)
     stream = Noise.bits seed (fromIntegral index)
     u place = Noise.uniform stream (1000000 + place)
     count = 3 + floor (u 0 * u 1 * 40) :: Int
-    grid = if u 4 < 0.5 then cells stream (1 + floor (u 5 * 24)) else corners stream (3 + floor (u 5 * 10)) (3 + floor (u 6 * 9))
+    grid = if u 4 < 0.5 then [(wide * x, wide * y) | (x, y) <- cells stream (1 + floor (u 5 * 50))] else corners stream (3 + floor (u 5 * 10)) (3 + floor (u 6 * 9))
+    wide = 1 + floor (u 8 * 4) :: Int
     (vertices, distance) = case index `mod` 3 of
       -- Halves and whole numbers meet the most coincidences.
       0 -> (map whole grid, signOf (if u 2 < 0.8 then fromIntegral (1 + floor (u 3 * 6) :: Int) / 2 else 0.1 + 3 * u 3))
       1 -> (curved stream (star stream count 10 0.6), signOf (0.05 + 3 * u 3 * u 3))
-      _ -> (star stream (10 + 3 * count) 20 (0.3 * u 4), signOf (0.05 + 4 * u 3))
+      _ -> (star stream (10 + 3 * count) 20 (0.7 * u 4), signOf (0.05 + 4 * u 3))
     signOf d = if u 7 < 0.6 then d else -d
     whole (x, y) = (fromIntegral x, fromIntegral y, 0)
 
@@ -36,9 +37,11 @@ contour seed index = (Outline.outline Closed vertices, distance)
 star :: Word64 -> Int -> Double -> Double -> [Vertex]
 star stream count radius part = [vertex (fromIntegral i) | i <- [0 .. count - 1]]
   where
+    -- The origin stays inside: no two neighbours are half a turn apart.
+    jitter = if count == 3 then 0.4 else 0.8
     vertex :: Word64 -> Vertex
     vertex i =
-      let a = 2 * pi * (fromIntegral i + 0.8 * Noise.uniform stream (2 * i)) / fromIntegral count
+      let a = 2 * pi * (fromIntegral i + jitter * Noise.uniform stream (2 * i)) / fromIntegral count
           r = radius * (1 + part * (2 * Noise.uniform stream (2 * i + 1) - 1))
        in (r * cos a, r * sin a, 0)
 

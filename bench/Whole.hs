@@ -42,9 +42,9 @@ ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], No
   where
     size (rows, before) n
       | Just (_, Nothing) <- before = pure (rows, before)
-      | Just (_, Just s) <- before, 15 * total s > 1000 * allowed = pure (row n (replicate 10 "–") : rows, Just (n, Nothing))
+      | expected before > 1000 * allowed = pure (row n (replicate 10 "–") : rows, Just (n, Nothing))
       | otherwise = do
-        found <- Peer.repeated (repeats n) (Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine])
+        found <- Peer.repeated (if expected before > 3000 then 1 else repeats n) (Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine])
         let outcome = found >>= middles
         Text.putStrLn (Programs.name kind <> " on " <> machine <> ", " <> Decimal.whole n <> ": " <> either id (\s -> Table.number (total s) <> " ms") outcome)
         hFlush stdout
@@ -54,6 +54,10 @@ ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], No
     row n cells = [Programs.name kind, machine, Decimal.whole n] <> cells
     growth (m, n, old) s = ["", "", "growth"] <> zipWith (\(_, a) (_, b) -> exponentOf (m, a) (n, b)) (stages old) (stages s) <> [exponentOf (m, total old) (n, total s), "", ""]
     exponentOf a@(_, t) b@(_, t') = if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
+    -- A program of ten times as many elements takes somewhat more than ten times as long.
+    expected before = case before of
+      Just (_, Just s) -> 15 * total s
+      _ -> 0
     repeats n
       | n <= 1000 = 5
       | n <= 10000 = 3
@@ -81,13 +85,25 @@ middles outputs = case traverse parsed outputs of
 besideInterpreter :: Tools -> FilePath -> [(Kind, Int)] -> Double -> IO Text
 besideInterpreter tools folder programs allowed = do
   createDirectoryIfMissing True folder
-  Table.table ["program", "size", "lines written", "partc, s", "rs274, s", "ratio", "partc, µs per element", "rs274, µs per line", "MB"] <$> traverse beside programs
+  Table.table ["program", "size", "lines written", "partc, s", "rs274, s", "ratio", "partc, µs per element", "rs274, µs per line", "MB"] <$> (reverse . snd <$> foldM further ([], []) programs)
   where
+    -- What takes too long takes longer still when it is larger.
+    further (failed, rows) (kind, n)
+      | kind `elem` failed = pure (failed, ([Programs.name kind, Decimal.whole n] <> replicate 7 "–") : rows)
+      | otherwise = do
+        (fails, row) <- beside (kind, n)
+        pure ([kind | fails] <> failed, row : rows)
+    -- A long one is not asked again.
+    turns left action = do
+      turn <- action
+      case fst turn of
+        Right (s, _) | left > 1 && s < 10 -> (turn :) <$> turns (left - 1) action
+        _ -> pure [turn]
     beside (kind, n) = do
       let Written {text, files} = Programs.written kind n
           (source, result) = (folder </> "program.part", folder </> "program.ngc")
       forM_ ((source, text) : [(folder </> name, t) | (name, t) <- files]) (uncurry Text.writeFile)
-      rounds <- forM [1 .. if n > 100000 then 1 else 3 :: Int] $ \_ -> do
+      rounds <- turns (3 :: Int) $ do
         compiled <- timed [partc tools, "compile", source, "-t", "iso6983", "-o", result]
         judged <- case (compiled, interpreter tools) of
           (Right _, Just rs274) -> timed [rs274, "-g", result]
@@ -100,17 +116,19 @@ besideInterpreter tools folder programs allowed = do
           cells = either (const "–") Table.number
       Text.putStrLn (Programs.name kind <> ", " <> Decimal.whole n <> ": partc " <> either id (\rs -> Table.number (seconds rs) <> " s") ours <> ", rs274 " <> either id (\rs -> Table.number (seconds rs) <> " s") theirs)
       hFlush stdout
-      pure
-        [ Programs.name kind,
-          Decimal.whole n,
-          if count == 0 then "–" else Decimal.whole count,
-          either (Text.take 80) (Table.number . seconds) ours,
-          cells (seconds <$> theirs),
-          cells ((\a b -> seconds a / seconds b) <$> ours <*> theirs),
-          cells ((\rs -> 1e6 * seconds rs / fromIntegral n) <$> ours),
-          cells ((\rs -> 1e6 * seconds rs / fromIntegral (max 1 count)) <$> theirs),
-          cells ((\rs -> maximum (0 : map snd rs) / 1024) <$> ours)
-        ]
+      let fails = either (const True) (const False) ours
+          row =
+            [ Programs.name kind,
+              Decimal.whole n,
+              if count == 0 then "–" else Decimal.whole count,
+              either (Text.take 80) (Table.number . seconds) ours,
+              cells (seconds <$> theirs),
+              cells ((\a b -> seconds a / seconds b) <$> ours <*> theirs),
+              cells ((\rs -> 1e6 * seconds rs / fromIntegral n) <$> ours),
+              cells ((\rs -> 1e6 * seconds rs / fromIntegral (max 1 count)) <$> theirs),
+              cells ((\rs -> maximum (0 : map snd rs) / 1024) <$> ours)
+            ]
+      pure (fails, row)
     seconds = Peer.middle . map fst
     timed words' = (>>= costs) <$> Peer.command (round allowed) (cost tools <> words')
     costs out = case map (readMaybe . Text.unpack) (Text.words out) of

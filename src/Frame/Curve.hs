@@ -12,13 +12,12 @@ where
 import Base.Quantity (Mm (..), Pulses (..), minus, times)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe)
 import Frame.Run (Bounds (..))
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Track (Side (..), Track (Track))
-import Geometry.Track qualified as Track
+import Geometry.Track.Chain qualified as Chain
 import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Path.Path (Move (segment))
@@ -68,26 +67,7 @@ ways machine bounds run
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs allowed run = case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of
   Nothing -> pure (segment (NonEmpty.head run))
-  Just pieces -> case concatMap NonEmpty.toList (NonEmpty.toList (Track.approximate allowed (trackOf pieces))) of
-    -- No more than there were.
-    first : others | length others < length pieces -> first :| others
-    _ -> pieces
-
--- | A chain by its length in mm.
-trackOf :: NonEmpty Segment -> Track
-trackOf pieces = Track {Track.place = place, Track.direction = direction, Track.begin = 0, Track.breaks = ends}
-  where
-    lengths = fmap (\s -> let Mm l = Segment.length s in l) pieces
-    ends = case NonEmpty.scanl (+) 0 lengths of
-      _ :| e : es -> e :| es
-      zero :| [] -> pure zero
-    beginnings = Map.fromList (zip (0 : NonEmpty.toList ends) (NonEmpty.toList (NonEmpty.zip pieces lengths)))
-    place u = let (s, t) = at Leaving u in Segment.at t s
-    direction side u = let (s, t) = at side u in Segment.directionAt t s
-    -- The piece, and the fraction of it.
-    at side u = case side of
-      Leaving -> found u (Map.lookupLE u beginnings)
-      Arriving -> found u (Map.lookupLT u beginnings)
-    found u entry = case entry of
-      Just (from, (s, l)) -> (s, min 1 ((u - from) / l))
-      Nothing -> (NonEmpty.head pieces, 0)
+  Just pieces ->
+    let few = Polyarc.fromOutline (Chain.approximate allowed pieces)
+     in -- No more than there were.
+        if Polyarc.count few <= length pieces then Polyarc.segments few else pieces

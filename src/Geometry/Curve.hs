@@ -43,6 +43,7 @@ module Geometry.Curve
     Side (..),
 
     -- * Looking at them
+    cubics,
     domain,
     spans,
     breaks,
@@ -99,6 +100,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Series qualified as Series
 import Geometry.Similarity (Similarity)
 import Geometry.Similarity qualified as Similarity
+import Geometry.Spline (Cubics)
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
@@ -164,6 +166,14 @@ joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   where
     needed = times 2 (ramp joggle)
     there = minus (lengthTo curve ends) (lengthTo curve begins)
+
+-- | The spans in x and y, if all are cubics and none is shifted.
+cubics :: Curve -> Maybe (Cubics, Cubics)
+cubics curve = case curve of
+  Plain b -> case Base.course b of
+    Base.Cubical xs ys -> Just (xs, ys)
+    Base.Mixed _ -> Nothing
+  Shifted {} -> Nothing
 
 -- | How many spans there are.
 spans :: Curve -> Int

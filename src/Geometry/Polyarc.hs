@@ -4,7 +4,9 @@
 module Geometry.Polyarc
   ( Polyarc,
     fromSegments,
+    fromOutline,
     segments,
+    count,
     start,
     end,
     length,
@@ -19,20 +21,23 @@ module Geometry.Polyarc
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), Rad (..), plus)
 import Base.Search qualified as Search
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
 import Geometry.Box qualified as Box
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
-import Geometry.Segment (Segment)
+import Geometry.Outline (Outline)
+import Geometry.Outline qualified as Outline
+import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
@@ -40,17 +45,41 @@ import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
 -- | Segments with a length, each of which ends where the next begins, and the places where they begin.
-data Polyarc = Polyarc {chain :: Vector Segment, stations :: Unboxed.Vector Double}
+data Polyarc = Polyarc {chain :: Vector Segment, stations :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
 fromSegments :: NonEmpty Segment -> Polyarc
-fromSegments ss = Polyarc {chain, stations = Unboxed.fromList (scanl (\s g -> let Mm l = Segment.length g in s + l) 0 (Vector.toList chain))}
+fromSegments ss = ofChain (Vector.fromList (NonEmpty.toList ss))
+
+ofChain :: Vector Segment -> Polyarc
+ofChain chain = Polyarc {chain, stations = Unboxed.scanl' (+) 0 (Unboxed.convert (Vector.map (\g -> let Mm l = Segment.length g in l) chain))}
+
+-- | An open outline with two vertices at least.
+fromOutline :: Outline -> Polyarc
+fromOutline o = ofChain (Vector.unfoldrN (n - 1) segment (0, place 0))
   where
-    chain = Vector.fromList (NonEmpty.toList ss)
+    n = Outline.size o + 1
+    place i = Vec.point (PrimArray.indexPrimArray (Outline.xs o) i) (PrimArray.indexPrimArray (Outline.ys o) i)
+    -- Neighbours share their points.
+    segment (i, p)
+      | i + 1 >= n = Nothing
+      | otherwise =
+        let q = place (i + 1)
+         in Just (bent p q (PrimArray.indexPrimArray (Outline.bulges o) i), (i + 1, q))
+
+-- | A line, or the arc of a bulge.
+bent :: Point -> Point -> Double -> Segment
+bent p q b
+  | b == 0 = Straight p q
+  | otherwise = Arc {Segment.start = p, Segment.end = q, Segment.centre = Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q))) (Vec.between 0.5 p q), Segment.sweep = Rad (4 * atan b)}
 
 -- | In the order of the walk.
 segments :: Polyarc -> NonEmpty Segment
 segments p = Vector.head (chain p) :| drop 1 (Vector.toList (chain p))
+
+-- | How many segments there are.
+count :: Polyarc -> Int
+count = Vector.length . chain
 
 start :: Polyarc -> Point
 start = Segment.start . Vector.head . chain

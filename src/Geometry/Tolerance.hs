@@ -31,6 +31,7 @@ module Geometry.Tolerance
     rounding,
     tangential,
     deviationShare,
+    roundingShare,
     finestStep,
     hair,
   )
@@ -148,6 +149,10 @@ tangential = 1e-9
 -- | The share of a tolerance that is kept back because a deviation is measured at finitely many points.
 deviationShare :: Double
 deviationShare = 0.02
+
+-- | The share that is kept back where a bound of the deviation is known, for the rounding of doubles.
+roundingShare :: Double
+roundingShare = 1e-3
 
 -- | No step along a curve is smaller than this share of a span.
 finestStep :: Double

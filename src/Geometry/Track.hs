@@ -3,6 +3,10 @@ module Geometry.Track
   ( Track (..),
     Side (..),
     approximate,
+
+    -- * One biarc
+    Further (..),
+    further,
   )
 where
 
@@ -88,6 +92,17 @@ follow track tolerance stretch = go walk (final walk - start)
             next = w {at = reached, pose = (Segment.end (NonEmpty.last pieces), heading w reached), ahead = dropWhile ((<= reached) . snd) (ahead w)}
          in NonEmpty.toList pieces <> go next (reached - at w)
       | otherwise = []
+
+-- | A biarc, and the parameter at which it ends on the curve.
+data Further = Further Double (NonEmpty Segment)
+
+-- | One biarc of a stretch that ends at a parameter: from a parameter, the place and the direction of the biarc before, and a step to try.
+further :: Mm -> Track -> Double -> Double -> (Point, Vec) -> Double -> Further
+further (Mm tolerance) track final at pose step = Further reached pieces
+  where
+    Trial {reached, pieces} = furthest Walk {track, aim = tolerance * (1 - Tolerance.deviationShare), final, at, pose, ahead} step
+    ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin track : ends) ends))
+    ends = NonEmpty.toList (breaks track)
 
 -- | The direction at a joint: the mean of both sides where spans meet.
 heading :: Walk -> Double -> Vec

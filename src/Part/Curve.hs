@@ -35,6 +35,7 @@ import Geometry.Similarity (Similarity)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Track (Track (..))
 import Geometry.Track qualified as Track
+import Geometry.Track.Cubic qualified as Cubic
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -62,7 +63,13 @@ data Fitting = Fitting {pieces :: NonEmpty Piece.Piece, misses :: [Fit.Deviation
 
 -- | A curve with the columns of its table.
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> Curve
-curve fields fitting exact = Curve {exact, fields, fitting, laid = Polyarc.fromSegments (sconcat (Track.approximate Tolerance.curve (track exact)))}
+curve fields fitting exact = Curve {exact, fields, fitting, laid = arcsAlong Tolerance.curve exact}
+
+-- | Arcs and lines that stay within a distance of a curve.
+arcsAlong :: Mm -> Exact.Curve -> Polyarc
+arcsAlong tolerance exact = case Exact.cubics exact of
+  Just (xs, ys) -> Polyarc.fromOutline (Cubic.approximate tolerance xs ys (track exact))
+  Nothing -> Polyarc.fromSegments (sconcat (Track.approximate tolerance (track exact)))
 
 -- | A curve without a table.
 plain :: Exact.Curve -> Curve

@@ -54,9 +54,9 @@ lay part = case (Part.start part, Part.operations part) of
 
 -- | What stays standing beside a milled contour, once for a statement: that of its last pass.
 staying :: Path -> [Warning]
-staying path = [Leaves region (toolOf milling (Path.left pass)) (map (stay milling) rests) | (_, (Located region milling, pass, rests)) <- Map.toAscList byStatement, not (null rests)]
+staying path = [Leaves (keyword region) (toolOf milling (Path.left pass)) (map (stay milling) rests) | (_, (Located region milling, pass, rests)) <- Map.toAscList byStatement]
   where
-    byStatement = Map.fromList [(number pass, (job, pass, rests)) | Cutting {job, pass, rests} <- Path.blocks path]
+    byStatement = Map.fromList [(number pass, (job, pass, rests)) | Cutting {job, pass, rests} <- Path.blocks path, not (null rests)]
     stay milling r = case Offset.cause (Offset.stop r) of
       Offset.InnerCorner i j p -> InCorner (element milling i) (element milling j) p
       Offset.Concave i old -> InHollow (element milling i) old (largestTool milling r)

@@ -1,11 +1,20 @@
+{-# LANGUAGE ConstraintKinds #-}
+{-# LANGUAGE FlexibleContexts #-}
+{-# LANGUAGE FlexibleInstances #-}
+{-# LANGUAGE RankNTypes #-}
+
 -- | What the grammar is built from: tokens, names, brackets, blocks, and the way on after a mistake.
+--
+-- There is one grammar and two readers of it: this module has the one that tells what is wrong and goes on behind
+-- it; "Surface.Quick" has the one that gives up.
 module Surface.Combinator
   ( Parser,
+    Grammar (..),
+    Memory (..),
     Problem (..),
     run,
 
     -- * Tokens
-    token,
     symbol,
     keyword,
     name,
@@ -34,7 +43,7 @@ import Base.Name qualified as Name
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
 import Control.Monad (void, when)
-import Control.Monad.State.Strict (State, get, gets, lift, modify', runState)
+import Control.Monad.State.Strict (State, get, lift, modify', runState)
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -49,7 +58,7 @@ import Surface.Stream (Input (..))
 import Surface.Syntax (Statement, Statement_ (..))
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
-import Text.Megaparsec (ErrorItem (..), ParseError (..), ParsecT, (<?>))
+import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 
 type Failure = ParseError Input Problem
@@ -81,87 +90,119 @@ data Problem
 -- rest is not read.
 data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int, within :: Int, gaveUp :: Bool}
 
-type Parser = ParsecT Problem Input (State Memory)
+-- | What the grammar is written in.
+class MonadParsec Problem Input p => Grammar p where
+  -- | A token that the function accepts; the label names what was expected.
+  token :: Text -> (Token -> Maybe a) -> p a
+
+  memory :: p Memory
+  remember :: (Memory -> Memory) -> p ()
+
+-- | A rule of the grammar, for either reader.
+type Parser a = forall p. Grammar p => p a
+
+-- | The reader that tells what is wrong.
+type Explaining = ParsecT Problem Input (State Memory)
+
+instance Grammar (ParsecT Problem Input (State Memory)) where
+  token expected accept = do
+    (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
+    lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
+    pure a
+  memory = lift get
+  remember f = lift (modify' f)
 
 -- | Run a parser over the tokens of a text that ends at an offset: the errors in order, and the output if there is one.
-run :: Parser a -> Int -> [Token] -> ([Error], Maybe a)
+run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
-    (result, memory) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
-    inOrder = sortOn Parsec.errorOffset ([f | not (gaveUp memory), f <- final] <> failures memory)
+    (result, remembered) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
+    inOrder = sortOn Parsec.errorOffset ([f | not (gaveUp remembered), f <- final] <> failures remembered)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
 
 -- Tokens
 
--- | A token that the function accepts; the label names what was expected.
-token :: Text -> (Token -> Maybe a) -> Parser a
-token expected accept = do
-  (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
-  lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
-  pure a
+symbol :: Grammar p => Text -> p Region
+symbol s = token ("‘" <> s <> "’") (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
+{-# INLINE symbol #-}
 
-symbol :: Text -> Parser Region
-symbol s = token ("‘" <> s <> "’") (\t -> if shape t == Symbol s then Just (Token.place t) else Nothing)
+keyword :: Grammar p => Text -> p ()
+keyword word = token ("‘" <> word <> "’") (\t -> if isWord word t then Just () else Nothing)
+{-# INLINE keyword #-}
 
-keyword :: Text -> Parser ()
-keyword word = token ("‘" <> word <> "’") (\t -> if shape t == Word word then Just () else Nothing)
+isSymbol :: Text -> Token -> Bool
+isSymbol s t = case shape t of
+  Symbol s' -> s' == s
+  _ -> False
+
+isWord :: Text -> Token -> Bool
+isWord word t = case shape t of
+  Word word' -> word' == word
+  _ -> False
 
 -- | A name that is to be given to something. A keyword in its place is a mistake of its own.
-name :: Parser (Located Name)
+name :: Grammar p => p (Located Name)
 name = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   case next of
     Just Token {shape = Word word, newLine} | Keyword.isReserved word && not newLine -> Parsec.customFailure (NoName word)
     _ -> usedName
+{-# INLINEABLE name #-}
 
 -- | A name that is no keyword.
-usedName :: Parser (Located Name)
+usedName :: Grammar p => p (Located Name)
 usedName = located (token "a name" nameOf)
   where
     nameOf t = case shape t of
       Word word | not (Keyword.isReserved word) -> Just (Name word)
       _ -> Nothing
+{-# INLINEABLE usedName #-}
 
 -- | Only if the next token stands on the line of the last one.
-onThisLine :: Parser a -> Parser a
+onThisLine :: Grammar p => p a -> p a
 onThisLine p = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   if maybe False newLine next then Parsec.empty else p
+{-# INLINEABLE onThisLine #-}
 
 -- | Nothing more stands on this line, but for the end of the block.
-endOfLine :: Parser ()
+endOfLine :: Grammar p => p ()
 endOfLine = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
-  inBlock <- lift (gets ((> 0) . within))
+  inBlock <- ((> 0) . within) <$> memory
   case next of
     Just t | not (newLine t) && not (inBlock && shape t == Symbol "}") -> Parsec.customFailure (Trailing (shape t))
     _ -> pure ()
+{-# INLINEABLE endOfLine #-}
 
 -- | With the region from the first to the last token.
-located :: Parser a -> Parser (Located a)
+located :: Grammar p => p a -> p (Located a)
 located p = do
   Input input <- Parsec.getInput
   x <- p
-  Memory {lastEnd} <- lift get
+  Memory {lastEnd} <- memory
   let begin = case input of
         t : _ -> start (Token.place t)
         [] -> lastEnd
   pure (Located (Region begin (max begin lastEnd)) x)
+{-# INLINE located #-}
 
 quoted :: Name -> Text
 quoted (Name text) = "‘" <> text <> "’"
 
 -- Brackets
 
-parens :: Parser a -> Parser a
+parens :: Grammar p => p a -> p a
 parens = enclosed "(" ")"
+{-# INLINEABLE parens #-}
 
-brackets :: Parser a -> Parser a
+brackets :: Grammar p => p a -> p a
 brackets = enclosed "[" "]"
+{-# INLINEABLE brackets #-}
 
-enclosed :: Text -> Text -> Parser a -> Parser a
+enclosed :: Grammar p => Text -> Text -> p a -> p a
 enclosed open close inside = do
   opened <- symbol open
   attempt <- Parsec.observing (nested inside)
@@ -178,9 +219,10 @@ enclosed open close inside = do
       case failure of
         TrivialError {} | ended -> Parsec.customFailure (UnclosedBlock opened what)
         _ -> Parsec.parseError failure
+{-# INLINEABLE enclosed #-}
 
 -- | Items in braces. An item that can not be read is skipped.
-block :: Text -> (Maybe (Located Name) -> a) -> Parser a -> Parser [Located a]
+block :: Grammar p => Text -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
   items <- Parsec.many (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
@@ -200,14 +242,15 @@ block what broken one = do
       case shape next of
         Word word | beginsStatement next -> Parsec.customFailure (Misplaced word)
         _ -> pure ()
+{-# INLINEABLE block #-}
 
 -- | Statements in braces.
-statementBlock :: Text -> Parser Statement -> Parser [Statement]
+statementBlock :: Grammar p => Text -> p Statement -> p [Statement]
 statementBlock what one = do
   opened <- symbol "{"
-  lift (modify' (\m -> m {within = within m + 1}))
+  remember (\m -> m {within = within m + 1})
   statements <- nested (Parsec.many (inside *> recovering brokenStatement one))
-  lift (modify' (\m -> m {within = within m - 1}))
+  remember (\m -> m {within = within m - 1})
   ended <- null <$> rest
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol "}")
@@ -220,6 +263,7 @@ statementBlock what one = do
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
         _ -> pure ()
+{-# INLINEABLE statementBlock #-}
 
 -- | Whether the tokens hold a closing brace that belongs to a block which is open already.
 closesBlock :: [Token] -> Bool
@@ -233,34 +277,39 @@ closesBlock = go (0 :: Int)
         _ -> go open rest
 
 -- | The closing bracket. When the program or the statement ends before it, the opening one is blamed.
-closing :: Region -> Text -> Text -> Parser ()
+closing :: Grammar p => Region -> Text -> Text -> p ()
 closing opened what close = do
   ended <- atEnd
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol close)
+{-# INLINEABLE closing #-}
 
 -- | Whether something else than a closing bracket begins a new line, or nothing follows at all.
-lineEnds :: Parser Bool
+lineEnds :: Grammar p => p Bool
 lineEnds = maybe True begins <$> Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   where
     begins t = newLine t && shape t `notElem` map Symbol [")", "]", "}"]
+{-# INLINEABLE lineEnds #-}
 
 -- | Whether the program or the statement ends here.
-atEnd :: Parser Bool
+atEnd :: Grammar p => p Bool
 atEnd = maybe True beginsStatement <$> Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+{-# INLINEABLE atEnd #-}
 
-sepBy1 :: Parser a -> Text -> Parser (NonEmpty a)
+sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
 sepBy1 p separator = (:|) <$> p <*> Parsec.many (symbol separator *> p)
+{-# INLINEABLE sepBy1 #-}
 
 -- | One bracket deeper.
-nested :: Parser a -> Parser a
+nested :: Grammar p => p a -> p a
 nested p = do
-  open <- lift (gets depth)
+  open <- depth <$> memory
   when (open >= deepest) (Parsec.customFailure TooDeep)
-  lift (modify' (\m -> m {depth = open + 1}))
+  remember (\m -> m {depth = open + 1})
   a <- p
-  lift (modify' (\m -> m {depth = open}))
+  remember (\m -> m {depth = open})
   pure a
+{-# INLINEABLE nested #-}
 
 -- | Expressions are not nested deeper.
 deepest :: Int
@@ -270,22 +319,23 @@ deepest = 500
 
 -- | Run a parser. If it fails, keep the failure and let the other make something of the tokens that were
 -- read up to there; at least one token is consumed either way.
-recovering :: ([Token] -> Parser a) -> Parser a -> Parser a
+recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
   Input input <- Parsec.getInput
-  before <- lift get
+  before <- memory
   Parsec.withRecovery (again before begin input) p
   where
     again before begin input failure = do
-      lift (modify' (\m -> if gaveUp m then m else m {failures = failure : failures m, depth = depth before, within = within before, gaveUp = isTooDeep failure}))
+      remember (\m -> if gaveUp m then m else m {failures = failure : failures m, depth = depth before, within = within before, gaveUp = isTooDeep failure})
       -- What is nested too deep says nothing of what follows.
-      enough <- lift (gets gaveUp)
+      enough <- gaveUp <$> memory
       when enough (void (Parsec.takeWhileP Nothing (const True)))
       now <- Parsec.getOffset
       when (now == begin) (void Parsec.anySingle)
       after <- Parsec.getOffset
       repair (take (after - begin) input)
+{-# INLINEABLE recovering #-}
 
 isTooDeep :: Failure -> Bool
 isTooDeep failure = case failure of
@@ -294,9 +344,9 @@ isTooDeep failure = case failure of
 
 -- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt like one,
 -- and the name that was to be defined.
-brokenStatement :: [Token] -> Parser Statement
+brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
-  inBlock <- lift (gets ((> 0) . within))
+  inBlock <- ((> 0) . within) <$> memory
   more <- skipped inBlock (sum (map braces taken))
   pure (Located (foldr (Region.merge . Token.place) (place' taken) taken) (uncurry Broken (meaning (taken <> more))))
   where
@@ -339,11 +389,12 @@ brokenStatement taken = do
     place' ts = case ts of
       t : _ -> Token.place t
       [] -> Region 0 0
+{-# INLINEABLE brokenStatement #-}
 
 -- | Skip to the next line of the block that is in no braces of this item, or to the block's end. A line that ends
 -- with a comma or an operator goes on.
 -- Tell the name that a definition in the wrong place was to define.
-brokenItem :: (Maybe (Located Name) -> a) -> [Token] -> Parser a
+brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   skip (sum (map opens taken)) False
@@ -367,6 +418,7 @@ brokenItem broken taken = do
       Symbol "{" -> 1
       Symbol "}" -> -1
       _ -> 0
+{-# INLINEABLE brokenItem #-}
 
 beginsStatement :: Token -> Bool
 beginsStatement t = case shape t of

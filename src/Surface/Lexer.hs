@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Text into tokens and comments. Total: whatever is no token becomes one of the
 -- broken shapes and is reported by the parser where it stands.
 module Surface.Lexer
@@ -9,7 +11,7 @@ import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region (..))
 import Data.Char (isAlpha, isAlphaNum, isAsciiLower, isAsciiUpper, isDigit, isSpace)
 import Data.Foldable (find)
-import Data.List (foldl', sortOn)
+import Data.List (sortOn)
 import Data.Ord (Down (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -26,16 +28,22 @@ data Before = Before
     machine :: Bool
   }
 
--- | All tokens of a text and all its comments, in order; the first character has the offset given.
+-- | All tokens of a text and all its comments, in order; the first character has the offset given. Each of the two is
+-- read for itself, so that none of them waits in memory for the other.
 tokens :: Int -> Text -> ([Token], [Located Text])
-tokens begin = go Before {at = begin, fresh = True, touching = False, machine = False}
+tokens begin text = (tokensFrom before text, if "--" `Text.isInfixOf` text then remarks [] before text else [])
+  where
+    before = Before {at = begin, fresh = True, touching = False, machine = False}
 
--- | The tokens and comments of a text, piece by piece: what nobody asks for is not read.
-go :: Before -> Text -> ([Token], [Located Text])
-go before rest = case piece pieceSize [] [] before rest of
-  Piece {ts, cs, stopped, left}
-    | Text.null left -> (reverse ts, reverse cs)
-    | otherwise -> let (more, others) = go stopped left in (foldl' (flip (:)) more ts, foldl' (flip (:)) others cs)
+-- | The tokens, piece by piece: what nobody asks for is not read.
+tokensFrom :: Before -> Text -> [Token]
+tokensFrom before rest = case piece pieceSize [] [] before rest of
+  Piece {ts, stopped, left} -> foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
+
+-- | The comments behind some others, of which the last one comes first.
+remarks :: [Located Text] -> Before -> Text -> [Located Text]
+remarks found before rest = case piece pieceSize [] found before rest of
+  Piece {cs, stopped, left} -> if Text.null left then reverse cs else remarks cs stopped left
 
 -- | So many tokens are read at once.
 pieceSize :: Int
@@ -54,12 +62,14 @@ piece count ts cs before rest = case Text.uncons rest of
     | c == '-' && begins (== '-') after ->
       let (comment, more) = Text.break isLineEnd rest
           region = Region (at before) (at before + Text.length comment)
-       in piece count ts (Located region comment : cs) before {at = end region, touching = False} more
+          !remark = Located region comment
+       in piece count ts (remark : cs) before {at = end region, touching = False} more
     | otherwise ->
       let (shape, size) = if machine before then machineName rest else token c rest
           region = Region (at before) (at before + size)
           next = Before {at = end region, fresh = False, touching = True, machine = fresh before && shape == Word "machine"}
-       in piece (count - 1) (Token {place = region, shape, newLine = fresh before, attached = touching before} : ts) cs next (Text.drop size rest)
+          !found = Token {place = region, shape, newLine = fresh before, attached = touching before}
+       in piece (count - 1) (found : ts) cs next (Text.drop size rest)
   Nothing -> Piece {ts, cs, stopped = before, left = rest}
 
 -- | Whether a text begins with a character for which something holds.
@@ -130,7 +140,7 @@ unitBehind rest
   | otherwise = Nothing
   where
     (gap, word) = Text.span isBlankInLine rest
-    fits (_, name, size) = name `Text.isPrefixOf` word && not (begins isWordPart (Text.drop size word))
+    fits (_, name, _) = maybe False (not . begins isWordPart) (Text.stripPrefix name word)
     found (unit, _, size) = (unit, Text.length gap, size)
 
 -- | The units with their names and the lengths of these.

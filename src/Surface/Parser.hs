@@ -1,9 +1,12 @@
+{-# LANGUAGE RankNTypes #-}
+
 -- | Tokens into the syntax tree.
 --
 -- A mistake ends the statement or the item of a block in which it stands; reading
 -- goes on at the next one, so that one run finds them all.
 module Surface.Parser
   ( parse,
+    explained,
     parseExpr,
   )
 where
@@ -22,6 +25,7 @@ import Surface.Combinator
 import Surface.Error (Error)
 import Surface.Error qualified as Error
 import Surface.Lexer qualified as Lexer
+import Surface.Quick qualified as Quick
 import Surface.Syntax
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
@@ -32,12 +36,23 @@ import Prelude hiding (span)
 -- | Read a program whose text begins at an offset. The output holds all that could be read; there is none when the
 -- text is too long.
 parse :: Int -> Text -> Result w Error Program
-parse begin text = case drop mostTokens tokens of
+parse begin text = maybe (explained begin text) (Result [] [] . Just) (sound begin text)
+
+-- | A program without mistakes. Its tokens are read as they are needed and kept nowhere.
+sound :: Int -> Text -> Maybe Program
+sound begin text = case Lexer.tokens begin text of
+  (tokens, comments) -> (\statements -> Program {statements, comments}) <$> Quick.run mostTokens program tokens
+{-# NOINLINE sound #-}
+
+-- | The same by the reader that tells what is wrong, whether anything is or not.
+explained :: Int -> Text -> Result w Error Program
+explained begin text = case drop mostTokens tokens of
   t : _ -> Result {warnings = [], errors = [Error.TooLong (Token.place t) mostTokens], output = Nothing}
   [] -> Result {warnings = [], errors, output = Just Program {statements = Maybe.fromMaybe [] read', comments}}
   where
     (tokens, comments) = Lexer.tokens begin text
     (errors, read') = run program (begin + Text.length text) tokens
+{-# NOINLINE explained #-}
 
 -- | A program may have so many words and signs.
 mostTokens :: Int
@@ -67,7 +82,7 @@ statement_ = do
     _ -> Parsec.empty <?> "a statement"
 
 -- | The rest of a statement by its first word.
-forms :: [(Text, Parser Statement_)]
+forms :: Grammar p => [(Text, p Statement_)]
 forms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
     ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
@@ -257,10 +272,10 @@ setting = do
   begin <- Parsec.lookAhead Parsec.anySingle
   case shape begin of
     Word word | Just rest <- lookup word settingForms -> keyword word *> rest
-    _ -> Parsec.choice [Parsec.empty <?> Text.unpack ("‘" <> word <> "’") | (word, _) <- settingForms]
+    _ -> Parsec.choice [(Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest | (word, rest) <- settingForms]
 
 -- | The rest of a setting by its first word.
-settingForms :: [(Text, Parser Setting_)]
+settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
     ("retract", Retract <$> stops),
@@ -326,10 +341,14 @@ product' :: Parser Expr
 product' = chain (operators [("*", Multiply), ("/", Divide)]) factor
 
 operators :: [(Text, Operator)] -> Parser Operator
-operators table = Parsec.hidden (Parsec.choice [op <$ symbol s | (s, op) <- table])
+operators table = Parsec.hidden (token "an operator" operatorOf)
+  where
+    operatorOf t = case shape t of
+      Symbol s -> lookup s table
+      _ -> Nothing
 
 -- | Operands joined by operators, from left to right.
-chain :: Parser Operator -> Parser Expr -> Parser Expr
+chain :: Grammar p => p Operator -> p Expr -> p Expr
 chain operator operand = operand >>= more
   where
     more left = (operator >>= \op -> operand >>= \right -> more (joined op left right)) <|> pure left

@@ -14,6 +14,7 @@ module Generate.Outline
   )
 where
 
+import Base.Quantity (Mm (..))
 import Control.Monad (replicateM)
 import Data.List (sort, tails)
 import Data.Map.Strict (Map)
@@ -48,9 +49,12 @@ open :: Gen Case
 open = do
   c <- problem
   case outlines c of
-    o : _ | vs <- Outline.vertices o, length vs >= 3 -> do
-      k <- choose (2, length vs)
-      pure c {outlines = [Outline.outline Open (take k vs)], free = 0}
+    o : _
+      | vs <- Outline.vertices o,
+        length vs >= 3 -> do
+        k <- choose (2, length vs)
+        let o' = Outline.outline Open (take k vs)
+        if Outline.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
 -- | Walked one way or the other.
@@ -207,7 +211,8 @@ withArcs = do
   inside <- arbitrary
   (sound, vs, special) <- oneof [bent, rounded, round', keyhole, slot, blob]
   radius <- frequency [(2, choose (0.05, 4)), (1, elements (1 : 0.5 : special)), (1, elements (0.5 : special))]
-  pure Case {family = Arcs, outlines = [loop vs], side = if inside then LeftOf else RightOf, radius, free = if inside then 1 else 0, sound}
+  let outward = Outline.area (loop vs) < 0
+  pure Case {family = Arcs, outlines = [loop vs], side = if inside then LeftOf else RightOf, radius, free = (if inside then 1 else 0) - (if outward then 1 else 0), sound}
 
 -- | A star-shaped polygon with some edges bent; it may cross itself.
 bent :: Gen (Bool, [Vertex], [Double])

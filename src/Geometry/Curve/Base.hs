@@ -4,6 +4,8 @@
 -- that it came from, so that columns of numbers beside the points can be interpolated in the same way.
 module Geometry.Curve.Base
   ( Base (..),
+    Course (..),
+    spans,
     Method (..),
     Ends (..),
     Row (..),
@@ -44,6 +46,7 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Similarity (Similarity)
 import Geometry.Similarity qualified as Similarity
+import Geometry.Spline (Cubics)
 import Geometry.Spline qualified as Spline
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
@@ -51,15 +54,23 @@ import Geometry.Vec qualified as Vec
 
 data Base = Base
   { method :: Method,
-    -- | the rows of the table, in the order of the walk
-    rows :: Vector Row,
+    -- | the rows of the table, in the order of the walk; made when they are asked for
+    rows :: ~(Vector Row),
     -- | at least one
-    spans :: Vector Span,
+    course :: Course,
     -- | whether the end is the beginning
     closed :: Bool,
     -- | along the base; read by 'ruler'
     measure :: ~Ruler
   }
+  deriving stock (Eq, Show)
+
+-- | The spans in order.
+data Course
+  = -- | cubics in x and as many in y
+    Cubical Cubics Cubics
+  | -- | some of them arcs
+    Mixed (Vector Span)
   deriving stock (Eq, Show)
 
 -- | How the points became spans.
@@ -113,18 +124,40 @@ data Flaw
   deriving stock (Eq, Show)
 
 -- | A base of these spans.
-made :: Method -> Bool -> Vector Row -> Vector Span -> Base
-made method closed rows spans = base
+made :: Method -> Bool -> Vector Row -> Course -> Base
+made method closed rows course = base
   where
-    base = Base {method, rows, spans, closed, measure = Ruler.measured speed (map fromIntegral [0 .. Vector.length spans])}
-    speed u = Vec.norm (Jet.velocity (jet 1 base (spot After u base)))
+    base = Base {method, rows, course, closed, measure = Ruler.measured speed (map fromIntegral [0 .. count base])}
+    speed u = let s = spot After u base in speedAt base (number s) (local s)
+
+-- | How fast the place changes, in mm for 1 of the parameter, in a span at its own parameter.
+speedAt :: Base -> Int -> Double -> Double
+speedAt base i t = case course base of
+  Cubical xs ys -> let a = Spline.rate (Spline.at xs i) t; b = Spline.rate (Spline.at ys i) t in sqrt (a * a + b * b)
+  Mixed parts -> Vec.norm (Jet.velocity (Span.jet 1 (parts Vector.! i) t))
+
+-- | The spans one by one.
+spans :: Base -> Vector Span
+spans base = case course base of
+  Cubical xs ys -> Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
+  Mixed parts -> parts
+
+-- | Cubics where all spans are.
+coursed :: Vector Span -> Course
+coursed parts = case traverse polynomial parts of
+  Just both -> let part f = Spline.generate (Vector.length both) (\i -> f (both Vector.! i)) in Cubical (part fst) (part snd)
+  Nothing -> Mixed parts
+  where
+    polynomial s = case s of
+      Polynomial a b -> Just (a, b)
+      Round _ -> Nothing
 
 -- | Straight from point to point; closed when the last is the first.
 polyline :: Vector Point -> Either Flaw Base
 polyline points = do
   distinct 2 points
-  let line i p = let q = points Vector.! (i + 1) in Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
-  Right (made Polyline (closes points) (numbered points) (Vector.imap line (Vector.init points)))
+  let lines' part = Spline.generate (Vector.length points - 1) (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
+  Right (made Polyline (closes points) (numbered points) (Cubical (lines' Vec.x) (lines' Vec.y)))
 
 -- | A cubic spline by the chord length from point to point; continuous up to the second derivative by it. At
 -- clamped ends the derivative by the chord length is the direction given. The points of a periodic one may or may not
@@ -149,8 +182,8 @@ spline ends points = case ends of
     Right (made (Spline Periodic) True (numbered points) (cubics Spline.Periodic Spline.Periodic round'))
 
 -- | The spans of a spline, from what holds at the ends for x and for y.
-cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> Vector Span
-cubics forX forY points = Vector.zipWith Polynomial (through forX Vec.x) (through forY Vec.y)
+cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> Course
+cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
   where
     steps = distances points
     through boundary part = Spline.interpolate boundary steps (Unboxed.convert (Vector.map part points))
@@ -169,7 +202,7 @@ chords base
 
 -- | Where the middle row of each parabola lies, as a fraction of its span.
 fractions :: Base -> Vector Double
-fractions base = Vector.imap (\i _ -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1))) (spans base)
+fractions base = Vector.generate (count base) (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
 -- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the template). A span is a
 -- parabola; its parameter is proportional to x, which rises or falls all along.
@@ -183,8 +216,8 @@ parabola points
     let middles = Vector.generate (Vector.length points `div` 2) middle
         row i p = Row {at = if even i then fromIntegral (i `div` 2) else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2), place = p}
         through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
-        spans = Vector.imap (\i y -> Polynomial (Spline.line (x (2 * i)) (x (2 * i + 2))) y) (through Vec.y)
-    Right (made Parabola False (Vector.imap row points) spans)
+        across = Spline.generate (Vector.length middles) (\i -> Spline.line (x (2 * i)) (x (2 * i + 2)))
+    Right (made Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
@@ -195,38 +228,38 @@ parabola points
 -- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
 ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Base
 ofPieces pieces parameters = do
-  joined (NonEmpty.toList spans)
+  joined (NonEmpty.toList parts)
   maybe (Right ()) (Left . Disordered . (+ 1)) (Vector.findIndex not ordered)
   Right base {rows = Vector.map (\u -> Row {at = u, place = Jet.place (jet 0 base (spot After u base))}) parameters}
   where
-    spans = fmap Span.ofPiece pieces
-    base = chain Vector.empty spans
-    n = fromIntegral (NonEmpty.length spans)
+    parts = fmap Span.ofPiece pieces
+    base = chain Vector.empty parts
+    n = fromIntegral (NonEmpty.length parts)
     ordered = Vector.imap (\i u -> u >= 0 && u <= n && all (> u) (parameters Vector.!? (i + 1))) parameters
 
 -- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the chain is closed.
 ofSegments :: NonEmpty Segment -> Either Flaw Base
 ofSegments segments = do
-  joined (NonEmpty.toList spans)
+  joined (NonEmpty.toList parts)
   Right base {rows = numbered (if closed base then starts else Vector.snoc starts (Segment.end (NonEmpty.last segments)))}
   where
-    spans = fmap Span.ofSegment segments
-    base = chain Vector.empty spans
+    parts = fmap Span.ofSegment segments
+    base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
 -- | A base of spans that join.
 chain :: Vector Row -> NonEmpty Span -> Base
-chain rows spans = made Joined (Vec.near first final) rows (Vector.fromList (NonEmpty.toList spans))
+chain rows parts = made Joined (Vec.near first final) rows (coursed (Vector.fromList (NonEmpty.toList parts)))
   where
-    (first, _) = Span.ends (NonEmpty.head spans)
-    (_, final) = Span.ends (NonEmpty.last spans)
+    (first, _) = Span.ends (NonEmpty.head parts)
+    (_, final) = Span.ends (NonEmpty.last parts)
 
 -- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
 joined :: [Span] -> Either Flaw ()
-joined spans = maybe (Right ()) Left (listToMaybe (lengthless <> apart))
+joined parts = maybe (Right ()) Left (listToMaybe (lengthless <> apart))
   where
-    lengthless = [NoLength i | (i, s) <- zip [1 ..] spans, Span.isPoint s]
-    apart = [Disjoint i | (i, s, s') <- zip3 [1 ..] spans (drop 1 spans), not (Vec.near (snd (Span.ends s)) (fst (Span.ends s')))]
+    lengthless = [NoLength i | (i, s) <- zip [1 ..] parts, Span.isPoint s]
+    apart = [Disjoint i | (i, s, s') <- zip3 [1 ..] parts (drop 1 parts), not (Vec.near (snd (Span.ends s)) (fst (Span.ends s')))]
 
 -- | There are enough points, and none is the next one's place.
 distinct :: Int -> Vector Point -> Either Flaw ()
@@ -245,7 +278,9 @@ numbered = Vector.imap (\i p -> Row {at = fromIntegral i, place = p})
 
 -- | How many spans there are: the parameter of the end.
 count :: Base -> Int
-count base = Vector.length (spans base)
+count base = case course base of
+  Cubical xs _ -> Spline.count xs
+  Mixed parts -> Vector.length parts
 
 -- | Along the base.
 ruler :: Base -> Ruler
@@ -268,11 +303,13 @@ spot approach u base = Spot {parameter, number, local = parameter - fromIntegral
 
 -- | The power series of the place up to an order.
 jet :: Int -> Base -> Spot -> Jet
-jet n base s = Span.jet n (spans base Vector.! number s) (local s)
+jet n base s = case course base of
+  Cubical xs ys -> Jet (Spline.series n (Spline.at xs (number s)) (local s)) (Spline.series n (Spline.at ys (number s)) (local s))
+  Mixed parts -> Span.jet n (parts Vector.! number s) (local s)
 
 -- | The same walked from its end.
 reversed :: Base -> Base
-reversed base = made method' (closed base) (Vector.imap back (backwards base (rows base))) (Vector.map Span.reversed (Vector.reverse (spans base)))
+reversed base = made method' (closed base) (Vector.imap back (backwards base (rows base))) (mapped (Vector.map Span.reversed . Vector.reverse) base)
   where
     back i row = row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
     method' = case method base of
@@ -282,6 +319,10 @@ reversed base = made method' (closed base) (Vector.imap back (backwards base (ro
       Polyline -> Polyline
       Parabola -> Parabola
       Joined -> Joined
+
+-- | Other spans in their place, of the same kinds.
+mapped :: (Vector Span -> Vector Span) -> Base -> Course
+mapped f base = coursed (f (spans base))
 
 -- | What belongs to the rows, in the order of the reversed base.
 backwards :: Base -> Vector a -> Vector a
@@ -297,7 +338,7 @@ unrepeated base = case (rows base Vector.!? 0, rows base Vector.!? (Vector.lengt
 
 -- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
 transformed :: Similarity -> Base -> Base
-transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Similarity.point s (place row)}) (rows base)) (Vector.map (Span.transformed s) (spans base))
+transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Similarity.point s (place row)}) (rows base)) (mapped (Vector.map (Span.transformed s)) base)
   where
     method' = case method base of
       Spline (Clamped from to) -> Spline (Clamped (Vec.unit (Span.image s from)) (Vec.unit (Span.image s to)))

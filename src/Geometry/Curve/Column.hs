@@ -25,7 +25,7 @@ import Geometry.Jet qualified as Jet
 import Geometry.Ruler qualified as Ruler
 import Geometry.Series (Series)
 import Geometry.Series qualified as Series
-import Geometry.Spline (Boundary (..), Cubic (..))
+import Geometry.Spline (Boundary (..), Cubic (..), Cubics)
 import Geometry.Spline qualified as Spline
 
 -- | Row values, in whatever unit, and what they are between the rows.
@@ -34,9 +34,9 @@ data Column = Column {values :: Vector Double, course :: Course}
 
 data Course
   = -- | a cubic for every span of the base
-    BySpan (Vector Cubic)
+    BySpan Cubics
   | -- | the lengths along the base, in mm, where one cubic follows another, the ends included
-    ByLength (Unboxed.Vector Double) (Vector Cubic)
+    ByLength (Unboxed.Vector Double) Cubics
   deriving stock (Eq, Show)
 
 -- | As many values as the base has rows.
@@ -51,7 +51,7 @@ column base values
     round' = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
     onceRound = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
     course = case Base.method base of
-      Polyline -> BySpan (Vector.zipWith Spline.line values (Vector.drop 1 values))
+      Polyline -> BySpan (Spline.generate (Vector.length values - 1) (\i -> Spline.line (values Vector.! i) (values Vector.! (i + 1))))
       Spline Base.Natural -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
       Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
       Spline Base.Periodic -> BySpan (Spline.interpolate (if round' then Periodic else Natural) (Base.chords base) onceRound)
@@ -61,8 +61,8 @@ column base values
 -- | The spline by the length along the base. Of two values and more; a single one is the same everywhere.
 byLength :: Base -> Vector Double -> Course
 byLength base values = case Vector.toList values of
-  [] -> BySpan (Vector.replicate (Base.count base) (Cubic 0 0 0 0))
-  [v] -> BySpan (Vector.replicate (Base.count base) (Cubic v 0 0 0))
+  [] -> BySpan (Spline.generate (Base.count base) (const (Cubic 0 0 0 0)))
+  [v] -> BySpan (Spline.generate (Base.count base) (const (Cubic v 0 0 0)))
   v : _
     | Base.unrepeated base -> spline (if Vector.length values >= 3 then Periodic else Natural) (Unboxed.snoc stations whole) (Vector.snoc values v)
     | Base.closed base && aroundOnce && Vector.length values >= 4 -> spline Periodic stations values
@@ -76,15 +76,15 @@ byLength base values = case Vector.toList values of
 -- | The power series of the value up to an order.
 series :: Int -> Base -> Column -> Spot -> Series
 series n base c spot = case course c of
-  BySpan cubics -> Spline.series n (cubics Vector.! number spot) (local spot)
+  BySpan cubics -> Spline.series n (Spline.at cubics (number spot)) (local spot)
   ByLength stations cubics
     | here < Unboxed.head stations -> Series.polynomial (tangentAt 0) fraction
     | here > Unboxed.last stations -> Series.polynomial (tangentAt 1) fraction
-    | otherwise -> Series.polynomial (Spline.coefficients (cubics Vector.! i)) fraction
+    | otherwise -> Series.polynomial (Spline.coefficients (Spline.at cubics i)) fraction
     where
       -- Before the first row and behind the last the column goes on straight.
       tangentAt t =
-        let ahead = Spline.series 1 (cubics Vector.! i) t
+        let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = Series.coefficient 1 ahead
          in [Series.value ahead - rise * t, rise]
       Mm here = Ruler.lengthTo (Base.ruler base) (parameter spot)

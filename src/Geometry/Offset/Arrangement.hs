@@ -66,7 +66,7 @@ arrange tolerance c bs
     found = Vector.fromList (merged tolerance places (slices c places nodeOf cutNodes))
     outgoing = IntMap.fromListWith (<>) (concat [[(from e, [2 * i]), (to e, [2 * i + 1])] | (i, e) <- Vector.toList (Vector.indexed found)])
     ordered = fmap (Vector.fromList . ring places found) outgoing
-    arrangement = Arrangement {chain = c, nodes = places, edges = found, rings = ordered, lefts = propagated tolerance c bs places found ordered, proper = pairs}
+    arrangement = Arrangement {chain = c, nodes = places, edges = found, rings = ordered, lefts = propagated places found ordered, proper = pairs}
 
 -- | Where each segment has to be cut, and which segments cross properly. Arcs are also cut where they are leftmost, so that the
 -- leftmost place of everything that hangs together is a node.
@@ -161,7 +161,8 @@ merged tolerance places cut = concatMap edgesOf (Map.toList (Map.fromListWith (<
       where
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap.
+-- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap; at the leftmost node of
+-- what hangs together, behind the one on the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring places es halves = case halves of
   [_] -> halves
@@ -171,12 +172,13 @@ ring places es halves = case halves of
     aimed = sortOn (\(_, angle, _) -> angle) [(h, atan2 dy dx, (dx, dy, l, k)) | h <- halves, let (dx, dy, l, k) = direction h]
     angles = map (\(_, angle, _) -> angle) aimed
     gaps = zipWith (\a b -> (b - a, (a + b) / 2)) angles (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    cut = snd (maximumBy (comparing fst) gaps)
+    -- Two that leave a leftmost place straight up and down have as wide a gap on their right; the last gap is the left one.
+    cut = snd (maximumBy (comparing fst) (zipWith (\k (gap, middle) -> (if k == length gaps then gap + tie else gap, middle)) [1 ..] gaps))
     turnedBy :: Double -> Double -> Double
     turnedBy from' angle = let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
     -- Of two that set out in nearly the same direction, compare how far to the left they are a little further on.
     order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
-      | abs (a - b) > 1e-3 = compare a b
+      | abs (a - b) > tie = compare a b
       | otherwise =
         let step = 0.25 * min l l'
             lean = asin (max (-1) (min 1 (dx * dy' - dy * dx')))
@@ -196,14 +198,30 @@ ring places es halves = case halves of
           si = 2 * g * q
        in (ux * co + uy * si, uy * co - ux * si, l, 4 * g * q / l)
 
+-- | Directions that differ by less, in radians, may have changed their order by rounding.
+tie :: Double
+tie = 1e-3
+
 -- | The winding number on the left of every edge, from outside at the leftmost node of whatever hangs together.
-propagated :: Double -> Chain -> Boxes -> Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
-propagated tolerance c bs places es ordered = foldl' component IntMap.empty (map snd (sortOn fst [(places Vector.! k, k) | k <- IntMap.keys ordered]))
+propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
+propagated places es ordered = foldl' component IntMap.empty (map snd (sortOn fst [(places Vector.! k, k) | k <- IntMap.keys ordered]))
   where
     component known k = case ordered IntMap.!? k of
       Just halves | h <- Vector.head halves, IntMap.notMember (h `div` 2) known -> spread known [(h, outside k)]
       _ -> known
-    outside k = let (x, y) = places Vector.! k in Winding.at c bs (x - 16 * tolerance) y
+    -- What all that does not hang together with a node says there.
+    outside k =
+      let (x, y) = places Vector.! k
+          own = IntMap.lookup k islands
+          add total i
+            | IntMap.lookup (from edge) islands == own = total
+            | otherwise = total + times edge * Winding.passed apart x y i
+            where
+              edge = es Vector.! (i `div` 2)
+       in Boxes.around around (-1e300) y x y (0 :: Int) add
+    apart = Chain.apart [(x, y, x', y', bulge e) | e <- Vector.toList es, let ((x, y), (x', y')) = (places Vector.! from e, places Vector.! to e)]
+    around = Boxes.boxes 0 apart
+    islands = islandsOf es ordered
     -- Half-edges with what is on their right, seen as they leave.
     spread known todo = case todo of
       [] -> known
@@ -221,6 +239,17 @@ propagated tolerance c bs places es ordered = foldl' component IntMap.empty (map
     go _ [] = []
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
+
+-- | For every node one that stands for all that hang together with it.
+islandsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
+islandsOf es ordered = foldl' (\known k -> if IntMap.member k known then known else reach k known [k]) IntMap.empty (IntMap.keys ordered)
+  where
+    reach name known todo = case todo of
+      [] -> known
+      k : rest
+        | IntMap.member k known -> reach name known rest
+        | otherwise -> reach name (IntMap.insert k name known) (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
+    other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
 -- | Whether the numbers agree round every node.
 agree :: Arrangement -> Bool

@@ -4,7 +4,7 @@
 -- as was asked.
 module Geometry.Offset.Certificate
   ( clear,
-    farFrom,
+    covers,
   )
 where
 
@@ -19,14 +19,24 @@ import Geometry.Offset.Loops qualified as Loops
 -- | Whether the middle of a loop's first segment is no nearer to any segment of the source than that one's distance less
 -- an error (both in mm). The largest distance limits the search.
 clear :: Double -> Double -> (Int -> Double) -> Chain -> Boxes -> Loops -> Int -> Bool
-clear slack largest distance source bs l k = farFrom slack largest distance source bs x y
+clear slack largest distance source bs l k = uncurry (farFrom slack largest distance source bs) (witness l k)
+
+-- | Whether a cutter that stands where that place is reaches every segment of the source.
+covers :: Double -> (Int -> Double) -> Chain -> Loops -> Int -> Bool
+covers slack distance source l k = and [fromPoint source i x y <= abs (reach i) + slack | i <- [0 .. sizeofPrimArray (Chain.xs source) - 1], not (Chain.marked Chain.copied (indexPrimArray (Chain.marks source) i))]
+  where
+    (x, y) = witness l k
+    reach i = distance (fromIntegral (indexPrimArray (Chain.sources source) i))
+
+-- | The middle of a loop's first segment.
+witness :: Loops -> Int -> (Double, Double)
+witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
   where
     i = indexPrimArray (Loops.starts l) k
     j = if i + 1 == indexPrimArray (Loops.starts l) (k + 1) then i else i + 1
     (x0, y0) = (indexPrimArray (Loops.xs l) i, indexPrimArray (Loops.ys l) i)
     (dx, dy) = (indexPrimArray (Loops.xs l) j - x0, indexPrimArray (Loops.ys l) j - y0)
     b = indexPrimArray (Loops.bulges l) i
-    (x, y) = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
 
 -- | Whether a point is no nearer to any segment than that one's distance less an error.
 farFrom :: Double -> Double -> (Int -> Double) -> Chain -> Boxes -> Double -> Double -> Bool

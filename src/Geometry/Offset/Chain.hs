@@ -16,6 +16,9 @@ module Geometry.Offset.Chain
     first,
     behind,
     extent,
+    only,
+    closed,
+    apart,
 
     -- * Marks of segments
     smooth,
@@ -40,6 +43,7 @@ import Control.Monad.ST (ST, runST)
 import Data.Bits ((.&.))
 import Data.Int (Int32)
 import Data.Primitive.PrimArray
+import Data.Primitive.Types (Prim)
 import Data.Word (Word8)
 import Geometry.Contour (Ends (..))
 import Geometry.Outline (Outline (Outline))
@@ -187,6 +191,32 @@ extent :: [Outline] -> Double
 extent = foldl (\m o -> largest (largest m (Outline.xs o)) (Outline.ys o)) 0
   where
     largest = foldlPrimArray' (\m a -> if abs a > m then abs a else m)
+
+-- | Some of the walks.
+only :: [Int] -> Chain -> Chain
+only ws c = Chain {xs = gathered (xs c), ys = gathered (ys c), bulges = gathered (bulges c), marks = gathered (marks c), sources = gathered (sources c), heads = primArrayFromList (scanl (+) 0 (map size ws))}
+  where
+    size w = behind c w + 1 - first c w
+    gathered :: Prim a => PrimArray a -> PrimArray a
+    gathered a = mconcat [clonePrimArray a (first c w) (size w) | w <- ws]
+
+-- | A walk as an outline.
+closed :: Chain -> Int -> Outline
+closed c w = Outline Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
+  where
+    cut a = clonePrimArray a (first c w) (behind c w - first c w)
+
+-- | Segments that do not hang together, from x, y to x, y with a bulge: the first has the number 0, the next one 2, and so on.
+apart :: [(Double, Double, Double, Double, Double)] -> Chain
+apart ss =
+  Chain
+    { xs = primArrayFromList (concat [[x, x'] | (x, _, x', _, _) <- ss]),
+      ys = primArrayFromList (concat [[y, y'] | (_, y, _, y', _) <- ss]),
+      bulges = primArrayFromList (concat [[b, 0] | (_, _, _, _, b) <- ss]),
+      marks = primArrayFromList (concat [[opening + closing, copied] | _ <- ss]),
+      sources = primArrayFromList (concat (zipWith (\k _ -> [k, k]) [0 ..] ss)),
+      heads = primArrayFromList [2 * k | k <- [0 .. length ss]]
+    }
 
 -- | The vector from the beginning of a segment to its end.
 chord :: Chain -> Int -> (Double -> Double -> r) -> r

@@ -22,6 +22,7 @@ module Geometry.Offset.Kernel
 where
 
 import Base.Quantity (Mm (..))
+import Data.Bifunctor (first)
 import Data.Maybe (mapMaybe)
 import Data.Primitive.PrimArray
 import Geometry.Contour (Ends (..))
@@ -72,54 +73,97 @@ data Fault
 -- | What the cutter's centre can reach beside outlines that are all closed, or one that is open.
 offset :: Task -> [Outline] -> Either Fault Reach
 offset task outlines = do
-  wanted <- wantedOf tolerance turn open source sourceBoxes
-  let exact = inGeneral wanted
-      decided = mapMaybe (byArrangement wanted) (take 5 (iterate (* 10) (100 * tolerance)))
-  case maybe id (:) exact decided of
-    found : _ -> Right Reach {loops = found, raw = rough}
-    [] -> Left Uncertain
+  wanted <- first bothWays (wantedOf tolerance turn open source sourceBoxes)
+  let hopeful = filter (not . hopeless problem chain) [0 .. Chain.walks chain - 1]
+  if length hopeful == Chain.walks chain
+    then reachOf problem wanted raws sourceBoxes
+    else reached problem wanted (Chain.only hopeful chain)
   where
     open = any ((== Open) . Outline.ends) outlines
-    turn = case side task of
-      LeftOf -> CounterClockwise
-      RightOf -> Clockwise
+    turn = turnOf (side task)
     Mm d = distance task
-    signed = case side task of
-      LeftOf -> -1
-      RightOf -> 1
     segmentCount = sum (map Outline.size outlines)
     more i = case extra task of
       Nothing -> 0
-      Just f -> let Mm e = f (if open && i >= segmentCount then 2 * segmentCount - 1 - i else i) in e
+      Just f -> let Mm e = f (number i) in e
+    -- An open outline is walked there and back.
+    number i = if open && i >= segmentCount then 2 * segmentCount - 1 - i else i
+    bothWays fault = case fault of
+      Crossed i j -> let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
+      Misplaced -> Misplaced
+      Uncertain -> Uncertain
     largest = case extra task of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
     tolerance = Tolerance.rounding * (Chain.extent outlines + largest)
     chain = Chain.fromOutlines tolerance (if open then map Chain.twoSided outlines else outlines)
-    (rough, source) = case extra task of
-      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d)) chain
-      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i)) chain
+    raws@(_, source) = raw chain
     sourceBoxes = Boxes.boxes tolerance source
-    inGeneral wanted = case generalPosition of
+    problem = Problem {turn, rounding = tolerance, widest = largest, distances = \i -> d + more i, rawOf = raw}
+    signed = case side task of
+      LeftOf -> -1
+      RightOf -> 1
+    raw c = case extra task of
+      Nothing -> Raw.raw tolerance Tolerance.tangential (corners task) (const (signed * d)) c
+      Just _ -> Raw.raw tolerance Tolerance.tangential (corners task) (\i -> signed * (d + more i)) c
+
+turnOf :: Side -> Turn
+turnOf s = case s of
+  LeftOf -> CounterClockwise
+  RightOf -> Clockwise
+
+-- | What is asked of all walks: the way round the free places that an outline has, the tolerance of rounding, the largest
+-- distance and that of every segment (in mm), and how the raw equidistant is made.
+data Problem = Problem {turn :: Turn, rounding :: Double, widest :: Double, distances :: Int -> Double, rawOf :: Chain -> (Chain, Chain)}
+
+reached :: Problem -> Int -> Chain -> Either Fault Reach
+reached problem wanted c = let raws@(_, source) = rawOf problem c in reachOf problem wanted raws (Boxes.boxes (rounding problem) source)
+
+-- | The loops from the raw equidistant, its source, and the boxes of that.
+reachOf :: Problem -> Int -> (Chain, Chain) -> Boxes -> Either Fault Reach
+reachOf Problem {turn, rounding, widest, distances} wanted (rough, source) sourceBoxes = case maybe id (:) inGeneral decided of
+  found : _ -> Right Reach {loops = found, raw = rough}
+  [] -> Left Uncertain
+  where
+    inGeneral = case generalPosition of
       Nothing -> Nothing
-      Just (bs, xs) -> Clip.clip tolerance wanted rough bs xs >>= certified (1e5 * tolerance)
+      Just (bs, xs) -> Clip.clip rounding wanted rough bs xs >>= certified
     generalPosition :: Maybe (Boxes, Crossings)
     generalPosition =
-      let bs = Boxes.boxes tolerance rough
-       in case Crossings.find tolerance rough bs of
+      let bs = Boxes.boxes rounding rough
+       in case Crossings.find rounding rough bs of
             Unclear -> Nothing
             Found xs -> Just (bs, xs)
-    byArrangement wanted within = do
+    decided = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
+    byArrangement within = do
       a <- Arrangement.arrange within rough (Boxes.boxes within rough)
-      certified (1e5 * tolerance) (Arrangement.loops turn wanted a)
-    -- A cutter that covers the whole source from inside would count as free again.
-    certified slack found
-      | all sound [0 .. Loops.count found - 1] = Just found
-      | Chain.walks source == 1 && coverable = Just (Loops.only sound found)
+      certified (Arrangement.loops turn wanted a)
+    -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are those of free places.
+    certified found
+      | all sound loops' = Just found
+      | Chain.walks source == 1 && all (\k -> sound k || covering k) loops' = Just (Loops.only sound found)
       | otherwise = Nothing
       where
-        sound = Certificate.clear slack largest (\i -> d + more i) source sourceBoxes found
-    coverable = Boxes.whole sourceBoxes (\lx ly hx hy -> hx - lx <= 2 * largest + tolerance && hy - ly <= 2 * largest + tolerance)
+        loops' = [0 .. Loops.count found - 1]
+        sound = Certificate.clear (1e5 * rounding) widest distances source sourceBoxes found
+        covering = Certificate.covers (1e5 * rounding) distances source found
+
+-- | Whether one of several walks goes round free places that are too small for the cutter. Where a cutter covers such a one
+-- wholly, it would count as free; by itself it is recognised.
+hopeless :: Problem -> Chain -> Int -> Bool
+hopeless problem c w = Chain.walks c > 1 && outer && near && nothing
+  where
+    o = Chain.closed c w
+    area = Outline.area o
+    -- Of a place from which every segment is no further than d, the segments see an area of no more than d/2 times their length.
+    near = let Mm l = Outline.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
+    -- By itself it has this number on its left.
+    (outer, left) = case turn problem of
+      CounterClockwise -> (area > 0, 1)
+      Clockwise -> (area < 0, 0)
+    nothing = case reached problem left (Chain.only [w] c) of
+      Right reach -> Loops.count (loops reach) == 0
+      Left _ -> False
 
 -- | The winding number on the left of the source that its free places have, or are next to: 1 when the outermost walk is
 -- counter-clockwise, else 0. A source that crosses itself, or lies in itself the wrong way, is at fault.

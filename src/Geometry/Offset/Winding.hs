@@ -4,6 +4,7 @@
 -- | Winding numbers of a chain: at a point, and on the left of a walk at its outermost places.
 module Geometry.Offset.Winding
   ( at,
+    passed,
     Extreme (..),
     Outward (..),
     extreme,
@@ -16,22 +17,26 @@ import Geometry.Offset.Boxes qualified as Boxes
 import Geometry.Offset.Chain (Chain)
 import Geometry.Offset.Chain qualified as Chain
 
--- | How often the chain goes round a point that is not on it, counter-clockwise: the chords that a ray to the left meets, and
--- the arcs that have the point between them and their chord.
+-- | How often the chain goes round a point that is not on it, counter-clockwise.
 at :: Chain -> Boxes -> Double -> Double -> Int
-at c bs px py = Boxes.around bs (-1e300) py px py 0 $ \total i ->
-  let x0 = indexPrimArray (Chain.xs c) i
-      y0 = indexPrimArray (Chain.ys c) i
-      x1 = indexPrimArray (Chain.xs c) (i + 1)
-      y1 = indexPrimArray (Chain.ys c) (i + 1)
-      b = indexPrimArray (Chain.bulges c) i
-      side = (x1 - x0) * (py - y0) - (y1 - y0) * (px - x0)
-      crossed
-        | y0 <= py && y1 > py = if side < 0 then -1 else 0
-        | y1 <= py && y0 > py = if side > 0 then 1 else 0
-        | otherwise = 0
-      between = if b /= 0 && side * b < 0 && Chain.power c i px py < 0 then (if b > 0 then 1 else -1) else 0
-   in total + crossed + between
+at c bs px py = Boxes.around bs (-1e300) py px py 0 (\total i -> total + passed c px py i)
+
+-- | What a segment adds to that: whether a ray to the left meets its chord, and whether the point is between it and its chord.
+passed :: Chain -> Double -> Double -> Int -> Int
+passed c px py i = crossed + between
+  where
+    x0 = indexPrimArray (Chain.xs c) i
+    y0 = indexPrimArray (Chain.ys c) i
+    x1 = indexPrimArray (Chain.xs c) (i + 1)
+    y1 = indexPrimArray (Chain.ys c) (i + 1)
+    b = indexPrimArray (Chain.bulges c) i
+    side = (x1 - x0) * (py - y0) - (y1 - y0) * (px - x0)
+    crossed
+      | y0 <= py && y1 > py = if side < 0 then -1 else 0
+      | y1 <= py && y0 > py = if side > 0 then 1 else 0
+      | otherwise = 0
+    between = if b /= 0 && side * b < 0 && Chain.power c i px py < 0 then (if b > 0 then 1 else -1) else 0
+{-# INLINE passed #-}
 
 -- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on the left of the walk
 -- beside what there is outside: 1 or 0; nothing if it runs back along itself there.

@@ -22,6 +22,7 @@ import Geometry.Offset.Kernel qualified as Kernel
 import Geometry.Offset.Loops qualified as Loops
 import Geometry.Offset.Naive (Piece (..))
 import Geometry.Offset.Naive qualified as Naive
+import Geometry.Outline (Outline)
 import Geometry.Outline qualified as Outline
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -53,14 +54,14 @@ judge c = case answer c of
     Left problem -> Wrong problem
     Right n -> Right' n
   where
-    segments = concatMap Outline.segments (outlines c)
-    meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-8 * scaleOf c
+    segments = concatMap (Outline.segments . straightened) (outlines c)
+    meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-5 * scaleOf c
 
 -- | Whether all segments keep clearly apart but for the vertices that they share.
 apart :: Case -> Bool
-apart c = and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
+apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- Outline.vertices o] && and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
   where
-    numbered = zip [0 :: Int ..] (concatMap (\o -> map (o,) (Outline.segments o)) (outlines c))
+    numbered = zip [0 :: Int ..] (concatMap (\o -> map (o,) (Outline.segments (straightened o))) (outlines c))
     total = length numbered
     clear (i, (o, a)) (j, (_, b))
       | j == i + 1 || (i == 0 && j == total - 1 && Outline.ends o == Closed) = trimmed a b i j
@@ -69,9 +70,13 @@ apart c = and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- 
       | j == i + 1 = far (front a) (back b)
       | otherwise = far (front b) (back a)
     far a b = let Mm d = Distance.distance (Distance.segments a b) in d > 1e-6
-    front s = fst (Segment.cutAt 0.999 s)
+    front s = fst (Segment.cutAt 0.99999 s)
     back :: Segment -> Segment
-    back s = snd (Segment.cutAt 0.001 s)
+    back s = snd (Segment.cutAt 0.00001 s)
+
+-- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
+straightened :: Outline -> Outline
+straightened o = Outline.outline (Outline.ends o) [(x, y, if abs b < 1e-6 then 0 else b) | (x, y, b) <- Outline.vertices o]
 
 -- | The result's boundary is everywhere as far from the source as asked; and whether a place is free by the result is
 -- whether it is free and far enough by the source: beside the boundary, and at random.
@@ -91,9 +96,9 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
       RightOf -> free c + 1
     boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, not (abs e <= near)]
     thin o
-      | family c /= Noise && abs (Outline.area o) < 1e-10 * scale * scale = Just ("no area " <> show (Outline.area o))
+      | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-12 * scale * (let Mm l = Outline.length o in l) = Just ("no area " <> show (Outline.area o))
       | otherwise = Nothing
-    spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let (x, y, nx, ny) = on p t] <> take 24 scattered
+    spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let { (x, y, nx, ny) = on p t }] <> take 24 scattered
     h = 1e-6 * scale
     beside (x, y)
       | abs (far - d) <= 0.3 * h = Nothing

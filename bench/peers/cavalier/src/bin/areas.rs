@@ -1,25 +1,28 @@
-//! areas FILE: the offsets of many small contours. FILE holds one record after another, all numbers little-endian of eight
+//! areas FILE [EPSILON]: the offsets of many small contours. FILE holds one record after another, all numbers little-endian of eight
 //! bytes: how many vertices (an integer), the offset D in mm, then x y bulge for each vertex. Prints a line for each
 //! contour: the area of its offset, the length, the number of closed loops, the number of open pieces. D > 0 leads outwards
-//! when the contour is counter-clockwise.
+//! when the contour is counter-clockwise. EPSILON is the distance in mm below which two places count as one, 1e-5 unless given.
 
 use cavalier::{measures, number, vertices};
-use cavalier_contours::polyline::PlineSource;
+use cavalier_contours::polyline::{PlineOffsetOptions, PlineSource};
 use std::fs::File;
 use std::io::{BufReader, BufWriter, ErrorKind, Write};
 
 fn main() -> std::io::Result<()> {
     let Some(path) = std::env::args().nth(1) else {
-        eprintln!("areas FILE");
+        eprintln!("areas FILE [EPSILON]");
         std::process::exit(2);
     };
+    let epsilon = std::env::args().nth(2).map(|e| e.parse().expect("a distance in mm"));
+    let mut options = PlineOffsetOptions::default();
+    options.pos_equal_eps = epsilon.unwrap_or(options.pos_equal_eps);
     let mut file = BufReader::new(File::open(path)?);
     let mut out = BufWriter::new(std::io::stdout());
     while let Some(count) = number(&mut file)? {
         let distance = f64::from_le_bytes(number(&mut file)?.ok_or(ErrorKind::UnexpectedEof)?);
         let source = vertices(&mut file, u64::from_le_bytes(count) as usize)?;
         let (mut area, mut length, mut open) = (0.0, 0.0, 0);
-        let result = source.parallel_offset(-distance);
+        let result = source.parallel_offset_opt(-distance, &options);
         for piece in &result {
             let (a, l) = measures(piece);
             area += a;

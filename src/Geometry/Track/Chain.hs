@@ -1,0 +1,247 @@
+-- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
+--
+-- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the curvature k is where
+-- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away from it at most. Along a line
+-- or an arc F has one extremum at most as long as that turns by less than a quarter turn; there its slope
+-- @F′ = d_y − k·(x·d_x + y·d_y)@ is 0, which goes nearly evenly from one end to the other.
+--
+-- As long as the chain goes forwards as seen from both ends of the arc, its feet on the arc go without a jump from the
+-- beginning to the end, so that every point of the arc is as near to the chain.
+module Geometry.Track.Chain
+  ( approximate,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Search qualified as Search
+import Control.Monad.ST (runST)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Vector.Unboxed (Vector)
+import Data.Vector.Unboxed qualified as Unboxed
+import Geometry.Biarc.Pair (Pair (..), Pose (..))
+import Geometry.Outline (Outline)
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Track (Side (..), Track (Track))
+import Geometry.Track qualified as Track
+import Geometry.Track.Vertices qualified as Vertices
+import Geometry.Track.Walk (Off (..), Spans (..), Stretch (..))
+import Geometry.Track.Walk qualified as Walk
+import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
+
+-- | A chain by its length in mm: where each piece begins along it and, at the very last, where it ends; seven numbers for each
+-- piece: the place where it begins, the directions at its beginning and at its end, the curvature (1/mm).
+data Chain = Chain {stations :: Vector Double, pieces :: Vector Double}
+
+-- | Arcs and lines that stay within a distance of a chain, both ways, in as few biarcs as going as far as possible each time
+-- gives; corners stay. Every segment has a length.
+approximate :: Mm -> NonEmpty Segment -> Outline
+approximate (Mm tolerance) segments = runST $ do
+  vertices <- Vertices.new
+  let stretches from
+        | from >= n = pure ()
+        | otherwise = do
+          let to = endOf (from + 1)
+              final = station chain to
+          Walk.along
+            vertices
+            aim
+            Stretch {inSpan = from, begin = station chain from, final, step = final - station chain from}
+            Spans {seek = seekFrom chain to, pose = poseWithin chain from to, Walk.off = apart chain, other = sharp to, patient = True}
+          stretches to
+      endOf k
+        | k >= n || cornered chain k = k
+        | otherwise = endOf (k + 1)
+  stretches 0
+  Vertices.push vertices (Vec.x end) (Vec.y end) 0
+  Vertices.outline vertices
+  where
+    chain = chainOf segments
+    n = Unboxed.length (stations chain) - 1
+    end = Segment.end (NonEmpty.last segments)
+    aim = tolerance * (1 - Tolerance.roundingShare)
+    -- Of a stretch that goes on to the end of a piece no more than is needed is looked at.
+    sharp to u = let i = min (to - 1) (Search.lastBelow n u (stations chain)) in Track.further (Mm tolerance) (trackOf chain i (min to (i + 64))) (station chain (min to (i + 64))) u
+
+chainOf :: NonEmpty Segment -> Chain
+chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromList (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.fromList (concatMap numbers list)}
+  where
+    list = NonEmpty.toList segments
+    numbers s = case s of
+      Straight p q -> let d = Vec.unit (Vec.to p q) in all' p d d 0
+      Arc {start, end, centre, sweep = Rad a} ->
+        let Mm r = Segment.radius centre start
+            k = signum a / r
+         in all' start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
+    all' p (Vec.Vec (V2 sx sy)) (Vec.Vec (V2 ex ey)) k = [Vec.x p, Vec.y p, sx, sy, ex, ey, k]
+
+station :: Chain -> Int -> Double
+station chain = Unboxed.unsafeIndex (stations chain)
+
+-- | The pose at the beginning of a piece.
+beginning :: Chain -> Int -> Pose
+beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
+  where
+    part k = Unboxed.unsafeIndex (pieces chain) (7 * i + k)
+
+-- | The direction at the end of a piece.
+ending :: Chain -> Int -> (Double, Double)
+ending chain i = (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
+{-# INLINE ending #-}
+
+-- | The curvature of a piece.
+curvature :: Chain -> Int -> Double
+curvature chain i = Unboxed.unsafeIndex (pieces chain) (7 * i + 6)
+
+-- | Whether the chain has a corner at the beginning of a piece, behind another.
+cornered :: Chain -> Int -> Bool
+cornered chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b) <= sin kink)
+  where
+    (ex, ey) = ending chain (k - 1)
+    b = beginning chain k
+    Rad kink = Tolerance.kink
+
+-- | The piece, before another, that holds a place, given one that is not behind it.
+seekFrom :: Chain -> Int -> Int -> Double -> Int
+seekFrom chain to from u = gallop from 1
+  where
+    gallop low step
+      | low + step >= to = if to - low <= 1 then low else search low to
+      | station chain (low + step) <= u = gallop (low + step) (2 * step)
+      | otherwise = search low (low + step)
+    -- What is sought is low or behind it, and before high.
+    search low high
+      | high - low <= 1 = low
+      | station chain middle <= u = search middle high
+      | otherwise = search low middle
+      where
+        middle = (low + high) `div` 2
+
+-- | The pose so far along a piece from a pose on it, given its curvature.
+advanced :: Double -> Pose -> Double -> Pose
+advanced k (Pose x y ux uy) s
+  | k == 0 = Pose (x + s * ux) (y + s * uy) ux uy
+  | otherwise =
+    Pose
+      { px = x + chord * (c * ux - n * uy),
+        py = y + chord * (c * uy + n * ux),
+        dx = (c * c - n * n) * ux - 2 * c * n * uy,
+        dy = (c * c - n * n) * uy + 2 * c * n * ux
+      }
+  where
+    c = cos (0.5 * k * s)
+    n = sin (0.5 * k * s)
+    chord = 2 * n / k
+
+-- | The place and the direction at a place of a stretch, given its piece; where pieces meet the mean of both directions.
+poseWithin :: Chain -> Int -> Int -> Int -> Double -> Pose
+poseWithin chain from to i u
+  | u >= station chain to = arriving (to - 1)
+  | s > 0 || i <= from = advanced (curvature chain i) (beginning chain i) s
+  | otherwise = mean (arriving (i - 1)) (beginning chain i)
+  where
+    s = u - station chain i
+    arriving j = let (ex, ey) = ending chain j in (advanced (curvature chain j) (beginning chain j) (station chain (j + 1) - station chain j)) {dx = ex, dy = ey}
+    mean a b =
+      let sx = dx a + dx b
+          sy = dy a + dy b
+          l = sqrt (sx * sx + sy * sy)
+       in b {dx = sx / l, dy = sy / l}
+
+-- | How far a biarc is from the chain between two places; of what is further than a limit only that it is so.
+apart :: Chain -> Double -> Int -> Double -> Pose -> Double -> Pose -> Pair -> Off
+apart chain most first u from v to pair
+  | single pair = if forwards one then let Reached _ _ _ d = onward chain most v to True one start in Off d d else unknown
+  | forwards one && forwards two = case onward chain most v to False one start of
+    Reached i s p d1 | d1 <= most -> case onward chain most v to True two (Reached i s p 0) of
+      Reached _ _ _ d2 -> Off d1 d2
+    _ -> unknown
+  | otherwise = unknown
+  where
+    start = Reached first u from {dx = dx begin, dy = dy begin} 0
+    -- The chain's own direction.
+    begin = advanced (curvature chain first) (beginning chain first) (u - station chain first)
+    unknown = Off (1 / 0) (1 / 0)
+    one = frame from (bend1 pair) (if single pair then to else joint pair)
+    two = frame (joint pair) (bend2 pair) to
+
+-- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it turns by.
+data Frame = Frame {origin :: Pose, bend :: Double, limit :: Pose, cosine :: Double, sine :: Double}
+
+frame :: Pose -> Double -> Pose -> Frame
+frame origin bend limit = Frame {origin, bend, limit, cosine = dx origin * dx limit + dy origin * dy limit, sine = dx origin * dy limit - dy origin * dx limit}
+
+-- | Whether an arc turns by less than a quarter turn.
+forwards :: Frame -> Bool
+forwards f = cosine f > 0
+
+-- | A piece, a place on the chain and the pose there, and the distance up to there.
+data Reached = Reached Int Double Pose Double
+
+-- | Past one arc: to the normal at its end or, on the last one, to a place with its pose.
+onward :: Chain -> Double -> Double -> Pose -> Bool -> Frame -> Reached -> Reached
+onward chain most v to final f (Reached i0 u0 p0 d0) = go i0 u0 p0 d0
+  where
+    go i u p d
+      | d > most = Reached i u p d
+      | final || ahead q < 0 = if whole then Reached i v q (if final then beyond else 1 / 0) else go (i + 1) w (beginning chain (i + 1)) beyond
+      | otherwise = let s = crossing; c = advanced k p s in Reached i (u + s) c (worse d (beside f p c s))
+      where
+        whole = station chain (i + 1) >= v
+        w = if whole then v else station chain (i + 1)
+        k = curvature chain i
+        q
+          | whole = to
+          | otherwise = let (ex, ey) = ending chain i in (beginning chain (i + 1)) {dx = ex, dy = ey}
+        beyond = worse d (beside f p q (w - u))
+        crossing =
+          let from = ahead p
+              newton s = let c = advanced k p s in held (s - ahead c / (dx c * dx (limit f) + dy c * dy (limit f)))
+              held s = if s > 0 then if s < w - u then s else w - u else 0
+           in newton (held ((u - w) * from / (ahead q - from)))
+    -- How far a place is beyond the normal at the arc's end.
+    ahead p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
+    worse d e = if e <= d then d else e
+
+-- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite where it may not go forwards.
+beside :: Frame -> Pose -> Pose -> Double -> Double
+beside f p q l
+  | vx p > 0 && vx q > 0 && vx p * cosine f + vy p * sine f > 0 && vx q * cosine f + vy q * sine f > 0 && k * d < 0.2 = d * (1 + k * d)
+  | otherwise = 1 / 0
+  where
+    tx = dx (origin f)
+    ty = dy (origin f)
+    k = abs (bend f)
+    vx a = dx a * tx + dy a * ty
+    vy a = dy a * tx - dx a * ty
+    value a =
+      let ux = px a - px (origin f)
+          uy = py a - py (origin f)
+       in uy * tx - ux * ty - 0.5 * bend f * (ux * ux + uy * uy)
+    slope a = vy a - bend f * ((px a - px (origin f)) * dx a + (py a - py (origin f)) * dy a)
+    from = value p
+    to = value q
+    m = slope p
+    n = slope q
+    -- What the piece turns by; by its square the extremum is not quite a parabola's.
+    turned = dx p * dy q - dy p * dx q
+    extreme
+      | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * turned * turned))
+      | otherwise = 0
+    d = greater extreme (greater (abs from) (abs to))
+    greater a b = if a > b then a else b
+
+-- | Some of the pieces, from one to before another, as a track by the chain's length.
+trackOf :: Chain -> Int -> Int -> Track
+trackOf chain from to = Track {Track.place = place, Track.direction = direction, Track.begin = station chain from, Track.breaks = station chain (from + 1) :| map (station chain) [from + 2 .. to]}
+  where
+    place u = let p = poseWithin chain from to (seekFrom chain to from u) u in Vec.point (px p) (py p)
+    direction side u =
+      let i = seekFrom chain to from u
+          p = case side of
+            Arriving | u <= station chain i && i > from -> let (ex, ey) = ending chain (i - 1) in (beginning chain i) {dx = ex, dy = ey}
+            _ -> advanced (curvature chain i) (beginning chain i) (u - station chain i)
+       in Vec.vec (dx p) (dy p)

@@ -1,0 +1,135 @@
+-- | The laws of biarcs along cubic spans. Distances are measured by other means than in the program: to an arc by angles, to the
+-- curve by the nearest of many of its points.
+module Geometry.Track.CubicSpec (spec) where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.Foldable (toList)
+import Data.List (sort)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Semigroup (sconcat)
+import Data.Vector qualified as Vector
+import Geometry.Curve (Curve)
+import Geometry.Curve qualified as Curve
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Track qualified as Track
+import Geometry.Track.Cubic qualified as Cubic
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Curve qualified as Part
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec =
+  describe "biarcs along cubics" $ do
+    it "every point of the curve is near the arcs (catches a maximum between the ends of a span that is left out)" $
+      property $
+        forAll tracked curveLaw
+    it "every point of the arcs is near the curve (catches an arc that overshoots where the curve turns back)" $
+      property $
+        forAll tracked arcsLaw
+    it "no kink but at corners (catches a direction at a joint that only one side has)" $
+      property $
+        forAll tracked smoothLaw
+    it "not many more than without the bound (catches a bound that is far too large)" $
+      property $
+        forAll tracked fewLaw
+    it "a table of points in a line is one line (catches spans that are not looked past)" $
+      fmap length (arcsOf 1e-5 <$> either (const Nothing) Just (Curve.polyline (Vector.fromList [Vec.point k (2 * k) | k <- [0, 1, 3, 4, 7]]))) `shouldBe` Just 1
+    it "the generator reaches corners, sharp turns, kinks and spans that many arcs or a part of one take" $
+      checkCoverage $
+        forAll tracked $ \(Tracked _ tolerance c) ->
+          let n = length (arcsOf tolerance c)
+           in cover 10 (cornersOf c > 0) "corners" $
+                cover 20 (n > 8 * Curve.spans c) "many arcs a span" $
+                  cover 10 (n < Curve.spans c) "many spans an arc" True
+
+-- | What the curve is through, the tolerance in mm, the curve.
+data Tracked = Tracked String Double Curve
+
+instance Show Tracked where
+  show (Tracked how tolerance _) = "within " <> show tolerance <> " " <> how
+
+tracked :: Gen Tracked
+tracked = do
+  n <- choose (3, 9)
+  scattered <- vectorOf n (Vec.point <$> choose (-40, 40) <*> choose (-40, 40))
+  (turning, start) <- (,) <$> choose (-0.15, 0.15) <*> choose (-3, 3)
+  noise <- vectorOf 60 (choose (-1e-4, 1e-4))
+  m <- choose (5, 60)
+  let dense = [Vec.point (10 * sin (start + turning * k / 4) + 0.3 * k + e) (8 * cos (start + turning * k / 3)) | (k, e) <- take m (zip [0 ..] noise)]
+  points <- elements [scattered, dense]
+  tolerance <- (10 **) <$> choose (-5, -0.5)
+  (name, made) <-
+    elements
+      [ ("spline", Curve.spline Curve.Natural),
+        ("closed spline", Curve.spline Curve.Periodic),
+        ("clamped spline", Curve.spline (Curve.Clamped (Vec.vec 1 1) (Vec.vec 0 (-1)))),
+        ("polyline", Curve.polyline)
+      ]
+  case made (Vector.fromList points) of
+    Right c -> pure (Tracked (name <> " " <> show points) tolerance c)
+    Left _ -> tracked
+
+arcsOf :: Double -> Curve -> [Segment]
+arcsOf tolerance c = case Curve.cubics c of
+  Just (xs, ys) -> toList (Polyarc.segments (Polyarc.fromOutline (Cubic.approximate (Mm tolerance) xs ys (Part.track c))))
+  Nothing -> []
+
+cornersOf :: Curve -> Int
+cornersOf c = length (filter (> 1e-3) [abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom Curve.After c u)) | u <- drop 1 (init (Curve.breaks c))])
+  where
+    angle a b = let Rad t = Vec.turn a b in t
+
+curveLaw :: Tracked -> Property
+curveLaw (Tracked _ tolerance c) = forAll (vectorOf 100 (choose (0, 1))) $ \fs ->
+  conjoin [counterexample (show (u, d)) (d <= tolerance) | f <- fs, let u = f * Curve.domain c, let d = minimum (map (`apart` Curve.at c u) ss)]
+  where
+    ss = arcsOf tolerance c
+
+arcsLaw :: Tracked -> Property
+arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
+  conjoin [counterexample (show (p, d)) (d <= tolerance + 1e-9) | (k, f) <- picks, let p = Segment.at f (ss !! k), let d = nearest p]
+  where
+    ss = arcsOf tolerance c
+    known = [(u, Curve.at c u) | k <- [0 .. count], let u = Curve.domain c * fromIntegral k / fromIntegral count]
+    count = 200 * Curve.spans c
+    nearest p = minimum [closer p (16 :: Int) (Curve.domain c / fromIntegral count) u | (_, u) <- take 4 (sort (valleys [(away p q, u) | (u, q) <- known]))]
+    valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
+    closer p k h u
+      | k == 0 = away p (Curve.at c u)
+      | otherwise = let (_, v) = minimum [(away p (Curve.at c w), w) | w <- map held [u - h, u - h / 2, u, u + h / 2, u + h]] in closer p (k - 1) (h / 2) v
+    held = max 0 . min (Curve.domain c)
+
+smoothLaw :: Tracked -> Property
+smoothLaw (Tracked _ tolerance c) =
+  conjoin (zipWith joined ss (drop 1 ss)) .&&. length (filter (> 2.1e-8) turns) === cornersOf c
+  where
+    ss = arcsOf tolerance c
+    turns = zipWith (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t) ss (drop 1 ss)
+    joined a b = counterexample (show (a, b)) (Segment.end a === Segment.start b)
+
+fewLaw :: Tracked -> Property
+fewLaw (Tracked _ tolerance c) = counterexample (show (length ss, general)) (fromIntegral (length ss) <= (1.5 * fromIntegral general + 4 * fromIntegral (1 + cornersOf c) :: Double))
+  where
+    ss = arcsOf tolerance c
+    general = NonEmpty.length (sconcat (Track.approximate (Mm tolerance) (Part.track c)))
+
+-- | The distance from a segment to a point, from an arc by the angle from its middle.
+apart :: Segment -> Point -> Double
+apart s p = case s of
+  Straight a b ->
+    let u = Vec.to a b
+        t = max 0 (min 1 (Vec.dot u (Vec.to a p) / Vec.dot u u))
+     in away p (Vec.between t a b)
+  Arc {start, end, centre, sweep = Rad a}
+    | abs off <= abs a / 2 -> abs (away centre p - away centre start)
+    | otherwise -> min (away p start) (away p end)
+    where
+      middle = Vec.rotate (Rad (a / 2)) (Vec.to centre start)
+      Rad off = Vec.turn middle (Vec.to centre p)
+
+away :: Point -> Point -> Double
+away a b = let Mm d = Vec.distance a b in d
