@@ -2,6 +2,7 @@
 module Path.Inset
   ( oriented,
     inset,
+    further,
   )
 where
 
@@ -12,7 +13,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
 import Geometry.Box (Box (..))
 import Geometry.Box qualified as Box
-import Geometry.Contour (Contour)
+import Geometry.Contour (Contour (Contour), Ends (Closed))
 import Geometry.Contour qualified as Contour
 import Geometry.Offset.Kernel qualified as Kernel
 import Geometry.Offset.Loops qualified as Loops
@@ -36,7 +37,17 @@ inset contours@(outline :| _) = within
       -- No circle in the outline is larger; the kernel would have to tell a cutter that covers all of it from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.plain Kernel.LeftOf distance) walls of
-        Right reach -> mapMaybe (NonEmpty.nonEmpty . Outline.segments) (Loops.outlines (Kernel.loops reach))
+        Right reach -> loopsOf reach
         Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
         Left (Kernel.Crossed _ _) -> []
         Left Kernel.Misplaced -> []
+
+-- | The loops further in by a distance, of loops. From loop to loop the kernel has less to do than from the walls to each. Nothing where
+-- it cannot tell, as when loops touch.
+further :: [Loop] -> Mm -> Maybe [Loop]
+further loops distance = case Kernel.offset (Kernel.plain Kernel.LeftOf distance) (map (fst . Outline.fromContour . Contour Closed) loops) of
+  Right reach -> Just (loopsOf reach)
+  Left _ -> Nothing
+
+loopsOf :: Kernel.Reach -> [Loop]
+loopsOf reach = mapMaybe (NonEmpty.nonEmpty . Outline.segments) (Loops.outlines (Kernel.loops reach))

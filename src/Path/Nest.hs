@@ -43,23 +43,24 @@ data Ring = Ring {away :: Mm, stretches :: NonEmpty Stretch}
 data Stretch = Stretch {segment :: Segment, aside :: [NonEmpty Segment]}
 
 -- | The passes at rising distances from the walls, up to the first at which there is nothing; by the loops that bound what can
--- be reached at a distance. Where they lie further apart than the radius of the cutter, what they leave between them is cleared
+-- be reached at a distance, and those of loops so much further in, if they are known. Where they lie further apart than the radius of the cutter, what they leave between them is cleared
 -- aside. The last of finitely many distances looks no further inwards.
-nests :: (Mm -> [Loop]) -> Mm -> [Mm] -> [Nest]
-nests offsetBy radius distances = case distances of
+nests :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [Nest]
+nests offsetBy further radius distances = case distances of
   [] -> []
   c : more -> from c (offsetBy c) Map.empty more
   where
     from c loops trips more = case (loops, more) of
       ([], _) -> []
       (_, []) -> grouped c loops trips []
-      (_, next : further) ->
-        let loops' = offsetBy next
-            nooks = left c next loops'
-         in grouped c loops trips (from next loops' (Nook.trips nooks) further <> map (leaf (plus c radius)) (Nook.lone nooks))
-    left c next loops'
+      (_, next : others) ->
+        let loops' = inwards c loops (minus next c)
+            nooks = left c loops next loops'
+         in grouped c loops trips (from next loops' (Nook.trips nooks) others <> map (leaf (plus c radius)) (Nook.lone nooks))
+    inwards c loops d = fromMaybe (offsetBy (plus c d)) (further loops d)
+    left c loops next loops'
       | minus next c <= plus radius Tolerance.coincident = Nook.none
-      | otherwise = Nook.between radius (minus (minus next c) radius) (offsetBy (plus c radius)) loops'
+      | otherwise = Nook.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = Nest {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring

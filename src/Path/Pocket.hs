@@ -45,6 +45,8 @@ data Room = Room
     -- | the loops that bound what lies inside the outline, outside the islands, and no nearer to both than a distance; the free
     -- space is on their left
     offsetBy :: Mm -> [Loop],
+    -- | the same of such loops, so much further in, if it is easier
+    further :: [Loop] -> Mm -> Maybe [Loop],
     -- | of the cutter
     radius :: Mm,
     -- | what is left at the walls
@@ -68,7 +70,7 @@ data Leg
 -- | Clear a pocket with a step from pass to pass, from the place where the cutter goes down, if that is known; nowhere when the
 -- cutter fits nowhere. The step is above zero and at most the diameter.
 clear :: Room -> Mm -> Maybe Point -> [Leg]
-clear room step from = along room from (Nest.nests (offsetBy room) (radius room) (takeWhile (<= deepest) [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]))
+clear room step from = along room from (Nest.nests (offsetBy room) (further room) (radius room) (takeWhile (<= deepest) [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]))
   where
     -- No place of the pocket lies further from the walls.
     deepest = plus step (halfOf (foldr1 Box.union (fmap Box.ofSegment (walls room))))
@@ -77,7 +79,7 @@ clear room step from = along room from (Nest.nests (offsetBy room) (radius room)
 -- | Go along the walls once more, in a pocket that was cleared but for more at the walls: so much was left then. Passes
 -- lie no more than the step and the radius apart.
 skim :: Room -> Mm -> Mm -> Maybe Point -> [Leg]
-skim room step before from = along room from (Nest.nests (offsetBy room) (radius room) [plus (nearest' room) (times (fromIntegral k / fromIntegral count) more) | k <- [0 .. count - 1]])
+skim room step before from = along room from (Nest.nests (offsetBy room) (further room) (radius room) [plus (nearest' room) (times (fromIntegral k / fromIntegral count) more) | k <- [0 .. count - 1]])
   where
     more = minus before (leaves room)
     count = max 1 (ceiling (over more (min step (radius room)) - Tolerance.equal)) :: Int

@@ -41,6 +41,9 @@ quantise machine path = Program begin (go begin (concat (zipWith block [0 ..] (P
       Path.Travelling r ms -> map (Travelling,r,) ms
       Path.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
       Path.Commanding _ -> []
+      Path.Clearing {Path.pocket = Located _ pocket, Path.approach, Path.cleared, Path.retract} ->
+        let r = Part.radius (Part.wall pocket)
+         in map (Approaching n,r,) approach <> map (Cutting n,r,) (NonEmpty.toList cleared) <> map (Retracting n,r,) retract
       Path.Cutting {Path.job = Located _ m, Path.approach, Path.cut, Path.retract} ->
         map (Approaching n,Part.radius m,) approach <> map (Cutting n,Part.radius m,) (NonEmpty.toList cut) <> map (Retracting n,Part.radius m,) retract
     go at moves = case moves of

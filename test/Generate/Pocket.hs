@@ -5,10 +5,15 @@ module Generate.Pocket
     rectangle,
     roomOf,
     insetOf,
+    pocketing,
+    laid,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Name (Name (..))
+import Base.Quantity (Feed (..), Mm (..), Rad (..), plus)
+import Base.Region (Located (Located), Region (Region))
+import Base.Result (Result (..))
 import Data.List (minimumBy, sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -23,6 +28,10 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec qualified as Vec
 import Geometry.Winding qualified as Winding
+import Part.Part (Milling (Milling), Pocketing (Pocketing))
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
+import Path.Path (Path)
 import Path.Pocket (Loop, Room (..))
 import Test.QuickCheck
 
@@ -63,16 +72,60 @@ island outline before = do
   let corners = [Vec.shift (Vec.polar (Mm r) (Rad (a - 2 * pi * fromIntegral i / fromIntegral (k :: Int)))) p | i <- [0 .. k - 1]]
       circle = let (one, other) = Segment.cutAt 0.5 (Segment.fullCircle Clockwise (Circle p (Mm r)) (Vec.shift (Vec.polar (Mm r) (Rad a)) p)) in one :| [other]
       polygon = NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))
-      fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all (\island -> Winding.about p island == 0) before
+      fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all ((== 0) . Winding.about p) before
   pure ([if round' then circle else polygon | fits] <> before)
   where
     Box l bottom right top = foldr1 Box.union (fmap Box.ofSegment outline)
+
+-- | The pocket as a statement asks it, with the spindle clockwise, 1.5 mm deep; more is left first, as much as is said.
+pocketing :: [Mm] -> Pocket -> Pocketing
+pocketing before p =
+  Pocketing
+    { Part.wall =
+        Milling
+          { Part.contour = contourOf outline,
+            Part.work = Part.Milled,
+            Part.side = here Part.Inside,
+            Part.radius = cutter p,
+            Part.gear = Nothing,
+            Part.tolerance = Part.OnPath (Mm 0.03),
+            Part.feed = here (Feed 60),
+            Part.approach = [],
+            Part.retract = [],
+            Part.levels = [Mm (-1.5)],
+            Part.clearance = Just (Mm 5),
+            Part.plunge = Nothing,
+            Part.leadIn = Nothing,
+            Part.leadOut = Nothing,
+            Part.allowances = foldr (\more rest -> plus more (left p) NonEmpty.<| rest) (left p :| []) before,
+            Part.corners = Part.Round,
+            Part.sense = Nothing,
+            Part.spin = Part.Clockwise,
+            Part.byControl = Nothing,
+            Part.rest = Part.Allowed
+          },
+      Part.islands = map contourOf islands,
+      Part.apart = step p
+    }
+  where
+    outline :| islands = loops p
+    contourOf loop = Part.Contour (here (Name "c")) Contour.Closed (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop) []
+
+-- | The path of a pocket, if the cutter has room in it.
+laid :: Pocketing -> Maybe Path
+laid p = case FromPart.lay (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p))) {Part.start = Just (here (Part.Spot (Vec.point 0 0) (Mm 20)))} of
+  Result _ [] path -> path
+  Result {} -> Nothing
+
+here :: a -> Located a
+here = Located (Region 0 0)
 
 roomOf :: Pocket -> Room
 roomOf p =
   Room
     { walls = NonEmpty.fromList (concatMap NonEmpty.toList (loops p)),
       offsetBy = insetOf (NonEmpty.toList (loops p)),
+      further = \_ _ -> Nothing,
       radius = cutter p,
       leaves = left p,
       turned = False

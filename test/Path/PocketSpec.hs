@@ -96,7 +96,7 @@ isLong p leg = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [leg
 
 -- | As 'cleared', with walls that are walked any way, and the loops of the kernel.
 byKernel :: Pocket -> [Leg]
-byKernel p = Pocket.clear (Generate.roomOf p) {offsetBy = Inset.inset (Inset.oriented outline islands)} (step p) Nothing
+byKernel p = Pocket.clear (Generate.roomOf p) {offsetBy = Inset.inset (Inset.oriented outline islands), further = Inset.further} (step p) Nothing
   where
     outline :| islands = fmap (Contour.reverse . Contour Closed) (loops p)
 
