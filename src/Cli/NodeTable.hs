@@ -31,21 +31,20 @@ import Tape.Tape qualified as Tape
 
 -- | The paper's tables for every milled contour, then times and tape.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
-nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> drilled <> [summary])
+nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> map emptied clearings <> drilled <> [summary])
   where
     heading = "Part " <> maybe "" (\(Name n) -> n) (Part.name part) <> maybe "" (\t -> ": " <> t) (Part.title part) <> "\n"
     machine = fst <$> punched
     cuttings = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Path.blocks path]
+    clearings = [(job, pass, NonEmpty.toList cleared) | Clearing {pocket = job, pass, cleared} <- Path.blocks path]
+    emptied (job, pass, cleared) = "Pocket " <> contourName' (Part.wall <$> job) <> passWord pass <> ": cleared in " <> Decimal.whole (length cleared) <> " moves\n" <> sums cleared
     milled (job, pass, cut) =
       "Contour " <> contourName' job <> passWord pass <> ": nodes of the " <> pathWord job <> ", numbered from the entry\n\n"
         <> Table.columns
           [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
           (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : sections (ends' job) (Path.runs cut))
-        <> "\nlength "
-        <> fixed3 (lengthOf cut)
-        <> " mm, time "
-        <> seconds (total (map (timeOf machine) cut))
-        <> " s\n"
+        <> sums cut
+    sums ms = "\nlength " <> fixed3 (lengthOf ms) <> " mm, time " <> seconds (total (map (timeOf machine) ms)) <> " s\n"
     -- Which of several passes: the height, and what it leaves standing.
     passWord Pass {left, atHeight} =
       (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight) <> (if left == Mm 0 then "" else ", leaving " <> fixed3 left)
@@ -85,7 +84,7 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveT
     summary =
       Table.columns
         [ToLeft, ToRight, ToLeft]
-        ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf (concatMap (\(_, _, cut) -> cut) cuttings))), "mm"],
+        ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf (concatMap (\(_, _, cut) -> cut) cuttings <> concatMap (\(_, _, cleared) -> cleared) clearings))), "mm"],
             ["total length of the path", fixed3 (lengthOf everything), "mm"],
             ["total time", seconds (total (map (timeOf machine) everything)), "s"]
           ]

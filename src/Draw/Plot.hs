@@ -8,6 +8,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), minus, over, times, total)
+import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
 import Data.Text (Text)
@@ -27,6 +28,7 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Circle (..), Turn (..))
 import Geometry.Vec qualified as Vec
+import Geometry.Winding qualified as Winding
 import Part.Part (Part)
 import Path.Path (Path)
 
@@ -44,8 +46,8 @@ plot part path =
       Svg.layer "ways" (ways scene),
       Svg.layer "path" (concatMap cutLine (cuts scene)),
       Svg.layer "start" (Sign.start (start scene) <> originMark (sheet scene)),
-      Svg.layer "cutters" (concatMap cutter (cuts scene)),
-      Svg.layer "nodes" (concatMap Node.dots (cuts scene)),
+      Svg.layer "cutters" (concatMap cutter (filter entered (cuts scene))),
+      Svg.layer "nodes" (concatMap Node.dots (filter numbered (cuts scene))),
       Svg.layer "numbers" (numbers scene),
       Svg.layer "title" (Title.block part scene)
     ]
@@ -54,14 +56,21 @@ plot part path =
 
 -- The part
 
--- | Material in grey. Where nothing bounds it outwards, a band of it runs around every window.
+-- | Material in grey, what lies in something else on top of it. Where nothing bounds it outwards, a band of it runs around every window.
 material :: [Shape] -> [Svg]
-material shapes = map (filled Sign.matterColour) bodies <> [band s | null bodies, s <- windows] <> map (filled "white") windows
+material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
     bodies = filter (\s -> matter s == Within) shapes
     windows = filter (\s -> matter s == Beyond) shapes
-    filled colour s = Svg.area colour (outline s)
-    band s = Svg.loop (Pen Sign.matterColour 6 []) (outline s)
+    bands = [Svg.loop (Pen Sign.matterColour 6 []) (outline s) | all ((> 0) . inWindows) bodies, s <- windows]
+    painted s = (level s, Svg.area (if matter s == Within then Sign.matterColour else "white") (outline s))
+    -- What stands in a window is drawn above it, and a window in that above that.
+    level s = 2 * inWindows s + (if matter s == Within then 0 else 1)
+    inWindows s = let p = beginning s in length [w | (box, w) <- boxed, Box.meets (Box.ofPoints p []) box, outline w /= outline s, Winding.about p (outline w) /= 0]
+    boxed = [(foldr (Box.union . Box.ofSegment) (Box.ofPoints (beginning w) []) (outline w), w) | w <- windows]
+    beginning s = case outline s of
+      first : _ -> Segment.start first
+      [] -> Vec.point 0 0
 
 contourLine :: Shape -> Svg
 contourLine Shape {ends, outline} = case ends of
@@ -129,13 +138,14 @@ once known segments = case segments of
     | s `elem` known || Segment.reverse s `elem` known -> once known rest
     | otherwise -> s : once (s : known) rest
 
--- | The way along a contour, with five arrows. On the contour itself it runs between two thin lines.
+-- | The way along a contour, with five arrows, or in a pocket, with more on a long one. On the contour itself it runs between two thin lines.
 cutLine :: Cut -> [Svg]
-cutLine cut@Cut {upon} = [Svg.stroke pen segments | upon, pen <- [Sign.edgePen, Sign.bedPen]] <> (Svg.stroke Sign.pathPen segments : arrows)
+cutLine cut@Cut {upon, numbered} = [Svg.stroke pen segments | upon, pen <- [Sign.edgePen, Sign.bedPen]] <> (Svg.stroke Sign.pathPen segments : arrows)
   where
     segments = NonEmpty.toList (Scene.lines cut)
     whole = total (map Segment.length segments)
-    arrows = if whole > Mm 12 then mapMaybe (\part -> arrowFrom segments (times part whole)) [0.1, 0.3, 0.5, 0.7, 0.9] else []
+    arrows = if whole > Mm 12 then mapMaybe (\k -> arrowFrom segments (times ((2 * fromIntegral k - 1) / (2 * fromIntegral count)) whole)) [1 .. count] else []
+    count = if numbered then 5 else max 5 (floor (over whole (Mm 40))) :: Int
 
 -- | An arrow at a distance along segments, clear of the nodes where the segment is long enough.
 arrowFrom :: [Segment] -> Mm -> Maybe Svg
@@ -156,13 +166,13 @@ numbers :: Scene -> [Svg]
 numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p words' | (p, words') <- Label.settle Sheet.field index labels]
   where
     style = Style {size = Label.size, ink = Sign.blue, bold = False}
-    labels = concatMap Node.labels cuts
+    labels = concatMap Node.labels (filter numbered cuts)
     index = Box.index Box.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
     lines' = concatMap outline shapes <> concatMap cutLines cuts <> feeds <> rapids <> Sign.diamond start
 
 -- | The way of a cutter, and the cutter itself.
 cutLines :: Cut -> [Segment]
-cutLines cut@Cut {reach} = rim : Sign.cross reach p <> NonEmpty.toList (Scene.lines cut)
+cutLines cut@Cut {reach, entered} = (if entered then rim : Sign.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)
   where
     rim = Segment.fullCircle Clockwise (Circle p (Mm reach)) (Vec.shift (Vec.vec reach 0) p)
     p = Segment.start (NonEmpty.head (Scene.lines cut))

@@ -12,7 +12,7 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Located (..))
 import Data.List (nub)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (isNothing, mapMaybe)
@@ -32,7 +32,7 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Milling (contour, radius), Operation (..), Pace (..), Part)
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
-import Path.Path (Block (Commanding, Cutting, Holing, Travelling, approach, cut, job, pass, retract), Move, Path)
+import Path.Path (Block (Clearing, Commanding, Cutting, Holing, Travelling, approach, cleared, cut, job, pass, pocket, retract), Move, Path)
 import Path.Path qualified as Path
 import Prelude hiding (lines)
 
@@ -73,7 +73,11 @@ data Cut = Cut
     -- | the side of the walk that is away from the contour: +1 when it is its right
     away :: Double,
     -- | whether it runs on the contour itself
-    upon :: Bool
+    upon :: Bool,
+    -- | whether its nodes have numbers: not in a pocket
+    numbered :: Bool,
+    -- | whether the cutter is drawn where it begins: in a pocket where it goes down first
+    entered :: Bool
   }
 
 -- | All segments of a cut.
@@ -86,7 +90,7 @@ set part path =
   Scene
     { sheet,
       shapes = map (shapeOf sheet millings) contours <> map (holeOf sheet) (nub (concatMap holesOf (Part.operations part))),
-      cuts = mapMaybe (cutOf sheet) (Path.blocks path),
+      cuts = concatMap (cutsOf sheet) (drawnOnce (Path.blocks path)),
       rests = map (map (Sheet.segment sheet)) (restsOf path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
@@ -113,7 +117,11 @@ millingOf operation = case operation of
 restsOf :: Path -> [[Segment]]
 restsOf path = nub (concatMap drawn (Map.elems lastPasses))
   where
-    lastPasses = Map.fromList [(Path.number pass, (Path.reach pass, found)) | Cutting {pass, Path.rests = found} <- Path.blocks path, not (null found)]
+    lastPasses = Map.fromList (mapMaybe leaving (Path.blocks path))
+    leaving b = case b of
+      Cutting {pass, Path.rests = found@(_ : _)} -> Just (Path.number pass, (Path.reach pass, found))
+      Clearing {pass, Path.rests = found@(_ : _)} -> Just (Path.number pass, (Path.reach pass, found))
+      _ -> Nothing
     drawn (Mm r, found) = [if null outline then spot (Offset.middle f) (r / 4) else outline | f <- found, let outline = Offset.standing f]
     spot p r = [Segment.fullCircle CounterClockwise (Circle p (Mm r)) (Vec.shift (Vec.vec r 0) p)]
 
@@ -130,6 +138,7 @@ movesBetween :: Block -> [Move]
 movesBetween block = case block of
   Travelling _ moves -> moves
   Cutting {approach, retract} -> approach <> retract
+  Clearing {approach, cleared, retract} -> approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
   Holing _ moves -> moves
   Commanding _ -> []
 
@@ -145,8 +154,10 @@ cutterBox block = case block of
   Travelling _ _ -> []
   Holing (Located _ d) _ -> [Box.inflate (Part.drillRadius d) (Box.ofPoints p []) | Located _ p <- NonEmpty.toList (Part.holes d)]
   Commanding _ -> []
-  Cutting {job = Located _ milling, cut} ->
-    [Box.inflate (radius milling) (Box.ofPoints (Segment.start (Path.segment (NonEmpty.head cut))) [])]
+  Cutting {job = Located _ milling, cut} -> [cutterAt milling cut]
+  Clearing {pocket = Located _ p, cleared} -> [cutterAt (Part.wall p) cleared]
+  where
+    cutterAt milling ms = Box.inflate (radius milling) (Box.ofPoints (Segment.start (Path.segment (NonEmpty.head ms))) [])
 
 shapeOf :: Sheet -> [Milling] -> Part.Contour -> Shape
 shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Sheet.segment sheet) (NonEmpty.toList (Contour.segments bare))}
@@ -167,19 +178,41 @@ sideOf milling = case Path.leadingSide milling of
   Left _ -> Nothing
   Right side -> side
 
-cutOf :: Sheet -> Block -> Maybe Cut
-cutOf sheet block = case block of
-  Travelling _ _ -> Nothing
-  Holing _ _ -> Nothing
-  Commanding _ -> Nothing
-  Cutting {job = Located _ milling, cut} ->
-    Just
+cutsOf :: Sheet -> Block -> [Cut]
+cutsOf sheet block = case block of
+  Travelling _ _ -> []
+  Holing _ _ -> []
+  Commanding _ -> []
+  Cutting {job = Located _ milling, cut} -> [(along milling cut) {away = awayFrom milling, upon = isNothing (sideOf milling), numbered = True}]
+  -- What is cut without being lifted is one cut.
+  Clearing {pocket = Located _ p, cleared} -> zipWith (\entered ms -> (along (Part.wall p) ms) {entered}) (True : repeat False) [ms | ms@(m :| _) <- NonEmpty.groupBy (\a b -> isCut a == isCut b) cleared, isCut m]
+  where
+    along milling ms =
       Cut
-        { course = fmap (fmap (\m -> Sheet.segment sheet (Path.segment m))) (NonEmpty.groupBy1 (\_ m -> Path.continues m) cut),
+        { course = fmap (fmap (Sheet.segment sheet . Path.segment)) (NonEmpty.groupBy1 (\_ m -> Path.continues m) ms),
           reach = Sheet.onPaper sheet (radius milling),
-          away = awayFrom milling,
-          upon = isNothing (sideOf milling)
+          away = 1,
+          upon = False,
+          numbered = False,
+          entered = True
         }
+
+-- | Whether a move in a pocket cuts.
+isCut :: Move -> Bool
+isCut m = Path.pace m /= Rapid && uncurry (==) (Path.heights m)
+
+-- | Passes of a pocket that differ in their depth alone, once.
+drawnOnce :: [Block] -> [Block]
+drawnOnce = go []
+  where
+    go known blocks = case blocks of
+      [] -> []
+      b@Clearing {pass} : more
+        | key `elem` known -> go known more
+        | otherwise -> b : go (key : known) more
+        where
+          key = (Path.number pass, Path.left pass)
+      b : more -> b : go known more
 
 -- | A cutter on the contour itself leaves no side free; the labels then stand outside.
 awayFrom :: Milling -> Double

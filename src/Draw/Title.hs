@@ -11,7 +11,7 @@ import Base.Quantity (Mm (..), times)
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Draw.Scene (Cut (upon), Matter (..), Scene (..), Shape (..))
+import Draw.Scene (Cut (numbered, upon), Matter (..), Scene (..), Shape (..))
 import Draw.Sheet (Area (..), Sheet)
 import Draw.Sheet qualified as Sheet
 import Draw.Sign qualified as Sign
@@ -63,7 +63,7 @@ signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
     (not (null rests), surface Sign.restColour, "material left"),
     (not (null cuts), line Sign.pathPen, "cutter path"),
     (any upon cuts, \p -> concatMap (`line` p) [Sign.edgePen, Sign.bedPen, Sign.pathPen], "on a contour"),
-    (not (null cuts), \p -> [Sign.node True (middle p)], "node"),
+    (any numbered cuts, \p -> [Sign.node True (middle p)], "node"),
     (not (null feeds), way Sign.feedPen, "way at feed"),
     (not (null rapids), way Sign.rapidPen, "rapid way"),
     (not (null cuts), Sign.cutter 2 . middle, "cutter"),

@@ -6,6 +6,7 @@ module Frame.Frame
     isMoving,
     Planned (..),
     Role (..),
+    passOf,
     Program (..),
     position,
     height,
@@ -72,9 +73,19 @@ data Planned = Planned
   }
   deriving stock (Eq, Show)
 
--- | What a frame does. The number counts the passes along contours from 0.
+-- | What a frame does. The number counts the passes along contours and in pockets from 0.
 data Role = Approaching Int | Cutting Int | Retracting Int | Travelling | Drilling | Commanding
   deriving stock (Eq, Show)
+
+-- | The number of the pass to which a frame belongs.
+passOf :: Role -> Maybe Int
+passOf role = case role of
+  Approaching n -> Just n
+  Cutting n -> Just n
+  Retracting n -> Just n
+  Travelling -> Nothing
+  Drilling -> Nothing
+  Commanding -> Nothing
 
 -- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of the part.
 data Program = Program {start :: V3 Pulses, planned :: [Planned]}

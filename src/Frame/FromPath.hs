@@ -88,12 +88,17 @@ mostFrames = 1000000
 
 toleranceProblem :: Machine -> Path.Block -> Maybe Error
 toleranceProblem machine block = case block of
-  Path.Cutting {Path.job = Located _ job}
-    | Path.touchedRadius job > Mm 0 && plus allowed (Machine.pulse machine) >= Part.radius job ->
-      Just (ToleranceTooLarge (region (Part.side job)) allowed (Part.radius job))
-    where
-      allowed = uncurry max (Part.deepest (Part.tolerance job))
-  _ -> Nothing
+  Path.Cutting {Path.job = Located _ job} -> tooLarge job
+  Path.Clearing {Path.pocket = Located _ p} -> tooLarge (Part.wall p)
+  Path.Travelling _ _ -> Nothing
+  Path.Holing _ _ -> Nothing
+  Path.Commanding _ -> Nothing
+  where
+    tooLarge job
+      | Path.touchedRadius job > Mm 0 && plus allowed (Machine.pulse machine) >= Part.radius job = Just (ToleranceTooLarge (region (Part.side job)) allowed (Part.radius job))
+      | otherwise = Nothing
+      where
+        allowed = uncurry max (Part.deepest (Part.tolerance job))
 
 -- | A feed along the path that no code gives, whatever the frames.
 feedProblem :: Machine -> Task -> Maybe Error
@@ -160,7 +165,13 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
   Nothing -> []
   Just most -> [TooManyContours region most | (_, region) <- take 1 (drop most (Map.toList contours))]
   where
-    contours = Map.fromList [(Path.number pass, region (Part.side (value job))) | Path.Cutting {Path.job = job, Path.pass = pass} <- Path.blocks path]
+    contours = Map.fromList (mapMaybe placeOf (Path.blocks path))
+    placeOf b = case b of
+      Path.Cutting {Path.job = job, Path.pass = pass} -> Just (Path.number pass, region (Part.side (value job)))
+      Path.Clearing {Path.pocket = job, Path.pass = pass} -> Just (Path.number pass, region (Part.side (Part.wall (value job))))
+      Path.Travelling _ _ -> Nothing
+      Path.Holing _ _ -> Nothing
+      Path.Commanding _ -> Nothing
 
 -- | Moves along axes that there are not, and positions that do not fit their fields; of each the first.
 placeProblems :: Machine -> V3 Pulses -> [Planned] -> [Error]

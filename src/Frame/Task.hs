@@ -50,10 +50,8 @@ data Drive
 
 -- | The tasks of a path in order.
 tasksOf :: Machine -> Path -> [Task]
-tasksOf machine path = concat (zipWith block numbers (Path.blocks path))
+tasksOf machine path = concat (zipWith block (Path.passNumbers (Path.blocks path)) (Path.blocks path))
   where
-    -- How many passes along contours stand before each block.
-    numbers = scanl (\n b -> case b of Path.Cutting {} -> n + 1; _ -> n) (0 :: Int) (Path.blocks path)
     straight r radius = map (Run r (Sagitta (Mm 0)) radius Asked . (:| []))
     block n b = case b of
       Path.Travelling radius ms -> straight Travelling radius ms
@@ -61,6 +59,13 @@ tasksOf machine path = concat (zipWith block numbers (Path.blocks path))
       Path.Commanding c -> [Order (region c) (Order.told machine c)]
       Path.Cutting {Path.job = Located region' job, Path.approach = before, Path.cut = along, Path.retract = after, Path.sent} ->
         fromMaybe (concat [led (Approaching n) job before, led (Cutting n) job (NonEmpty.toList along), led (Retracting n) job after]) (keeping n (fromMaybe region' (Part.byControl job)) job =<< sent)
+      Path.Clearing {Path.pocket = Located _ p, Path.approach = before, Path.cleared = along, Path.retract = after} ->
+        let job = Part.wall p in concat [led (Approaching n) job before, concatMap (inPocket n job) (NonEmpty.toList along), led (Retracting n) job after]
+    -- Where something is in the way, the cutter leaves what it cuts and comes back.
+    inPocket n job m
+      | pace m == Part.Rapid = led (Retracting n) job [m]
+      | uncurry (/=) (heights m) = led (Approaching n) job [m]
+      | otherwise = led (Cutting n) job [m]
     -- The control keeps the cutter beside the contour: each move of the edge goes as it is, those along a curve, too.
     keeping n asked job edge
       | null (Order.errors on) = Just (concat [led (Approaching n) job (Path.before edge), [Order asked on], one (Approaching n) (Path.entry edge), concatMap (one (Cutting n)) (Path.edge edge), [Order asked (Order.released machine)], one (Retracting n) (Path.exit edge), led (Retracting n) job (Path.behind edge)])

@@ -77,6 +77,10 @@ data Error
     SlightForControl Region Element Element Rad Mm
   | -- | there is no path that clears a pocket: the statement's first word, the outline
     NoPathInPocket Region Contour
+  | -- | a pocket in which the cutter has to be lifted, without a depth: the statement's first word, from where, to where
+    HasToRise Region Point Point
+  | -- | more is to be left on an element of a pocket's walls than the pocket leaves: the statement's first word
+    KeepsMore Region Element
   deriving stock (Eq, Show)
 
 -- | What is to be known of a path, though nothing is wrong with it.
@@ -170,7 +174,7 @@ toReport err = case err of
   MillsAnother region milled element depth p ->
     (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
       { label = "milled here",
-        others = [Label milled "along this element", Label (origin element) ("it cuts " <> shape element)],
+        others = [Label milled "along this element" | milled /= region] <> [Label (origin element) ("it cuts " <> shape element)],
         message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
         hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
       }
@@ -263,9 +267,20 @@ toReport err = case err of
     let Located there (Name name) = contourName outline
      in (at region "E0420" "no path clears this pocket")
           { others = [Label there ("its outline is ‘" <> name <> "’")],
-            message = ["Pockets have no path yet in this version."],
-            hints = ["Mill the outline inside, and other contours within it."]
+            message = ["Nowhere in it the cutter has room."],
+            hints = ["Take a smaller cutter. A slot just as wide as the cutter is milled along its middle: mill … on."]
           }
+  HasToRise region p q ->
+    (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")
+      { message = ["On the straight way from " <> Vec.written 3 p <> " to " <> Vec.written 3 q <> " a wall is in the way."],
+        hints = ["Say how deep the pocket is: depth 5 mm. The cutter then rises to the clearance height where it has to.", "Or begin within the pocket, and clear parts of it in statements of their own."]
+      }
+  KeepsMore region element ->
+    (at (origin element) "E0422" "a pocket would cut away what is to be left on this element of its walls")
+      { label = shape element,
+        others = [Label region "cleared here" | region /= origin element],
+        hints = ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
+      }
 
 unsent :: Unsent -> Text
 unsent what = case what of

@@ -30,15 +30,19 @@ import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Stop, Work (..))
+import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Work (..))
 import Part.Part qualified as Part
+import Path.Clearing qualified as Clearing
 import Path.Compensation (Ways (Ways))
 import Path.Compensation qualified as Compensation
-import Path.Error (Error (..), Stay (..), Tool (Tool), Warning (..))
+import Path.Error (Error (..), Tool (Tool), Warning (..))
 import Path.Error qualified
+import Path.Obstacle qualified as Obstacle
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
 import Path.Swivel qualified as Swivel
+import Path.Way (Visit (Visit))
+import Path.Way qualified as Way
 
 -- | Lay the path. No path when an operation has none, or when there are operations but the start is
 -- unknown, which is reported already; a part that is only drawn has a path without moves.
@@ -54,15 +58,15 @@ lay part = case (Part.start part, Part.operations part) of
 
 -- | What stays standing beside a milled contour, once for a statement: that of its last pass.
 staying :: Path -> [Warning]
-staying path = [Leaves (keyword region) (toolOf milling (Path.left pass)) (map (stay milling) rests) | (_, (Located region milling, pass, rests)) <- Map.toAscList byStatement]
+staying path = [Leaves word (toolOf milling (Path.left pass)) (map (Obstacle.stay es) found) | (_, (word, milling, es, pass, found)) <- Map.toAscList byStatement]
   where
-    byStatement = Map.fromList [(number pass, (job, pass, rests)) | Cutting {job, pass, rests} <- Path.blocks path, not (null rests)]
-    stay milling r = case Offset.cause (Offset.stop r) of
-      Offset.InnerCorner i j p -> InCorner (element milling i) (element milling j) p
-      Offset.Concave i old -> InHollow (element milling i) old (largestTool milling r)
-      Offset.Collision i j _ -> Between (element milling i) (element milling j) (Offset.middle r) (largestTool milling r)
-    element milling i = elements (contour milling) NonEmpty.!! i
-    largestTool _ r = Offset.largest (Offset.stop r)
+    byStatement = Map.fromList [(number pass, left) | Just left@(_, _, _, pass, _ : _) <- map leaving (Path.blocks path)]
+    leaving b = case b of
+      Cutting {job = Located region milling, pass, rests} -> Just (keyword region, milling, NonEmpty.toList (elements (contour milling)), pass, rests)
+      Clearing {pocket = Located region p, pass, rests} -> Just (Way.keyword 6 region, Part.wall p, concatMap (NonEmpty.toList . elements) (contour (Part.wall p) : Part.islands p), pass, rests)
+      Travelling _ _ -> Nothing
+      Holing _ _ -> Nothing
+      Commanding _ -> Nothing
 
 -- | The radius of the cutter with which a program begins.
 firstTool :: [Operation] -> Mm
@@ -84,7 +88,7 @@ collect number tool at operations = case operations of
   [] -> ([], [])
   o : rest -> case blocksOf number tool at o of
     Left e -> first (e :) (collect next tool' at rest)
-    Right bs -> (bs <>) <$> collect next tool' (foldl after at (concatMap Path.moves bs)) rest
+    Right bs -> (bs <>) <$> collect next tool' (foldl Way.after at (concatMap Path.moves bs)) rest
     where
       next = case o of
         Mill _ -> number + 1
@@ -94,16 +98,12 @@ collect number tool at operations = case operations of
         Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
         _ -> tool
 
--- | Where a move ends.
-after :: Spot -> Move -> Spot
-after _ m = Spot (Segment.end (Path.segment m)) (snd (Path.heights m))
-
 blocksOf :: Int -> Mm -> Spot -> Operation -> Either Error [Block]
 blocksOf number tool at operation = case operation of
-  Travel stops -> Right [Travelling tool (ways at (NonEmpty.toList stops))]
+  Travel stops -> Right [Travelling tool (Way.ways at (NonEmpty.toList stops))]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (holing at d)]
-  Pocket (Located at' p) -> Left (NoPathInPocket at' {end = start at' + 6} (contour (Part.wall p)))
+  Pocket job -> Clearing.blocks number at job
   Mill (Located region given) -> do
     possible region given
     milling <- oriented region given
@@ -122,7 +122,7 @@ blocksOf number tool at operation = case operation of
           one before' (n, pieces) = do
             (spot', done') <- before'
             b <- passOf number job (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
-            Right (foldl after spot' (Path.moves b), b : done')
+            Right (foldl Way.after spot' (Path.moves b), b : done')
       foldl one (Right (spot, done)) (zip [1 :: Int ..] (NonEmpty.toList found))
 
 -- Machining a contour
@@ -165,48 +165,15 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
       finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
       -- The axis of a blade stands higher or lower.
       (inZ, outZ) = (plus z (fst (NonEmpty.head swivels)), plus z (snd (NonEmpty.last swivels)))
-      toBegin from = ways from [Part.Stop (Located (keyword region) begin) (Just inZ) pace]
       level h m = m {Path.heights = (h, h)}
+      visit = Visit {Way.word = keyword region, Way.milling, Way.isFirst, Way.isLast, Way.from = at}
       (before, behind') = case (Part.levels milling, Part.clearance milling) of
-        (_ : _, Just clear) -> deep (inZ, outZ) clear toBegin begin finish
-        _ -> flat outZ toBegin finish
+        (_ : _, Just clear) -> Way.deep visit clear (inZ, outZ) begin finish
+        _ -> Way.flat visit z (inZ, outZ) begin finish
       inwards = map (level inZ) leadIn
       outwards = map (level outZ) leadOut
   sent <- Compensation.sent (keyword region) milling side' Ways {Compensation.before, Compensation.inwards, Compensation.cut, Compensation.outwards, Compensation.behind = behind'}
   Right Cutting {job, pass = Pass {number, reach = plus (touchedRadius milling) allowance, left = allowance, atHeight = z}, approach = before <> inwards, cut, retract = outwards <> behind', rests, sent}
-  where
-    -- Without depth the ways keep the height at which the cutter stands.
-    flat outZ toBegin finish =
-      let before = if isFirst || Part.ends (contour milling) == Part.Open then ways at (Part.approach milling) else []
-          from = foldl after at before
-          behind = if isLast || Part.ends (contour milling) == Part.Open then ways (Spot finish outZ) (upright (Part.retract milling)) else []
-       in (before <> toBegin from, behind <> if null behind then [Move (Straight finish finish) (outZ, z) pace' False (keyword region) False | outZ /= z] else [])
-    pace' = Part.At (feed milling)
-    -- A blade is turned upright on the way away.
-    upright stops = case stops of
-      s : more | Nothing <- Part.level s, Just _ <- Part.gear milling -> s {Part.level = Just z} : more
-      _ -> stops
-    -- With depth the cutter goes over to the last approach point (or to the beginning) at the clearance
-    -- height, down there, and up again from the first retract point, unless that has a height of its own.
-    deep (inZ, outZ) clear toBegin begin finish =
-      let up = rise at clear region
-          stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
-          over = ways (foldl after at up) (if null stops then [Part.Stop (Located (keyword region) begin) (Just clear) Part.Rapid] else stops)
-          above = foldl after (foldl after at up) over
-          down = [Move (Straight (plane above) (plane above)) (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False (keyword region) False | height above /= inZ]
-          (beside, further) = case Part.retract milling of
-            s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
-            stops' -> ([], stops')
-          leave = ways (Spot finish outZ) beside
-          out = foldl after (Spot finish outZ) leave
-          lift' = rise out clear region
-          rest = if isLast then ways (foldl after out lift') [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
-       in (up <> over <> down <> toBegin (Spot (plane above) inZ), leave <> lift' <> rest)
-    lastOf xs = take 1 (reverse xs)
-
--- | Straight up to a height, if the cutter stands below it.
-rise :: Spot -> Mm -> Region -> [Move]
-rise (Spot p z) clear region = [Move (Straight p p) (z, clear) Part.Rapid False (keyword region) False | z < clear]
 
 data Leading = LeadingIn | LeadingOut
   deriving stock (Eq)
@@ -230,16 +197,6 @@ leading region milling which direction p = case if which == LeadingIn then Part.
       Right (Just Offset.RightOf) -> -1
       _ -> 1 :: Double
 
--- | Straight moves from stop to stop; a stop where the cutter already stands needs none.
-ways :: Spot -> [Stop] -> [Move]
-ways at stops = case stops of
-  [] -> []
-  Part.Stop (Located region p) level pace : rest
-    | Vec.near (plane at) p && z == height at -> ways at rest
-    | otherwise -> Move (Straight (plane at) p) (height at, z) pace False region False : ways (Spot p z) rest
-    where
-      z = fromMaybe (height at) level
-
 -- | The cutter's ways along the contour itself, with so much left standing; where material may stay, what stays.
 along :: Located Milling -> Mm -> Either Error (NonEmpty (NonEmpty Offset.Piece), [Offset.Rest])
 along (Located region milling) allowance = do
@@ -248,21 +205,14 @@ along (Located region milling) allowance = do
     Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
     Just s -> case (Offset.styled style s r outline, Part.rest milling) of
       (Right pieces, _) -> Right (pieces :| [], [])
-      (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachable style s r outline -> if null rests then Left (obstacle o) else Right (fmap Offset.pieces (w :| ws), rests)
-      (Left o, _) -> Left (obstacle o)
+      (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachable style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
+      (Left o, _) -> Left (refusal o)
   where
     outline = Part.outline (contour milling)
     r = plus (radius milling) allowance
-    used = toolOf milling allowance
     finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
     style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
-    element i = elements (contour milling) NonEmpty.!! i
-    -- The cutter that fits is smaller than what fits by the allowance.
-    tool largest = [d | Just l <- [largest], let d = minus l allowance, d > Mm 0]
-    obstacle (Offset.Obstacle cause largest) = case cause of
-      Offset.Concave i old -> ConcaveRadius region used (element i) old (listToMaybe (tool largest))
-      Offset.InnerCorner i j p -> InnerCorner region used (element i) (element j) p (listToMaybe (tool largest))
-      Offset.Collision i j p -> Collision region used (element i) (element j) p (listToMaybe (tool largest))
+    refusal = Obstacle.refusal region (toolOf milling allowance) (NonEmpty.toList (elements (contour milling)))
 
 -- | The cutter at work, and what it leaves.
 toolOf :: Milling -> Mm -> Tool
@@ -326,13 +276,13 @@ oriented region milling = case Part.sense milling of
 
 -- | Over each hole at the clearance height, down at the feed, up in rapid.
 holing :: Spot -> Located Drilling -> [Move]
-holing at (Located region d) = rise at clear region <> go (Spot (plane at) (max clear (height at))) (NonEmpty.toList (Part.holes d))
+holing at (Located region d) = Way.rise at clear (keyword region) <> go (Spot (plane at) (max clear (height at))) (NonEmpty.toList (Part.holes d))
   where
     clear = Part.clear d
     go from places = case places of
       [] -> []
       Located place p : rest ->
-        let over = ways from [Part.Stop (Located place p) (Just clear) Part.Rapid]
+        let over = Way.ways from [Part.Stop (Located place p) (Just clear) Part.Rapid]
          in over <> concat (zipWith (stroke place p) (Nothing : map Just depths) depths) <> go (Spot p clear) rest
     stroke place p before z =
       let start' = maybe clear (\b -> min clear (plus b peckGap)) before
@@ -369,18 +319,25 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       HoleCuts at _ _ _ -> at
       MillsAnother at _ _ _ _ -> at
       _ -> Region 0 0
-    jobs = map NonEmpty.head (NonEmpty.groupBy ((==) `on` fst) [(number pass, milling) | Cutting {job = Located _ milling, pass} <- Path.blocks path, value (side milling) /= On])
-    index = Box.index (Box.ofSegment . Part.segment . snd) [((n, milling), e) | (n, milling) <- jobs, e <- NonEmpty.toList (elements (contour milling))]
+    jobs = map NonEmpty.head (NonEmpty.groupBy ((==) `on` (\(n, _, _) -> n)) (mapMaybe wallsOf (Path.blocks path)))
+    wallsOf b = case b of
+      Cutting {job = Located _ milling, pass} | value (side milling) /= On -> Just (number pass, milling, [contour milling])
+      Clearing {pocket = Located _ p, pass} -> Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
+      _ -> Nothing
+    index = Box.index (Box.ofSegment . Part.segment . snd) [((n, milling), e) | (n, milling, walls) <- jobs, c <- walls, e <- NonEmpty.toList (elements c)]
     inBlock b = case b of
       Commanding _ -> []
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
       Holing (Located _ d) ms -> map hole (concatMap (intrusion (Part.drillRadius d) Nothing) ms)
       Cutting {job = Located at milling, pass, approach, cut, retract} ->
         concatMap (intrusion (radius milling) Nothing) (approach <> retract)
-          <> take 1 (concatMap (map (another at) . intrusion (radius milling) (Just (number pass))) (NonEmpty.toList cut))
+          <> take 1 (concatMap (map (another (keyword at)) . intrusion (radius milling) (Just (number pass))) (NonEmpty.toList cut))
+      Clearing {pocket = Located at p, approach, cleared, retract} ->
+        let tool = radius (Part.wall p)
+         in concatMap (intrusion tool Nothing) (approach <> retract) <> take 1 (concatMap (map (another (Way.keyword 6 at)) . intrusion tool Nothing) (NonEmpty.toList cleared))
     -- A cut along another contour is no way that could be chosen otherwise.
-    another statement e = case e of
-      CutsPart milled _ element deep _ p -> MillsAnother (keyword statement) milled element deep p
+    another word e = case e of
+      CutsPart milled _ element deep _ p -> MillsAnother word milled element deep p
       _ -> e
     hole e = case e of
       CutsPart at way element deep _ _ -> HoleCuts at (Segment.end way) element deep
@@ -406,6 +363,6 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       MillsAnother _ _ _ (Mm d) _ -> -d
       _ -> 0
 
--- | The first word of a statement.
+-- | The first word of a statement that mills or turns.
 keyword :: Region -> Region
-keyword r = r {end = start r + 4}
+keyword = Way.keyword 4

@@ -6,6 +6,7 @@ module Path.Path
     Sent (..),
     Move (..),
     moves,
+    passNumbers,
     runs,
     isCurve,
     isFlat,
@@ -22,7 +23,7 @@ import Geometry.Offset (Side)
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Part.Part (Command, Drilling, Milling, Pace, Spot (..))
+import Part.Part (Command, Drilling, Milling, Pace, Pocketing, Spot (..))
 import Part.Part qualified as Part
 
 -- | Where the cutter starts, and what it does then.
@@ -45,11 +46,22 @@ data Block
         -- | if the control keeps the cutter beside the contour
         sent :: Maybe Sent
       }
+  | -- | one pass of a pocket; its outline and islands are walked as the cutter walks along them
+    Clearing
+      { pocket :: Located Pocketing,
+        pass :: Pass,
+        approach :: [Move],
+        -- | along loops, and from each to the next
+        cleared :: NonEmpty Move,
+        retract :: [Move],
+        -- | what stays at the walls in the end, by the elements of the outline and of the islands in order
+        rests :: [Offset.Rest]
+      }
   | Holing (Located Drilling) [Move]
   | Commanding (Located Command)
   deriving stock (Eq, Show)
 
--- | One pass along a contour: the number of the milling statement as it is carried out, from 0; the distance of
+-- | One pass along a contour, or in a pocket: the number of the milling statement as it is carried out, from 0; the distance of
 -- the cutter's centre from the contour; what of it is left to be cut; the height.
 data Pass = Pass {number :: Int, reach :: Mm, left :: Mm, atHeight :: Mm}
   deriving stock (Eq, Show)
@@ -92,8 +104,20 @@ moves :: Block -> [Move]
 moves block = case block of
   Travelling _ ms -> ms
   Cutting {approach, cut, retract} -> approach <> NonEmpty.toList cut <> retract
+  Clearing {approach, cleared, retract} -> approach <> NonEmpty.toList cleared <> retract
   Holing _ ms -> ms
   Commanding _ -> []
+
+-- | How many passes along contours and in pockets stand before each block.
+passNumbers :: [Block] -> [Int]
+passNumbers = scanl (\n b -> if isPass b then n + 1 else n) 0
+  where
+    isPass b = case b of
+      Cutting {} -> True
+      Clearing {} -> True
+      Travelling _ _ -> False
+      Holing _ _ -> False
+      Commanding _ -> False
 
 -- | Moves in order, those together that go along one curve: each but the first continues the one before.
 runs :: [Move] -> [NonEmpty Move]

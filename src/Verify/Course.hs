@@ -6,6 +6,7 @@ module Verify.Course
   ( Course,
     ofSegment,
     spot,
+    isLine,
     distance,
     apart,
     furthest,
@@ -46,6 +47,11 @@ ofSegment s = case s of
 -- | A single point.
 spot :: Double -> Double -> Course
 spot x y = Line x y x y
+
+isLine :: Course -> Bool
+isLine course = case course of
+  Line {} -> True
+  Bow {} -> False
 
 -- | From a point.
 distance :: Course -> Double -> Double -> Double

@@ -2,6 +2,9 @@
 module Verify.Deviation
   ( Pass (..),
     examine,
+    Spared (..),
+    gougeOf,
+    mayExceed,
     isAt,
     atLevel,
     allowedOff,

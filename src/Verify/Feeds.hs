@@ -3,6 +3,7 @@
 module Verify.Feeds
   ( asPlanned,
     asAsked,
+    alongAt,
     tooFast,
   )
 where
@@ -36,7 +37,11 @@ asPlanned program frames =
 -- | Strokes along a contour that run at another feed than its statement asks. Elements may have feeds of their own, or
 -- slow down; a frame that brakes may be slower.
 asAsked :: Machine -> Job -> [Stroke] -> [Finding]
-asAsked machine job strokes =
+asAsked machine job = alongAt machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
+
+-- | The same of strokes by the feed that is asked, and what single elements ask.
+alongAt :: Machine -> Located Feed -> [Part.Finish] -> [Stroke] -> [Finding]
+alongAt machine asked finishes strokes =
   [ WrongFeed (number s) found Speed {rapidly = False, code = wanted, braking = False} (region asked)
     | s <- strokes,
       let found = speedOf (frame s),
@@ -45,8 +50,6 @@ asAsked machine job strokes =
       rapidly found || code found `notElem` allowed && not (braking found && maybe False (<= maximum (map worth allowed)) (Machine.valueOf machine (code found)))
   ]
   where
-    asked = Part.feed (milling job)
-    finishes = map Part.finish (elementsOf job)
     own = [f | finish <- finishes, Just (Located _ f) <- [Part.ownFeed finish]]
     slowed = [fst (Machine.slowest machine) | any Part.slow finishes]
     worth = fromMaybe 0 . Machine.valueOf machine

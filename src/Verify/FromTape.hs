@@ -21,6 +21,7 @@ import Control.Walk (Stroke (number, to))
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.Either (fromRight)
+import Data.IntMap.Strict qualified as IntMap
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -43,6 +44,7 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 import Path.Path (Block, Path)
 import Path.Path qualified as Path
+import Verify.Clearing qualified as Clearing
 import Verify.Deviation (Pass (..))
 import Verify.Deviation qualified as Deviation
 import Verify.Feeds qualified as Feeds
@@ -57,7 +59,7 @@ import Verify.Swivel qualified as Swivel
 -- tell where the tape has to begin and end and which feeds belong where.
 prove :: Machine -> Path -> Program -> [Frame] -> Proof
 prove machine path program frames =
-  Proof (length frames) passages closure largest firstDifference (sortOn order findings)
+  Proof (length frames) (passages <> emptied) closure largest firstDifference (sortOn order findings)
   where
     begin = Frame.start program
     own = map Frame.frame (Frame.planned program)
@@ -69,8 +71,19 @@ prove machine path program frames =
     ownTraces = Swivel.levelled machine path (concatMap (Passage.tracesOf machine) (fst (centres own)))
     sameCount = length own == length frames
     flat = Path.isFlat path
-    located = follow machine flat (Frame.position machine begin, Frame.height machine begin) traces [b | b@Path.Cutting {} <- Path.blocks path]
-    toolOf = if sameCount then ownTool program else supposedTool located
+    located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
+    toolOf = if sameCount then ownTool program else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
+    -- The last frame of a pass, by its number among all passes.
+    lastFrame n = snd <$> IntMap.lookup n framesOfPasses
+    framesOfPasses = IntMap.fromListWith (\(a, b) (c, d) -> (min a c, max b d)) [(n, (k, k)) | (k, p) <- zip [1 ..] (Frame.planned program), Just n <- [Frame.passOf (Frame.role p)]]
+    isOwn pass t = sameCount && maybe False (\(a, b) -> a <= number (stroke t) && number (stroke t) <= b) (IntMap.lookup (Clearing.order pass) framesOfPasses)
+    ownTo p t = any (`isOwn` t) (Clearing.passes p)
+    pockets = Clearing.pocketsOf (Path.blocks path)
+    (emptied, foundIn) = unzip [Clearing.examine machine flat toolOf traces nearby (isOwn pass) p isFirst pass | p <- pockets, (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Clearing.passes p))]
+    -- On a foreign tape, the strokes in each pass of a pocket.
+    inPockets = [(p, pass, [t | t <- traces, flat || Deviation.isAt machine (Clearing.level pass) t, Clearing.holds p (Segment.at 0.5 (line t))]) | p <- pockets, pass <- NonEmpty.toList (Clearing.passes p)]
+    clearedIn = [(p, (number (stroke t), number (stroke (last' t ts)))) | (p, _, t : ts) <- inPockets]
+    last' t ts = fromMaybe t (listToMaybe (reverse ts))
     -- The strokes that may touch what lies in a box, in the order of the tape.
     nearby about = Nearest.within (Box.inflate largestTool about) strokesByPlace
     strokesByPlace = Nearest.index box traces
@@ -79,19 +92,23 @@ prove machine path program frames =
     closure = begin + sum (map increment frames) - Frame.end program
     findings =
       concat found
+        <> concat foundIn
+        <> [NotInOrder (Clearing.statement p) | not flat, p <- pockets, not (Clearing.isInOrder machine p (if sameCount then filter (ownTo p) traces else traces))]
         <> take 1 [OffPlane (number s) | flat, s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
         <> missingHoles machine path traces
         <> take 1 [CutsElsewhere n p | not flat, (n, p) <- strangers machine path ownTraces traces]
-        <> (if sameCount then Feeds.asPlanned program frames else concatMap foreignFeeds located)
+        <> (if sameCount then Feeds.asPlanned program frames else concatMap foreignFeeds located <> concatMap foreignPocket inPockets)
         <> Feeds.tooFast machine strokes
         <> Rules.wrongCommands program frames
         <> Rules.refused machine strokes frames
         <> map (Refused . NotKept) unkept
-        <> [NotClosed closure | closure /= 0, not (any leaves (concat found))]
+        <> [NotClosed closure | closure /= 0, not (any leaves (concat found <> concat foundIn))]
     foreignFeeds pass = case Deviation.found pass of
       Passage.Followed _ along _ -> Feeds.asAsked machine (Deviation.job pass) (nubOrdOn number (map stroke along))
       Passage.Lost _ along _ -> Feeds.asAsked machine (Deviation.job pass) (nubOrdOn number (map stroke along))
       Passage.NeverBegun -> []
+    foreignPocket (p, pass, ts) = Feeds.alongAt machine (Part.feed (Clearing.milling p)) [] (nubOrdOn number [stroke t | t <- ts, not (Passage.isUpright t), not (any (isAlong (line t)) (Clearing.aside pass))])
+    isAlong s way = all (\q -> Distance.toPoint q way <= times 2 (Machine.pulse machine)) [Segment.start s, Segment.end s]
     largest = foldl (\(V3 a b c) (V3 x y z) -> V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) 0 (map increment frames)
     -- A path that has left the band does not end where it should either.
     leaves finding = case finding of
@@ -100,6 +117,8 @@ prove machine path program frames =
       WrongSide {} -> True
       NeverBegun {} -> True
       NotFollowed {} -> True
+      NotCleared {} -> True
+      NotInOrder {} -> False
       OffPlane {} -> False
       HoleMissing {} -> False
       CutsElsewhere {} -> False
@@ -115,6 +134,8 @@ prove machine path program frames =
       WrongSide n _ -> (n, 2)
       NeverBegun _ -> (0, 3)
       NotFollowed _ -> (0, 3)
+      NotCleared {} -> (0, 3)
+      NotInOrder _ -> (0, 3)
       OffPlane n -> (n, 4)
       HoleMissing _ _ -> (0, 4)
       CutsElsewhere n _ -> (n, 4)
@@ -126,13 +147,13 @@ prove machine path program frames =
 
 -- Where the passes are on the tape
 
--- | The passes one after the other, from where the cutter stands; each begins on the tape behind the
--- end of the one before. A flat path is looked for whatever the height.
-follow :: Machine -> Bool -> (Point, Mm) -> [Trace] -> [Block] -> [Pass]
-follow machine flat begin = go begin
+-- | The passes along contours one after the other, from where the cutter stands; each begins on the tape behind the
+-- end of the one before, and behind pockets, if their last frames are known by the numbers of their passes. A flat path is looked for whatever the height.
+follow :: Machine -> Bool -> (Int -> Maybe Int) -> (Point, Mm) -> [Trace] -> [Block] -> [Pass]
+follow machine flat lastFrame begin traces blocks = go begin traces (zip (Path.passNumbers blocks) blocks)
   where
-    go at rest blocks = case blocks of
-      Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut} : more ->
+    go at rest numbered = case numbered of
+      (_, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
             job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine), edges = Passage.edgesOf milling}
@@ -145,6 +166,8 @@ follow machine flat begin = go begin
               final : _ -> (Segment.end (line final), snd (heights final))
               [] -> at
          in Pass {job, passNumber = n, level = atHeight, found} : go next behind more
+      -- What a pocket asks is no way along a contour.
+      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number . stroke) rest in go (maybe at (\t -> (Segment.end (line t), snd (heights t))) (listToMaybe (reverse done))) rest' more
       _ : more -> go at rest more
       [] -> []
     stretch found = case found of
@@ -179,12 +202,12 @@ ownTool program = \t -> fromMaybe (Mm 0) (tools Vector.!? (number (stroke t) - 1
   where
     tools = Vector.fromList (map Frame.tool (Frame.planned program))
 
--- | The cutter in the spindle as far as a foreign tape tells: that of the pass at hand; of two passes the smaller
+-- | The cutter in the spindle as far as a foreign tape tells, by the frames between which pockets are cleared and the passes along contours: that of the pass at hand; of two passes the smaller
 -- one between them.
-supposedTool :: [Pass] -> Trace -> Mm
-supposedTool passes = \t -> radiusAt (number (stroke t))
+supposedTool :: [(Int, Int, Mm)] -> [Pass] -> Trace -> Mm
+supposedTool pockets passes = \t -> radiusAt (number (stroke t))
   where
-    spans = [(number (stroke begin), number (stroke end), Part.radius (milling (job p))) | p <- passes, let s = strokesOf (found p), begin : _ <- [s], end : _ <- [reverse s]]
+    spans = [(number (stroke begin), number (stroke end), Part.radius (milling (job p))) | p <- passes, let { s = strokesOf (found p) }, begin : _ <- [s], end : _ <- [reverse s]] <> pockets
     radiusAt n = case ([r | (_, e, r) <- reverse spans, e < n], [r | (b, _, r) <- spans, b > n], [r | (b, e, r) <- spans, b <= n, n <= e]) of
       (_, _, r : _) -> r
       (r : _, q : _, []) -> min r q
@@ -224,6 +247,12 @@ strangers machine path own traces =
     pulse = Machine.pulse machine
     index = Box.index (Box.ofSegment . line) (filter (\t -> uncurry min (heights t) < Mm 0) own)
     -- Chords of another tolerance lie within both.
-    slack = plus (times 2 pulse) (maximum (Mm 0 : [times 2 (uncurry max (Part.deepest (Part.tolerance m))) | Path.Cutting {Path.job = Located _ m} <- Path.blocks path]))
+    slack = plus (times 2 pulse) (maximum (Mm 0 : [times 2 (uncurry max (Part.deepest (Part.tolerance m))) | m <- concatMap millingOf (Path.blocks path)]))
+    millingOf b = case b of
+      Path.Cutting {Path.job = Located _ m} -> [m]
+      Path.Clearing {Path.pocket = Located _ p} -> [Part.wall p]
+      Path.Travelling _ _ -> []
+      Path.Holing _ _ -> []
+      Path.Commanding _ -> []
     known p z = or [Distance.toPoint p (line o) <= slack && uncurry min (heights o) <= plus z pulse | o <- Box.within (Box.inflate slack (Box.ofPoints p [])) index]
     places t = [(Segment.at k (line t), plus (fst (heights t)) (times k (minus (snd (heights t)) (fst (heights t))))) | k <- 0 : Passage.places t]

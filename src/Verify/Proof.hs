@@ -73,6 +73,11 @@ data Finding
     NeverBegun Region
   | -- | the contour is not followed in order from its beginning to its end
     NotFollowed Region
+  | -- | a place of the floor of a pocket that the cutter can reach is not cleared at a height: the pocket, the height, the
+    -- centre of the cutter that would
+    NotCleared Region Mm Point
+  | -- | the depths of a pocket are not cut one after the other as the program does
+    NotInOrder Region
   | -- | a frame that leaves the plane of the part
     OffPlane Int
   | -- | a hole that the tape does not drill to its depth
@@ -138,6 +143,12 @@ toReport machine finding = case finding of
   WrongSide n region -> wrong "E0703" (InSource region) (frameWord n <> " runs along this element on its wrong side")
   NeverBegun region -> wrong "E0704" (InSource region) "the tape never reaches the beginning of this contour"
   NotFollowed region -> wrong "E0709" (InSource region) "the tape does not follow this contour from its beginning to its end in the direction of the walk"
+  NotCleared region z p ->
+    (wrong "E0714" (InSource region) ("the tape does not clear the floor of this pocket at " <> Vec.written 3 p))
+      { label = "at the height " <> Decimal.mm z,
+        message = ["The cutter can stand there, and no frame comes within its radius."]
+      }
+  NotInOrder region -> wrong "E0715" (InSource region) "the tape does not clear the depths of this pocket in their order"
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " leaves the plane of the part (it moves z)")
   HoleMissing region p -> wrong "E0710" (InSource region) ("the tape drills no hole of the right depth at " <> Vec.written 3 p)
   CutsElsewhere n p ->

@@ -5,6 +5,7 @@
 -- nothing of how the path was found.
 module Verify.Reachable
   ( parts,
+    rim,
   )
 where
 
@@ -26,13 +27,40 @@ parts side distance all' segment = case beside side distance segment of
   Just centres ->
     let near = Nearest.within (Box.inflate distance (Box.ofSegment centres)) all'
         free = Distance.uncovered (minus distance Tolerance.clearance) near centres
-     in [part a b | (a, b) <- free, b - a > Tolerance.hair]
+     in [piece segment a b | (a, b) <- free, b - a > Tolerance.hair]
+
+-- | Where the centre can be at a distance to the left of closed walks, or to the right: beside their segments and round their outer corners, with the place
+-- of the segment in all of them; none of these is nearer.
+rim :: Side -> Mm -> Nearest Segment -> [[Segment]] -> [(Int, Segment)]
+rim side distance all' walks = concatMap free (concat (zipWith around (scanl (+) 0 (map length walks)) walks))
   where
-    part a b
-      | a <= 0 && b >= 1 = segment
-      | a <= 0 = fst (Segment.cutAt b segment)
-      | b >= 1 = snd (Segment.cutAt a segment)
-      | otherwise = snd (Segment.cutAt (a / b) (fst (Segment.cutAt b segment)))
+    around first walk = concat (zipWith3 (\i s next -> [(i, c) | Just c <- [beside side distance s] <> [outerCorner side distance s next]]) [first ..] walk (drop 1 walk <> take 1 walk))
+    free (i, s) = [(i, piece s a b) | (a, b) <- Distance.uncovered (minus distance Tolerance.clearance) (Nearest.within (Box.inflate distance (Box.ofSegment s)) all') s, b - a > Tolerance.hair]
+
+-- | A part of a segment, between shares of its length.
+piece :: Segment -> Double -> Double -> Segment
+piece s a b
+  | a <= 0 && b >= 1 = s
+  | a <= 0 = fst (Segment.cutAt b s)
+  | b >= 1 = snd (Segment.cutAt a s)
+  | otherwise = snd (Segment.cutAt (a / b) (fst (Segment.cutAt b s)))
+
+-- | A corner that turns by less than this, in radians, has no way round it worth a look.
+turnsAtAll :: Double
+turnsAtAll = 1e-9
+
+-- | Where the centre is while the cutter rolls round the corner behind a segment, if that turns away from it.
+outerCorner :: Side -> Mm -> Segment -> Segment -> Maybe Segment
+outerCorner side (Mm d) s next
+  | leftward * t < negate turnsAtAll = Just Arc {start = off (Segment.endDirection s), end = off (Segment.startDirection next), centre, sweep = turned}
+  | otherwise = Nothing
+  where
+    turned@(Rad t) = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+    centre = Segment.end s
+    off direction = Vec.shift (Vec.scale (leftward * d) (Vec.left (Vec.unit direction))) centre
+    leftward = case side of
+      LeftOf -> 1
+      RightOf -> -1
 
 -- | Where the centre is while the cutter rolls along a segment alone, if it can.
 beside :: Side -> Mm -> Segment -> Maybe Segment

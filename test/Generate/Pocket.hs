@@ -5,10 +5,15 @@ module Generate.Pocket
     rectangle,
     roomOf,
     insetOf,
+    pocketing,
+    laid,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Name (Name (..))
+import Base.Quantity (Feed (..), Mm (..), Rad (..), plus)
+import Base.Region (Located (Located), Region (Region))
+import Base.Result (Result (..))
 import Data.List (minimumBy, sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -23,6 +28,10 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec qualified as Vec
 import Geometry.Winding qualified as Winding
+import Part.Part (Milling (Milling), Pocketing (Pocketing))
+import Part.Part qualified as Part
+import Path.FromPart qualified as FromPart
+import Path.Path (Path)
 import Path.Pocket (Loop, Room (..))
 import Test.QuickCheck
 
@@ -67,6 +76,49 @@ island outline before = do
   pure ([if round' then circle else polygon | fits] <> before)
   where
     Box l bottom right top = foldr1 Box.union (fmap Box.ofSegment outline)
+
+-- | The pocket as a statement asks it, with the spindle clockwise, 1.5 mm deep; more is left first, as much as is said.
+pocketing :: [Mm] -> Pocket -> Pocketing
+pocketing before p =
+  Pocketing
+    { Part.wall =
+        Milling
+          { Part.contour = contourOf outline,
+            Part.work = Part.Milled,
+            Part.side = here Part.Inside,
+            Part.radius = cutter p,
+            Part.gear = Nothing,
+            Part.tolerance = Part.OnPath (Mm 0.03),
+            Part.feed = here (Feed 60),
+            Part.approach = [],
+            Part.retract = [],
+            Part.levels = [Mm (-1.5)],
+            Part.clearance = Just (Mm 5),
+            Part.plunge = Nothing,
+            Part.leadIn = Nothing,
+            Part.leadOut = Nothing,
+            Part.allowances = foldr (\more rest -> plus more (left p) NonEmpty.<| rest) (left p :| []) before,
+            Part.corners = Part.Round,
+            Part.sense = Nothing,
+            Part.spin = Part.Clockwise,
+            Part.byControl = Nothing,
+            Part.rest = Part.Allowed
+          },
+      Part.islands = map contourOf islands,
+      Part.apart = step p
+    }
+  where
+    outline :| islands = loops p
+    contourOf loop = Part.Contour (here (Name "c")) Contour.Closed (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop) []
+
+-- | The path of a pocket, if the cutter has room in it.
+laid :: Pocketing -> Maybe Path
+laid p = case FromPart.lay (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p))) {Part.start = Just (here (Part.Spot (Vec.point 0 0) (Mm 20)))} of
+  Result _ [] path -> path
+  Result {} -> Nothing
+
+here :: a -> Located a
+here = Located (Region 0 0)
 
 roomOf :: Pocket -> Room
 roomOf p =

@@ -1,0 +1,164 @@
+-- | The passes of a pocket as moves: down where there is room, loop by loop outwards, up again.
+module Path.Clearing
+  ( blocks,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Region (Located (..), Region)
+import Control.Monad (when)
+import Data.Foldable (for_, toList)
+import Data.List (find, foldl')
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe)
+import Geometry.Box qualified as Box
+import Geometry.Contour qualified as Geometry
+import Geometry.Distance (Nearest (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment (Straight))
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Element, Milling (contour, feed), Pocketing (apart, islands, wall), Spot (..))
+import Part.Part qualified as Part
+import Path.Error (Error (..), Tool (Tool))
+import Path.Error qualified
+import Path.Inset qualified as Inset
+import Path.Obstacle qualified as Obstacle
+import Path.Path (Block (..), Move (Move), Pass (..))
+import Path.Path qualified as Path
+import Path.Pocket (Leg (..), Room (..))
+import Path.Pocket qualified as Pocket
+import Path.Way (Visit (Visit))
+import Path.Way qualified as Way
+
+-- | The passes of a pocket, by the number of its statement, from where the cutter stands: all depths for the first allowance, then for
+-- the next.
+blocks :: Int -> Spot -> Located Pocketing -> Either Error [Block]
+blocks number at (Located region given) = do
+  for_ (find ((> NonEmpty.last allowances) . Part.allowance . Part.finish) elements) (Left . KeepsMore word)
+  when (isNothing depth && standing > Mm 0) (Left (CutsAir word standing))
+  rests <- resting word pocket
+  reverse . snd <$> foldl (pass rests) (Right (at, [])) (zip [1 ..] passes)
+  where
+    word = Way.keyword 6 region
+    pocket = oriented given
+    milling = wall pocket
+    elements = elementsOf pocket
+    allowances = Part.allowances milling
+    standing = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
+    depth = case (Part.levels milling, Part.clearance milling) of
+      (first : more, Just clear) -> Just (clear, first :| more)
+      _ -> Nothing
+    -- With depth all passes of an allowance are the same at every depth.
+    passes = [(a, case depth of Just _ -> const down; Nothing -> legs, z) | (a, legs) <- NonEmpty.toList (NonEmpty.zip allowances (laid pocket)), let down = legs (lastApproach milling), z <- maybe [standing] (NonEmpty.toList . snd) depth]
+    pass rests before (k, (left, legs, z)) = do
+      (spot, done) <- before
+      let visit = Visit {Way.word, Way.milling, Way.isFirst = k == 1, Way.isLast = k == length passes, Way.from = spot}
+          numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
+      (approach, cleared, retract) <- passOf visit (fst <$> depth) z legs
+      let b = Clearing {pocket = Located region pocket, pass = numbered, approach, cleared, retract, rests = if left == NonEmpty.last allowances then rests else []}
+      Right (foldl' Way.after spot (Path.moves b), b : done)
+
+-- | Where the cutter is when it goes down, if that is said.
+lastApproach :: Milling -> Maybe Point
+lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
+
+-- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the cutter may be lifted; its own height; the legs
+-- from where the cutter goes down.
+passOf :: Visit -> Maybe Mm -> Mm -> (Maybe Point -> [Leg]) -> Either Error ([Move], NonEmpty Move, [Move])
+passOf visit clear z legsFrom = do
+  legs <- fitting (NonEmpty.nonEmpty (legsFrom from))
+  (visit', legs') <- case (legs, clear) of
+    -- Something is in the way from where the cutter would go down: it goes on above.
+    (Over _ q :| next : more, Just c) -> Right (visit {Way.milling = milling {Part.approach = Part.approach milling <> [Part.Stop (Located word q) (Just c) Part.Rapid]}}, next :| more)
+    (_, Just _) -> Right (visit, legs)
+    (_, Nothing) -> maybe (Right (visit, legs)) (\(p, q) -> Left (HasToRise word p q)) (listToMaybe [(p, q) | Over p q <- toList legs])
+  let (before, behind) = maybe (Way.flat visit' z) (Way.deep visit') clear (z, z) (Pocket.begins (NonEmpty.head legs')) (Pocket.finishes (NonEmpty.last legs'))
+  cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z clear) legs'))
+  Right (before, cleared, behind)
+  where
+    Visit {Way.word, Way.milling} = visit
+    fitting = maybe (Left (NoPathInPocket word (contour milling))) Right
+    standsAt = plane (Way.from visit)
+    from = case (clear, lastApproach milling) of
+      (Just _, p) -> p
+      (Nothing, Just p) | Way.isFirst visit -> Just p
+      (Nothing, _) -> Just standsAt
+
+-- | The moves of a leg at a height; over what is in the way, at another one.
+moves :: Region -> Milling -> Mm -> Maybe Mm -> Leg -> [Move]
+moves word milling z clear leg = case leg of
+  Over p q | Just c <- clear -> [Move (Straight p p) (z, c) Part.Rapid False word False | c /= z] <> [Move (Straight p q) (c, c) Part.Rapid False word False] <> [Move (Straight q q) (c, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False word False | c /= z]
+  _ -> [Move s (z, z) (Part.At (feed milling)) False word False | s <- Pocket.segments leg]
+
+-- | For each allowance the legs from where the cutter goes down.
+laid :: Pocketing -> NonEmpty (Maybe Point -> [Leg])
+laid pocket = (\from -> Pocket.clear (room first) step from) :| zipWith (\before a -> Pocket.skim (room a) step before) (first : more) more
+  where
+    first :| more = Part.allowances (wall pocket)
+    step = apart pocket
+    contours = Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
+    inset = Inset.inset contours
+    room leaves = Room {walls = foldr1 (<>) (fmap Geometry.segments contours), offsetBy = inset, further = Inset.further, radius = Part.radius (wall pocket), leaves, turned = isTurned pocket}
+
+-- | Whether the free space lies on the right of the walk: a spindle that turns clockwise climbs with the material there.
+isTurned :: Pocketing -> Bool
+isTurned pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
+  where
+    climbs = maybe True ((== Part.Climb) . value) (Part.sense (wall pocket))
+
+-- | Outline and islands walked as the cutter walks along them.
+oriented :: Pocketing -> Pocketing
+oriented pocket = pocket {wall = (wall pocket) {contour = walked (not turned) (contour (wall pocket))}, islands = map (walked turned) (islands pocket)}
+  where
+    turned = isTurned pocket
+    walked counterClockwise c = if (Geometry.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
+
+-- | The elements of the outline, and of the islands in order.
+elementsOf :: Pocketing -> [Element]
+elementsOf pocket = concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket)
+
+-- What stays
+
+-- | What stays at the walls when all is done, by elements of the outline and the islands in order, if that is allowed.
+resting :: Region -> Pocketing -> Either Error [Offset.Rest]
+resting word pocket = case (Part.rest milling, found) of
+  (Part.Refused, o : _) -> Left (Obstacle.refusal word tool (elementsOf pocket) o)
+  (Part.Refused, []) -> Right []
+  (Part.Allowed, _) -> Right (concat (zipWith rests starts contours) <> [Offset.Rest {Offset.stop = g, Offset.middle = p, Offset.standing = []} | g@Offset.Obstacle {Offset.cause = Offset.Collision _ _ p} <- gaps])
+  where
+    milling = wall pocket
+    left = NonEmpty.last (Part.allowances milling)
+    r = plus (Part.radius milling) left
+    tool = Tool {Path.Error.work = Part.work milling, Path.Error.radius = Part.radius milling, Path.Error.leaves = left}
+    contours = contour milling : islands pocket
+    starts = scanl (+) 0 (map (length . Part.elements) contours)
+    side = if isTurned pocket then Offset.RightOf else Offset.LeftOf
+    style = Offset.Style {Offset.sharp = False, Offset.extra = const (Mm 0)}
+    found = [Obstacle.shifted n o | (n, c) <- zip starts contours, Left o <- [Offset.styled style side r (Part.outline c)]] <> gaps
+    rests n c = case Offset.styled style side r (Part.outline c) of
+      Right _ -> []
+      Left _ -> [rest {Offset.stop = Obstacle.shifted n (Offset.stop rest)} | rest <- snd (Offset.reachable style side r (Part.outline c))]
+    gaps = gapsBetween r (map Part.outline contours)
+
+-- | Contours between which a circle does not pass: of each two the narrowest place.
+gapsBetween :: Mm -> [Geometry.Contour] -> [Offset.Obstacle]
+gapsBetween r contours = [Offset.Obstacle {Offset.cause = Offset.Collision i j p, Offset.largest = Just (times 0.5 d)} | (d, (i, j, p)) <- Map.elems (Map.fromListWith narrower found)]
+  where
+    numbered = zip [0 :: Int ..] [(k, s) | (k, c) <- zip [0 :: Int ..] contours, s <- NonEmpty.toList (Geometry.segments c)]
+    index = Box.index (Box.ofSegment . snd . snd) numbered
+    widest = minus (times 2 r) (times 2 Tolerance.clearance)
+    found =
+      [ ((k, l), (d, (i, j, centre p s')))
+        | (i, (k, s)) <- numbered,
+          (j, (l, s')) <- Box.within (Box.inflate widest (Box.ofSegment s)) index,
+          k < l,
+          let Nearest d p = Distance.segments s s',
+          d < widest
+      ]
+    narrower a b = if fst a <= fst b then a else b
+    centre p s' = let q = snd (Distance.nearest p s'); Mm r' = r in if Vec.near p q then p else Vec.shift (Vec.scale r' (Vec.unit (Vec.to p q))) p

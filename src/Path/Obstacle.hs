@@ -1,0 +1,46 @@
+-- | What keeps a cutter from following contours, in the words of the program.
+module Path.Obstacle
+  ( refusal,
+    stay,
+    shifted,
+  )
+where
+
+import Base.Quantity (Mm (..), minus)
+import Base.Region (Region)
+import Geometry.Offset (Cause (..), Obstacle (..))
+import Geometry.Offset qualified as Offset
+import Part.Part (Element)
+import Path.Error (Error (ConcaveRadius), Stay (..), Tool (leaves))
+import Path.Error qualified as Error
+
+-- | Why there is no path: the statement's first word, the cutter, the elements by their numbers.
+refusal :: Region -> Tool -> [Element] -> Obstacle -> Error
+refusal region tool elements (Obstacle cause largest) = case cause of
+  Concave i old -> ConcaveRadius region tool (elements !! i) old fitting
+  InnerCorner i j p -> Error.InnerCorner region tool (elements !! i) (elements !! j) p fitting
+  Collision i j p -> Error.Collision region tool (elements !! i) (elements !! j) p fitting
+  where
+    -- The cutter that fits is smaller than what fits by the allowance.
+    fitting = do
+      l <- largest
+      let d = minus l (leaves tool)
+      if d > Mm 0 then Just d else Nothing
+
+-- | What stays.
+stay :: [Element] -> Offset.Rest -> Stay
+stay elements rest = case cause (Offset.stop rest) of
+  InnerCorner i j p -> InCorner (elements !! i) (elements !! j) p
+  Concave i old -> InHollow (elements !! i) old largest'
+  Collision i j _ -> Between (elements !! i) (elements !! j) (Offset.middle rest) largest'
+  where
+    largest' = largest (Offset.stop rest)
+
+-- | The same with the elements behind so many others.
+shifted :: Int -> Obstacle -> Obstacle
+shifted n (Obstacle cause largest) = Obstacle (moved cause) largest
+  where
+    moved c = case c of
+      Concave i old -> Concave (n + i) old
+      InnerCorner i j p -> InnerCorner (n + i) (n + j) p
+      Collision i j p -> Collision (n + i) (n + j) p

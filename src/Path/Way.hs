@@ -1,0 +1,83 @@
+-- | The ways between cuts: to where a pass begins and away from where it ends.
+module Path.Way
+  ( Visit (..),
+    deep,
+    flat,
+    ways,
+    rise,
+    after,
+    keyword,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..), Region (..))
+import Data.Maybe (fromMaybe)
+import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Milling (feed), Spot (..), Stop)
+import Part.Part qualified as Part
+import Path.Path (Move (Move))
+import Path.Path qualified as Path
+
+-- | One pass of a statement: the statement's first word, what it asks, whether the pass is the first one and the last one,
+-- where the cutter stands before it.
+data Visit = Visit {word :: Region, milling :: Milling, isFirst :: Bool, isLast :: Bool, from :: Spot}
+
+-- | The ways before and behind a pass without depth, which keep the height at which the cutter stands: where the pass begins, where it
+-- ends, the heights at both and that of the pass.
+flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
+flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish = (before <> ways (foldl after from before) [Part.Stop (Located word begin) (Just inZ) pace], behind <> if null behind then [Move (Straight finish finish) (outZ, z) pace False word False | outZ /= z] else [])
+  where
+    pace = Part.At (feed milling)
+    before = if isFirst || isOpen then ways from (Part.approach milling) else []
+    behind = if isLast || isOpen then ways (Spot finish outZ) (upright (Part.retract milling)) else []
+    isOpen = Part.ends (Part.contour milling) == Part.Open
+    -- A blade is turned upright on the way away.
+    upright stops = case stops of
+      s : more | Nothing <- Part.level s, Just _ <- Part.gear milling -> s {Part.level = Just z} : more
+      _ -> stops
+
+-- | The same with depth. The cutter goes over to the last approach point (or to the beginning) at the clearance
+-- height, down there, and up again from the first retract point, unless that has a height of its own.
+deep :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
+deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish = (up <> over <> down <> ways (Spot (plane above) inZ) [Part.Stop (Located word begin) (Just inZ) pace], leave <> lift <> rest)
+  where
+    pace = Part.At (feed milling)
+    up = rise from clear word
+    stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
+    over = ways (foldl after from up) (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
+    above = foldl after (foldl after from up) over
+    down = [Move (Straight (plane above) (plane above)) (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False word False | height above /= inZ]
+    (beside, further) = case Part.retract milling of
+      s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
+      stops' -> ([], stops')
+    leave = ways (Spot finish outZ) beside
+    out = foldl after (Spot finish outZ) leave
+    lift = rise out clear word
+    rest = if isLast then ways (foldl after out lift) [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
+    lastOf xs = take 1 (reverse xs)
+
+-- | Straight up to a height, if the cutter stands below it.
+rise :: Spot -> Mm -> Region -> [Move]
+rise (Spot p z) clear word = [Move (Straight p p) (z, clear) Part.Rapid False word False | z < clear]
+
+-- | Straight moves from stop to stop; a stop where the cutter already stands needs none.
+ways :: Spot -> [Stop] -> [Move]
+ways at stops = case stops of
+  [] -> []
+  Part.Stop (Located region p) level pace : rest
+    | Vec.near (plane at) p && z == height at -> ways at rest
+    | otherwise -> Move (Straight (plane at) p) (height at, z) pace False region False : ways (Spot p z) rest
+    where
+      z = fromMaybe (height at) level
+
+-- | Where a move ends.
+after :: Spot -> Move -> Spot
+after _ m = Spot (Segment.end (Path.segment m)) (snd (Path.heights m))
+
+-- | The first word of a statement, of so many letters.
+keyword :: Int -> Region -> Region
+keyword letters r = r {end = start r + letters}

@@ -1,0 +1,223 @@
+-- | How a pocket came out, by distances alone: no stroke cuts into its walls, and nothing that the cutter can reach stays in it.
+--
+-- Let A be all places of the cutter's centre that are no nearer to the walls than its radius and what is left. What the cutter can reach lies within its
+-- radius of A. Two things are shown of each depth:
+--
+-- * rim: every place of the edge of A has a stroke right there. Then the walls are cut wherever a cutter touches them; and a place
+--   that the cutter reaches and that lies outside A is within the radius of such an edge, so it is cleared, corners included;
+-- * floor: every place of A lies within the radius of a stroke. Squares about the pocket are divided until each lies
+--   within the radius of one stroke, or of two that it lies between, or outside A.
+module Verify.Clearing
+  ( Pocket (..),
+    Pass (..),
+    pocketsOf,
+    holds,
+    isInOrder,
+    examine,
+  )
+where
+
+import Base.Quantity (Mm (..), plus, times)
+import Base.Region (Located (..), Region)
+import Control.Walk (Stroke (number))
+import Data.Either (fromRight)
+import Data.Function (on)
+import Data.List (foldl', maximumBy, minimumBy, sortOn)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe, maybeToList)
+import Data.Ord (comparing)
+import Data.Vector qualified as Vector
+import Geometry.Box (Box (Box))
+import Geometry.Box qualified as Box
+import Geometry.Distance qualified as Distance
+import Geometry.Nearest (Nearest)
+import Geometry.Nearest qualified as Nearest
+import Geometry.Offset (Side (..))
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Element, Milling, Pocketing)
+import Part.Part qualified as Part
+import Path.FromPart qualified as Path (leadingSide)
+import Path.Path (Block)
+import Path.Path qualified as Path
+import Verify.Course (Course)
+import Verify.Course qualified as Course
+import Verify.Cover qualified as Cover
+import Verify.Deviation (Spared (..))
+import Verify.Deviation qualified as Deviation
+import Verify.Passage (Edge (Edge, element), Trace (..))
+import Verify.Passage qualified as Passage
+import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
+import Verify.Proof qualified
+import Verify.Reachable qualified as Reachable
+
+-- | A pocket, and its passes in the order of the tape.
+data Pocket = Pocket
+  { statement :: Region,
+    milling :: Milling,
+    -- | the side of the walk on which the free space lies
+    side :: Side,
+    walls :: Nearest Edge,
+    about :: Box,
+    -- | the edge of what the centre can reach in the last passes, with the elements beside it
+    rim :: [(Element, Segment)],
+    -- | the distance of the edge from the walls
+    away :: Mm,
+    passes :: NonEmpty Pass
+  }
+
+-- | One pass: its number among all passes of the path, its height, the distance of the cutter's centre from the walls; whether it is the
+-- last one at its height; the moves before and behind it.
+data Pass = Pass {order :: Int, level :: Mm, reach :: Mm, isFinal :: Bool, aside :: [Segment]}
+
+-- | The pockets of a path.
+pocketsOf :: [Block] -> [Pocket]
+pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` (\(_, _, p, _) -> Path.number p)) [(n, job, pass, map Path.segment (approach <> retract)) | (n, Path.Clearing {Path.pocket = job, Path.pass, Path.approach, Path.retract}) <- zip (Path.passNumbers blocks) blocks])
+
+pocketOf :: NonEmpty (Int, Located Pocketing, Path.Pass, [Segment]) -> Pocket
+pocketOf found@((_, Located statement job, _, _) :| _) = Pocket {statement, milling, side, walls, about, rim, away, passes}
+  where
+    milling = Part.wall job
+    side = fromMaybe LeftOf (fromRight Nothing (Path.leadingSide milling))
+    contours = map (NonEmpty.toList . Part.elements) (Part.contour milling : Part.islands job)
+    elements = Vector.fromList (concat contours)
+    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.before = 0, Passage.long = 0, Passage.course = Course.ofSegment (Part.segment e)} | e <- Vector.toList elements]
+    about = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
+    away = plus (plus (Part.radius milling) (NonEmpty.last (Part.allowances milling))) margin
+    rim = [(elements Vector.! i, s) | (i, s) <- Reachable.rim side away (Nearest.index Box.ofSegment (map Part.segment (Vector.toList elements))) (map (map Part.segment) contours)]
+    passes = fmap pass found
+    pass (order, _, p, aside) = Pass {order, level = Path.atHeight p, reach = Path.reach p, isFinal = Path.left p == NonEmpty.last (Part.allowances milling), aside}
+
+-- | Where the cutter has so little room, more than its own, it need not go: by rounding it may have none.
+margin :: Mm
+margin = times 3 Tolerance.clearance
+
+-- | Whether a point lies in a pocket.
+holds :: Pocket -> Point -> Bool
+holds pocket p = maybe False (isFree pocket p . snd) (nearestWall pocket p)
+
+-- | Whether strokes cut the passes of a pocket depth by depth in their order.
+isInOrder :: Machine -> Pocket -> [Trace] -> Bool
+isInOrder machine pocket = go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket)))))
+  where
+    go levels traces = case (levels, traces) of
+      ([], _) -> True
+      (_, []) -> False
+      (z : more, t : rest)
+        | isLevel t && Deviation.atLevel machine z (fst (heights t)) && holds pocket (Segment.at 0.5 (line t)) -> go more rest
+        | otherwise -> go levels rest
+    isLevel t = uncurry (==) (heights t) && not (Passage.isUpright t)
+
+-- | How one pass came out: whether it is the first one of its pocket; all strokes, those that may touch what lies in a box, and those of the pass.
+examine :: Machine -> Bool -> (Trace -> Mm) -> [Trace] -> (Box -> [Trace]) -> (Trace -> Bool) -> Pocket -> Bool -> Pass -> (Passage, [Finding])
+examine machine flat toolOf traces nearby isOwn pocket isFirst pass = (passage, findings)
+  where
+    pulse = Machine.pulse machine
+    (inside, outside) = Deviation.allowedOff (milling pocket)
+    mayGouge = plus inside pulse
+    mayLeave = plus (plus (max inside outside) pulse) margin
+    atHeight = filter (\t -> (flat || Deviation.isAt machine (level pass) t) && toolOf t >= Part.radius (milling pocket)) traces
+    strokes = Nearest.index box atHeight
+    looked = filter belowTop (if isFirst then nearby (Box.inflate (reach pass) (about pocket)) else filter isOwn traces)
+    belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
+    spared t = let d = if isOwn t then reach pass else toolOf t in Spared {upTo = d, most = d, required = \_ _ -> d}
+    gouges = mapMaybe (\t -> Deviation.gougeOf (spared t) (walls pocket) t) looked
+    deepest = foldl' (\best t -> if Deviation.mayExceed (spared t) (walls pocket) best t then maybe best (deeper best) (Deviation.gougeOf (spared t) (walls pocket) t) else best) Nothing looked
+    deeper best w = case best of
+      Just b | amount b >= amount w -> best
+      _ -> Just w
+    missed = if isFinal pass then unreached mayLeave strokes (rim pocket) else []
+    worst = listToMaybe (sortOn (negated . amount) missed)
+    negated (Mm x) = -x
+    passage = Passage {contour = Part.contourName (Part.contour (milling pocket)), gouge = deepest, excess = worst, allowedGouge = mayGouge, allowedExcess = mayLeave}
+    tooMuch = sortOn frame (filter ((> mayLeave) . amount) missed)
+    findings =
+      [Gouge first most' mayGouge | Just most' <- [deepest], amount most' > mayGouge, first : _ <- [filter ((> mayGouge) . amount) gouges]]
+        <> [Excess first (fromMaybe first worst) mayLeave | first : _ <- [tooMuch]]
+        <> [NotCleared (statement pocket) (level pass) p | isFinal pass, null tooMuch, p <- maybeToList (uncleared pocket (plus (Part.radius (milling pocket)) mayLeave) strokes)]
+
+-- | For each stretch of the rim how far its furthest place is from the strokes, as far as that is more than of those before or more
+-- than is allowed.
+unreached :: Mm -> Nearest Trace -> [(Element, Segment)] -> [Witness]
+unreached allowance strokes = go (Mm 0)
+  where
+    go least stretches = case stretches of
+      [] -> []
+      (e, s) : rest
+        | surely least s -> go least rest
+        | otherwise -> case Cover.furthest others least s of
+          Nothing -> go least rest
+          Just Cover.Beyond {Cover.most = most', Cover.place = p, Cover.around} ->
+            let nearest = minimumBy (comparing (Cover.distanceTo p . Passage.ways)) around
+                next = if most' > allowance then least else most'
+             in Witness {amount = most', frame = number (stroke nearest), Verify.Proof.element = Part.origin e, place = p} : go next rest
+    surely least@(Mm d) s = Course.isCovered d [courses t | t <- Nearest.within (Box.inflate least (Box.ofSegment s)) strokes] (Course.ofSegment s)
+    others = Cover.Others {Cover.index = strokes, Cover.lines = Passage.ways, Cover.counts = const True, Cover.reach = Mm 0, Cover.allowance = allowance}
+
+-- The floor
+
+-- | A place that the centre can reach and that lies within a distance of no stroke, to 'floorResolution'.
+uncleared :: Pocket -> Mm -> Nearest Trace -> Maybe Point
+uncleared pocket (Mm r) strokes = listToMaybe (look Nothing False ((left + right) / 2) ((bottom + top) / 2) (max (right - left) (top - bottom) / 2))
+  where
+    Box left bottom right top = about pocket
+    Mm d = away pocket
+    -- A square about a place, half as wide; a stroke that may well cover it, and whether it is known to lie in the pocket.
+    look :: Maybe [Course] -> Bool -> Double -> Double -> Double -> [Point]
+    look hint isInside x y half
+      | corner < r, Just cs <- hint, rangeOf x y cs + corner <= r' = []
+      | corner < r, Just cs <- stroke', rangeOf x y cs + corner <= r' || isBetween cs = []
+      | otherwise = case nearestWall pocket p of
+        Nothing -> [p]
+        Just (Mm w, e)
+          | w + corner < d -> []
+          | w > corner && not isInside && not (isFree pocket p e) -> []
+          | corner <= finest -> [p | w >= d, isInside || w > corner || isFree pocket p e]
+          | otherwise -> let h = half / 2 in concat [look stroke' (isInside || w > corner) (x + a * h) (y + b * h) h | (a, b) <- [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
+      where
+        p = Vec.point x y
+        corner = half * sqrt 2
+        stroke' = if corner < r then nearestStroke x y else Nothing
+        corners = [(x + a * half, y + b * half) | (a, b) <- [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
+        -- The distance from a straight stroke is convex, and so is its mean from two: it is largest at a corner. The nearer one is no further
+        -- than that.
+        isBetween cs =
+          all Course.isLine cs && case nearestStroke fx fy of
+            Just ds -> all Course.isLine ds && all (\(u, v) -> rangeOf u v cs + rangeOf u v ds <= 2 * r') corners
+            Nothing -> False
+          where
+            (fx, fy) = maximumBy (comparing (\(u, v) -> rangeOf u v cs)) corners
+    -- What is within the distance of a stroke is found to be at the finest squares, too.
+    r' = r + finest
+    Mm finest = floorResolution
+    nearestStroke x y = courses . snd <$> Nearest.closest (\t -> Mm (rangeOf x y (courses t) + Course.unsure)) (Vec.point x y) strokes
+    rangeOf x y = foldl' (\m c -> max m (Course.distance c x y)) 0
+
+-- | Squares of the floor are divided until no place of them lies further from their middle. So much further than it may a place lie from a stroke.
+floorResolution :: Mm
+floorResolution = Mm 0.02
+
+-- | The wall nearest to a point, and how far it is. By rounding a box may seem to be further away than what is in it.
+nearestWall :: Pocket -> Point -> Maybe (Mm, Edge)
+nearestWall pocket p = (\(Mm d, e) -> (Mm (d - Course.unsure), e)) <$> Nearest.closest (\e -> Mm (Course.distance (Passage.course e) (Vec.x p) (Vec.y p) + Course.unsure)) p (walls pocket)
+
+-- | Whether a point lies on the free side of the wall nearest to it. Nearest to a corner, it is on the same side of both walls there.
+isFree :: Pocket -> Point -> Edge -> Bool
+isFree pocket p e = (leftward > 0) == (side pocket == LeftOf)
+  where
+    foot = snd (Distance.nearest p (Part.segment (element e)))
+    touching = filter (\o -> Distance.toPoint foot (Part.segment (element o)) <= Tolerance.coincident) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) (walls pocket))
+    leftward = sum [Vec.cross (directionBeside foot (Part.segment (element o))) (Vec.to foot p) | o <- touching]
+
+-- | The direction of a segment at one of its points.
+directionBeside :: Point -> Segment -> Vec.Vec
+directionBeside p s
+  | Vec.near p (Segment.start s) = Segment.startDirection s
+  | Vec.near p (Segment.end s) = Segment.endDirection s
+  | otherwise = Segment.directionAt (Segment.fraction s p) s
