@@ -36,8 +36,8 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
   prop "random pockets are proven, on arcs and on chords (catches a rim or a floor that is asked where no cutter fits)" $
-    forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $ \(p, before, m) ->
-      forAllPath (Generate.pocketing before p) $ \path ->
+    forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $ \(p, first, m) ->
+      forAllPath (Generate.pocketing first p) $ \path ->
         Proof.toReports m (proofOf m path) === []
   prop "places that the cutter can reach lie within its radius of the frames (catches a proof of nothing)" $
     forAll ((,) <$> Generate.pocket <*> Test.QuickCheck.elements machines) $ \(p, m) ->
@@ -61,9 +61,9 @@ spec = modifyMaxSuccess (const 60) $ do
       Just program ->
         let fs = bare program
          in forAll (choose (0, length fs - 2)) $ \n ->
-              let (before, rest) = splitAt n fs
+              let (done, rest) = splitAt n fs
                   spoilt = case rest of
-                    f : next : behind -> [("left out", before <> (next : behind)), ("doubled", before <> (f : f : next : behind))] <> [("shifted", before <> (moved 300 f : moved (-300) next : behind)) | isBelow (Frame.start program + sum (map increment (before <> [f])))]
+                    f : next : behind -> [("left out", done <> (next : behind)), ("doubled", done <> (f : f : next : behind))] <> [("shifted", done <> (moved 300 f : moved (-300) next : behind)) | isBelow (Frame.start program + sum (map increment (done <> [f])))]
                     _ -> []
                in conjoin [counterexample (what <> show n) (not (Proof.isProven (Verify.prove iso path program fs'))) | (what, fs') <- spoilt]
   prop "the depths of a pocket in another order are found (catches a proof that only looks at what is left)" $
