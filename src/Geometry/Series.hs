@@ -42,7 +42,7 @@ constant n c = Series (Unboxed.generate (n + 1) (\k -> if k == 0 then c else 0))
 
 -- | Four coefficients, up to an order; those behind them are zero.
 ofFour :: Int -> Double -> Double -> Double -> Double -> Series
-ofFour n a b c d = Series (Unboxed.generate (n + 1) (\k -> case k of 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
+ofFour n a b c d = Series (Unboxed.generate (n + 1) (\case 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
 
 -- | The first coefficients, up to an order; those that are not named are zero.
 fromList :: Int -> [Double] -> Series

@@ -274,7 +274,7 @@ numbers a = foldl' (\(low, high) v -> (min low v, max high v)) (0, 0) (concat [[
 
 -- | Two segments that cross: properly if there are such, or the first two that meet where the winding number leaves the bounds.
 crossed :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
-crossed (low, high) a = listToMaybe (proper a <> [(min i j, max i j) | (k, e) <- Vector.toList (Vector.indexed (edges a)), let (l, r) = sides a (2 * k), max l r > high || min l r < low, node <- [from e, to e], h <- maybe [] Vector.toList (IntMap.lookup node (rings a)), let i = segment e, let j = segment (edges a Vector.! (h `div` 2)), abs (i - j) > 1])
+crossed (low, high) a = listToMaybe (proper a <> [(min i j, max i j) | (k, e) <- Vector.toList (Vector.indexed (edges a)), let (l, r) = sides a (2 * k), max l r > high || min l r < low, let i = segment e, node <- [from e, to e], h <- maybe [] Vector.toList (IntMap.lookup node (rings a)), let j = segment (edges a Vector.! (h `div` 2)), abs (i - j) > 1])
 
 -- | The loops along which the wanted number is on the left and the free places on a side: there they have the number
 -- itself, or one less on the right.

@@ -89,7 +89,7 @@ walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx 
     tangents (e - 1) $ \_ _ zx zy lz ->
       joint (e - 1) a zx zy sx sy lz l $ \closing bend cut -> do
         markSmooth a closing
-        go a k0 sx sy ex ey l cut (if closing == Smooth then Chain.smooth else 0) $ \_ -> (closing, bend, cut)
+        go a k0 sx sy ex ey l cut (if closing == Smooth then Chain.smooth else 0) $ const (closing, bend, cut)
   where
     bulge i = indexPrimArray (Chain.bulges c) i
     -- The directions at both ends, and the length of the chord: half the sweep is turned off the chord.

@@ -118,7 +118,7 @@ along style side radius contour = case asked style side radius contour of
     joined found = case Contour.ends contour of
       Closed -> [Way Closed (rotated ps) | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
       -- The loop goes round the whole contour: here counts what lies on the side that was asked, up to the ends.
-      Open -> case break (not . own) found of
+      Open -> case span own found of
         (_, []) -> [Way Closed (rotated ps) | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
         (front, rest) -> map (Way Open . merged . fmap snd) (runs (rest <> front))
     own (number, p) = case origin p of

@@ -159,7 +159,7 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     near = 2e-9 * scale
     d = radius c
     tooNear (x, y) = or [Naive.blocked (if side c == LeftOf then 1 else -1) d ps x y | ps <- asked]
-    asked = map (\ps -> if isOpen then ps <> map backwards (reverse ps) else ps) . walks (outlines c) $ (map (d +) (cycle (if null (extras c) then [0] else extras c)))
+    asked = map (\ps -> if isOpen then ps <> map backwards (reverse ps) else ps) . walks (outlines c) $ map (d +) (cycle (if null (extras c) then [0] else extras c))
     walks os es = case os of
       [] -> []
       o : rest -> let ps = Naive.pieces o; (mine, others) = splitAt (length ps) es in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] : walks rest others
@@ -167,7 +167,7 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     blocked = case side c of
       LeftOf -> free c - 1
       RightOf -> free c + 1
-    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, if null (extras c) then not (abs e <= near) else e < -near]
+    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, if null (extras c) then abs e > near || isNaN e else e < -near]
     thin o
       | family c `elem` [Cells, Lattice] && abs (Outline.area o) < 1e-12 * scale * (let Mm l = Outline.length o in l) = Just ("no area " <> show (Outline.area o))
       | otherwise = Nothing
