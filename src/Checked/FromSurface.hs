@@ -11,6 +11,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
+import Checked.Bare qualified as Bare
 import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
 import Checked.Dimension qualified as Dimension
@@ -389,7 +390,7 @@ linked defined (Located at l) = fmap (Located at .) $ case l of
 -- | An expression where a type is needed.
 expect :: Defined -> Type -> Surface.Expr -> Infer (Later Checked.Expr)
 expect defined wanted e = case (value e, wanted) of
-  _ | Just e' <- bareNumber wanted e -> pure (const e')
+  _ | Just e' <- Bare.number wanted e -> pure (const e')
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> do
     x' <- expect defined Type.len x
     y' <- expect defined Type.len y
@@ -398,15 +399,6 @@ expect defined wanted e = case (value e, wanted) of
     (t, e') <- infer defined e
     equal (region e) wanted t
     pure e'
-
--- | A number as it is written where a quantity is needed whose dimension is known, without a detour by unknowns; a
--- unit has to be one of it.
-bareNumber :: Type -> Surface.Expr -> Maybe Checked.Expr
-bareNumber wanted (Located at e) = case (e, wanted) of
-  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d) | Dimension.isKnown d -> Just (Located at (Checked.Number (x * Dimension.defaultUnit d)))
-  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d) | (Type.Quantity own, factor) <- unitType unit, own == d -> Just (Located at (Checked.Number (x * factor)))
-  (Surface.Negate inner, Type.Quantity _) -> Located at . Checked.Negate <$> bareNumber wanted inner
-  _ -> Nothing
 
 -- | The found type at a place has to be the wanted one.
 equal :: Region -> Type -> Type -> Infer ()
@@ -447,7 +439,7 @@ infer defined (Located at e) = case e of
   Surface.Binary op l r -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
-    when (op `elem` [Surface.Multiply, Surface.Divide]) (plainFactor op (l, lt) (r, rt))
+    when (op `elem` [Surface.Multiply, Surface.Divide]) (Bare.plainFactor op (l, lt) (r, rt))
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
   Surface.Range low high Nothing -> do
@@ -483,27 +475,6 @@ infer defined (Located at e) = case e of
     (t, list') <- repetition defined counter list
     (result, inner') <- Infer.withLocals [(counter, t)] (infer defined inner)
     pure (Type.ListOf result, \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol)))
-
--- | A bare number beside something that has a dimension is a plain number: twice an angle is an angle. So is
--- one that divides. Beside a plain number it may be anything: @20 * k@ can be a length, @4 * 4@ an area.
-plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
-plainFactor op (l, lt) (r, rt) = do
-  lt' <- Infer.known lt
-  rt' <- Infer.known rt
-  when (isBare l && not (isBare r) && hasDimension rt') (void (Infer.unify (region l) Type.number lt))
-  when (isBare r && not (isBare l) && (op == Surface.Divide || hasDimension lt')) (void (Infer.unify (region r) Type.number rt))
-  where
-    hasDimension t = case t of
-      Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
-      _ -> False
-
--- | Whether an expression consists of bare numbers.
-isBare :: Surface.Expr -> Bool
-isBare (Located _ e) = case e of
-  Surface.Literal _ Nothing -> True
-  Surface.Negate inner -> isBare inner
-  Surface.Binary _ l r -> isBare l && isBare r
-  _ -> False
 
 -- | The result of an operation.
 operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type

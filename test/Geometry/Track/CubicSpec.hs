@@ -98,11 +98,16 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
     ss = arcsOf tolerance c
     known = [(u, Curve.at c u) | k <- [0 .. count], let u = Curve.domain c * fromIntegral k / fromIntegral count]
     count = 200 * Curve.spans c
-    nearest p = minimum [closer p (36 :: Int) (Curve.domain c / fromIntegral count) u | (_, u) <- take 4 (sort (valleys [(away p q, u) | (u, q) <- known]))]
+    nearest p = minimum [closer p (60 :: Int) (held a) (held b) | (_, u) <- take 4 (sort (valleys [(away p q, u) | (u, q) <- known])), let h = Curve.domain c / fromIntegral count, (a, b) <- [(u - h, u), (u, u + h)]]
     valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
-    closer p k h u
-      | k == 0 = away p (Curve.at c u)
-      | otherwise = let (_, v) = minimum [(away p (Curve.at c w), w) | w <- map held [u - h, u - h / 2, u, u + h / 2, u + h]] in closer p (k - 1) (h / 2) v
+    -- On either side of a sharp corner by itself.
+    closer p k a b
+      | k == 0 = away p (Curve.at c ((a + b) / 2))
+      | away p (Curve.at c u) <= away p (Curve.at c v) = closer p (k - 1) a v
+      | otherwise = closer p (k - 1) u b
+      where
+        u = a + (b - a) / 3
+        v = b - (b - a) / 3
     held = max 0 . min (Curve.domain c)
 
 smoothLaw :: Tracked -> Property
