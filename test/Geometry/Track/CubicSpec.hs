@@ -98,7 +98,7 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
     ss = arcsOf tolerance c
     known = [(u, Curve.at c u) | k <- [0 .. count], let u = Curve.domain c * fromIntegral k / fromIntegral count]
     count = 200 * Curve.spans c
-    nearest p = minimum [closer p (60 :: Int) (held a) (held b) | (_, u) <- take 4 (sort (valleys [(away p q, u) | (u, q) <- known])), let h = Curve.domain c / fromIntegral count, (a, b) <- [(u - h, u), (u, u + h)]]
+    nearest p = minimum [closer p (60 :: Int) (held a) (held b) | let h = Curve.domain c / fromIntegral count, (_, u) <- take 4 (sort (valleys [(away p q, u) | (u, q) <- known])), (a, b) <- [(u - h, u), (u, u + h)]]
     valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
     -- On either side of a sharp corner by itself.
     closer p k a b
