@@ -171,10 +171,10 @@ walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx 
         Smooth -> next k1 ends
         Step -> put k1 fx fy 0 Chain.around i >> next (k1 + 1) 0
         Trimmed -> next k1 0
-        -- Between different distances over the corner: what lies further out may be free.
+        -- Where distances differ, over the corner: what lies further out may be free.
         Over
-          | d == dist j -> put k1 fx fy 0 Chain.connecting i >> next (k1 + 1) 0
-          | otherwise -> put k1 fx fy 0 Chain.connecting i >> put (k1 + 1) vx vy 0 Chain.connecting i >> next (k1 + 2) 0
+          | uneven -> put k1 fx fy 0 Chain.connecting i >> put (k1 + 1) vx vy 0 Chain.connecting i >> next (k1 + 2) 0
+          | otherwise -> put k1 fx fy 0 Chain.connecting i >> next (k1 + 1) 0
         Outer -> do
           let dj = dist j
               wide = if abs (corner j) > abs (corner i) then corner j else corner i
