@@ -96,11 +96,14 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
   conjoin [counterexample (show (p, d)) (d <= tolerance + 1e-8) | (k, f) <- picks, let p = Segment.at f (ss !! k), let d = nearest p]
   where
     ss = arcsOf tolerance c
-    known = [(u, Curve.at c u) | k <- [0 .. count], let u = Curve.domain c * fromIntegral k / fromIntegral count]
-    count = 200 * Curve.spans c
-    nearest p = minimum [closer p (60 :: Int) (held a) (held b) | let h = Curve.domain c / fromIntegral count, (_, u) <- take 4 (sort (valleys [(away p q, u) | (u, q) <- known])), (a, b) <- [(u - h, u), (u, u + h)]]
-    valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
-    -- On either side of a sharp corner by itself.
+    -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the other.
+    known = [[(u, Curve.at c u) | k <- [0 .. count], let u = a + (b - a) * fromIntegral k / fromIntegral count] | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
+    count = 100 :: Int
+    nearest p = minimum [closer p (60 :: Int) a b | (_, (a, b)) <- take 8 (sort (concatMap (valleys p) known))]
+    -- About the places of a span that are nearer than those beside them.
+    valleys p us =
+      let ds = [(away p q, u) | (u, q) <- us]
+       in [(m, (a, b)) | ((l, a), (m, _), (r, b)) <- zip3 (take 1 ds <> ds) ds (drop 1 ds <> take 1 (reverse ds)), m <= l, m <= r]
     closer p k a b
       | k == 0 = away p (Curve.at c ((a + b) / 2))
       | away p (Curve.at c u) <= away p (Curve.at c v) = closer p (k - 1) a v
@@ -108,7 +111,6 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
       where
         u = a + (b - a) / 3
         v = b - (b - a) / 3
-    held = max 0 . min (Curve.domain c)
 
 smoothLaw :: Tracked -> Property
 smoothLaw (Tracked _ tolerance c) =
