@@ -98,7 +98,7 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
     ss = arcsOf tolerance c
     -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the other.
     known = [[(u, Curve.at c u) | k <- [0 .. count], let u = a + (b - a) * fromIntegral k / fromIntegral count] | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
-    count = 100 :: Int
+    count = 400 :: Int
     nearest p = minimum [closer p (60 :: Int) a b | (_, (a, b)) <- take 8 (sort (concatMap (valleys p) known))]
     -- About the places of a span that are nearer than those beside them.
     valleys p us =
