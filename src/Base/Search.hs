@@ -1,9 +1,11 @@
--- | Looking up in sorted numbers.
+-- | Looking up in sorted numbers, and for where something ceases to hold.
 module Base.Search
   ( lastBelow,
+    turningPoint,
   )
 where
 
+import Base.Quantity (Mm (..), minus, plus, times)
 import Data.Vector.Unboxed (Unbox, Vector)
 import Data.Vector.Unboxed qualified as Vector
 
@@ -20,3 +22,13 @@ lastBelow count v sorted = search 0 count
       where
         middle = (low + high) `div` 2
 {-# INLINE lastBelow #-}
+
+-- | Between a length for which something holds and a larger one for which it does not, two such lengths that are no further apart
+-- than a resolution.
+turningPoint :: Mm -> (Mm -> Bool) -> Mm -> Mm -> (Mm, Mm)
+turningPoint resolution holds low high
+  | minus high low <= resolution = (low, high)
+  | holds middle = turningPoint resolution holds middle high
+  | otherwise = turningPoint resolution holds low middle
+  where
+    middle = times 0.5 (plus low high)

@@ -2,7 +2,6 @@
 module Checked.Bare
   ( number,
     plainFactor,
-    isBare,
   )
 where
 

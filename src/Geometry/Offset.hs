@@ -23,6 +23,7 @@ module Geometry.Offset
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Search qualified as Search
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -187,7 +188,7 @@ collision style radius contour pieces
 -- fits too, so halving finds it.
 largestFitting :: Style -> Side -> Mm -> Contour -> Maybe Mm
 largestFitting style side asked contour
-  | fits smallest = Just (halved fits smallest asked)
+  | fits smallest = Just (largestOf fits smallest asked)
   | otherwise = Nothing
   where
     smallest = times 10 Tolerance.clearance
@@ -196,13 +197,8 @@ largestFitting style side asked contour
       Left _ -> False
 
 -- | Between a radius that fits and one that does not, the largest that does.
-halved :: (Mm -> Bool) -> Mm -> Mm -> Mm
-halved fits low high
-  | minus high low <= Tolerance.resolution = low
-  | fits middle = halved fits middle high
-  | otherwise = halved fits low middle
-  where
-    middle = times 0.5 (plus low high)
+largestOf :: (Mm -> Bool) -> Mm -> Mm -> Mm
+largestOf fits low high = fst (Search.turningPoint Tolerance.resolution fits low high)
 
 -- What can be reached --------------------------------------------------------------------------------
 
@@ -220,16 +216,14 @@ reachable style side radius contour = (ways, map rest (cuts contour (radiusAt st
     onWays = IntSet.fromList [numberOf (origin p) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
     rest (cause, i, j, at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays contour i j at)}
     -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side.
-    closedBy at along' = along' <> [Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (last along')) (Segment.start (head' along'))]
-    head' = foldr const (Straight contourStart contourStart)
-    contourStart = Segment.start (NonEmpty.head (segments contour))
+    closedBy at stretch = NonEmpty.toList stretch <> [Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (NonEmpty.last stretch)) (Segment.start (NonEmpty.head stretch))]
 
 -- | The contour from where a cutter touches one segment to where it touches a later one; nothing when a way goes along what lies
--- between.
-stretchBetween :: IntSet.IntSet -> Contour -> Int -> Int -> Point -> Maybe [Segment]
+-- between, or when it touches both at one point.
+stretchBetween :: IntSet.IntSet -> Contour -> Int -> Int -> Point -> Maybe (NonEmpty Segment)
 stretchBetween onWays contour i j at
   | i == j || any (`IntSet.member` onWays) between = Nothing
-  | otherwise = Just (behind (whole Vector.! i) <> map (whole Vector.!) between <> upTo (whole Vector.! j))
+  | otherwise = NonEmpty.nonEmpty (behind (whole Vector.! i) <> map (whole Vector.!) between <> upTo (whole Vector.! j))
   where
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     n = Vector.length whole
@@ -271,7 +265,7 @@ largestPast style side radius contour cause = case cause of
   Collision {} -> search passes
   where
     search fits
-      | fits smallest = Just (halved fits smallest radius)
+      | fits smallest = Just (largestOf fits smallest radius)
       | otherwise = Nothing
     smallest = times 10 Tolerance.clearance
     passes r = not (any (\(other, _, _, _) -> same cause other) (cuts contour (radiusAt style r) found)) && reached found

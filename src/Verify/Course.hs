@@ -74,19 +74,25 @@ hypotenuse :: Double -> Double -> Double
 hypotenuse a b = sqrt (a * a + b * b)
 {-# INLINE hypotenuse #-}
 
+-- | How a point lies as seen from an arc's centre, each times the radius: how far behind its beginning in the sense of the walk, how far
+-- before its end, and how far out towards the beginning. In mm².
+bearing :: Double -> Double -> Double -> Double -> Double -> Double -> Double -> Double -> Double -> (Double -> Double -> Double -> r) -> r
+bearing ax ay bx by cx cy s px py k = k (sense * ((ax - cx) * vy - (ay - cy) * vx)) (sense * (vx * (by - cy) - vy * (bx - cx))) ((ax - cx) * vx + (ay - cy) * vy)
+  where
+    sense = if s > 0 then 1 else -1
+    vx = px - cx
+    vy = py - cy
+{-# INLINE bearing #-}
+
 -- | Whether a point lies in the sector of an arc.
 inSector :: Course -> Double -> Double -> Bool
 inSector course px py = case course of
   Line {} -> False
   Bow ax ay bx by cx cy _ s ->
-    let sense = if s > 0 then 1 else -1
-        vx = px - cx
-        vy = py - cy
-        behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
-        before = sense * (vx * (by - cy) - vy * (bx - cx))
-     in if abs s > pi
-          then behind >= 0 || before >= 0 || abs s > 3 / 2 * pi && (ax - cx) * vx + (ay - cy) * vy <= 0
-          else behind >= 0 && before >= 0 && (abs s > pi / 2 || (ax - cx) * vx + (ay - cy) * vy >= 0)
+    bearing ax ay bx by cx cy s px py $ \behind before along ->
+      if abs s > pi
+        then behind >= 0 || before >= 0 || abs s > 3 / 2 * pi && along <= 0
+        else behind >= 0 && before >= 0 && (abs s > pi / 2 || along >= 0)
 
 -- | The least distance of two, or less than that by no more than rounding. Those that cross have none.
 apart :: Course -> Course -> Double
@@ -220,12 +226,8 @@ pastArc :: Course -> Double -> Double -> Double
 pastArc t px py = case t of
   Line {} -> never
   Bow ax ay bx by cx cy r s ->
-    let sense = if s > 0 then 1 else -1
-        vx = px - cx
-        vy = py - cy
-        behind = sense * ((ax - cx) * vy - (ay - cy) * vx)
-        before = sense * (vx * (by - cy) - vy * (bx - cx))
-     in if abs s <= pi / 2 && (ax - cx) * vx + (ay - cy) * vy < 0 then never else max 0 (max (negate behind) (negate before) / r)
+    bearing ax ay bx by cx cy s px py $ \behind before along ->
+      if abs s <= pi / 2 && along < 0 then never else max 0 (max (negate behind) (negate before) / r)
 
 -- | The point at a share of the length.
 at :: Course -> Double -> (Double, Double)

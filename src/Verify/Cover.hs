@@ -9,6 +9,7 @@ module Verify.Cover
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Search qualified as Search
 import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -44,7 +45,7 @@ furthest others least segment
   | covered least = Nothing
   | otherwise = case dropWhile (not . covered) widths of
     [] -> witness lost
-    enough : _ -> witness (halve covered least enough)
+    enough : _ -> witness (snd (Search.turningPoint Tolerance.resolution (not . covered) least enough))
   where
     covered m = isCovered others (plus (reach others) m) segment
     widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowance others)))
@@ -59,15 +60,6 @@ furthest others least segment
 -- | An excess that is as good as infinite: the part is not cut there at all.
 lost :: Mm
 lost = Mm 1e7
-
--- | Between a value that does not hold and one that does, the smallest that does.
-halve :: (Mm -> Bool) -> Mm -> Mm -> Mm
-halve holds low high
-  | minus high low <= Tolerance.resolution = high
-  | holds middle = halve holds low middle
-  | otherwise = halve holds middle high
-  where
-    middle = times 0.5 (plus low high)
 
 -- | The others that have a point of a segment within a distance.
 near :: Others a -> Mm -> Segment -> [a]

@@ -10,6 +10,7 @@ import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust)
+import Geometry.Apart (apart, away)
 import Geometry.Biarc qualified as Biarc
 import Geometry.Contour (Ends (..))
 import Geometry.Segment (Segment (..))
@@ -149,9 +150,6 @@ smooth ss = conjoin (zipWith joined ss (drop 1 ss))
 -- | One direction, but for the digits that a line in place of an arc that hardly bends costs.
 aligned :: Vec -> Vec -> Property
 aligned a b = let Rad off = Vec.turn a b in counterexample (show off) (abs off < 2.1e-8)
-
-away :: Point -> Point -> Double
-away a b = let Mm d = Vec.distance a b in d
 
 sweepOf :: Segment -> Double
 sweepOf s = case s of
@@ -371,20 +369,6 @@ parameters n t = [begin t + (NonEmpty.last (breaks t) - begin t) * fromIntegral 
 
 chain :: Tracked -> [Segment]
 chain (Tracked c tolerance) = concatMap toList (toList (Track.approximate (Mm tolerance) (trackOf c)))
-
--- | The distance from a point to a segment, an arc's by the angle from its middle.
-apart :: Segment -> Point -> Double
-apart s p = case s of
-  Straight a b ->
-    let u = Vec.to a b
-        t = max 0 (min 1 (Vec.dot u (Vec.to a p) / Vec.dot u u))
-     in away p (Vec.between t a b)
-  Arc {start, end, centre, sweep = Rad a}
-    | abs off <= abs a / 2 -> abs (away centre p - away centre start)
-    | otherwise -> min (away p start) (away p end)
-    where
-      middle = Vec.rotate (Rad (a / 2)) (Vec.to centre start)
-      Rad off = Vec.turn middle (Vec.to centre p)
 
 curveLaw :: Tracked -> Property
 curveLaw w@(Tracked c tolerance) = forAll (vectorOf 200 (choose (0, 1))) $ \fs ->

@@ -7,6 +7,9 @@ module Geometry.Biarc.Pair
   ( Pose (..),
     Pair (..),
     joined,
+    Frame (..),
+    frame,
+    forwards,
   )
 where
 
@@ -95,3 +98,16 @@ ratio sinA cosA sinB cosB
     -- Sines that differ by no more are of angles below a quarter turn that differ by less than the factor 2.
     near = 1.4
 {-# NOINLINE ratio #-}
+
+-- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it turns by.
+data Frame = Frame {origin :: Pose, bend :: Double, limit :: Pose, cosine :: Double, sine :: Double}
+
+-- | From its beginning, its curvature in 1/mm and its end.
+frame :: Pose -> Double -> Pose -> Frame
+frame origin bend limit = Frame {origin, bend, limit, cosine = dx origin * dx limit + dy origin * dy limit, sine = dx origin * dy limit - dy origin * dx limit}
+{-# INLINE frame #-}
+
+-- | Whether an arc turns by less than a quarter turn.
+forwards :: Frame -> Bool
+forwards f = cosine f > 0
+{-# INLINE forwards #-}

@@ -6,7 +6,6 @@
 module Geometry.Offset.Meet
   ( Visitor (..),
     meet,
-    liesOn,
   )
 where
 
@@ -152,11 +151,7 @@ lineArc !tolerance !c visitor !i !j
         !s2 = s0 + (if half == 0 then -(q / aa) else c0 / q)
         !sure1 = verdict blurred margin s1
         !sure2 = verdict blurred margin s2
-    if sure1 == Doubtful || sure2 == Doubtful
-      then closely
-      else do
-        when (sure1 == Crosses) (tell s1)
-        when (sure2 == Crosses) (tell s2)
+    decided closely sure1 (tell s1) sure2 (tell s2)
   where
     !lx = indexPrimArray (Chain.xs c) i
     !ly = indexPrimArray (Chain.ys c) i
@@ -195,7 +190,7 @@ lineArc !tolerance !c visitor !i !j
           try step = when (s0 + step > 0 && s0 + step < 1) $ do
             let px = lx + (s0 + step) * ux
                 py = ly + (s0 + step) * uy
-            when (onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) (tell (s0 + step))
+            when (onArc c j px py && not (rest && (nearEnds c i (4 * tolerance) px py || nearEnds c j (4 * tolerance) px py))) (tell (s0 + step))
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
         then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
@@ -205,6 +200,13 @@ lineArc !tolerance !c visitor !i !j
 -- | What is known of a point in which two carriers meet.
 data Verdict = Crosses | Passes | Doubtful
   deriving stock (Eq)
+
+-- | Tell of the points of two that are known to be crossings, unless a doubtful one calls for a closer look.
+decided :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
+decided closely first tellFirst second tellSecond
+  | first == Doubtful || second == Doubtful = closely
+  | otherwise = when (first == Crosses) tellFirst >> when (second == Crosses) tellSecond
+{-# INLINE decided #-}
 
 -- | Whether a point is so near to an end of a segment.
 nearEnds :: Chain -> Int -> Double -> Double -> Double -> Bool
@@ -237,11 +239,7 @@ arcs !tolerance !c visitor !i !j
         !s2 = if half == 0 then -(q / gg) else c0 / q
         !sure1 = verdict blurred s1
         !sure2 = verdict blurred s2
-    if sure1 == Doubtful || sure2 == Doubtful
-      then closely
-      else do
-        when (sure1 == Crosses) (tell s1)
-        when (sure2 == Crosses) (tell s2)
+    decided closely sure1 (tell s1) sure2 (tell s2)
   where
     !x0 = indexPrimArray (Chain.xs c) i
     !y0 = indexPrimArray (Chain.ys c) i
@@ -281,7 +279,7 @@ arcs !tolerance !c visitor !i !j
           try s = do
             let px = lx - s * gy
                 py = ly + s * gx
-            when (onArc c i px py && onArc c j px py && not (rest && (atEnd tolerance c i px py || atEnd tolerance c j px py))) (tell s)
+            when (onArc c i px py && onArc c j px py && not (rest && (nearEnds c i (4 * tolerance) px py || nearEnds c j (4 * tolerance) px py))) (tell s)
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
         then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)
@@ -365,12 +363,6 @@ parameter :: Chain -> Int -> Double -> Double -> Double
 parameter c i px py = Chain.chord c i $ \ux uy ->
   (ux * (px - indexPrimArray (Chain.xs c) i) + uy * (py - indexPrimArray (Chain.ys c) i)) / (ux * ux + uy * uy)
 {-# INLINE parameter #-}
-
--- | Whether a point is an end of a segment.
-atEnd :: Double -> Chain -> Int -> Double -> Double -> Bool
-atEnd tolerance c i px py = near i || near (i + 1)
-  where
-    near k = let dx = px - indexPrimArray (Chain.xs c) k; dy = py - indexPrimArray (Chain.ys c) k in dx * dx + dy * dy <= 16 * tolerance * tolerance
 
 -- | The sign of the walk on an arc: what holds counter-clockwise is turned when it is walked clockwise.
 turned :: Chain -> Int -> Double -> Double

@@ -19,6 +19,7 @@ import Data.IntSet qualified as IntSet
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
@@ -128,7 +129,7 @@ along style side radius contour = case asked style side radius contour of
       [] -> []
       p : rest -> let (more, others) = span own rest in (p :| more) : runs others
     -- Begin where the first segment begins that is on it.
-    rotated ps = merged (if null others then ps else NonEmpty.fromList (reverse lastRun <> reverse others))
+    rotated ps = merged (fromMaybe ps (NonEmpty.nonEmpty (reverse lastRun <> reverse others)))
       where
         least = minimum (fmap origin ps)
         isLeast p = origin p == least

@@ -19,7 +19,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
-import Geometry.Biarc.Pair (Pair (..), Pose (..))
+import Geometry.Biarc.Pair (Frame (..), Pair (..), Pose (..), forwards, frame)
 import Geometry.Outline (Outline)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -166,16 +166,6 @@ apart chain most first u from v to pair
     unknown = Off (1 / 0) (1 / 0)
     one = frame from (bend1 pair) (if single pair then to else joint pair)
     two = frame (joint pair) (bend2 pair) to
-
--- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it turns by.
-data Frame = Frame {origin :: Pose, bend :: Double, limit :: Pose, cosine :: Double, sine :: Double}
-
-frame :: Pose -> Double -> Pose -> Frame
-frame origin bend limit = Frame {origin, bend, limit, cosine = dx origin * dx limit + dy origin * dy limit, sine = dx origin * dy limit - dy origin * dx limit}
-
--- | Whether an arc turns by less than a quarter turn.
-forwards :: Frame -> Bool
-forwards f = cosine f > 0
 
 -- | A piece, a place on the chain and the pose there, and the distance up to there.
 data Reached = Reached Int Double Pose Double

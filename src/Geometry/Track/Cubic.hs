@@ -15,7 +15,7 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Control.Monad.ST (runST)
 import Data.List.NonEmpty (NonEmpty (..))
-import Geometry.Biarc.Pair (Pair (..), Pose (..))
+import Geometry.Biarc.Pair (Frame (..), Pair (..), Pose (..), forwards, frame)
 import Geometry.Outline (Outline)
 import Geometry.Spline (Cubic (..), Cubics)
 import Geometry.Spline qualified as Spline
@@ -101,16 +101,6 @@ apart xs ys most first u from v to pair
     unknown = Off (1 / 0) (1 / 0)
     one = frame from (bend1 pair) (if single pair then to else joint pair)
     two = frame (joint pair) (bend2 pair) to
-
--- | An arc: where it begins, its curvature, where it ends, and the sine and the cosine of what it turns by.
-data Frame = Frame {origin :: Pose, bend :: Double, limit :: Pose, cosine :: Double, sine :: Double}
-
-frame :: Pose -> Double -> Pose -> Frame
-frame origin bend limit = Frame {origin, bend, limit, cosine = dx origin * dx limit + dy origin * dy limit, sine = dx origin * dy limit - dy origin * dx limit}
-
--- | Whether an arc turns by less than a quarter turn.
-forwards :: Frame -> Bool
-forwards f = cosine f > 0
 
 -- | A place on the curve, its span and the span's own parameter, and the distance up to there.
 data Reached = Reached Int Double Double

@@ -8,6 +8,7 @@ import Data.List (sort)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
+import Geometry.Apart (apart, away)
 import Geometry.Curve (Curve)
 import Geometry.Curve qualified as Curve
 import Geometry.Polyarc qualified as Polyarc
@@ -15,7 +16,6 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Track qualified as Track
 import Geometry.Track.Cubic qualified as Cubic
-import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Part
 import Test.Hspec
@@ -125,20 +125,3 @@ fewLaw (Tracked _ tolerance c) = counterexample (show (length ss, general)) (fro
   where
     ss = arcsOf tolerance c
     general = NonEmpty.length (sconcat (Track.approximate (Mm tolerance) (Part.track c)))
-
--- | The distance from a segment to a point, from an arc by the angle from its middle.
-apart :: Segment -> Point -> Double
-apart s p = case s of
-  Straight a b ->
-    let u = Vec.to a b
-        t = max 0 (min 1 (Vec.dot u (Vec.to a p) / Vec.dot u u))
-     in away p (Vec.between t a b)
-  Arc {start, end, centre, sweep = Rad a}
-    | abs off <= abs a / 2 -> abs (away centre p - away centre start)
-    | otherwise -> min (away p start) (away p end)
-    where
-      middle = Vec.rotate (Rad (a / 2)) (Vec.to centre start)
-      Rad off = Vec.turn middle (Vec.to centre p)
-
-away :: Point -> Point -> Double
-away a b = let Mm d = Vec.distance a b in d
