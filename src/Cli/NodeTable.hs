@@ -9,6 +9,7 @@ import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
+import Cli.RestTable qualified as RestTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
@@ -31,7 +32,7 @@ import Tape.Tape qualified as Tape
 
 -- | The paper's tables for every milled contour, then times and tape.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
-nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> map emptied clearings <> drilled <> [summary])
+nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> map emptied clearings <> drilled <> RestTable.places path <> [summary])
   where
     heading = "Part " <> maybe "" (\(Name n) -> n) (Part.name part) <> maybe "" (\t -> ": " <> t) (Part.title part) <> "\n"
     machine = fst <$> punched

@@ -14,7 +14,6 @@ import Base.Region (Located (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict qualified as Map
 import Data.Maybe (isNothing, mapMaybe)
 import Data.Semigroup (sconcat)
 import Draw.Sheet (Sheet)
@@ -34,6 +33,8 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path
 import Path.Path (Block (Clearing, Commanding, Cutting, Holing, Travelling, approach, cleared, cut, job, pass, pocket, retract), Move, Path)
 import Path.Path qualified as Path
+import Path.Remaining (Remaining (Remaining, beside, places))
+import Path.Remaining qualified as Remaining
 import Prelude hiding (lines)
 
 -- | What is drawn, on paper.
@@ -113,17 +114,12 @@ millingOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | What stays beside contours in their last passes: its outline, or where that is not known a circle where the cutter turns back.
+-- | What stays beside contours: its outline, or where that is not known a circle where the cutter turns back.
 restsOf :: Path -> [[Segment]]
-restsOf path = nub (concatMap drawn (Map.elems lastPasses))
+restsOf path = nub (concatMap drawn (Remaining.ofPath path))
   where
-    lastPasses = Map.fromList (mapMaybe leaving (Path.blocks path))
-    leaving b = case b of
-      Cutting {pass, Path.rests = found@(_ : _)} -> Just (Path.number pass, (Path.reach pass, found))
-      Clearing {pass, Path.rests = found@(_ : _)} -> Just (Path.number pass, (Path.reach pass, found))
-      _ -> Nothing
-    drawn (Mm r, found) = [if null outline then spot (Offset.middle f) (r / 4) else outline | f <- found, let outline = Offset.standing f]
-    spot p r = [Segment.fullCircle CounterClockwise (Circle p (Mm r)) (Vec.shift (Vec.vec r 0) p)]
+    drawn Remaining {beside, places} = [if null outline then spot (Offset.middle f) beside else outline | (_, f) <- NonEmpty.toList places, let outline = Offset.standing f]
+    spot p (Mm r) = [Segment.fullCircle CounterClockwise (Circle p (Mm (r / 4))) (Vec.shift (Vec.vec (r / 4) 0) p)]
 
 -- | The holes that are drilled.
 holesOf :: Operation -> [Circle]

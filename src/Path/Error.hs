@@ -7,6 +7,8 @@ module Path.Error
     Warning (..),
     Stay (..),
     warningReport,
+    cutter,
+    fitting,
   )
 where
 
@@ -123,8 +125,8 @@ warningReport warning = case warning of
 stayWords :: Tool -> Stay -> Text
 stayWords tool s = case s of
   InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
-  InHollow a old largest -> "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool {leaves = Mm 0} largest
-  Between a b p largest -> "Between " <> shape a <> " and " <> shape b <> ", with the centre at " <> Vec.written 3 p <> ". " <> fits tool {leaves = Mm 0} largest
+  InHollow a old largest -> "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
+  Between a b p largest -> "Between " <> shape a <> " and " <> shape b <> ", with the centre at " <> Vec.written 3 p <> ". " <> fits tool largest
 
 -- | What a control that is sent the edge of the part does not do.
 data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial
@@ -313,12 +315,18 @@ sideWord side = case side of
   RightSide -> "right"
   On -> "centre line"
 
--- | The largest that fits, down to a thousandth of a millimetre.
+-- | The largest that fits.
 fits :: Tool -> Maybe Mm -> Text
 fits tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."
-  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> down (times 2 r) <> "."
-  (Turned, Just r) -> "The largest nose that fits has a radius of " <> down r <> "."
+  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fitting tool r <> "."
+  (Turned, Just r) -> "The largest nose that fits has a radius of " <> fitting tool r <> "."
+
+-- | The diameter of a cutter, or the radius of a nose, that fits with this radius: down to a thousandth of a millimetre.
+fitting :: Tool -> Mm -> Text
+fitting tool r = case work tool of
+  Milled -> down (times 2 r)
+  Turned -> down r
   where
     down (Mm x) = Decimal.mm (Mm (fromInteger (floor (x * 1000)) / 1000))
 

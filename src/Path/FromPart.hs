@@ -35,11 +35,12 @@ import Part.Part qualified as Part
 import Path.Clearing qualified as Clearing
 import Path.Compensation (Ways (Ways))
 import Path.Compensation qualified as Compensation
-import Path.Error (Error (..), Tool (Tool), Warning (..))
-import Path.Error qualified
+import Path.Error (Error (..), Warning (..))
 import Path.Obstacle qualified as Obstacle
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
+import Path.Remaining (Remaining (Remaining, places, tool, word))
+import Path.Remaining qualified as Remaining
 import Path.Swivel qualified as Swivel
 import Path.Way (Visit (Visit))
 import Path.Way qualified as Way
@@ -56,17 +57,9 @@ lay part = case (Part.start part, Part.operations part) of
        in Result (staying path) (intrusions path) (Just path)
     (errors, _) -> Result [] errors Nothing
 
--- | What stays standing beside a milled contour, once for a statement: that of its last pass.
+-- | What stays beside milled contours.
 staying :: Path -> [Warning]
-staying path = [Leaves word (toolOf milling (Path.left pass)) (map (Obstacle.stay es) found) | (_, (word, milling, es, pass, found)) <- Map.toAscList byStatement]
-  where
-    byStatement = Map.fromList [(number pass, left) | Just left@(_, _, _, pass, _ : _) <- map leaving (Path.blocks path)]
-    leaving b = case b of
-      Cutting {job = Located region milling, pass, rests} -> Just (keyword region, milling, NonEmpty.toList (elements (contour milling)), pass, rests)
-      Clearing {pocket = Located region p, pass, rests} -> Just (Way.keyword 6 region, Part.wall p, concatMap (NonEmpty.toList . elements) (contour (Part.wall p) : Part.islands p), pass, rests)
-      Travelling _ _ -> Nothing
-      Holing _ _ -> Nothing
-      Commanding _ -> Nothing
+staying path = [Leaves word tool (map fst (NonEmpty.toList places)) | Remaining {word, tool, places} <- Remaining.ofPath path]
 
 -- | The radius of the cutter with which a program begins.
 firstTool :: [Operation] -> Mm
@@ -212,11 +205,7 @@ along (Located region milling) allowance = do
     r = plus (radius milling) allowance
     finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
     style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
-    refusal = Obstacle.refusal region (toolOf milling allowance) (NonEmpty.toList (elements (contour milling)))
-
--- | The cutter at work, and what it leaves.
-toolOf :: Milling -> Mm -> Tool
-toolOf milling allowance = Tool {Path.Error.work = Part.work milling, Path.Error.radius = radius milling, Path.Error.leaves = allowance}
+    refusal = Obstacle.refusal region (Remaining.toolOf milling allowance) (NonEmpty.toList (elements (contour milling)))
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
 touchedRadius :: Milling -> Mm

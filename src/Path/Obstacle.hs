@@ -17,24 +17,25 @@ import Path.Error qualified as Error
 -- | Why there is no path: the statement's first word, the cutter, the elements by their numbers.
 refusal :: Region -> Tool -> [Element] -> Obstacle -> Error
 refusal region tool elements (Obstacle cause largest) = case cause of
-  Concave i old -> ConcaveRadius region tool (elements !! i) old fitting
-  InnerCorner i j p -> Error.InnerCorner region tool (elements !! i) (elements !! j) p fitting
-  Collision i j p -> Error.Collision region tool (elements !! i) (elements !! j) p fitting
-  where
-    -- The cutter that fits is smaller than what fits by the allowance.
-    fitting = do
-      l <- largest
-      let d = minus l (leaves tool)
-      if d > Mm 0 then Just d else Nothing
+  Concave i old -> ConcaveRadius region tool (elements !! i) old (fitting tool largest)
+  InnerCorner i j p -> Error.InnerCorner region tool (elements !! i) (elements !! j) p (fitting tool largest)
+  Collision i j p -> Error.Collision region tool (elements !! i) (elements !! j) p (fitting tool largest)
 
 -- | What stays.
-stay :: [Element] -> Offset.Rest -> Stay
-stay elements rest = case cause (Offset.stop rest) of
+stay :: Tool -> [Element] -> Offset.Rest -> Stay
+stay tool elements rest = case cause (Offset.stop rest) of
   InnerCorner i j p -> InCorner (elements !! i) (elements !! j) p
   Concave i old -> InHollow (elements !! i) old largest'
   Collision i j _ -> Between (elements !! i) (elements !! j) (Offset.middle rest) largest'
   where
-    largest' = largest (Offset.stop rest)
+    largest' = fitting tool (largest (Offset.stop rest))
+
+-- | The cutter that fits is smaller than what fits by the allowance.
+fitting :: Tool -> Maybe Mm -> Maybe Mm
+fitting tool largest = do
+  l <- largest
+  let d = minus l (leaves tool)
+  if d > Mm 0 then Just d else Nothing
 
 -- | The same with the elements behind so many others.
 shifted :: Int -> Obstacle -> Obstacle

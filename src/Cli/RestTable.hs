@@ -1,0 +1,48 @@
+-- | The places at which the cutter leaves material, as a table.
+module Cli.RestTable
+  ( places,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Region (Located (..))
+import Cli.Table (Align (..))
+import Cli.Table qualified as Table
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Geometry.Contour (Contour (Contour), Ends (..))
+import Geometry.Contour qualified as Contour
+import Geometry.Offset (Rest (..))
+import Geometry.Vec qualified as Vec
+import Part.Part qualified as Part
+import Path.Error (Stay (..), Tool)
+import Path.Error qualified as Error
+import Path.Path (Path)
+import Path.Remaining (Remaining (Remaining, tool, walls))
+import Path.Remaining qualified as Remaining
+
+-- | One table for each statement that leaves something: where, how much as far as its outline is known, the largest cutter that
+-- gets there, and why.
+places :: Path -> [Text]
+places path = map table (Remaining.ofPath path)
+
+table :: Remaining -> Text
+table Remaining {tool, walls, Remaining.places = stays} =
+  "Left along "
+    <> Text.intercalate ", " [n | Part.Contour {Part.contourName = Located _ (Name n)} <- NonEmpty.toList walls]
+    <> " by "
+    <> Error.cutter tool
+    <> "\n\n"
+    <> Table.columns [ToRight, ToRight, ToRight, ToRight, ToLeft] (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList stays))
+
+row :: Tool -> (Stay, Rest) -> [Text]
+row tool (stay, rest) = case stay of
+  InCorner _ _ p -> at p "" "inner corner"
+  InHollow _ radius largest -> at (middle rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
+  Between _ _ p largest -> at p (fitting largest) "narrow place, with the cutter's centre here"
+  where
+    at p largest why = [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), maybe "" area (NonEmpty.nonEmpty (standing rest)), largest, why]
+    fitting = maybe "none" (Error.fitting tool)
+    area outline = Decimal.fixed 3 (abs (Contour.signedArea (Contour Closed outline)))
