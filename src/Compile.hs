@@ -13,6 +13,7 @@ module Compile
     Loaded (..),
     load,
     alone,
+    withoutSurface,
     isSheet,
     analyse,
     evaluated,
@@ -107,6 +108,10 @@ load reader path text
 -- | A program of one text that can import nothing.
 alone :: Text -> Text -> Loaded
 alone path text = runIdentity (load (const (pure (Left "only one text is looked at"))) (Text.unpack path) text)
+
+-- | Without the program itself, when only its places are asked for any more.
+withoutSurface :: Loaded -> Loaded
+withoutSurface loaded = loaded {surface = Result [] [] Nothing}
 
 -- | Whether a file is an input sheet, by its name.
 isSheet :: FilePath -> Bool

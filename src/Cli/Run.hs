@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The commands.
 module Cli.Run
   ( run,
@@ -22,7 +24,7 @@ import Cli.Output qualified as Output
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Cli.Target qualified as Target
-import Compile (Analysis (part, path), Punched (..))
+import Compile (Analysis (Analysis, part, path), Punched (..))
 import Compile qualified
 import Control.Exception (evaluate)
 import Control.Monad (filterM, void)
@@ -43,6 +45,7 @@ import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
+import Path.Path (Path)
 import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import Sheet.Error qualified as Sheet
@@ -168,15 +171,15 @@ withMachine reporter about wanted continue = do
 
 -- Commands
 
--- | Punch a program for one machine and prove the tape.
-proven :: Bool -> Analysis -> Machine -> Result Report Report (Machine, Punched)
-proven unproven' analysis machine = do
-  punched <- Compile.punch machine (path analysis) >>= moving
+-- | Punch a path for one machine and prove the tape.
+proven :: Bool -> Path -> Machine -> Result Report Report (Machine, Punched)
+proven unproven' path machine = do
+  punched <- Compile.punch machine path >>= moving
   if unproven'
     then Result.warned [Cli.warningReport Unproven]
     else do
       read' <- Compile.readTape machine (Frame.start (program punched)) (tape punched)
-      _ <- Compile.prove machine (path analysis) (program punched) read'
+      _ <- Compile.prove machine path (program punched) read'
       pure ()
   pure (machine, punched)
 
@@ -185,12 +188,16 @@ moving :: Punched -> Result w Report Punched
 moving punched = if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure punched
 
 compile :: Reporter -> CompileOptions -> IO Exit
-compile reporter options = withProgram reporter (file options) (targets options) $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` \a -> chosen loaded (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
+compile reporter options = withProgram reporter (file options) (targets options) $ \loaded -> do
+  let laid = analyse loaded `Result.thenSound` \a@Analysis {path = way} -> (way,) <$> chosen loaded (targets options) a
+  Progress.during ("working on " <> name loaded) (computed laid)
+  -- The program as it was read is not kept while its tape is made: a large one takes more room than the tape.
+  let !rest = loaded {texts = Compile.withoutSurface (texts loaded)}
+  settle reporter rest (laid `Result.thenSound` \(way, ms) -> traverse (proven (unproven options) way) ms) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
-    clash <- overwrites (ownFiles (file options) loaded) (map fst places)
+    clash <- overwrites (ownFiles (file options) rest) (map fst places)
     case clash of
-      Just place -> complain reporter (name loaded) (OverwritesProgram (Text.pack place))
+      Just place -> complain reporter (name rest) (OverwritesProgram (Text.pack place))
       Nothing -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
 
 -- | Where a tape goes: beside the program, into a folder, or to the file that is named.

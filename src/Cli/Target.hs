@@ -11,7 +11,7 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.Error (Error (..))
 import Cli.Error qualified as Cli
-import Compile (Analysis (part, path), Descriptions, Unknown (..))
+import Compile (Analysis (Analysis, part, path), Descriptions, Unknown (..))
 import Compile qualified
 import Data.Text (Text)
 import Machine.BuiltIn qualified as BuiltIn
@@ -22,9 +22,9 @@ import Report.Report (Report)
 
 -- | The machines that the command line names, or the program's own, set up for the program.
 chosen :: Descriptions -> [Text] -> Analysis -> Result w Report [Machine]
-chosen descriptions targets analysis = Result.mapErrors id Cli.toReport (map (Compile.onMachine (path analysis)) <$> found)
+chosen descriptions targets Analysis {part, path} = Result.mapErrors id Cli.toReport (map (Compile.onMachine path) <$> found)
   where
-    found = case (targets, Part.machine (part analysis)) of
+    found = case (targets, Part.machine part) of
       ([], Nothing) -> Result.failed (NoMachine known)
       ([], Just (Located region (Named n))) -> pure <$> look (Just region) n (Compile.machineFor descriptions n)
       ([], Just (Located region (Described file))) -> pure <$> look (Just region) file (Compile.machineIn descriptions file)
