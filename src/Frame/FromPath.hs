@@ -8,6 +8,7 @@ module Frame.FromPath
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
@@ -40,7 +41,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..), Spot (..))
@@ -174,7 +174,7 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
       Path.Commanding _ -> Nothing
 
 -- | Moves along axes that there are not, and positions that do not fit their fields; of each the first.
-placeProblems :: Machine -> V3 Pulses -> [Planned] -> [Error]
+placeProblems :: Machine -> V3 -> [Planned] -> [Error]
 placeProblems machine begin frames = take 1 (concat (zipWith missing places frames)) <> take 1 (concat (zipWith beyond (drop 1 places) frames))
   where
     places = scanl (\at p -> at + increment (frame p)) begin frames
@@ -188,7 +188,7 @@ placeProblems machine begin frames = take 1 (concat (zipWith missing places fram
 
 -- | The frames of all tasks from a position. Commands stand in the frame of the next move, where they find room; behind
 -- the last move in a frame of their own, and then what always ends a program.
-framesOf :: Machine -> Region -> V3 Pulses -> [Task] -> [Made]
+framesOf :: Machine -> Region -> V3 -> [Task] -> [Made]
 framesOf machine fromRegion = go Nothing fromRegion
   where
     go waiting here at tasks = case tasks of
@@ -209,7 +209,7 @@ framesOf machine fromRegion = go Nothing fromRegion
     ending here = [commanding here orders | orders <- Order.atTheEnd machine]
 
 -- | The frames of one run from where the last one ended.
-runFrames :: Machine -> V3 Pulses -> Task -> [Made]
+runFrames :: Machine -> V3 -> Task -> [Made]
 runFrames machine begin task = case task of
   Order _ _ -> []
   Run {role, tool, drive, run} -> [Made (Planned f role (origin m) tool) (askedOf drive) | (a, s) <- zip (begin : map stop ways) ways, Just f <- [frameOf machine drive (pace m) a s]]
@@ -221,7 +221,7 @@ runFrames machine begin task = case task of
         _ -> Nothing
 
 -- | The frame of a step; none for one that moves nothing.
-frameOf :: Machine -> Drive -> Pace -> V3 Pulses -> Step -> Maybe Frame
+frameOf :: Machine -> Drive -> Pace -> V3 -> Step -> Maybe Frame
 frameOf machine drive pace at Step {stop, about} = case about of
   Nothing
     | moved == 0 -> Nothing
@@ -238,7 +238,7 @@ frameOf machine drive pace at Step {stop, about} = case about of
       (Asked, At (Located _ v)) -> f {speed = Feed.nearest machine v f}
 
 -- | Where the frames of a run end and how they get there.
-stepsOf :: Machine -> V3 Pulses -> Task -> [Step]
+stepsOf :: Machine -> V3 -> Task -> [Step]
 stepsOf machine begin task = case task of
   Order _ _ -> []
   Run {allowed, run} -> case Machine.arcs machine of
@@ -247,7 +247,7 @@ stepsOf machine begin task = case task of
 
 -- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are off is taken from what
 -- their own steps may be off. Of several ways the one of fewest steps.
-arcSteps :: Machine -> V3 Pulses -> Allowed -> NonEmpty Move -> [Step]
+arcSteps :: Machine -> V3 -> Allowed -> NonEmpty Move -> [Step]
 arcSteps machine begin allowed run = case allowed of
   Along bounds -> minimumBy (comparing length) (fmap (concat . snd . mapAccumL (partSteps bounds) begin) (Curve.ways machine bounds run))
   Sagitta y -> steps (Arc.Room pulse (plus pulse y) (plus pulse y)) (Chord.rounding machine allowed) begin (segment m)
@@ -267,7 +267,7 @@ arcSteps machine begin allowed run = case allowed of
     alone stop = Step {stop, about = Nothing}
 
 -- | The stops of a run's chords.
-chordStops :: Machine -> Allowed -> V3 Pulses -> NonEmpty Move -> [V3 Pulses]
+chordStops :: Machine -> Allowed -> V3 -> NonEmpty Move -> [V3]
 chordStops machine allowed begin run = concat (zipWith (Pulses.split machine) (begin : map (Pulses.rounded machine) points) (zip (first : points) points))
   where
     m = NonEmpty.head run

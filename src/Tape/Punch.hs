@@ -9,14 +9,13 @@ module Tape.Punch
   )
 where
 
-import Base.Quantity (Pulses)
+import Base.Lattice (V3)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder qualified as Builder
 import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Text qualified as Text
 import Frame.Frame (Frame)
-import Linear.V3 (V3)
 import Machine.Machine (Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Damage (..), Reason (..), toReport)
@@ -36,7 +35,7 @@ import Prelude hiding (read)
 -- Writing -----------------------------------------------------------------------------------------
 
 -- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
-write :: Machine -> V3 Pulses -> [Frame] -> Tape
+write :: Machine -> V3 -> [Frame] -> Tape
 write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (holesOf (opened plan) <> go (State.first (State.rising frames) start) frames)))
   where
     plan = Plan.fromMachine machine
@@ -54,13 +53,13 @@ punched plan state f end
   | otherwise = Plan.foldFrame (\h _ _ rest -> Builder.word8 h <> rest) plan state f end
 
 -- | The rows of the same tape, each with what it means.
-rows :: Machine -> V3 Pulses -> [Frame] -> [Row]
+rows :: Machine -> V3 -> [Frame] -> [Row]
 rows machine start frames = [Layout.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
   where
     plan = Plan.fromMachine machine
 
 -- | The marks of a tape, those of each frame with its number.
-stretches :: Plan -> V3 Pulses -> [Frame] -> [(Maybe Int, [Mark])]
+stretches :: Plan -> V3 -> [Frame] -> [(Maybe Int, [Mark])]
 stretches plan start frames = (Nothing, opened plan) : go (State.first (State.rising frames) start) frames
   where
     medium = Machine.medium (Plan.machine plan)
@@ -97,7 +96,7 @@ symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
 --
 -- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows that the code passes
 -- over are left out first, and blank rows are passed over between frames.
-read :: Machine -> V3 Pulses -> Tape -> Either Damage [Frame]
+read :: Machine -> V3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case frontOf source of
   Left fault -> Left (damage Nothing fault)
   Right at -> case Reading.expect plan (kept source) at (symbolsOf plan (opening (grid source))) of

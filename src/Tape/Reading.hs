@@ -10,6 +10,7 @@ module Tape.Reading
   )
 where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
@@ -19,8 +20,6 @@ import Data.Word (Word8)
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Axis (..), Content (..), FeedCode (..), Measure (..), MotionCodes (..), NumberForm (..), Presence (..), Word' (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Reason (..))
@@ -135,7 +134,7 @@ faultOf begin reading c why = case saidOf reading c of
 frameOf :: Plan -> State -> Int -> Reading -> Either Fault Frame
 frameOf plan state begin reading = do
   mapM_ (numbered plan state) (saidOf reading FrameNumber)
-  let moved = fmap Pulses (V3 (distance X) (distance Y) (distance Z))
+  let moved = V3 (distance X) (distance Y) (distance Z)
       V3 i j _ = State.signs axes * V3 (spoken (Centre X)) (spoken (Centre Y)) 0
   m <- motionOf plan begin reading moved
   code <- speedOf plan state begin reading m
@@ -143,22 +142,21 @@ frameOf plan state begin reading = do
     Frame
       { motion = m,
         increment = moved,
-        centre = fmap Pulses (V2 i j),
+        centre = V2 i j,
         speed = FeedCode code,
         braking = braked reading,
         orders = if null (commands reading) then [] else [(o, v) | (o, zero) <- Plan.commands plan, let vs = [v' | (o', v') <- commands reading, o' == o], not (null vs), let v = sum vs, v /= 0 || zero]
       }
   where
     axes = Plan.axes plan
-    spoken c = maybe 0 number (saidOf reading c)
+    spoken c = maybe 0 (Pulses . number) (saidOf reading c)
     distance a = case saidOf reading (Along a) of
       Nothing -> 0
       Just s ->
-        let n = State.along a (State.signs axes) * number s
-            Pulses here = State.along a (place state)
+        let n = State.along a (State.signs axes) * Pulses (number s)
          in case State.measure axes of
               Increments -> n
-              Positions -> n - here
+              Positions -> n - State.along a (place state)
 
 -- | Frames are counted.
 numbered :: Plan -> State -> Said -> Either Fault ()
@@ -169,7 +167,7 @@ numbered plan state s = case find ((== FrameNumber) . content) (Plan.ws plan) of
       Left (Fault (at s) (Just FrameNumber) (WrongNumber (number s) n))
   _ -> Right ()
 
-motionOf :: Plan -> Int -> Reading -> V3 Pulses -> Either Fault Motion
+motionOf :: Plan -> Int -> Reading -> V3 -> Either Fault Motion
 motionOf plan begin reading moved = case Plan.motions plan of
   Nothing -> Right (if moved == 0 then Still else Straightway)
   Just (w, codes) -> case saidOf reading (content w) of

@@ -1,6 +1,7 @@
 -- | The laws of arcs in whole pulses.
 module Frame.ArcSpec (spec) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Control.Walk qualified as Control
@@ -16,8 +17,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
