@@ -142,7 +142,7 @@ data Broken
 invariants :: Machine -> [Frame] -> [Broken]
 invariants machine = concat . zipWith rules [1 ..]
   where
-    rules n f = concatMap (fieldOf n f) [X, Y, Z] <> speedOf n f <> motionOf n f <> ordersOf n f <> [Idle n | not (isMoving f) && null (orders f)]
+    rules n f = fieldOf n f X <> fieldOf n f Y <> fieldOf n f Z <> speedOf n f <> motionOf n f <> ordersOf n f <> [Idle n | not (isMoving f) && null (orders f)]
     -- What a field of positions holds depends on where the tape stands; there the increments are free.
     fieldOf n f axis = let d = component axis (increment f) in [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, abs d > Machine.capacity machine axis]
     speedOf n f = case motion f of

@@ -14,10 +14,9 @@ import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrd)
-import Data.List (mapAccumL, minimumBy)
+import Data.List (mapAccumL, minimumBy, scanl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -66,7 +65,7 @@ quantise machine path = case nubOrd (early <> late) of
     Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
     made = framesOf machine fromRegion begin tasks
-    warnings = nubOrd (startWarning <> feedWarnings machine (map planned made `zip` map asked made) <> take 1 (mapMaybe heightWarning moves) <> byHand)
+    warnings = nubOrd (startWarning <> feedWarnings machine made <> take 1 (mapMaybe heightWarning moves) <> byHand)
     startWarning =
       let at = Frame.position machine begin
        in [StartRounded fromRegion fromPoint at | not (Vec.near at fromPoint)]
@@ -125,17 +124,34 @@ feedSlack :: Double
 feedSlack = 0.1
 
 -- | One warning for each feed of the program that some frame does not meet, with all that its frames obtain.
-feedWarnings :: Machine -> [(Planned, Maybe (Located Feed))] -> [Warning]
-feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high) | ((region, Feed v), (low, high)) <- Map.toList ranges, max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v]
+feedWarnings :: Machine -> [Made] -> [Warning]
+feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high) | ((region, Feed v), Range low high) <- Map.toList (ranges Map.empty frames), max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v]
   where
-    ranges :: Map (Region, Feed) (Double, Double)
-    ranges = Map.fromListWith (\(a, b) (c, d) -> let low = min a c; high = max b d in low `seq` high `seq` (low, high)) [((region, v), (g, g)) | (p, Just (Located region v)) <- frames, Just g <- [obtained v (frame p)]]
+    ranges found todo = case todo of
+      [] -> found
+      Made {asked = Nothing} : rest -> ranges found rest
+      Made {asked = Just (Located region v)} : _ -> along found region v nothing todo
+    -- Neighbours mostly ask the same.
+    along found region v range todo = case todo of
+      Made {planned, asked = Just (Located region' v')} : rest
+        | region' == region && v' == v -> along found region v (union range (obtained v (frame planned))) rest
+      _ -> ranges (if range == nothing then found else Map.insertWith union (region, v) range found) todo
     -- A feed that there is not is no matter of a warning.
     obtained v f =
       let way = Feed.wayOf machine f
        in case (Feed.codeFor machine v f way, Feed.given machine f way) of
-            (Machine.Given _ _, Just (Feed g)) -> Just g
-            _ -> Nothing
+            (Machine.Given _ _, Just (Feed g)) -> Range g g
+            _ -> nothing
+
+-- | From the lowest to the highest feed in mm/min.
+data Range = Range Double Double
+  deriving stock (Eq)
+
+nothing :: Range
+nothing = Range (1 / 0) (-(1 / 0))
+
+union :: Range -> Range -> Range
+union (Range a b) (Range c d) = Range (min a c) (max b d)
 
 reachProblem :: Region -> Point -> Task -> Maybe Error
 reachProblem fromRegion fromPoint task = case task of
@@ -151,10 +167,12 @@ reachProblem fromRegion fromPoint task = case task of
 -- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
 -- are no more than the moves.
 tooLong :: Machine -> [Task] -> [Error]
-tooLong machine moves = case dropWhile ((<= mostFrames) . fst) (scanl (\(n, _) t -> (n + count t, Just t)) (0, Nothing) moves) of
-  (_, Just t) : _ -> [TooManyFrames (origin (NonEmpty.head (run t))) mostFrames]
-  _ -> []
+tooLong machine = go 0
   where
+    go :: Int -> [Task] -> [Error]
+    go n moves = case moves of
+      [] -> []
+      t : rest -> let now = n + count t in if now > mostFrames then [TooManyFrames (origin (NonEmpty.head (run t))) mostFrames] else go now rest
     count task = case Machine.arcs machine of
       Arcs {} | Pulses.isLevel machine (run task) -> 1
       _ -> Chord.frameCount mostFrames machine (Chord.rounding machine (allowed task)) (run task)
@@ -175,13 +193,16 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
 
 -- | Moves along axes that there are not, and positions that do not fit their fields; of each the first.
 placeProblems :: Machine -> V3 -> [Planned] -> [Error]
-placeProblems machine begin frames = take 1 (concat (zipWith missing places frames)) <> take 1 (concat (zipWith beyond (drop 1 places) frames))
+placeProblems machine begin frames = take 1 missing <> take 1 beyond
   where
-    places = scanl (\at p -> at + increment (frame p)) begin frames
-    missing _ p = [NoSuchAxis (Frame.origin p) axis | axis <- [X, Y, Z], Pulses.component axis (increment (frame p)) /= 0, Machine.capacity machine axis == 0]
-    beyond at p = case Machine.measure (Machine.layout machine) of
+    missing = [NoSuchAxis (Frame.origin p) axis | not (null lacking), p <- frames, axis <- lacking, Pulses.component axis (increment (frame p)) /= 0]
+    lacking = [axis | (axis, most) <- capacities, most == 0]
+    beyond = case Machine.measure (Machine.layout machine) of
       Machine.Increments -> []
-      Machine.Positions -> [BeyondField (Frame.origin p) axis (mm axis n) (mm axis most) | axis <- [X, Y, Z], let n = Pulses.component axis at, let most = Machine.capacity machine axis, most > 0, abs n > most]
+      Machine.Positions -> [BeyondField (Frame.origin p) axis (mm axis n) (mm axis most) | (p, at) <- zip frames (drop 1 places), (axis, most) <- fields, let n = Pulses.component axis at, abs n > most]
+    places = scanl' (\at p -> at + increment (frame p)) begin frames
+    fields = filter ((> 0) . snd) capacities
+    capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
     mm axis (Pulses n) = let Mm grain = Machine.pulseOf machine axis in Mm (fromIntegral n * grain)
 
 -- The frames --------------------------------------------------------------------------------------

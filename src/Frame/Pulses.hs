@@ -12,6 +12,7 @@ where
 import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
 import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (..), Machine, Measure (..))
@@ -35,9 +36,10 @@ heightAt t m
 
 -- | Whether all moves keep one height, in whole pulses.
 isLevel :: Machine -> NonEmpty Move -> Bool
-isLevel machine ms = all (== minimum levels) levels
+isLevel machine ms = all (\m -> isFirst (fst (heights m)) && isFirst (snd (heights m))) ms
   where
-    levels = foldMap (\m -> [level (fst (heights m)), level (snd (heights m))]) ms
+    first = fst (heights (NonEmpty.head ms))
+    isFirst z = z == first || level z == level first
     level z = component Z (rounded machine (Vec.point 0 0, z))
 
 -- | The stops of a straight move, given the position where it begins in pulses and its exact ends: equal parts,

@@ -82,11 +82,12 @@ module Machine.Machine
 where
 
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
-import Data.List (find)
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Word (Word8)
 
@@ -187,15 +188,14 @@ data Arcs
   deriving stock (Eq, Show)
 
 axisForm :: Machine -> Axis -> Maybe AxisForm
-axisForm machine a = find ((== a) . axis) (NonEmpty.toList (axes machine))
+axisForm machine a = listToMaybe [f | f <- NonEmpty.toList (axes machine), axis f == a]
 
 -- | The way of one pulse in the plane: of the coarser axis.
 pulse :: Machine -> Mm
-pulse machine = maximum (fmap step plane)
+pulse machine = if inPlane > Mm 0 then inPlane else widest (const True)
   where
-    plane = case [f | f <- NonEmpty.toList (axes machine), axis f /= Z] of
-      [] -> NonEmpty.toList (axes machine)
-      some -> some
+    inPlane = widest (/= Z)
+    widest among = foldl' max (Mm 0) [step f | f <- NonEmpty.toList (axes machine), among (axis f)]
 
 -- | The way of one pulse of an axis; for an axis that the machine lacks that of the plane.
 pulseOf :: Machine -> Axis -> Mm
@@ -324,7 +324,7 @@ wordsOf machine = [w | AWord w <- NonEmpty.toList (items (layout machine))]
 
 -- | The word with some content.
 wordFor :: Machine -> Content -> Maybe Word'
-wordFor machine wanted = find ((== wanted) . content) (wordsOf machine)
+wordFor machine wanted = listToMaybe [w | AWord w <- NonEmpty.toList (items (layout machine)), content w == wanted]
 
 -- | The largest number of pulses in the word of an axis; 0 for an axis without one.
 capacity :: Machine -> Axis -> Pulses

@@ -41,18 +41,13 @@ data Numeral = Numeral
 -- | The number in a form that stands at a row.
 numeral :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault Numeral
 numeral plan c f rows begin = do
-  (minus, first) <- readSign plan c f rows begin
-  let zero = Digits {at = fst first, amount = 0, negative = minus, told = [], slow = False, count = snd first, services = service f}
-      whole = digits f - decimals f
-  front <- if padded f then exactly plan c rows whole zero else upTo plan c rows whole zero
-  ds <-
-    if decimals f > 0
-      then do
-        behind <- point plan c rows front
-        exactly plan c rows (decimals f) behind
-      else Right front
+  Signed behind minus weight <- readSign plan c f rows begin
+  let whole = digits f - decimals f
+      zero = Digits {at = behind, amount = 0, negative = minus, told = [], slow = False, count = weight, services = service f}
+  front <- figures plan c rows (if padded f then whole else min 1 whole) whole zero
+  ds <- if decimals f > 0 then point plan c rows front >>= figures plan c rows (decimals f) (decimals f) else Right front
   if negative ds && amount ds == 0 && isPlain
-    then Left (Fault (at zero) (Just c) MinusZero)
+    then Left (Fault behind (Just c) MinusZero)
     else
       Right
         Numeral
@@ -85,28 +80,31 @@ begins plan f rows k = digits f == 0 || k < ByteString.length rows && (isJust (S
       MinusSign -> is '-'
       EitherSign -> is '-' || is '+'
 
--- | What stands before the digits: whether it says minus, the row behind it, and what it counts.
-readSign :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault (Bool, (Int, Int))
+-- | What stands before the digits: the row behind it, whether it says minus, and what it counts.
+data Signed = Signed Int Bool Int
+
+readSign :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault Signed
 readSign plan c f rows k = case sign f of
-  Unsigned -> Right (False, (k, 0))
-  ServiceSign -> Right (False, (k, 0))
-  MinusSign -> if here minus then Right (True, behind minus) else Right (False, (k, 0))
+  Unsigned -> Right (Signed k False 0)
+  ServiceSign -> Right (Signed k False 0)
+  MinusSign -> Right (if here minus then behind minus True else Signed k False 0)
   EitherSign
-    | here minus -> Right (True, behind minus)
-    | here plus -> Right (False, behind plus)
+    | here minus -> Right (behind minus True)
+    | here plus -> Right (behind plus False)
     | k >= ByteString.length rows -> Left (cutOff c rows)
     | otherwise -> Left (Fault k (Just c) (fromMaybe NoSign (blemish plan (ByteString.index rows k))))
   Priority leadForth leadBack forth back -> do
     d <- digit plan (Just c) rows k
-    let after = (k + 1, Symbol.digitWeight (Plan.symbols plan) d)
+    let after isMinus = Right (Signed (k + 1) isMinus (Symbol.digitWeight (Plan.symbols plan) d))
     if d == leadBack || d == back
-      then Right (True, after)
-      else if d == leadForth || d == forth then Right (False, after) else Left (Fault k (Just c) (NoPriority d))
+      then after True
+      else if d == leadForth || d == forth then after False else Left (Fault k (Just c) (NoPriority d))
   where
-    minus = Symbol.symbol (Plan.symbols plan) '-'
-    plus = Symbol.symbol (Plan.symbols plan) '+'
+    minus = Plan.minus plan
+    plus = Plan.plus plan
     here s = k < ByteString.length rows && ByteString.index rows k == Symbol.holes s
-    behind s = (k + 1, Symbol.weight s)
+    behind s isMinus = Signed (k + 1) isMinus (Symbol.weight s)
+{-# INLINE readSign #-}
 
 -- | The digits read so far.
 data Digits = Digits
@@ -120,40 +118,44 @@ data Digits = Digits
     services :: [Service]
   }
 
--- | So many digits.
-exactly :: Plan -> Content -> ByteString -> Int -> Digits -> Either Fault Digits
-exactly plan c rows n ds
-  | n <= 0 = Right ds
-  | isBare plan ds, let done = bareDigits plan rows n ds, at done == at ds + n = Right done
-  | otherwise = do
-    d <- digit plan (Just c) rows (at ds)
-    served <- noted plan c (ByteString.index rows (at ds)) ds
-    exactly plan c rows (n - 1) served {at = at ds + 1, amount = 10 * amount ds + d, count = count ds + Symbol.digitWeight (Plan.symbols plan) d, services = drop 1 (services ds)}
-
--- | At least one digit, and as many as there are up to a number.
-upTo :: Plan -> Content -> ByteString -> Int -> Digits -> Either Fault Digits
-upTo plan c rows n ds
-  | n <= 0 = Right ds
-  | isBare plan ds, let done = bareDigits plan rows n ds, at done > at ds = Right done
-  | otherwise = do
-    one <- exactly plan c rows 1 ds
-    if at one < ByteString.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (ByteString.index rows (at one)))
-      then upTo plan c rows (n - 1) one
-      else Right one
-
--- | Whether nothing can stand beside the digits.
-isBare :: Plan -> Digits -> Bool
-isBare plan ds = null (services ds) && Symbol.service (Plan.symbols plan) == 0
-
--- | The digits up to a number of them, as many as there are.
-bareDigits :: Plan -> ByteString -> Int -> Digits -> Digits
-bareDigits plan rows n ds = go (at ds) (amount ds) (count ds)
+-- | At least so many digits, and as many as there are up to a number.
+figures :: Plan -> Content -> ByteString -> Int -> Int -> Digits -> Either Fault Digits
+figures plan c rows least most ds
+  | at now < at ds + least || at now < at ds + most && isDigit = Left (stopped plan c rows now)
+  | otherwise = Right now
   where
-    end = min (at ds + n) (ByteString.length rows)
+    now = sound plan rows (at ds + most) ds
+    isDigit = at now < ByteString.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (ByteString.index rows (at now)))
+{-# INLINE figures #-}
+
+-- | The digits up to a row, as far as the service track says what it may beside them.
+sound :: Plan -> ByteString -> Int -> Digits -> Digits
+sound plan rows end ds
+  | at ds < min end (ByteString.length rows), Just d <- Symbol.digitAt table w, isHeard = sound plan rows end heard {at = at ds + 1, amount = 10 * amount ds + d, count = count ds + Symbol.digitWeight table d, services = drop 1 (services ds)}
+  | otherwise = ds
+  where
     table = Plan.symbols plan
-    go k m w
-      | k < end, Just d <- Symbol.digitAt table (ByteString.index rows k) = go (k + 1) (10 * m + d) (w + Symbol.digitWeight table d)
-      | otherwise = ds {at = k, amount = m, count = w}
+    w = ByteString.index rows (at ds)
+    hole = Symbol.holeAt table w
+    isHeard = case services ds of
+      [] -> not hole
+      NoHole : _ -> not hole
+      Marker : _ -> hole
+      MinusHole : _ -> True
+      OrderBit _ _ : _ -> True
+      BrakingHole : _ -> True
+    heard = case services ds of
+      MinusHole : _ | hole -> ds {negative = True}
+      OrderBit o k : _ | hole -> ds {told = (o, 1 `shiftL` k) : told ds}
+      BrakingHole : _ | hole -> ds {slow = True}
+      _ -> ds
+
+-- | Why the digits end.
+stopped :: Plan -> Content -> ByteString -> Digits -> Fault
+stopped plan c rows ds = case (digit plan (Just c) rows (at ds), services ds) of
+  (Left fault, _) -> fault
+  (Right _, Marker : _) -> Fault (at ds) (Just c) MarkerMissing
+  (Right _, _) -> Fault (at ds) (Just c) ServiceHole
 
 -- | The decimal point.
 point :: Plan -> Content -> ByteString -> Digits -> Either Fault Digits
@@ -163,20 +165,8 @@ point plan c rows ds
   | otherwise = Left (Fault (at ds) (Just c) (fromMaybe (Missing '.') (blemish plan w)))
   where
     w = ByteString.index rows (at ds)
-    s = Symbol.symbol (Plan.symbols plan) '.'
-
--- | What the service track says beside a digit.
-noted :: Plan -> Content -> Word8 -> Digits -> Either Fault Digits
-noted plan c w ds = case services ds of
-  [] -> if hole then Left (Fault (at ds) (Just c) ServiceHole) else Right ds
-  s : _ -> case s of
-    NoHole -> if hole then Left (Fault (at ds) (Just c) ServiceHole) else Right ds
-    Marker -> if hole then Right ds else Left (Fault (at ds) (Just c) MarkerMissing)
-    MinusHole -> Right (if hole then ds {negative = True} else ds)
-    OrderBit o k -> Right (if hole then ds {told = (o, 1 `shiftL` k) : told ds} else ds)
-    BrakingHole -> Right (if hole then ds {slow = True} else ds)
-  where
-    hole = Symbol.holeAt (Plan.symbols plan) w
+    s = Plan.point plan
+{-# INLINE point #-}
 
 -- | The digit at a row.
 digit :: Plan -> Maybe Content -> ByteString -> Int -> Either Fault Int

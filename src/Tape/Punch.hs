@@ -13,8 +13,12 @@ import Base.Lattice (V3)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder qualified as Builder
+import Data.ByteString.Builder.Prim qualified as Prim
+import Data.ByteString.Builder.Prim.Internal qualified as Prim (boundedPrim)
 import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Text qualified as Text
+import Foreign.Ptr (plusPtr)
+import Foreign.Storable (poke)
 import Frame.Frame (Frame)
 import Machine.Machine (Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
@@ -39,18 +43,15 @@ write :: Machine -> V3 -> [Frame] -> Tape
 write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (holesOf (opened plan) <> go (State.first (State.rising frames) start) frames)))
   where
     plan = Plan.fromMachine machine
-    medium = Machine.medium machine
     holesOf = foldMap (Builder.word8 . holes)
-    between = holesOf (Plan.blanks Gap (gap medium))
+    shifted = holesOf (shift plan 2)
+    between = holesOf (Plan.blanks Gap (gap (Machine.medium machine)))
+    -- The rows of a frame go straight into the buffer.
+    punched = Prim.primBounded (Prim.boundedPrim (Plan.mostRows plan) (\(state, f) -> Plan.foldRows put plan state f))
+    put at h _ _ = plusPtr at 1 <$ poke at h
     go state todo = case todo of
       [] -> holesOf (closed plan)
-      f : more -> holesOf (shift plan state) <> punched plan state f (between <> go (Plan.after plan state f) more)
-
--- | The rows of a frame, before others.
-punched :: Plan -> State -> Frame -> Builder.Builder -> Builder.Builder
-punched plan state f end
-  | Plan.isChecked plan = foldMap (Builder.word8 . holes) (Plan.frameMarks plan state f) <> end
-  | otherwise = Plan.foldFrame (\h _ _ rest -> Builder.word8 h <> rest) plan state f end
+      f : more -> (if even (State.ordinal state) then shifted else mempty) <> punched (state, f) <> between <> go (Plan.after plan state f) more
 
 -- | The rows of the same tape, each with what it means.
 rows :: Machine -> V3 -> [Frame] -> [Row]
@@ -65,7 +66,7 @@ stretches plan start frames = (Nothing, opened plan) : go (State.first (State.ri
     medium = Machine.medium (Plan.machine plan)
     go state todo = case todo of
       [] -> [(Nothing, closed plan)]
-      f : more -> (Just (State.ordinal state), shift plan state <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)) : go (Plan.after plan state f) more
+      f : more -> (Just (State.ordinal state), shift plan (State.ordinal state) <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)) : go (Plan.after plan state f) more
 
 -- | What stands before the first frame.
 opened :: Plan -> [Mark]
@@ -79,9 +80,9 @@ closed plan = map (Plan.constant Closing) (symbolsOf plan (closing medium)) <> P
   where
     medium = Machine.medium (Plan.machine plan)
 
--- | What stands right before the next frame.
-shift :: Plan -> State -> [Mark]
-shift plan state = Plan.blanks Shift (shiftRows (Machine.medium (Plan.machine plan)) (State.ordinal state))
+-- | What stands right before a frame, by its number from 1.
+shift :: Plan -> Int -> [Mark]
+shift plan n = Plan.blanks Shift (shiftRows (Machine.medium (Plan.machine plan)) n)
 
 -- | The blank rows before a frame, by its number from 1.
 shiftRows :: Medium -> Int -> Int

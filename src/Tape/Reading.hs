@@ -14,7 +14,7 @@ import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
-import Data.List (find)
+import Data.List (find, foldl')
 import Data.Maybe (fromMaybe, isJust)
 import Data.Word (Word8)
 import Frame.Frame (Frame (..), Motion (..))
@@ -55,7 +55,7 @@ readFrame plan state rows begin = do
     _ -> Right ()
   f <- frameOf plan state begin reading
   lawful plan begin reading f
-  if Plan.isChecked plan || not (isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
+  if not (isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
   Right (f, end)
 
 -- | The words of a frame in order.
@@ -69,23 +69,24 @@ readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
         go False more (now {total = total now + weights cs}) next
       Checked modulus : more -> do
         d <- Numeral.digit plan Nothing rows k
-        go False more (now {total = total now + weightOf d, check = Just (k, modulus)}) (k + 1)
+        go False more (now {total = total now + Symbol.digitWeight (Plan.symbols plan) d, check = Just (k, modulus)}) (k + 1)
       Worded w cs joined : more
         | stands -> do
-          n <- Numeral.numeral plan (content w) (form w) rows (k + length prefix)
-          go True more (store w n now {total = total now + weights prefix + Numeral.total n}) (Numeral.next n)
+          n <- Numeral.numeral plan (content w) (form w) rows begin
+          go True more (store w n now {total = total now + weights prefix}) (Numeral.next n)
         | presence w == Always -> Left (mismatch plan (Just (content w)) rows k prefix)
         | otherwise -> go behindWord more now k
         where
           prefix = if behindWord then joined else cs
-          stands = matches rows k prefix && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows (k + length prefix))
-    weights cs = sum (map Symbol.weight cs)
-    weightOf = Symbol.digitWeight (Plan.symbols plan)
+          begin = k + length prefix
+          stands = matches rows k prefix && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows begin)
+    weights = foldl' (\n c -> n + Symbol.weight c) 0
     store w n now =
       now
         { found = (content w, Said (Numeral.start n) (Numeral.value n)) : found now,
           commands = [(o, Numeral.value n) | Command o <- [content w]] <> Numeral.bits n <> commands now,
-          braked = braked now || Numeral.brakes n
+          braked = braked now || Numeral.brakes n,
+          total = total now + Numeral.total n
         }
 
 -- | Whether these symbols stand here.
@@ -223,9 +224,11 @@ lawful plan begin reading f
 motionWord :: Plan -> Maybe Content
 motionWord plan = fmap (content . fst) (Plan.motions plan)
 
--- | Whether the rows of a frame without a check digit are those that would be written for it.
+-- | Whether the rows of a frame are those that would be written for it.
 isWritten :: Plan -> State -> ByteString -> Int -> Int -> Frame -> Bool
-isWritten plan state rows begin end f = Plan.foldFrame (\h _ _ others k -> k < end && ByteString.index rows k == h && others (k + 1)) plan state f (== end) begin
+isWritten plan state rows begin end f = Plan.foldRows same plan state f begin == Just end
+  where
+    same k h _ _ = if k < end && ByteString.index rows k == h then Just (k + 1) else Nothing
 
 -- | The rows of a frame are those that its marks are. A check digit that would be another one follows from the other rows:
 -- they are blamed first.
