@@ -16,7 +16,7 @@ module Frame.Arc
 where
 
 import Base.Lattice (V2 (..), V3 (..), flat)
-import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
+import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus, times)
 import Data.List (foldl', sortOn)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -106,9 +106,13 @@ goesStraight task exact stops = case exact of
         nearest = minimum (map (Distance.toPoint centre) ways)
         furthest = maximum (map (Vec.distance centre) places)
         left p = minimum (map (Distance.toPoint p) ways)
-        -- An arc that is dropped has nothing beside it.
-        missed = maximum [left (Segment.at (k / 8) exact) | k <- [0 .. 8]]
-     in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task) && missed <= max (inwards (room task)) (outwards (room task))
+        most = max (inwards (room task)) (outwards (room task))
+        -- An arc that is dropped has nothing beside it. One way is no further from it than the arc from its chord and the chord's
+        -- ends from those of the way.
+        isBeside = case ways of
+          [Straight a b] -> plus (Segment.bulge exact) (max (Vec.distance a start) (Vec.distance b (Segment.end exact))) <= most
+          _ -> False
+     in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task) && (isBeside || all ((<= most) . left) [Segment.at (k / 8) exact | k <- [0 .. 8]])
   where
     places = map (point task) stops
     ways = zipWith Straight places (drop 1 places)

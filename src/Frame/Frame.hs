@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Frames: what a controller is told, in whole pulses along the axes of the part.
 module Frame.Frame
   ( Frame (..),
@@ -15,6 +17,7 @@ module Frame.Frame
     end,
     Broken (..),
     invariants,
+    broken,
   )
 where
 
@@ -140,30 +143,51 @@ data Broken
 
 -- | The rules that every list of frames for a machine keeps; the ones that are broken.
 invariants :: Machine -> [Frame] -> [Broken]
-invariants machine = concat . zipWith rules [1 ..]
+invariants machine = concat . zipWith (broken machine) [1 ..]
+
+-- | The rules that a frame with a number breaks. Most frames keep them all, and nothing is made for them.
+broken :: Machine -> Int -> Frame -> [Broken]
+broken machine n f
+  | null fields && null speeds && null motions && null commands && not idle = []
+  | otherwise = fields <> speeds <> motions <> commands <> [Idle n | idle]
   where
-    rules n f = fieldOf n f X <> fieldOf n f Y <> fieldOf n f Z <> speedOf n f <> motionOf n f <> ordersOf n f <> [Idle n | not (isMoving f) && null (orders f)]
-    -- What a field of positions holds depends on where the tape stands; there the increments are free.
-    fieldOf n f axis = let d = component axis (increment f) in [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, abs d > Machine.capacity machine axis]
-    speedOf n f = case motion f of
-      Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-      Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-      _ -> [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
-    motionOf n f = case motion f of
-      Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
-      Rapid -> [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
-      Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
-      Round turn -> case Machine.arcs machine of
-        NoArcs -> [NoSuchMotion n]
-        Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
-          [NoSuchMotion n | (increment f == 0 && not whole) || rises f || (parts && not (inQuadrant turn f))]
-            <> [BadCentre n | let V2 i j = abs (centre f), centre f == 0 || max i j > Machine.centreCapacity machine]
-    rises f = let V3 _ _ z = increment f in z /= 0
-    ordersOf n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
-    component axis (V3 x y z) = case axis of
-      X -> x
-      Y -> y
-      Z -> z
+    !fields = inFields machine n f
+    !speeds = atSpeed machine n f
+    !motions = asMoved machine n f
+    !commands = asCommanded machine n f
+    !idle = not (isMoving f) && null (orders f)
+
+-- What a field of positions holds depends on where the tape stands; there the increments are free.
+inFields :: Machine -> Int -> Frame -> [Broken]
+inFields machine n f = [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, (axis, d) <- [(X, x), (Y, y), (Z, z)], abs d > Machine.capacity machine axis]
+  where
+    V3 x y z = increment f
+
+atSpeed :: Machine -> Int -> Frame -> [Broken]
+atSpeed machine n f = case motion f of
+  Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
+  Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
+  Straightway -> known
+  Round _ -> known
+  where
+    known = [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
+
+asMoved :: Machine -> Int -> Frame -> [Broken]
+asMoved machine n f = case motion f of
+  Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
+  Rapid -> [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
+  Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
+  Round turn -> case Machine.arcs machine of
+    NoArcs -> [NoSuchMotion n]
+    Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
+      [NoSuchMotion n | (increment f == 0 && not whole) || z /= 0 || (parts && not (inQuadrant turn f))]
+        <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]
+  where
+    V3 _ _ z = increment f
+    V2 i j = centre f
+
+asCommanded :: Machine -> Int -> Frame -> [Broken]
+asCommanded machine n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
 
 -- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one, and it goes from
 -- one to the other without leaving it.

@@ -83,11 +83,10 @@ where
 
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Data.List (foldl')
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Word (Word8)
 
@@ -188,7 +187,12 @@ data Arcs
   deriving stock (Eq, Show)
 
 axisForm :: Machine -> Axis -> Maybe AxisForm
-axisForm machine a = listToMaybe [f | f <- NonEmpty.toList (axes machine), axis f == a]
+axisForm machine a = formAmong a (NonEmpty.toList (axes machine))
+
+formAmong :: Axis -> [AxisForm] -> Maybe AxisForm
+formAmong a forms = case forms of
+  [] -> Nothing
+  f : others -> if axis f == a then Just f else formAmong a others
 
 -- | The way of one pulse in the plane: of the coarser axis.
 pulse :: Machine -> Mm
@@ -199,7 +203,10 @@ pulse machine = if inPlane > Mm 0 then inPlane else widest (const True)
 
 -- | The way of one pulse of an axis; for an axis that the machine lacks that of the plane.
 pulseOf :: Machine -> Axis -> Mm
-pulseOf machine a = maybe (pulse machine) step (axisForm machine a)
+pulseOf machine a = case axes machine of
+  first :| others
+    | axis first == a -> step first
+    | otherwise -> maybe (pulse machine) step (formAmong a others)
 
 -- | The axes that the machine is known to move.
 driven :: Machine -> [Axis]
@@ -324,7 +331,14 @@ wordsOf machine = [w | AWord w <- NonEmpty.toList (items (layout machine))]
 
 -- | The word with some content.
 wordFor :: Machine -> Content -> Maybe Word'
-wordFor machine wanted = listToMaybe [w | AWord w <- NonEmpty.toList (items (layout machine)), content w == wanted]
+wordFor machine wanted = case items (layout machine) of
+  first :| others -> wordAmong wanted (first : others)
+
+wordAmong :: Content -> [Item] -> Maybe Word'
+wordAmong wanted ws = case ws of
+  [] -> Nothing
+  AWord w : _ | content w == wanted -> Just w
+  _ : others -> wordAmong wanted others
 
 -- | The largest number of pulses in the word of an axis; 0 for an axis without one.
 capacity :: Machine -> Axis -> Pulses

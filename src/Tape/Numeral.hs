@@ -10,8 +10,8 @@ module Tape.Numeral
 where
 
 import Data.Bits (shiftL)
-import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
 import Data.Maybe (fromMaybe, isJust)
 import Data.Word (Word8)
 import Machine.Machine (Content, NumberForm (..), OrderName, Service (..), Sign (..))
@@ -39,7 +39,7 @@ data Numeral = Numeral
   }
 
 -- | The number in a form that stands at a row.
-numeral :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault Numeral
+numeral :: Plan -> Content -> NumberForm -> ShortByteString -> Int -> Either Fault Numeral
 numeral plan c f rows begin = do
   Signed behind minus weight <- readSign plan c f rows begin
   let whole = digits f - decimals f
@@ -68,10 +68,10 @@ numeral plan c f rows begin = do
       EitherSign -> True
 
 -- | Whether a number may begin at a row.
-begins :: Plan -> NumberForm -> ByteString -> Int -> Bool
-begins plan f rows k = digits f == 0 || k < ByteString.length rows && (isJust (Symbol.digitAt (Plan.symbols plan) w) || isSign)
+begins :: Plan -> NumberForm -> ShortByteString -> Int -> Bool
+begins plan f rows k = digits f == 0 || k < Short.length rows && (isJust (Symbol.digitAt (Plan.symbols plan) w) || isSign)
   where
-    w = ByteString.index rows k
+    w = Short.index rows k
     is c = w == Symbol.holes (Symbol.symbol (Plan.symbols plan) c)
     isSign = case sign f of
       Unsigned -> False
@@ -83,7 +83,7 @@ begins plan f rows k = digits f == 0 || k < ByteString.length rows && (isJust (S
 -- | What stands before the digits: the row behind it, whether it says minus, and what it counts.
 data Signed = Signed Int Bool Int
 
-readSign :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault Signed
+readSign :: Plan -> Content -> NumberForm -> ShortByteString -> Int -> Either Fault Signed
 readSign plan c f rows k = case sign f of
   Unsigned -> Right (Signed k False 0)
   ServiceSign -> Right (Signed k False 0)
@@ -91,8 +91,8 @@ readSign plan c f rows k = case sign f of
   EitherSign
     | here minus -> Right (behind minus True)
     | here plus -> Right (behind plus False)
-    | k >= ByteString.length rows -> Left (cutOff c rows)
-    | otherwise -> Left (Fault k (Just c) (fromMaybe NoSign (blemish plan (ByteString.index rows k))))
+    | k >= Short.length rows -> Left (cutOff c rows)
+    | otherwise -> Left (Fault k (Just c) (fromMaybe NoSign (blemish plan (Short.index rows k))))
   Priority leadForth leadBack forth back -> do
     d <- digit plan (Just c) rows k
     let after isMinus = Right (Signed (k + 1) isMinus (Symbol.digitWeight (Plan.symbols plan) d))
@@ -102,7 +102,7 @@ readSign plan c f rows k = case sign f of
   where
     minus = Plan.minus plan
     plus = Plan.plus plan
-    here s = k < ByteString.length rows && ByteString.index rows k == Symbol.holes s
+    here s = k < Short.length rows && Short.index rows k == Symbol.holes s
     behind s isMinus = Signed (k + 1) isMinus (Symbol.weight s)
 {-# INLINE readSign #-}
 
@@ -119,64 +119,64 @@ data Digits = Digits
   }
 
 -- | At least so many digits, and as many as there are up to a number.
-figures :: Plan -> Content -> ByteString -> Int -> Int -> Digits -> Either Fault Digits
+figures :: Plan -> Content -> ShortByteString -> Int -> Int -> Digits -> Either Fault Digits
 figures plan c rows least most ds
   | at now < at ds + least || at now < at ds + most && isDigit = Left (stopped plan c rows now)
   | otherwise = Right now
   where
     now = sound plan rows (at ds + most) ds
-    isDigit = at now < ByteString.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (ByteString.index rows (at now)))
+    isDigit = at now < Short.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (Short.index rows (at now)))
 {-# INLINE figures #-}
 
 -- | The digits up to a row, as far as the service track says what it may beside them.
-sound :: Plan -> ByteString -> Int -> Digits -> Digits
-sound plan rows end ds
-  | at ds < min end (ByteString.length rows), Just d <- Symbol.digitAt table w, isHeard = sound plan rows end heard {at = at ds + 1, amount = 10 * amount ds + d, count = count ds + Symbol.digitWeight table d, services = drop 1 (services ds)}
-  | otherwise = ds
+sound :: Plan -> ShortByteString -> Int -> Digits -> Digits
+sound plan rows end ds = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
   where
     table = Plan.symbols plan
-    w = ByteString.index rows (at ds)
-    hole = Symbol.holeAt table w
-    isHeard = case services ds of
-      [] -> not hole
-      NoHole : _ -> not hole
-      Marker : _ -> hole
-      MinusHole : _ -> True
-      OrderBit _ _ : _ -> True
-      BrakingHole : _ -> True
-    heard = case services ds of
-      MinusHole : _ | hole -> ds {negative = True}
-      OrderBit o k : _ | hole -> ds {told = (o, 1 `shiftL` k) : told ds}
-      BrakingHole : _ | hole -> ds {slow = True}
-      _ -> ds
+    limit = min end (Short.length rows)
+    go k n minus bits brakes weight track
+      | k < limit,
+        Just d <- Symbol.digitAt table (Short.index rows k) =
+        let hole = Symbol.holeAt table (Short.index rows k)
+            next minus' bits' brakes' = go (k + 1) (10 * n + d) minus' bits' brakes' (weight + Symbol.digitWeight table d)
+         in case track of
+              [] -> if hole then reached else next minus bits brakes []
+              NoHole : more -> if hole then reached else next minus bits brakes more
+              Marker : more -> if hole then next minus bits brakes more else reached
+              MinusHole : more -> next (minus || hole) bits brakes more
+              OrderBit o b : more -> next minus (if hole then (o, 1 `shiftL` b) : bits else bits) brakes more
+              BrakingHole : more -> next minus bits (brakes || hole) more
+      | otherwise = reached
+      where
+        reached = Digits {at = k, amount = n, negative = minus, told = bits, slow = brakes, count = weight, services = track}
 
 -- | Why the digits end.
-stopped :: Plan -> Content -> ByteString -> Digits -> Fault
+stopped :: Plan -> Content -> ShortByteString -> Digits -> Fault
 stopped plan c rows ds = case (digit plan (Just c) rows (at ds), services ds) of
   (Left fault, _) -> fault
   (Right _, Marker : _) -> Fault (at ds) (Just c) MarkerMissing
   (Right _, _) -> Fault (at ds) (Just c) ServiceHole
 
 -- | The decimal point.
-point :: Plan -> Content -> ByteString -> Digits -> Either Fault Digits
+point :: Plan -> Content -> ShortByteString -> Digits -> Either Fault Digits
 point plan c rows ds
-  | at ds >= ByteString.length rows = Left (cutOff c rows)
+  | at ds >= Short.length rows = Left (cutOff c rows)
   | w == Symbol.holes s = Right ds {at = at ds + 1, count = count ds + Symbol.weight s}
   | otherwise = Left (Fault (at ds) (Just c) (fromMaybe (Missing '.') (blemish plan w)))
   where
-    w = ByteString.index rows (at ds)
+    w = Short.index rows (at ds)
     s = Plan.point plan
 {-# INLINE point #-}
 
 -- | The digit at a row.
-digit :: Plan -> Maybe Content -> ByteString -> Int -> Either Fault Int
+digit :: Plan -> Maybe Content -> ShortByteString -> Int -> Either Fault Int
 digit plan c rows k
-  | k >= ByteString.length rows = Left (Fault (ByteString.length rows - 1) c CutOff)
+  | k >= Short.length rows = Left (Fault (Short.length rows - 1) c CutOff)
   | otherwise = case Symbol.digitAt (Plan.symbols plan) w of
     Just d -> Right d
     Nothing -> Left (Fault k c why)
   where
-    w = ByteString.index rows k
+    w = Short.index rows k
     why = case (blemish plan w, Symbol.symbolAt (Plan.symbols plan) w) of
       (Just reason, _) -> reason
       (Nothing, Just s) -> NotADigit s
@@ -189,5 +189,5 @@ blemish plan w
   | Symbol.isOdd (Plan.symbols plan) w = Just BadParity
   | otherwise = Nothing
 
-cutOff :: Content -> ByteString -> Fault
-cutOff c rows = Fault (ByteString.length rows - 1) (Just c) CutOff
+cutOff :: Content -> ShortByteString -> Fault
+cutOff c rows = Fault (Short.length rows - 1) (Just c) CutOff

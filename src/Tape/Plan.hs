@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | One interpretation of a machine's layout. Here it writes: a frame becomes marks, rows with what they mean, and both
 -- the tape and its picture are made of them. Reading follows the same steps.
 module Tape.Plan
@@ -146,9 +148,10 @@ foldRows mark p state frame = foldBare mark (if isChecked p then counted p state
 counted :: Plan -> State -> Frame -> Int
 counted p state frame = runIdentity (foldBare count 0 p state frame 0)
   where
-    count total _ n s = pure $! case s of
-      CheckSymbol _ -> total
-      _ -> total + n
+    count total _ n s =
+      pure $! case s of
+        CheckSymbol _ -> total
+        _ -> total + n
 
 -- | The same, given what the symbols of the frame add to.
 foldBare :: Monad m => (r -> Word8 -> Int -> Sense -> m r) -> Int -> Plan -> State -> Frame -> r -> m r
@@ -164,10 +167,9 @@ foldBare mark total p state frame = go False (steps p)
           separated <- if behindWord then constants Separator (between p) before else pure before
           addressed <- constants (InWord (content w) n . Address) cs separated
           signed <- signOf w n addressed
-          let f = form w; places = digitCount f (abs n)
-          written <- numeral w n (places - 1) (service f) (lowest places (abs n)) signed
+          written <- numeral w n signed
           go True more written
-    constants use cs before = case cs of
+    constants use cs !before = case cs of
       [] -> pure before
       Symbol.Symbol c h k : more -> mark before h k (use c) >>= constants use more
     figure use d before = mark before (Symbol.digit (symbols p) d) (Symbol.digitWeight (symbols p) d) use
@@ -181,8 +183,9 @@ foldBare mark total p state frame = go False (steps p)
         | otherwise -> single (InWord (content w) n (SignSymbol '+')) (plus p) before
       Priority leadForth leadBack forth back -> lead w n (if leads p frame (content w) then (if n < 0 then leadBack else leadForth) else (if n < 0 then back else forth)) before
     lead w n d = figure (InWord (content w) n (Lead d)) (d `mod` 10)
+    numeral w n = let f = form w; places = digitCount f (abs n) in figures (InWord (content w) n) n (decimals f) (places - 1) (service f) (lowest places (abs n))
     -- The digits of what is left from a place on.
-    numeral w n k services left before
+    figures use n pointed k !services !left !before
       | k < 0 = pure before
       | otherwise = do
         let d = left `quot` power k
@@ -190,10 +193,13 @@ foldBare mark total p state frame = go False (steps p)
               [] -> NoHole
               now : _ -> now
             hole = punched frame n s
-            holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
-        pointed <- if k == decimals (form w) - 1 then single (InWord (content w) n Point) (point p) before else pure before
-        behind <- mark pointed holes (Symbol.digitWeight (symbols p) d) (InWord (content w) n (Digit d k s hole))
-        numeral w n (k - 1) (drop 1 services) (left - d * power k) behind
+            !holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
+        ready <- if k == pointed - 1 then single (use Point) (point p) before else pure before
+        behind <- mark ready holes (Symbol.digitWeight (symbols p) d) (use (Digit d k s hole))
+        figures use n pointed (k - 1) (rest services) (left - d * power k) behind
+    rest services = case services of
+      [] -> []
+      _ : more -> more
 {-# INLINE foldBare #-}
 
 -- | No frame has more rows.

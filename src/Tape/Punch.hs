@@ -16,6 +16,8 @@ import Data.ByteString.Builder qualified as Builder
 import Data.ByteString.Builder.Prim qualified as Prim
 import Data.ByteString.Builder.Prim.Internal qualified as Prim (boundedPrim)
 import Data.ByteString.Lazy qualified as LazyByteString
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
 import Data.Text qualified as Text
 import Foreign.Ptr (plusPtr)
 import Foreign.Storable (poke)
@@ -100,7 +102,7 @@ symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
 read :: Machine -> V3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case frontOf source of
   Left fault -> Left (damage Nothing fault)
-  Right at -> case Reading.expect plan (kept source) at (symbolsOf plan (opening (grid source))) of
+  Right at -> case Reading.expect plan (line source) at (symbolsOf plan (opening (grid source))) of
     Left fault -> Left (damage Nothing fault)
     -- Only the frames tell whether the height has to be said.
     Right behind -> case (attempt behind True, attempt behind False) of
@@ -121,6 +123,8 @@ data Source = Source
     raw :: ByteString,
     -- | without those that are passed over
     kept :: ByteString,
+    -- | the same, where one row at a time is looked at
+    line :: ShortByteString,
     -- | those that are passed over
     skipped :: ByteString,
     -- | the medium, as far as blank rows are kept
@@ -128,7 +132,7 @@ data Source = Source
   }
 
 sourceOf :: Plan -> ByteString -> Source
-sourceOf plan raw = Source {plan, raw, kept, skipped, grid}
+sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped, grid}
   where
     medium = Machine.medium (Plan.machine plan)
     skipped = case spare medium of
@@ -190,7 +194,7 @@ framesFrom source = go []
         let first = case spare (grid source) of
               Counted -> begin
               Skipped -> blankFrom source begin
-        case Reading.readFrame p state (kept source) first of
+        case Reading.readFrame p state (line source) first of
           Left fault -> Left (maybe (Just n, fault) (Nothing,) (tornAt source at))
           Right (f, end) -> do
             behind <- numbered (blankRows source GapNotBlank (gap (grid source)) end)
@@ -232,7 +236,7 @@ blanksBehind source found
 
 -- | The blank rows behind the closing symbols, where these and nothing else stand at a row.
 tailAt :: Source -> Int -> Maybe Int
-tailAt source at = case Reading.expect (plan source) (kept source) first cs of
+tailAt source at = case Reading.expect (plan source) (line source) first cs of
   Right behind | ByteString.all (== 0) (ByteString.drop behind (kept source)) -> Just (ByteString.length (kept source) - behind)
   _ -> Nothing
   where

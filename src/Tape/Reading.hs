@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The rows of one frame read back, by the steps that wrote them.
 --
 -- What is read becomes a frame, and the frame is written again: rows that the layout would not have written are
@@ -12,8 +14,9 @@ where
 
 import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
-import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
+import Data.Functor.Identity (runIdentity)
 import Data.List (find, foldl')
 import Data.Maybe (fromMaybe, isJust)
 import Data.Word (Word8)
@@ -35,7 +38,7 @@ import Tape.Symbol qualified as Symbol
 
 -- | What the words of a frame say, each with the row of its number.
 data Reading = Reading
-  { found :: [(Content, Said)],
+  { found :: [Said],
     commands :: [(Machine.OrderName, Int)],
     braked :: Bool,
     -- | what the symbols add to so far
@@ -44,10 +47,10 @@ data Reading = Reading
     check :: Maybe (Int, Int)
   }
 
-data Said = Said {at :: Int, number :: Int}
+data Said = Said {word :: Content, at :: Int, number :: Int}
 
 -- | The frame that begins at a row, and the row behind it.
-readFrame :: Plan -> State -> ByteString -> Int -> Either Fault (Frame, Int)
+readFrame :: Plan -> State -> ShortByteString -> Int -> Either Fault (Frame, Int)
 readFrame plan state rows begin = do
   (reading, end) <- readSteps plan rows begin
   case check reading of
@@ -59,10 +62,10 @@ readFrame plan state rows begin = do
   Right (f, end)
 
 -- | The words of a frame in order.
-readSteps :: Plan -> ByteString -> Int -> Either Fault (Reading, Int)
+readSteps :: Plan -> ShortByteString -> Int -> Either Fault (Reading, Int)
 readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
   where
-    go behindWord todo now k = case todo of
+    go behindWord todo !now !k = case todo of
       [] -> Right (now, k)
       Fixed cs : more -> do
         next <- expect plan rows k cs
@@ -78,35 +81,35 @@ readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
         | otherwise -> go behindWord more now k
         where
           prefix = if behindWord then joined else cs
-          begin = k + length prefix
-          stands = matches rows k prefix && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows begin)
+          begin = behind rows k prefix
+          stands = begin >= 0 && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows begin)
     weights = foldl' (\n c -> n + Symbol.weight c) 0
     store w n now =
       now
-        { found = (content w, Said (Numeral.start n) (Numeral.value n)) : found now,
+        { found = Said (content w) (Numeral.start n) (Numeral.value n) : found now,
           commands = [(o, Numeral.value n) | Command o <- [content w]] <> Numeral.bits n <> commands now,
           braked = braked now || Numeral.brakes n,
           total = total now + Numeral.total n
         }
 
--- | Whether these symbols stand here.
-matches :: ByteString -> Int -> [Symbol] -> Bool
-matches rows k cs = case cs of
-  [] -> True
-  c : more -> k < ByteString.length rows && ByteString.index rows k == Symbol.holes c && matches rows (k + 1) more
+-- | The row behind symbols that stand here; below 0 where they do not.
+behind :: ShortByteString -> Int -> [Symbol] -> Int
+behind rows k cs = case cs of
+  [] -> k
+  c : more -> if k < Short.length rows && Short.index rows k == Symbol.holes c then behind rows (k + 1) more else -1
 
 -- | The row behind symbols that have to stand here.
-expect :: Plan -> ByteString -> Int -> [Symbol] -> Either Fault Int
-expect plan rows k cs = if matches rows k cs then Right (k + length cs) else Left (mismatch plan Nothing rows k cs)
+expect :: Plan -> ShortByteString -> Int -> [Symbol] -> Either Fault Int
+expect plan rows k cs = let next = behind rows k cs in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
 
 -- | The first of some symbols that does not stand where it should.
-mismatch :: Plan -> Maybe Content -> ByteString -> Int -> [Symbol] -> Fault
+mismatch :: Plan -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> Fault
 mismatch plan c rows k cs = case cs of
   [] -> Fault k c NotBlank
   s : more
-    | k >= ByteString.length rows -> Fault (ByteString.length rows - 1) c CutOff
-    | ByteString.index rows k == Symbol.holes s -> mismatch plan c rows (k + 1) more
-    | otherwise -> Fault k c (insteadOf plan (ByteString.index rows k) s)
+    | k >= Short.length rows -> Fault (Short.length rows - 1) c CutOff
+    | Short.index rows k == Symbol.holes s -> mismatch plan c rows (k + 1) more
+    | otherwise -> Fault k c (insteadOf plan (Short.index rows k) s)
 
 -- | Why a row is not the symbol that it should be.
 insteadOf :: Plan -> Word8 -> Symbol -> Reason
@@ -123,7 +126,7 @@ insteadOf plan w s = case Numeral.blemish plan w of
 
 -- | The word that was read.
 saidOf :: Reading -> Content -> Maybe Said
-saidOf reading c = lookup c (found reading)
+saidOf reading c = find ((== c) . word) (found reading)
 
 -- | A fault of a word, or of the frame as a whole.
 faultOf :: Int -> Reading -> Content -> Reason -> Fault
@@ -209,11 +212,11 @@ speedOf plan state begin reading m = case (saidOf reading FeedWord, m) of
 lawful :: Plan -> Int -> Reading -> Frame -> Either Fault ()
 lawful plan begin reading f
   | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading FeedWord IdleFrame)
-  | otherwise = case Frame.invariants (Plan.machine plan) [f] of
+  | otherwise = case Frame.broken (Plan.machine plan) 1 f of
     [] -> Right ()
-    broken : _ -> Left (blame broken (Rule broken))
+    rule : _ -> Left (blame rule (Rule rule))
   where
-    blame broken = case broken of
+    blame rule = case rule of
       Frame.OverCapacity _ a _ -> faultOf begin reading (Along a)
       Frame.BadCentre _ -> faultOf begin reading (Centre X)
       Frame.NoSuchSpeed _ _ -> faultOf begin reading FeedWord
@@ -225,24 +228,25 @@ motionWord :: Plan -> Maybe Content
 motionWord plan = fmap (content . fst) (Plan.motions plan)
 
 -- | Whether the rows of a frame are those that would be written for it.
-isWritten :: Plan -> State -> ByteString -> Int -> Int -> Frame -> Bool
-isWritten plan state rows begin end f = Plan.foldRows same plan state f begin == Just end
+isWritten :: Plan -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
+isWritten plan state rows begin end f = runIdentity (Plan.foldRows same plan state f begin) == end
   where
-    same k h _ _ = if k < end && ByteString.index rows k == h then Just (k + 1) else Nothing
+    -- Behind a row that is another one there is none.
+    same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
 -- | The rows of a frame are those that its marks are. A check digit that would be another one follows from the other rows:
 -- they are blamed first.
-written :: Plan -> ByteString -> Int -> Int -> [Mark] -> Either Fault ()
+written :: Plan -> ShortByteString -> Int -> Int -> [Mark] -> Either Fault ()
 written plan rows begin end = go begin (Right ())
   where
     go k before marks = case marks of
       [] -> if k == end then before else Left (Fault (min k (end - 1)) Nothing (Otherwise "the end of the frame"))
       m : more
         | k >= end -> Left (Fault (max begin (end - 1)) (wordOf m) (Otherwise (Layout.meaning (Layout.row plan Nothing m))))
-        | ByteString.index rows k == holes m -> go (k + 1) before more
+        | Short.index rows k == holes m -> go (k + 1) before more
         | CheckSymbol _ <- sense m -> go (k + 1) (Left (fault k m)) more
         | otherwise -> Left (fault k m)
-    fault k m = Fault k (wordOf m) (difference plan (ByteString.index rows k) m)
+    fault k m = Fault k (wordOf m) (difference plan (Short.index rows k) m)
 
 -- | The word that a mark is of.
 wordOf :: Mark -> Maybe Content

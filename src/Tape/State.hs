@@ -75,7 +75,7 @@ number system state frame word = case content word of
   FeedWord -> standing (feedStands (presence word)) code
   Command o -> commandNumber (presence word) o
   where
-    standing yes n = if yes then Just n else Nothing
+    standing yes n = if yes then Just $! n else Nothing
     moving = Frame.isMoving frame
     FeedCode code = speed frame
     centreNumber a = let V2 i j = centre frame; Pulses n = along a (signs system * V3 i j 0) in n
