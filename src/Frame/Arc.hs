@@ -137,7 +137,7 @@ centres task begin finish s = case s of
     | otherwise -> let first = middle centre in around first <> filter (not . isBeside first) (around (middle (level centre)))
   where
     middle c = flat (place task c)
-    around (V2 i j) = [V2 (i + di) (j + dj) | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
+    around c = map (c +) offsets
     isBeside (V2 i j) (V2 k l) = abs (i - k) <= neighbours && abs (j - l) <= neighbours
     a = point task (flat begin)
     b = point task (flat finish)
@@ -147,6 +147,9 @@ centres task begin finish s = case s of
 -- | So many pulses about a place the centre is looked for.
 neighbours :: Pulses
 neighbours = 2
+
+offsets :: [V2]
+offsets = [V2 di dj | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
 
 -- | Steps that have been tried, and how far they deviate.
 data Attempt = Attempt {way :: [Step], off :: Double}
@@ -159,21 +162,38 @@ best attempts = case attempts of
   where
     cost a = (length (way a), off a)
 
--- | The best about any of some lattice points. Where the whole arc can be one step, it is the one that is least off and can be
--- walked; those are left out of which a place tells that they are further off than another one.
+-- | The best about any of some lattice points. Where the whole arc can be one step, the one that seems least off tells how far
+-- off the best is at most, and only those are looked at closely that may be better.
 truest :: Task -> V3 -> V3 -> Segment -> Turn -> [V2] -> Maybe [Step]
-truest task begin finish s turn cs = case sortOn offAtMiddle whole of
-  (_, _, c) : _ | Just a <- try c, Just found <- bestWithin (off a) -> Just found
+truest task begin finish s turn cs = case whole of
+  first : others | Just a <- try (centre' (foldl' nearer first others)), Just found <- bestWithin (off a) -> Just found
   _ -> best (mapMaybe try cs)
   where
     try = attempt task begin finish s turn
-    offAtMiddle (o, _, _) = o
-    whole = [(offAt leg 0.5, leg, c) | begin /= finish, c <- cs, inOneStep c, Just leg <- [legOf task s turn c (flat begin, flat finish)]]
+    nearer x y = if middleOff y < middleOff x then y else x
+    whole = [Candidate {centre' = c, middleOff = offInMiddle task s turn c (flat begin) (flat finish)} | begin /= finish, c <- cs, inOneStep c]
     inOneStep c = case Machine.arcs (machine task) of
       NoArcs -> False
       Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
-    bestWithin most = listToMaybe (mapMaybe (fmap way . try . snd) (sortOn fst [(evenly (deviationOf leg), c) | (o, leg, c) <- whole, o <= most, keepsWithin most leg]))
-    keepsWithin most leg = all (\k -> offAt leg (k / 8) <= most) [2, 6, 1, 7, 3, 5, 0, 8]
+    bestWithin most = listToMaybe (mapMaybe (fmap way . try . snd) (sortOn fst [(evenly (deviationOf leg), c) | Candidate c o <- whole, Mm (o - most) <= Tolerance.coincident, Just leg <- [legOf task s turn c (flat begin, flat finish)], keepsWithin most leg]))
+    keepsWithin most leg = all (\t -> offAt leg t <= most) [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8, 0, 1]
+
+-- | A lattice point, and how far the middle of the arc about it is off at least, in mm.
+data Candidate = Candidate {centre' :: V2, middleOff :: Double}
+
+-- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
+-- the chord between the directions of the ends.
+offInMiddle :: Task -> Segment -> Turn -> V2 -> V2 -> V2 -> Double
+offInMiddle task exact turn c begin finish = case exact of
+  Straight _ _ -> 0
+  Arc {start, centre} ->
+    let m = point task c
+        a = Vec.to m (point task begin)
+        b = Vec.to m (point task finish)
+        chord = Vec.unit (Vec.add (Vec.scale (-1 / Vec.norm a) a) (Vec.scale (1 / Vec.norm b) b))
+        outwards' = Vec.scale (-(Shape.sense turn)) (Vec.left chord)
+        off' radius = let Mm far = Vec.distance centre (Vec.shift (Vec.scale radius outwards') m); Mm r = Segment.radius centre start in abs (far - r)
+     in max (off' (Vec.norm a)) (off' ((Vec.norm a + Vec.norm b) / 2))
 
 -- | The arc about a lattice point, if the machine can walk it and it is true enough.
 attempt :: Task -> V3 -> V3 -> Segment -> Turn -> V2 -> Maybe Attempt
@@ -292,7 +312,7 @@ deviate :: Task -> Segment -> Turn -> V2 -> (V2, V2) -> Deviation
 deviate task exact turn c ends = maybe (Deviation 0 0 0) deviationOf (legOf task exact turn c ends)
 
 deviationOf :: Leg -> Deviation
-deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) (extremes <> [k / 8 | k <- [1 .. 8]])
+deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) eighths) extremes
   where
     out = Vec.vec (outX leg) (outY leg)
     aside = Vec.vec (middleX leg - trueX leg) (middleY leg - trueY leg)
@@ -300,6 +320,9 @@ deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) (extr
     share angle = let t = angle * signum (turned leg) in (if t < 0 then t + 2 * pi else t) / abs (turned leg)
     extremes = if Vec.norm aside > 0 then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)] else []
     further (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
+
+eighths :: [Double]
+eighths = [k / 8 | k <- [1 .. 8]]
 
 -- | A frame's arc beside an exact one, in bare numbers: its centre, where it begins from there, its radii at both ends, how far it
 -- turns in radians; the exact centre and radius.

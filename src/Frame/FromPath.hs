@@ -40,7 +40,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
+import Machine.Machine (Arcs (..), Axis (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..), Spot (..))
 import Part.Part qualified as Part
@@ -56,7 +56,7 @@ data Made = Made {planned :: Planned, asked :: Maybe (Located Feed)}
 -- enough, is looked for first.
 quantise :: Machine -> Path -> Result Warning Error Program
 quantise machine path = case nubOrd (early <> late) of
-  [] -> Result warnings [] (Just (Program begin (map planned made)))
+  [] -> Result warnings [] (Just (Program begin frames))
   problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
   where
     tasks = Braking.applied machine (Task.tasksOf machine path)
@@ -65,6 +65,7 @@ quantise machine path = case nubOrd (early <> late) of
     Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
     made = framesOf machine fromRegion begin tasks
+    frames = map planned made
     warnings = nubOrd (startWarning <> feedWarnings machine made <> take 1 (mapMaybe heightWarning moves) <> byHand)
     startWarning =
       let at = Frame.position machine begin
@@ -76,7 +77,7 @@ quantise machine path = case nubOrd (early <> late) of
     late
       | null boundless = case drop mostFrames made of
         p : _ -> [TooManyFrames (Frame.origin (planned p)) mostFrames]
-        [] -> frequencyProblems machine made <> placeProblems machine begin (map planned made)
+        [] -> frequencyProblems machine made <> placeProblems machine begin frames
       | otherwise = []
 
 -- | More frames than this are 38 km of tape.
@@ -233,25 +234,28 @@ framesOf machine fromRegion = go Nothing fromRegion
 runFrames :: Machine -> V3 -> Task -> [Made]
 runFrames machine begin task = case task of
   Order _ _ -> []
-  Run {role, tool, drive, run} -> [Made (Planned f role (origin m) tool) (askedOf drive) | (a, s) <- zip (begin : map stop ways) ways, Just f <- [frameOf machine drive (pace m) a s]]
-    where
-      m = NonEmpty.head run
-      ways = stepsOf machine begin task
-      askedOf d = case (d, pace m) of
-        (Asked, At asked) -> Just asked
-        _ -> Nothing
+  Run {role, tool, drive, run = m :| _} ->
+    let asked = case (drive, pace m) of
+          (Asked, At feed) -> Just feed
+          _ -> Nothing
+        go at steps = case steps of
+          [] -> []
+          s : rest -> case frameOf machine drive (pace m) at s of
+            Just f -> Made (Planned f role (origin m) tool) asked : go (stop s) rest
+            Nothing -> go (stop s) rest
+     in go begin (stepsOf machine begin task)
 
 -- | The frame of a step; none for one that moves nothing.
 frameOf :: Machine -> Drive -> Pace -> V3 -> Step -> Maybe Frame
 frameOf machine drive pace at Step {stop, about} = case about of
   Nothing
     | moved == 0 -> Nothing
-    | drive == Asked && pace == Rapid && Machine.hasRapidMotion machine -> Just bare {motion = Frame.Rapid}
-    | otherwise -> Just (driven bare {motion = Straightway})
-  Just (turn, c) -> Just (driven bare {motion = Round turn, centre = c})
+    | drive == Asked && pace == Rapid && Machine.hasRapidMotion machine -> Just (bare Frame.Rapid 0)
+    | otherwise -> Just (driven (bare Straightway 0))
+  Just (turn, c) -> Just (driven (bare (Round turn) c))
   where
     moved = stop - at
-    bare = (Frame.still []) {increment = moved}
+    bare motion centre = Frame {motion, increment = moved, centre, speed = FeedCode 0, braking = False, orders = []}
     driven f = case (drive, pace) of
       (Lowest, _) -> f {speed = fst (Machine.slowest machine)}
       (Slowing v, _) -> f {speed = Feed.nearest machine v f, braking = True}

@@ -346,9 +346,9 @@ capacity machine a = maybe 0 (Pulses . largest . form) (wordFor machine (Along a
 
 -- | The largest number in the words of an arc's centre.
 centreCapacity :: Machine -> Pulses
-centreCapacity machine = case [largest (form w) | w <- wordsOf machine, Centre _ <- [content w]] of
-  [] -> 0
-  ns -> Pulses (minimum ns)
+centreCapacity machine = if least == maxBound then 0 else Pulses least
+  where
+    least = foldl' min maxBound [largest (form w) | w <- wordsOf machine, Centre _ <- [content w]]
 
 largest :: NumberForm -> Int
 largest f = 10 ^ min 17 (digits f) - 1
