@@ -17,8 +17,8 @@ where
 
 import Base.Lattice (V2 (..), V3 (..), flat)
 import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus, times)
-import Data.List (foldl', sortOn)
-import Data.Maybe (listToMaybe, mapMaybe)
+import Data.List (foldl')
+import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
 import Frame.Pulses qualified as Pulses
 import Geometry.Distance qualified as Distance
@@ -162,24 +162,37 @@ best attempts = case attempts of
   where
     cost a = (length (way a), off a)
 
--- | The best about any of some lattice points. Where the whole arc can be one step, the one that seems least off tells how far
--- off the best is at most, and only those are looked at closely that may be better.
+-- | The best about any of some lattice points. Where the whole arc can be one step, each of them has to be truer than the best so
+-- far, beginning with the one that seems least off; of two that are as true the first one is taken.
 truest :: Task -> V3 -> V3 -> Segment -> Turn -> [V2] -> Maybe [Step]
 truest task begin finish s turn cs = case whole of
-  first : others | Just a <- try (centre' (foldl' nearer first others)), Just found <- bestWithin (off a) -> Just found
-  _ -> best (mapMaybe try cs)
+  first : others | Just found <- foldl' better (tried (foldl' nearer first others)) whole -> Just (way (result found))
+  _ -> best (mapMaybe (attempt task begin finish s turn) cs)
   where
-    try = attempt task begin finish s turn
-    nearer x y = if middleOff y < middleOff x then y else x
-    whole = [Candidate {centre' = c, middleOff = offInMiddle task s turn c (flat begin) (flat finish)} | begin /= finish, c <- cs, inOneStep c]
+    whole = [Candidate {rank, node = c, seeming = offInMiddle task s turn c (flat begin) (flat finish)} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep c]
     inOneStep c = case Machine.arcs (machine task) of
       NoArcs -> False
       Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
-    bestWithin most = listToMaybe (mapMaybe (fmap way . try . snd) (sortOn fst [(evenly (deviationOf leg), c) | Candidate c o <- whole, Mm (o - most) <= Tolerance.coincident, Just leg <- [legOf task s turn c (flat begin, flat finish)], keepsWithin most leg]))
-    keepsWithin most leg = all (\t -> offAt leg t <= most) [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8, 0, 1]
+    nearer x y = if seeming y < seeming x then y else x
+    tried x = Tried (rank x) <$> attempt task begin finish s turn (node x)
+    better so x = case so of
+      Nothing -> tried x
+      Just b
+        | Mm (seeming x - off (result b)) <= Tolerance.coincident, isTruer (number b) (off (result b)) x, Just a <- tried x -> Just a
+        | otherwise -> so
+    isTruer before most x = case legOf task s turn (node x) (flat begin, flat finish) of
+      Nothing -> False
+      Just leg -> let isLess o = o < most || o == most && rank x < before in all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
 
--- | A lattice point, and how far the middle of the arc about it is off at least, in mm.
-data Candidate = Candidate {centre' :: V2, middleOff :: Double}
+-- | Shares of a sweep, those first at which an arc is most likely to be off.
+samples :: [Double]
+samples = [0, 1, 4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
+
+-- | A lattice point by its place among the others, and how far the middle of the arc about it is off, in mm.
+data Candidate = Candidate {rank :: Int, node :: V2, seeming :: Double}
+
+-- | What has been tried, and its place.
+data Tried = Tried {number :: Int, result :: Attempt}
 
 -- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
 -- the chord between the directions of the ends.

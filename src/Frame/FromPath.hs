@@ -135,8 +135,8 @@ feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high
     -- Neighbours mostly ask the same.
     along found region v range todo = case todo of
       Made {planned, asked = Just (Located region' v')} : rest
-        | region' == region && v' == v -> along found region v (union range (obtained v (frame planned))) rest
-      _ -> ranges (if range == nothing then found else Map.insertWith union (region, v) range found) todo
+        | region' == region && v' == v -> along found region v (reaching range (obtained v (frame planned))) rest
+      _ -> ranges (if range == nothing then found else Map.insertWith reaching (region, v) range found) todo
     -- A feed that there is not is no matter of a warning.
     obtained v f =
       let way = Feed.wayOf machine f
@@ -151,8 +151,8 @@ data Range = Range Double Double
 nothing :: Range
 nothing = Range (1 / 0) (-(1 / 0))
 
-union :: Range -> Range -> Range
-union (Range a b) (Range c d) = Range (min a c) (max b d)
+reaching :: Range -> Range -> Range
+reaching (Range a b) (Range c d) = Range (min a c) (max b d)
 
 reachProblem :: Region -> Point -> Task -> Maybe Error
 reachProblem fromRegion fromPoint task = case task of

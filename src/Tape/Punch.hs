@@ -46,14 +46,16 @@ write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteSt
   where
     plan = Plan.fromMachine machine
     holesOf = foldMap (Builder.word8 . holes)
+    -- The same before every frame with an even number.
     shifted = holesOf (shift plan 2)
     between = holesOf (Plan.blanks Gap (gap (Machine.medium machine)))
     -- The rows of a frame go straight into the buffer.
-    punched = Prim.primBounded (Prim.boundedPrim (Plan.mostRows plan) (\(state, f) -> Plan.foldRows put plan state f))
+    punched state f = Prim.primBounded (Prim.boundedPrim most (const (Plan.foldRows put plan state f))) ()
+    most = Plan.mostRows plan
     put at h _ _ = plusPtr at 1 <$ poke at h
     go state todo = case todo of
       [] -> holesOf (closed plan)
-      f : more -> (if even (State.ordinal state) then shifted else mempty) <> punched (state, f) <> between <> go (Plan.after plan state f) more
+      f : more -> (if even (State.ordinal state) then shifted else mempty) <> punched state f <> between <> go (Plan.after plan state f) more
 
 -- | The rows of the same tape, each with what it means.
 rows :: Machine -> V3 -> [Frame] -> [Row]
