@@ -36,6 +36,7 @@ import Frame.Pulses qualified as Pulses
 import Frame.Task (Drive (..), Task (..))
 import Frame.Task qualified as Task
 import Geometry.Box qualified as Box
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
@@ -131,12 +132,15 @@ feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high
     ranges found todo = case todo of
       [] -> found
       Made {asked = Nothing} : rest -> ranges found rest
-      Made {asked = Just (Located region v)} : _ -> along found region v nothing todo
-    -- Neighbours mostly ask the same.
-    along found region v range todo = case todo of
+      Made {asked = Just (Located region v)} : _ -> along found region v nothing Nothing todo
+    -- Neighbours mostly ask the same; along the path the same code gives the same.
+    along found region v range code todo = case todo of
       Made {planned, asked = Just (Located region' v')} : rest
-        | region' == region && v' == v -> along found region v (reaching range (obtained v (frame planned))) rest
+        | region' == region && v' == v ->
+          let f = frame planned
+           in if alongPath && code == Just (speed f) then along found region v range code rest else along found region v (reaching range (obtained v f)) (Just (speed f)) rest
       _ -> ranges (if range == nothing then found else Map.insertWith reaching (region, v) range found) todo
+    alongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath
     -- A feed that there is not is no matter of a warning.
     obtained v f =
       let way = Feed.wayOf machine f
@@ -275,6 +279,7 @@ stepsOf machine begin task = case task of
 arcSteps :: Machine -> V3 -> Allowed -> NonEmpty Move -> [Step]
 arcSteps machine begin allowed run = case allowed of
   Along bounds -> minimumBy (comparing length) (fmap (concat . snd . mapAccumL (partSteps bounds) begin) (Curve.ways machine bounds run))
+  _ | Straight a b <- segment m -> map alone (Pulses.split machine begin ((a, level), (b, level)))
   Sagitta y -> steps (Arc.Room pulse (plus pulse y) (plus pulse y)) (Chord.rounding machine allowed) begin (segment m)
   BandOf inwards outwards -> steps (Arc.Room pulse (plus pulse inwards) (plus pulse outwards)) (Chord.rounding machine allowed) begin (segment m)
   where

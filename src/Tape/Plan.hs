@@ -196,10 +196,7 @@ foldBare mark total p state frame = go False (steps p)
             !holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
         ready <- if k == pointed - 1 then single (use Point) (point p) before else pure before
         behind <- mark ready holes (Symbol.digitWeight (symbols p) d) (use (Digit d k s hole))
-        figures use n pointed (k - 1) (rest services) (left - d * power k) behind
-    rest services = case services of
-      [] -> []
-      _ : more -> more
+        figures use n pointed (k - 1) (drop 1 services) (left - d * power k) behind
 {-# INLINE foldBare #-}
 
 -- | No frame has more rows.
