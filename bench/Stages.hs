@@ -5,6 +5,7 @@
 -- is computed; so does the collection of garbage.
 module Main (main) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), total)
 import Base.Region qualified as Region
 import Base.Result qualified as Result
@@ -21,7 +22,6 @@ import Frame.Frame (increment)
 import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as Frame
 import Geometry.Segment qualified as Segment
-import Linear.V3 (V3 (..))
 import Machine.Machine (Machine)
 import Part.FromChecked qualified as Part
 import Part.Part qualified as Part
@@ -114,5 +114,5 @@ contourLength c = let Mm l = total (map (Segment.length . Part.segment) (NonEmpt
 pathLength :: Path -> Double
 pathLength p = let Mm l = total (map (Segment.length . Path.segment) (concatMap Path.moves (Path.blocks p))) in l
 
-distance :: V3 Pulses -> Int
+distance :: V3 -> Int
 distance (V3 (Pulses x) (Pulses y) (Pulses z)) = abs x + abs y + abs z

@@ -33,7 +33,7 @@ module Compile
   )
 where
 
-import Base.Quantity (Pulses)
+import Base.Lattice (V3)
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
@@ -48,7 +48,6 @@ import Frame.Error qualified as Frame
 import Frame.Frame (Frame, Program)
 import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as Frame
-import Linear.V3 (V3)
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Error qualified as Machine
 import Machine.FromText qualified as Machine
@@ -150,7 +149,7 @@ punch machine path = do
   pure Punched {program, tape = Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program))}
 
 -- | From a tape back to its frames; where the cutter stands before the first.
-readTape :: Machine -> V3 Pulses -> Tape -> Result Report Report [Frame]
+readTape :: Machine -> V3 -> Tape -> Result Report Report [Frame]
 readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine begin tape))
 
 -- | Compare a tape's frames with the part; errors when it is not proven.

@@ -21,6 +21,7 @@ module Generate
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Name (Name (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (..))
@@ -43,7 +44,6 @@ import Geometry.Shape (Line (..), Turn (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element (..), Milling (Milling), Operation (..), Part (Part), Stop (Stop))

@@ -6,7 +6,7 @@ module LinuxCnc
 
     -- * What the interpreter makes of a program
     Canonical (..),
-    Place,
+    Place (..),
     canonical,
     parse,
 
@@ -40,7 +40,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Part.Part (Pace (..), Spot (..))
 import Part.Part qualified as Part
 import Path.Path (Path)
@@ -54,7 +53,8 @@ installed :: IO Bool
 installed = (/= Nothing) <$> findExecutable "rs274"
 
 -- | A place in mm.
-type Place = V3 Double
+data Place = Place Double Double Double
+  deriving stock (Eq, Show)
 
 -- | A call that moves the cutter; in mm and mm/min.
 data Canonical
@@ -115,7 +115,7 @@ call state line = case name of
     rate = feed state * scale state
     moved make = (\m -> (state, Just m)) <$> (traverse number arguments >>= make)
     place ns = case map (* scale state) ns of
-      [x, y, z, 0, 0, 0] -> Right (V3 x y z)
+      [x, y, z, 0, 0, 0] -> Right (Place x y z)
       _ -> Left "other axes move"
     arc ns = case ns of
       [x, y, i, j, turns, z, 0, 0, 0]
@@ -151,7 +151,7 @@ data Asked
 -- | The moves from a known place.
 ways :: Place -> [Canonical] -> [Way]
 ways _ [] = []
-ways from@(V3 _ _ height) (c : rest) = case c of
+ways from@(Place _ _ height) (c : rest) = case c of
   Traverse to -> straight to InRapid
   Feeding f to -> straight to (AtFeed f)
   Rounding f turn centre to ->
@@ -160,10 +160,10 @@ ways from@(V3 _ _ height) (c : rest) = case c of
      in continue to (if a == b then whole else Segment.arc turn centre a b) (AtFeed f)
   where
     straight to = continue to (Straight (flat from) (flat to))
-    continue to@(V3 _ _ z) way speed = Way way (height, z) speed : ways to rest
+    continue to@(Place _ _ z) way speed = Way way (height, z) speed : ways to rest
 
 flat :: Place -> Point
-flat (V3 x y _) = Vec.point x y
+flat (Place x y _) = Vec.point x y
 
 -- | What is wanted: moves that belong together, how far the cutter may be from them, and its speed.
 data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Asked}
@@ -242,7 +242,7 @@ radii walked = mapMaybe uneven [s | Way {segment = s@Arc {}} <- walked]
 legs :: Path -> (Place, [Leg])
 legs path = (beginning, concatMap (\block -> map (leg (allowed block)) (Path.runs (Path.moves block))) (Path.blocks path))
   where
-    beginning = let Located _ (Spot p (Mm h)) = Path.start path in V3 (Vec.x p) (Vec.y p) h
+    beginning = let Located _ (Spot p (Mm h)) = Path.start path in Place (Vec.x p) (Vec.y p) h
     leg slack run = Leg {chain = fmap whole run, within = if Path.isCurve run then slack else exactly, wanted = asked (Path.pace (NonEmpty.head run))}
     whole m = let (Mm a, Mm b) = Path.heights m in (Path.segment m, (a, b))
     allowed block = case block of

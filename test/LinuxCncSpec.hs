@@ -22,8 +22,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
-import LinuxCnc (Asked (..), Canonical (..), Leg (..))
+import LinuxCnc (Asked (..), Canonical (..), Leg (..), Place (..))
 import LinuxCnc qualified
 import Report.Report qualified as Report
 import System.Directory (listDirectory)
@@ -42,7 +41,7 @@ spec = do
               "    3 N..... ARC_FEED(1.0000, 2.0000, 1.0000, 1.0000, 1, 0.0000, 0.0000, 0.0000, 0.0000)"
             ]
         )
-        `shouldBe` Right [Rounding 254 CounterClockwise (Vec.point 25.4 25.4) (V3 25.4 50.8 0)]
+        `shouldBe` Right [Rounding 254 CounterClockwise (Vec.point 25.4 25.4) (Place 25.4 50.8 0)]
     it "that nobody knows are not passed over (a probe or a moved zero would look like no move)" $
       map
         LinuxCnc.parse
@@ -54,34 +53,34 @@ spec = do
         `shouldSatisfy` all isLeft
 
   describe "the comparison" $ do
-    let onward = Feeding 60 (V3 10 5 0)
-        back = Rounding 60 Clockwise (p (15, 5)) (V3 20 5 0)
-        walked = LinuxCnc.ways 0 [Traverse (V3 10 0 0), onward, back]
-        instead moves = LinuxCnc.differences wanted (LinuxCnc.ways 0 (Traverse (V3 10 0 0) : moves))
+    let onward = Feeding 60 (Place 10 5 0)
+        back = Rounding 60 Clockwise (p (15, 5)) (Place 20 5 0)
+        walked = LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), onward, back]
+        instead moves = LinuxCnc.differences wanted (LinuxCnc.ways (Place 0 0 0) (Traverse (Place 10 0 0) : moves))
         wanted = [rapid (0, 0) (10, 0), feed60 (Straight (p (10, 0)) (p (10, 5))), feed60 (halfTurn (15, 5) (10, 5) (20, 5))]
     it "finds nothing in a way that is retraced" $ LinuxCnc.differences wanted walked `shouldBe` []
     it "notices a leg that is left out" $ LinuxCnc.differences wanted (take 2 walked) `shouldSatisfy` some
     it "notices a move too many" $ LinuxCnc.differences (take 2 wanted) walked `shouldSatisfy` some
     it "notices an arc in the other sense, which has the same ends" $
-      instead [onward, Rounding 60 CounterClockwise (p (15, 5)) (V3 20 5 0)] `shouldSatisfy` some
+      instead [onward, Rounding 60 CounterClockwise (p (15, 5)) (Place 20 5 0)] `shouldSatisfy` some
     it "notices an end that is 0.003 mm off" $
-      instead [Feeding 60 (V3 10 5.003 0), back] `shouldSatisfy` some
+      instead [Feeding 60 (Place 10 5.003 0), back] `shouldSatisfy` some
     it "notices a move in the wrong order" $ LinuxCnc.differences wanted (reverse walked) `shouldSatisfy` some
     it "notices rapid through the material, and a wrong feed" $ do
-      instead [Traverse (V3 10 5 0), back] `shouldSatisfy` some
-      instead [Feeding 62 (V3 10 5 0), back] `shouldSatisfy` some
+      instead [Traverse (Place 10 5 0), back] `shouldSatisfy` some
+      instead [Feeding 62 (Place 10 5 0), back] `shouldSatisfy` some
     it "notices a height that is not that of the way" $
-      instead [Feeding 60 (V3 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (V3 20 5 (-1))] `shouldSatisfy` some
+      instead [Feeding 60 (Place 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (Place 20 5 (-1))] `shouldSatisfy` some
     let round60 = [rapid (0, 0) (10, 0), feed60 (Segment.fullCircle CounterClockwise (Circle (p (0, 0)) (Mm 10)) (p (10, 0)))]
-        half turn to = Rounding 60 turn (p (0, 0)) (V3 to 0 0)
+        half turn to = Rounding 60 turn (p (0, 0)) (Place to 0 0)
     it "lets a way go in several moves, and a whole circle in two" $
-      LinuxCnc.differences round60 (LinuxCnc.ways 0 [Traverse (V3 4 0 0), Traverse (V3 10 0 0), half CounterClockwise (-10), half CounterClockwise 10])
+      LinuxCnc.differences round60 (LinuxCnc.ways (Place 0 0 0) [Traverse (Place 4 0 0), Traverse (Place 10 0 0), half CounterClockwise (-10), half CounterClockwise 10])
         `shouldBe` []
     it "does not take half of a circle, there and back, for the whole one" $
-      LinuxCnc.differences round60 (LinuxCnc.ways 0 [Traverse (V3 10 0 0), half CounterClockwise (-10), half Clockwise 10])
+      LinuxCnc.differences round60 (LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), half CounterClockwise (-10), half Clockwise 10])
         `shouldSatisfy` some
     it "notices radii that differ by 0.003 mm, which LinuxCNC itself lets pass" $
-      [null (LinuxCnc.radii (LinuxCnc.ways (V3 0 (-10) 0) [Rounding 60 CounterClockwise (p (0, 0)) (V3 0 (10 + d) 0)])) | d <- [0, 0.001, 0.003]]
+      [null (LinuxCnc.radii (LinuxCnc.ways (Place 0 (-10) 0) [Rounding 60 CounterClockwise (p (0, 0)) (Place 0 (10 + d) 0)])) | d <- [0, 0.001, 0.003]]
         `shouldBe` [True, True, False]
 
   present <- runIO LinuxCnc.installed
@@ -100,10 +99,10 @@ interpreter :: Spec
 interpreter = do
   it "retraces lines, arcs of both senses, a circle in two halves and a descent" $
     run ["G0 X10 Y0 Z5", "G1 Z-2 F20", "X20 F60", "G3 X30 Y10 I0 J10", "G2 X40 Y20 I10 J0", "G2 X60 Y20 I10 J0", "G2 X40 Y20 I-10 J0", "G0 Z5"] >>= \result ->
-      fmap (LinuxCnc.differences everything . LinuxCnc.ways 0) result `shouldBe` Right []
+      fmap (LinuxCnc.differences everything . LinuxCnc.ways (Place 0 0 0)) result `shouldBe` Right []
   it "gives the radius of an arc at both ends as it was written" $
     run ["G0 X0 Y-10", "G3 X0 Y10.001 I0 J10 F60", "G3 X0 Y-10 I0 J-10.0005"] >>= \result ->
-      fmap (LinuxCnc.radii . LinuxCnc.ways 0) result `shouldBe` Right []
+      fmap (LinuxCnc.radii . LinuxCnc.ways (Place 0 0 0)) result `shouldBe` Right []
   it "refuses an arc whose radii differ by 0.03 mm (bad centres would go to the machine)" $
     run ["G0 X0 Y-10", "G3 X0 Y10.03 I0 J10 F60"] >>= refused "Radius to end of arc differs"
   it "refuses to cut without a feed" $ run ["G1 X10"] >>= refused "zero feed rate"
@@ -114,7 +113,7 @@ interpreter = do
   describe "with the correction of the cutter's radius" $ do
     it "keeps the cutter on the side that is asked, round a corner that sticks out and into one that does not" $ do
       let contour = ["G1 X0 Y-15 F60", "Y40", "X60", "Y80", "G40", "G1 X20 Y100"]
-          beside word legs' = (\result -> fmap (LinuxCnc.differences (rapid (0, 0) (0, -40) : map feed60 legs') . LinuxCnc.ways 0) result) <$> run (["G0 X0 Y-40", word] <> contour)
+          beside word legs' = (\result -> fmap (LinuxCnc.differences (rapid (0, 0) (0, -40) : map feed60 legs') . LinuxCnc.ways (Place 0 0 0)) result) <$> run (["G0 X0 Y-40", word] <> contour)
       left <- beside "G41.1 D20" (lines' [(0, -40), (-10, -15), (-10, 40)] <> [arcTo (0, 40) (-10, 40) (0, 50)] <> lines' [(0, 50), (50, 50), (50, 80), (20, 100)])
       left `shouldBe` Right []
       right <- beside "G42.1 D20" (lines' [(0, -40), (10, -15), (10, 30), (60, 30)] <> [arcAbout (60, 40) (60, 30) (70, 40)] <> lines' [(70, 40), (70, 80), (20, 100)])

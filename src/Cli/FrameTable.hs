@@ -7,6 +7,7 @@ module Cli.FrameTable
 where
 
 import Base.Decimal qualified as Decimal
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Position (..), Region (..), Source)
 import Base.Region qualified as Region
@@ -26,15 +27,13 @@ import Frame.Frame (Frame (..), Motion (..), Planned (..), Program, Role (..))
 import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 
 -- | A column of a table of frames: its head, and what stands in it.
 data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 
 -- | A frame with its number, from 1, and the position where it ends.
-data Numbered = Numbered {number :: Int, planned :: Planned, to :: V3 Pulses}
+data Numbered = Numbered {number :: Int, planned :: Planned, to :: V3}
 
 -- | One frame a line, with the line of the program that it came from. Only columns that say something.
 frames :: Machine -> Source -> Program -> Text

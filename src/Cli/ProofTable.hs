@@ -5,6 +5,7 @@ module Cli.ProofTable
 where
 
 import Base.Decimal qualified as Decimal
+import Base.Lattice (V3 (..))
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (..))
@@ -12,7 +13,6 @@ import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Linear.V3 (V3 (..))
 import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Verify.Proof (Passage (..), Proof, Witness (..))

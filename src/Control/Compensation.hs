@@ -12,7 +12,8 @@ module Control.Compensation
   )
 where
 
-import Base.Quantity (Mm (..), Pulses, Rad (..))
+import Base.Lattice (V3 (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Control.Walk (Stroke (..))
 import Control.Walk qualified as Walk
 import Data.List (mapAccumL, minimumBy)
@@ -29,7 +30,6 @@ import Geometry.Shape (Circle (Circle), Line (Line), Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (Compensation (..), Machine, Order (..), OrderValue (..))
 import Machine.Machine qualified as Machine
 
@@ -73,7 +73,7 @@ data Tag = Plain | First Keep | Later | Exit
 
 -- | Run frames from a position. Where the tape does not say the cutter's diameter, its radius by the number of the frame is
 -- asked.
-run :: Machine -> (Int -> Mm) -> V3 Pulses -> [Frame] -> ([Moved], [Unkept])
+run :: Machine -> (Int -> Mm) -> V3 -> [Frame] -> ([Moved], [Unkept])
 run machine toolAt begin frames = case Machine.compensation (Machine.orders machine) of
   Nothing -> ([Moved s (Walk.segment machine s :| []) | s <- strokes], [])
   Just c ->

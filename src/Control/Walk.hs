@@ -19,7 +19,8 @@ module Control.Walk
   )
 where
 
-import Base.Quantity (Mm (..), Pulses, Rad (..))
+import Base.Lattice (V2 (..), V3 (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
 import Frame.Frame (Frame (increment, motion), Motion (..))
@@ -29,16 +30,14 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape qualified as Shape
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Machine)
 
 -- | What one frame does: its number from 1, from where to where in pulses, the frame.
-data Stroke = Stroke {number :: Int, from :: V3 Pulses, to :: V3 Pulses, frame :: Frame}
+data Stroke = Stroke {number :: Int, from :: V3, to :: V3, frame :: Frame}
   deriving stock (Eq, Show)
 
 -- | Run frames from a position. A frame that only commands makes no stroke; a full circle makes one.
-run :: V3 Pulses -> [Frame] -> [Stroke]
+run :: V3 -> [Frame] -> [Stroke]
 run begin frames = [s | s <- snd (mapAccumL step begin (zip [1 ..] frames)), from s /= to s || isRound (frame s)]
   where
     step at (n, f) = let next = at + increment f in (next, Stroke {number = n, from = at, to = next, frame = f})

@@ -15,9 +15,10 @@ module Frame.Arc
   )
 where
 
-import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
-import Data.List (foldl', sortOn)
-import Data.Maybe (listToMaybe, mapMaybe)
+import Base.Lattice (V2 (..), V3 (..), flat)
+import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus, times)
+import Data.List (foldl')
+import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
 import Frame.Pulses qualified as Pulses
 import Geometry.Distance qualified as Distance
@@ -28,13 +29,11 @@ import Geometry.Shape qualified as Shape
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), Axis (..), Machine)
 import Machine.Machine qualified as Machine
 
 -- | A stop, and how it is reached: straight, or about a centre, which is counted from where the step begins.
-data Step = Step {stop :: V3 Pulses, about :: Maybe (Turn, V2 Pulses)}
+data Step = Step {stop :: V3, about :: Maybe (Turn, V2)}
   deriving stock (Eq, Show)
 
 -- | How far the steps of an arc may leave it, rounding included.
@@ -53,7 +52,7 @@ data Task = Task
   { machine :: Machine,
     room :: Room,
     -- | how it is walked in chords, from a position
-    chorded :: V3 Pulses -> Segment -> [V3 Pulses],
+    chorded :: V3 -> Segment -> [V3],
     height :: Mm,
     -- | the ways of one pulse in mm
     grainX :: Double,
@@ -62,7 +61,7 @@ data Task = Task
 
 -- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
 -- chords.
-steps :: Machine -> Room -> (V3 Pulses -> Segment -> [V3 Pulses]) -> Mm -> V3 Pulses -> Segment -> [Step]
+steps :: Machine -> Room -> (V3 -> Segment -> [V3]) -> Mm -> V3 -> Segment -> [Step]
 steps machine room chorded height = walk deepest Task {machine, room, chorded, height, grainX, grainY}
   where
     Mm grainX = Machine.pulseOf machine X
@@ -72,7 +71,7 @@ steps machine room chorded height = walk deepest Task {machine, room, chorded, h
 deepest :: Int
 deepest = 5
 
-walk :: Int -> Task -> V3 Pulses -> Segment -> [Step]
+walk :: Int -> Task -> V3 -> Segment -> [Step]
 walk left task begin s = case s of
   Straight _ _ -> straight
   Arc {sweep}
@@ -90,7 +89,7 @@ walk left task begin s = case s of
     straight = map alone (Pulses.split (machine task) begin ((Segment.start s, height task), (Segment.end s, height task)))
     sense (Rad a) = if a > 0 then CounterClockwise else Clockwise
 
-place :: Task -> Point -> V3 Pulses
+place :: Task -> Point -> V3
 place task p = Pulses.rounded (machine task) (p, height task)
 
 -- | Whether an arc deviates from its chord by less than half a pulse.
@@ -99,7 +98,7 @@ isFlat machine s = Segment.bulge s < times 0.5 (Machine.pulse machine)
 
 -- | Whether straight steps from a position to the next ones stay as near to an arc as they have to: half a pulse of sagitta
 -- and the rounding of the ends add to more than a pulse.
-goesStraight :: Task -> Segment -> [V2 Pulses] -> Bool
+goesStraight :: Task -> Segment -> [V2] -> Bool
 goesStraight task exact stops = case exact of
   Straight _ _ -> True
   Arc {start, centre} ->
@@ -107,16 +106,20 @@ goesStraight task exact stops = case exact of
         nearest = minimum (map (Distance.toPoint centre) ways)
         furthest = maximum (map (Vec.distance centre) places)
         left p = minimum (map (Distance.toPoint p) ways)
-        -- An arc that is dropped has nothing beside it.
-        missed = maximum [left (Segment.at (k / 8) exact) | k <- [0 .. 8]]
-     in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task) && missed <= max (inwards (room task)) (outwards (room task))
+        most = max (inwards (room task)) (outwards (room task))
+        -- An arc that is dropped has nothing beside it. One way is no further from it than the arc from its chord and the chord's
+        -- ends from those of the way.
+        isBeside = case ways of
+          [Straight a b] -> plus (Segment.bulge exact) (max (Vec.distance a start) (Vec.distance b (Segment.end exact))) <= most
+          _ -> False
+     in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task) && (isBeside || all ((<= most) . left) [Segment.at (k / 8) exact | k <- [0 .. 8]])
   where
     places = map (point task) stops
     ways = zipWith Straight places (drop 1 places)
 
 -- | Whether the field of a centre holds the radius. A centre further away than its field holds would fit in parts of the
 -- arc only.
-holds :: Task -> V3 Pulses -> Segment -> Bool
+holds :: Task -> V3 -> Segment -> Bool
 holds task (V3 x y _) s = case s of
   Straight _ _ -> True
   Arc {start, centre} -> all (< Machine.centreCapacity (machine task)) [abs (i - x), abs (j - y), ceiling (r / grain)]
@@ -126,7 +129,7 @@ holds task (V3 x y _) s = case s of
       Mm grain = minimum [Machine.pulseOf (machine task) axis | axis <- [X, Y]]
 
 -- | The lattice points to try as centres.
-centres :: Task -> V3 Pulses -> V3 Pulses -> Segment -> [V2 Pulses]
+centres :: Task -> V3 -> V3 -> Segment -> [V2]
 centres task begin finish s = case s of
   Straight _ _ -> []
   Arc {centre}
@@ -134,7 +137,7 @@ centres task begin finish s = case s of
     | otherwise -> let first = middle centre in around first <> filter (not . isBeside first) (around (middle (level centre)))
   where
     middle c = flat (place task c)
-    around (V2 i j) = [V2 (i + di) (j + dj) | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
+    around c = map (c +) offsets
     isBeside (V2 i j) (V2 k l) = abs (i - k) <= neighbours && abs (j - l) <= neighbours
     a = point task (flat begin)
     b = point task (flat finish)
@@ -144,6 +147,9 @@ centres task begin finish s = case s of
 -- | So many pulses about a place the centre is looked for.
 neighbours :: Pulses
 neighbours = 2
+
+offsets :: [V2]
+offsets = [V2 di dj | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
 
 -- | Steps that have been tried, and how far they deviate.
 data Attempt = Attempt {way :: [Step], off :: Double}
@@ -156,24 +162,54 @@ best attempts = case attempts of
   where
     cost a = (length (way a), off a)
 
--- | The best about any of some lattice points. Where the whole arc can be one step, it is the one that is least off and can be
--- walked; those are left out of which a place tells that they are further off than another one.
-truest :: Task -> V3 Pulses -> V3 Pulses -> Segment -> Turn -> [V2 Pulses] -> Maybe [Step]
-truest task begin finish s turn cs = case sortOn offAtMiddle whole of
-  (_, _, c) : _ | Just a <- try c, Just found <- bestWithin (off a) -> Just found
-  _ -> best (mapMaybe try cs)
+-- | The best about any of some lattice points. Where the whole arc can be one step, each of them has to be truer than the best so
+-- far, beginning with the one that seems least off; of two that are as true the first one is taken.
+truest :: Task -> V3 -> V3 -> Segment -> Turn -> [V2] -> Maybe [Step]
+truest task begin finish s turn cs = case whole of
+  first : others | Just found <- foldl' better (tried (foldl' nearer first others)) whole -> Just (way (result found))
+  _ -> best (mapMaybe (attempt task begin finish s turn) cs)
   where
-    try = attempt task begin finish s turn
-    offAtMiddle (o, _, _) = o
-    whole = [(offAt leg 0.5, leg, c) | begin /= finish, c <- cs, inOneStep c, Just leg <- [legOf task s turn c (flat begin, flat finish)]]
+    whole = [Candidate {rank, node = c, seeming = offInMiddle task s turn c (flat begin) (flat finish)} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep c]
     inOneStep c = case Machine.arcs (machine task) of
       NoArcs -> False
       Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
-    bestWithin most = listToMaybe (mapMaybe (fmap way . try . snd) (sortOn fst [(evenly (deviationOf leg), c) | (o, leg, c) <- whole, o <= most, keepsWithin most leg]))
-    keepsWithin most leg = all (\k -> offAt leg (k / 8) <= most) [2, 6, 1, 7, 3, 5, 0, 8]
+    nearer x y = if seeming y < seeming x then y else x
+    tried x = Tried (rank x) <$> attempt task begin finish s turn (node x)
+    better so x = case so of
+      Nothing -> tried x
+      Just b
+        | Mm (seeming x - off (result b)) <= Tolerance.coincident, isTruer (number b) (off (result b)) x, Just a <- tried x -> Just a
+        | otherwise -> so
+    isTruer before most x = case legOf task s turn (node x) (flat begin, flat finish) of
+      Nothing -> False
+      Just leg -> let isLess o = o < most || o == most && rank x < before in all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
+
+-- | Shares of a sweep, those first at which an arc is most likely to be off.
+samples :: [Double]
+samples = [0, 1, 4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
+
+-- | A lattice point by its place among the others, and how far the middle of the arc about it is off, in mm.
+data Candidate = Candidate {rank :: Int, node :: V2, seeming :: Double}
+
+-- | What has been tried, and its place.
+data Tried = Tried {number :: Int, result :: Attempt}
+
+-- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
+-- the chord between the directions of the ends.
+offInMiddle :: Task -> Segment -> Turn -> V2 -> V2 -> V2 -> Double
+offInMiddle task exact turn c begin finish = case exact of
+  Straight _ _ -> 0
+  Arc {start, centre} ->
+    let m = point task c
+        a = Vec.to m (point task begin)
+        b = Vec.to m (point task finish)
+        chord = Vec.unit (Vec.add (Vec.scale (-1 / Vec.norm a) a) (Vec.scale (1 / Vec.norm b) b))
+        outwards' = Vec.scale (-(Shape.sense turn)) (Vec.left chord)
+        off' radius = let Mm far = Vec.distance centre (Vec.shift (Vec.scale radius outwards') m); Mm r = Segment.radius centre start in abs (far - r)
+     in max (off' (Vec.norm a)) (off' ((Vec.norm a + Vec.norm b) / 2))
 
 -- | The arc about a lattice point, if the machine can walk it and it is true enough.
-attempt :: Task -> V3 Pulses -> V3 Pulses -> Segment -> Turn -> V2 Pulses -> Maybe Attempt
+attempt :: Task -> V3 -> V3 -> Segment -> Turn -> V2 -> Maybe Attempt
 attempt task begin finish s turn c = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad exact}
@@ -200,7 +236,7 @@ attempt task begin finish s turn c = case s of
     step leg@(from, V2 x y)
       | isStraight leg = Step {stop = V3 x y z, about = Nothing}
       | otherwise = Step {stop = V3 x y z, about = Just (turn, c - from)}
-    sound leg@(from, to) = from /= c && to /= c && maximum (abs <$> (c - from)) <= Machine.centreCapacity (machine task) && within (to - from) && level leg
+    sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= Machine.centreCapacity (machine task)) && within (to - from) && level leg
     within (V2 dx dy) = case Machine.measure (Machine.layout (machine task)) of
       Machine.Positions -> True
       Machine.Increments -> abs dx <= Machine.capacity (machine task) X && abs dy <= Machine.capacity (machine task) Y
@@ -211,7 +247,7 @@ attempt task begin finish s turn c = case s of
 -- upwards, downwards.
 data Crossings = Crossings {rightwards :: Pulses, leftwards :: Pulses, up :: Pulses, down :: Pulses}
 
-onAxes :: Task -> Mm -> Point -> V2 Pulses -> Crossings
+onAxes :: Task -> Mm -> Point -> V2 -> Crossings
 onAxes task (Mm r) true c = Crossings {rightwards = crossing X 1 dx dy, leftwards = -(crossing X (-1) dx dy), up = crossing Y 1 dy dx, down = -(crossing Y (-1) dy dx)}
   where
     off = Vec.to true (point task c)
@@ -223,7 +259,7 @@ onAxes task (Mm r) true c = Crossings {rightwards = crossing X 1 dx dy, leftward
 
 -- | Where the frames of an arc end, given its centre: at its end, and before that, for a control
 -- that asks it, wherever the arc crosses the axes through the centre. None if it cannot be in one turn.
-stopsAbout :: Machine -> Crossings -> Turn -> V2 Pulses -> V2 Pulses -> V2 Pulses -> [V2 Pulses]
+stopsAbout :: Machine -> Crossings -> Turn -> V2 -> V2 -> V2 -> [V2]
 stopsAbout machine crossings turn c begin finish = case Machine.arcs machine of
   NoArcs -> []
   Arcs {Machine.quadrants}
@@ -237,11 +273,11 @@ stopsAbout machine crossings turn c begin finish = case Machine.arcs machine of
       | otherwise = let next = nextAxis turn crossings from in next : toAxes (left - 1) next
 
 -- | Whether an arc about zero goes from one place to another within a quadrant.
-inQuadrant :: Turn -> V2 Pulses -> V2 Pulses -> Bool
+inQuadrant :: Turn -> V2 -> V2 -> Bool
 inQuadrant turn (V2 a b) (V2 c d) = a * c >= 0 && b * d >= 0 && Shape.sense turn * fromIntegral (a * d - b * c) > 0
 
 -- | The next place on an axis on the way about zero.
-nextAxis :: Turn -> Crossings -> V2 Pulses -> V2 Pulses
+nextAxis :: Turn -> Crossings -> V2 -> V2
 nextAxis turn at (V2 x y) = case turn of
   CounterClockwise
     | x > 0 && y >= 0 -> V2 0 (up at)
@@ -256,15 +292,12 @@ nextAxis turn at (V2 x y) = case turn of
 
 -- What is walked ----------------------------------------------------------------------------------
 
-flat :: V3 Pulses -> V2 Pulses
-flat (V3 x y _) = V2 x y
-
 -- | A lattice point in mm.
-point :: Task -> V2 Pulses -> Point
+point :: Task -> V2 -> Point
 point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * grainX task) (fromIntegral y * grainY task)
 
 -- | One frame's arc about a centre; a full circle where it ends where it begins.
-arcOf :: Task -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Segment
+arcOf :: Task -> Turn -> V2 -> (V2, V2) -> Segment
 arcOf task turn c (from, to)
   | from == to = Segment.Arc {start = a, end = a, centre = m, sweep = Rad (Shape.sense turn * 2 * pi)}
   | otherwise = Segment.arc turn m a (point task to)
@@ -272,7 +305,7 @@ arcOf task turn c (from, to)
     m = point task c
     a = point task from
 
-swept :: Task -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Double
+swept :: Task -> Turn -> V2 -> (V2, V2) -> Double
 swept task turn c leg = case arcOf task turn c leg of
   Straight _ _ -> 0
   Arc {sweep = Rad a} -> a
@@ -288,11 +321,11 @@ data Deviation = Deviation
   }
 
 -- | It is looked at in eighths, and where it is furthest from and nearest to the exact centre.
-deviate :: Task -> Segment -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Deviation
+deviate :: Task -> Segment -> Turn -> V2 -> (V2, V2) -> Deviation
 deviate task exact turn c ends = maybe (Deviation 0 0 0) deviationOf (legOf task exact turn c ends)
 
 deviationOf :: Leg -> Deviation
-deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) (extremes <> [k / 8 | k <- [1 .. 8]])
+deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) eighths) extremes
   where
     out = Vec.vec (outX leg) (outY leg)
     aside = Vec.vec (middleX leg - trueX leg) (middleY leg - trueY leg)
@@ -301,11 +334,14 @@ deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) (extr
     extremes = if Vec.norm aside > 0 then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)] else []
     further (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
 
+eighths :: [Double]
+eighths = [k / 8 | k <- [1 .. 8]]
+
 -- | A frame's arc beside an exact one, in bare numbers: its centre, where it begins from there, its radii at both ends, how far it
 -- turns in radians; the exact centre and radius.
 data Leg = Leg {middleX :: Double, middleY :: Double, outX :: Double, outY :: Double, radiusFirst :: Double, radiusLast :: Double, turned :: Double, trueX :: Double, trueY :: Double, trueRadius :: Double}
 
-legOf :: Task -> Segment -> Turn -> V2 Pulses -> (V2 Pulses, V2 Pulses) -> Maybe Leg
+legOf :: Task -> Segment -> Turn -> V2 -> (V2, V2) -> Maybe Leg
 legOf task exact turn c ends = case (exact, arcOf task turn c ends) of
   (Arc {start = p, centre = true}, Arc {start = a, end = b, centre = m, sweep = Rad turned}) ->
     let Mm trueRadius = Segment.radius true p

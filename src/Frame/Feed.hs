@@ -11,11 +11,11 @@ module Frame.Feed
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Segment qualified as Segment
-import Linear.V3 (V3 (..))
 import Machine.Machine (Choice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 
@@ -49,7 +49,7 @@ perMm machine f (Mm way) = case Machine.feedMeasure (Machine.feeds machine) of
     Mm grain = Machine.pulse machine
     leading = case motion f of
       Round _ -> 0
-      _ -> let Pulses n = maximum (fmap abs (increment f)) in n
+      _ -> let V3 x y z = abs (increment f); Pulses n = max x (max y z) in n
 
 -- | The length of a frame's way in mm.
 wayOf :: Machine -> Frame -> Mm
@@ -57,7 +57,7 @@ wayOf machine f = case motion f of
   Round _ -> plane
   _ -> let Mm l = plane; Mm h = Frame.height machine (increment f) in Mm (sqrt (l * l + h * h))
   where
-    plane = Segment.length (Frame.segment machine (V3 0 0 0) f)
+    plane = Segment.length (Frame.segment machine 0 f)
 
 -- | The code for a feed; the lowest or the highest for one that the machine does not have.
 nearest :: Machine -> Feed -> Frame -> FeedCode

@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Frames: what a controller is told, in whole pulses along the axes of the part.
 module Frame.Frame
   ( Frame (..),
@@ -15,9 +17,11 @@ module Frame.Frame
     end,
     Broken (..),
     invariants,
+    broken,
   )
 where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Region)
 import Data.Maybe (isNothing)
@@ -27,17 +31,15 @@ import Geometry.Shape (Turn (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), Axis (..), FeedCode (..), Machine, Measure (..), OrderName)
 import Machine.Machine qualified as Machine
 
 -- | What stands on the tape.
 data Frame = Frame
   { motion :: Motion,
-    increment :: V3 Pulses,
+    increment :: {-# UNPACK #-} V3,
     -- | of an arc: from its beginning to its centre; else 0
-    centre :: V2 Pulses,
+    centre :: {-# UNPACK #-} V2,
     -- | 0 where nothing moves, and where a rapid move is a motion of its own
     speed :: FeedCode,
     -- | it slows down to its speed
@@ -88,27 +90,27 @@ passOf role = case role of
   Commanding -> Nothing
 
 -- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of the part.
-data Program = Program {start :: V3 Pulses, planned :: [Planned]}
+data Program = Program {start :: V3, planned :: [Planned]}
   deriving stock (Eq, Show)
 
 -- | A position in mm, in the plane.
-position :: Machine -> V3 Pulses -> Point
+position :: Machine -> V3 -> Point
 position machine (V3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
   where
     Mm px = Machine.pulseOf machine X
     Mm py = Machine.pulseOf machine Y
 
 -- | The height of a position in mm.
-height :: Machine -> V3 Pulses -> Mm
+height :: Machine -> V3 -> Mm
 height machine (V3 _ _ (Pulses z)) = let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
 
 -- | The centre of an arc that begins at a position.
-centreOf :: Machine -> V3 Pulses -> Frame -> Point
+centreOf :: Machine -> V3 -> Frame -> Point
 centreOf machine (V3 x y z) f = let V2 i j = centre f in position machine (V3 (x + i) (y + j) z)
 
 -- | What a frame does in the plane from a position, in mm. The radius of an arc may differ at its ends by rounding;
 -- the segment goes about the centre of the frame and ends where the frame ends.
-segment :: Machine -> V3 Pulses -> Frame -> Segment
+segment :: Machine -> V3 -> Frame -> Segment
 segment machine at f = case motion f of
   Round turn
     | begin == finish -> Segment.Arc {Segment.start = begin, Segment.end = finish, Segment.centre = middle, Segment.sweep = Rad (Shape.sense turn * 2 * pi)}
@@ -120,7 +122,7 @@ segment machine at f = case motion f of
     middle = centreOf machine at f
 
 -- | Where the cutter stands after the last frame.
-end :: Program -> V3 Pulses
+end :: Program -> V3
 end program = start program + sum (map (increment . frame) (planned program))
 
 -- | A rule that a frame breaks; the frame's number from 1.
@@ -141,30 +143,51 @@ data Broken
 
 -- | The rules that every list of frames for a machine keeps; the ones that are broken.
 invariants :: Machine -> [Frame] -> [Broken]
-invariants machine = concat . zipWith rules [1 ..]
+invariants machine = concat . zipWith (broken machine) [1 ..]
+
+-- | The rules that a frame with a number breaks. Most frames keep them all, and nothing is made for them.
+broken :: Machine -> Int -> Frame -> [Broken]
+broken machine n f
+  | null fields && null speeds && null motions && null commands && not idle = []
+  | otherwise = fields <> speeds <> motions <> commands <> [Idle n | idle]
   where
-    rules n f = concatMap (fieldOf n f) [X, Y, Z] <> speedOf n f <> motionOf n f <> ordersOf n f <> [Idle n | not (isMoving f) && null (orders f)]
-    -- What a field of positions holds depends on where the tape stands; there the increments are free.
-    fieldOf n f axis = let d = component axis (increment f) in [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, abs d > Machine.capacity machine axis]
-    speedOf n f = case motion f of
-      Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-      Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-      _ -> [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
-    motionOf n f = case motion f of
-      Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
-      Rapid -> [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
-      Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
-      Round turn -> case Machine.arcs machine of
-        NoArcs -> [NoSuchMotion n]
-        Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
-          [NoSuchMotion n | (increment f == 0 && not whole) || rises f || (parts && not (inQuadrant turn f))]
-            <> [BadCentre n | centre f == 0 || maximum (abs <$> centre f) > Machine.centreCapacity machine]
-    rises f = let V3 _ _ z = increment f in z /= 0
-    ordersOf n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
-    component axis (V3 x y z) = case axis of
-      X -> x
-      Y -> y
-      Z -> z
+    !fields = inFields machine n f
+    !speeds = atSpeed machine n f
+    !motions = asMoved machine n f
+    !commands = asCommanded machine n f
+    !idle = not (isMoving f) && null (orders f)
+
+-- What a field of positions holds depends on where the tape stands; there the increments are free.
+inFields :: Machine -> Int -> Frame -> [Broken]
+inFields machine n f = [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, (axis, d) <- [(X, x), (Y, y), (Z, z)], abs d > Machine.capacity machine axis]
+  where
+    V3 x y z = increment f
+
+atSpeed :: Machine -> Int -> Frame -> [Broken]
+atSpeed machine n f = case motion f of
+  Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
+  Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
+  Straightway -> known
+  Round _ -> known
+  where
+    known = [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
+
+asMoved :: Machine -> Int -> Frame -> [Broken]
+asMoved machine n f = case motion f of
+  Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
+  Rapid -> [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
+  Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
+  Round turn -> case Machine.arcs machine of
+    NoArcs -> [NoSuchMotion n]
+    Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
+      [NoSuchMotion n | (increment f == 0 && not whole) || z /= 0 || (parts && not (inQuadrant turn f))]
+        <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]
+  where
+    V3 _ _ z = increment f
+    V2 i j = centre f
+
+asCommanded :: Machine -> Int -> Frame -> [Broken]
+asCommanded machine n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
 
 -- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one, and it goes from
 -- one to the other without leaving it.

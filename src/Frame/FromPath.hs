@@ -8,15 +8,15 @@ module Frame.FromPath
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrd)
-import Data.List (mapAccumL, minimumBy)
+import Data.List (mapAccumL, minimumBy, scanl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -36,12 +36,12 @@ import Frame.Pulses qualified as Pulses
 import Frame.Task (Drive (..), Task (..))
 import Frame.Task qualified as Task
 import Geometry.Box qualified as Box
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
-import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
+import Machine.Machine (Arcs (..), Axis (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..), Spot (..))
 import Part.Part qualified as Part
@@ -57,7 +57,7 @@ data Made = Made {planned :: Planned, asked :: Maybe (Located Feed)}
 -- enough, is looked for first.
 quantise :: Machine -> Path -> Result Warning Error Program
 quantise machine path = case nubOrd (early <> late) of
-  [] -> Result warnings [] (Just (Program begin (map planned made)))
+  [] -> Result warnings [] (Just (Program begin frames))
   problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
   where
     tasks = Braking.applied machine (Task.tasksOf machine path)
@@ -66,7 +66,8 @@ quantise machine path = case nubOrd (early <> late) of
     Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
     made = framesOf machine fromRegion begin tasks
-    warnings = nubOrd (startWarning <> feedWarnings machine (map planned made `zip` map asked made) <> take 1 (mapMaybe heightWarning moves) <> byHand)
+    frames = map planned made
+    warnings = nubOrd (startWarning <> feedWarnings machine made <> take 1 (mapMaybe heightWarning moves) <> byHand)
     startWarning =
       let at = Frame.position machine begin
        in [StartRounded fromRegion fromPoint at | not (Vec.near at fromPoint)]
@@ -77,7 +78,7 @@ quantise machine path = case nubOrd (early <> late) of
     late
       | null boundless = case drop mostFrames made of
         p : _ -> [TooManyFrames (Frame.origin (planned p)) mostFrames]
-        [] -> frequencyProblems machine made <> placeProblems machine begin (map planned made)
+        [] -> frequencyProblems machine made <> placeProblems machine begin frames
       | otherwise = []
 
 -- | More frames than this are 38 km of tape.
@@ -125,17 +126,37 @@ feedSlack :: Double
 feedSlack = 0.1
 
 -- | One warning for each feed of the program that some frame does not meet, with all that its frames obtain.
-feedWarnings :: Machine -> [(Planned, Maybe (Located Feed))] -> [Warning]
-feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high) | ((region, Feed v), (low, high)) <- Map.toList ranges, max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v]
+feedWarnings :: Machine -> [Made] -> [Warning]
+feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high) | ((region, Feed v), Range low high) <- Map.toList (ranges Map.empty frames), max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v]
   where
-    ranges :: Map (Region, Feed) (Double, Double)
-    ranges = Map.fromListWith (\(a, b) (c, d) -> let low = min a c; high = max b d in low `seq` high `seq` (low, high)) [((region, v), (g, g)) | (p, Just (Located region v)) <- frames, Just g <- [obtained v (frame p)]]
+    ranges found todo = case todo of
+      [] -> found
+      Made {asked = Nothing} : rest -> ranges found rest
+      Made {asked = Just (Located region v)} : _ -> along found region v nothing Nothing todo
+    -- Neighbours mostly ask the same; along the path the same code gives the same.
+    along found region v range code todo = case todo of
+      Made {planned, asked = Just (Located region' v')} : rest
+        | region' == region && v' == v ->
+          let f = frame planned
+           in if alongPath && code == Just (speed f) then along found region v range code rest else along found region v (reaching range (obtained v f)) (Just (speed f)) rest
+      _ -> ranges (if range == nothing then found else Map.insertWith reaching (region, v) range found) todo
+    alongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath
     -- A feed that there is not is no matter of a warning.
     obtained v f =
       let way = Feed.wayOf machine f
        in case (Feed.codeFor machine v f way, Feed.given machine f way) of
-            (Machine.Given _ _, Just (Feed g)) -> Just g
-            _ -> Nothing
+            (Machine.Given _ _, Just (Feed g)) -> Range g g
+            _ -> nothing
+
+-- | From the lowest to the highest feed in mm/min.
+data Range = Range Double Double
+  deriving stock (Eq)
+
+nothing :: Range
+nothing = Range (1 / 0) (-(1 / 0))
+
+reaching :: Range -> Range -> Range
+reaching (Range a b) (Range c d) = Range (min a c) (max b d)
 
 reachProblem :: Region -> Point -> Task -> Maybe Error
 reachProblem fromRegion fromPoint task = case task of
@@ -151,10 +172,12 @@ reachProblem fromRegion fromPoint task = case task of
 -- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
 -- are no more than the moves.
 tooLong :: Machine -> [Task] -> [Error]
-tooLong machine moves = case dropWhile ((<= mostFrames) . fst) (scanl (\(n, _) t -> (n + count t, Just t)) (0, Nothing) moves) of
-  (_, Just t) : _ -> [TooManyFrames (origin (NonEmpty.head (run t))) mostFrames]
-  _ -> []
+tooLong machine = go 0
   where
+    go :: Int -> [Task] -> [Error]
+    go n moves = case moves of
+      [] -> []
+      t : rest -> let now = n + count t in if now > mostFrames then [TooManyFrames (origin (NonEmpty.head (run t))) mostFrames] else go now rest
     count task = case Machine.arcs machine of
       Arcs {} | Pulses.isLevel machine (run task) -> 1
       _ -> Chord.frameCount mostFrames machine (Chord.rounding machine (allowed task)) (run task)
@@ -174,21 +197,24 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
       Path.Commanding _ -> Nothing
 
 -- | Moves along axes that there are not, and positions that do not fit their fields; of each the first.
-placeProblems :: Machine -> V3 Pulses -> [Planned] -> [Error]
-placeProblems machine begin frames = take 1 (concat (zipWith missing places frames)) <> take 1 (concat (zipWith beyond (drop 1 places) frames))
+placeProblems :: Machine -> V3 -> [Planned] -> [Error]
+placeProblems machine begin frames = take 1 missing <> take 1 beyond
   where
-    places = scanl (\at p -> at + increment (frame p)) begin frames
-    missing _ p = [NoSuchAxis (Frame.origin p) axis | axis <- [X, Y, Z], Pulses.component axis (increment (frame p)) /= 0, Machine.capacity machine axis == 0]
-    beyond at p = case Machine.measure (Machine.layout machine) of
+    missing = [NoSuchAxis (Frame.origin p) axis | not (null lacking), p <- frames, axis <- lacking, Pulses.component axis (increment (frame p)) /= 0]
+    lacking = [axis | (axis, most) <- capacities, most == 0]
+    beyond = case Machine.measure (Machine.layout machine) of
       Machine.Increments -> []
-      Machine.Positions -> [BeyondField (Frame.origin p) axis (mm axis n) (mm axis most) | axis <- [X, Y, Z], let n = Pulses.component axis at, let most = Machine.capacity machine axis, most > 0, abs n > most]
+      Machine.Positions -> [BeyondField (Frame.origin p) axis (mm axis n) (mm axis most) | (p, at) <- zip frames (drop 1 places), (axis, most) <- fields, let n = Pulses.component axis at, abs n > most]
+    places = scanl' (\at p -> at + increment (frame p)) begin frames
+    fields = filter ((> 0) . snd) capacities
+    capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
     mm axis (Pulses n) = let Mm grain = Machine.pulseOf machine axis in Mm (fromIntegral n * grain)
 
 -- The frames --------------------------------------------------------------------------------------
 
 -- | The frames of all tasks from a position. Commands stand in the frame of the next move, where they find room; behind
 -- the last move in a frame of their own, and then what always ends a program.
-framesOf :: Machine -> Region -> V3 Pulses -> [Task] -> [Made]
+framesOf :: Machine -> Region -> V3 -> [Task] -> [Made]
 framesOf machine fromRegion = go Nothing fromRegion
   where
     go waiting here at tasks = case tasks of
@@ -209,28 +235,31 @@ framesOf machine fromRegion = go Nothing fromRegion
     ending here = [commanding here orders | orders <- Order.atTheEnd machine]
 
 -- | The frames of one run from where the last one ended.
-runFrames :: Machine -> V3 Pulses -> Task -> [Made]
+runFrames :: Machine -> V3 -> Task -> [Made]
 runFrames machine begin task = case task of
   Order _ _ -> []
-  Run {role, tool, drive, run} -> [Made (Planned f role (origin m) tool) (askedOf drive) | (a, s) <- zip (begin : map stop ways) ways, Just f <- [frameOf machine drive (pace m) a s]]
-    where
-      m = NonEmpty.head run
-      ways = stepsOf machine begin task
-      askedOf d = case (d, pace m) of
-        (Asked, At asked) -> Just asked
-        _ -> Nothing
+  Run {role, tool, drive, run = m :| _} ->
+    let asked = case (drive, pace m) of
+          (Asked, At feed) -> Just feed
+          _ -> Nothing
+        go at steps = case steps of
+          [] -> []
+          s : rest -> case frameOf machine drive (pace m) at s of
+            Just f -> Made (Planned f role (origin m) tool) asked : go (stop s) rest
+            Nothing -> go (stop s) rest
+     in go begin (stepsOf machine begin task)
 
 -- | The frame of a step; none for one that moves nothing.
-frameOf :: Machine -> Drive -> Pace -> V3 Pulses -> Step -> Maybe Frame
+frameOf :: Machine -> Drive -> Pace -> V3 -> Step -> Maybe Frame
 frameOf machine drive pace at Step {stop, about} = case about of
   Nothing
     | moved == 0 -> Nothing
-    | drive == Asked && pace == Rapid && Machine.hasRapidMotion machine -> Just bare {motion = Frame.Rapid}
-    | otherwise -> Just (driven bare {motion = Straightway})
-  Just (turn, c) -> Just (driven bare {motion = Round turn, centre = c})
+    | drive == Asked && pace == Rapid && Machine.hasRapidMotion machine -> Just (bare Frame.Rapid 0)
+    | otherwise -> Just (driven (bare Straightway 0))
+  Just (turn, c) -> Just (driven (bare (Round turn) c))
   where
     moved = stop - at
-    bare = (Frame.still []) {increment = moved}
+    bare motion centre = Frame {motion, increment = moved, centre, speed = FeedCode 0, braking = False, orders = []}
     driven f = case (drive, pace) of
       (Lowest, _) -> f {speed = fst (Machine.slowest machine)}
       (Slowing v, _) -> f {speed = Feed.nearest machine v f, braking = True}
@@ -238,7 +267,7 @@ frameOf machine drive pace at Step {stop, about} = case about of
       (Asked, At (Located _ v)) -> f {speed = Feed.nearest machine v f}
 
 -- | Where the frames of a run end and how they get there.
-stepsOf :: Machine -> V3 Pulses -> Task -> [Step]
+stepsOf :: Machine -> V3 -> Task -> [Step]
 stepsOf machine begin task = case task of
   Order _ _ -> []
   Run {allowed, run} -> case Machine.arcs machine of
@@ -247,9 +276,10 @@ stepsOf machine begin task = case task of
 
 -- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are off is taken from what
 -- their own steps may be off. Of several ways the one of fewest steps.
-arcSteps :: Machine -> V3 Pulses -> Allowed -> NonEmpty Move -> [Step]
+arcSteps :: Machine -> V3 -> Allowed -> NonEmpty Move -> [Step]
 arcSteps machine begin allowed run = case allowed of
   Along bounds -> minimumBy (comparing length) (fmap (concat . snd . mapAccumL (partSteps bounds) begin) (Curve.ways machine bounds run))
+  _ | Straight a b <- segment m -> map alone (Pulses.split machine begin ((a, level), (b, level)))
   Sagitta y -> steps (Arc.Room pulse (plus pulse y) (plus pulse y)) (Chord.rounding machine allowed) begin (segment m)
   BandOf inwards outwards -> steps (Arc.Room pulse (plus pulse inwards) (plus pulse outwards)) (Chord.rounding machine allowed) begin (segment m)
   where
@@ -267,7 +297,7 @@ arcSteps machine begin allowed run = case allowed of
     alone stop = Step {stop, about = Nothing}
 
 -- | The stops of a run's chords.
-chordStops :: Machine -> Allowed -> V3 Pulses -> NonEmpty Move -> [V3 Pulses]
+chordStops :: Machine -> Allowed -> V3 -> NonEmpty Move -> [V3]
 chordStops machine allowed begin run = concat (zipWith (Pulses.split machine) (begin : map (Pulses.rounded machine) points) (zip (first : points) points))
   where
     m = NonEmpty.head run

@@ -9,11 +9,12 @@ module Frame.Pulses
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
 import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (Axis (..), Machine, Measure (..))
 import Machine.Machine qualified as Machine
 import Path.Path (Move (..))
@@ -22,7 +23,7 @@ import Path.Path (Move (..))
 type Place = (Point, Mm)
 
 -- | The nearest whole number of pulses on each axis; half a pulse goes up.
-rounded :: Machine -> Place -> V3 Pulses
+rounded :: Machine -> Place -> V3
 rounded machine (p, Mm z) = V3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
   where
     pulses axis x = let Mm step = Machine.pulseOf machine axis in Pulses (floor (x / step + 0.5))
@@ -35,14 +36,15 @@ heightAt t m
 
 -- | Whether all moves keep one height, in whole pulses.
 isLevel :: Machine -> NonEmpty Move -> Bool
-isLevel machine ms = all (== minimum levels) levels
+isLevel machine ms = all (\m -> isFirst (fst (heights m)) && isFirst (snd (heights m))) ms
   where
-    levels = foldMap (\m -> [level (fst (heights m)), level (snd (heights m))]) ms
+    first = fst (heights (NonEmpty.head ms))
+    isFirst z = z == first || level z == level first
     level z = component Z (rounded machine (Vec.point 0 0, z))
 
 -- | The stops of a straight move, given the position where it begins in pulses and its exact ends: equal parts,
 -- each rounded by itself, as few as fit into the fields. Fields of positions hold a move of any length.
-split :: Machine -> V3 Pulses -> (Place, Place) -> [V3 Pulses]
+split :: Machine -> V3 -> (Place, Place) -> [V3]
 split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout machine) of
   Positions -> [finish]
   Increments -> first (filter fits (map parts [fewest .. fewest + spareParts]))
@@ -62,7 +64,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
 spareParts :: Int
 spareParts = 1000
 
-component :: Axis -> V3 a -> a
+component :: Axis -> V3 -> Pulses
 component axis (V3 x y z) = case axis of
   X -> x
   Y -> y

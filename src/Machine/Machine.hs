@@ -82,8 +82,8 @@ module Machine.Machine
 where
 
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
-import Data.List (find)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List (foldl')
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -187,19 +187,26 @@ data Arcs
   deriving stock (Eq, Show)
 
 axisForm :: Machine -> Axis -> Maybe AxisForm
-axisForm machine a = find ((== a) . axis) (NonEmpty.toList (axes machine))
+axisForm machine a = formAmong a (NonEmpty.toList (axes machine))
+
+formAmong :: Axis -> [AxisForm] -> Maybe AxisForm
+formAmong a forms = case forms of
+  [] -> Nothing
+  f : others -> if axis f == a then Just f else formAmong a others
 
 -- | The way of one pulse in the plane: of the coarser axis.
 pulse :: Machine -> Mm
-pulse machine = maximum (fmap step plane)
+pulse machine = if inPlane > Mm 0 then inPlane else widest (const True)
   where
-    plane = case [f | f <- NonEmpty.toList (axes machine), axis f /= Z] of
-      [] -> NonEmpty.toList (axes machine)
-      some -> some
+    inPlane = widest (/= Z)
+    widest among = foldl' max (Mm 0) [step f | f <- NonEmpty.toList (axes machine), among (axis f)]
 
 -- | The way of one pulse of an axis; for an axis that the machine lacks that of the plane.
 pulseOf :: Machine -> Axis -> Mm
-pulseOf machine a = maybe (pulse machine) step (axisForm machine a)
+pulseOf machine a = case axes machine of
+  first :| others
+    | axis first == a -> step first
+    | otherwise -> maybe (pulse machine) step (formAmong a others)
 
 -- | The axes that the machine is known to move.
 driven :: Machine -> [Axis]
@@ -324,7 +331,14 @@ wordsOf machine = [w | AWord w <- NonEmpty.toList (items (layout machine))]
 
 -- | The word with some content.
 wordFor :: Machine -> Content -> Maybe Word'
-wordFor machine wanted = find ((== wanted) . content) (wordsOf machine)
+wordFor machine wanted = case items (layout machine) of
+  first :| others -> wordAmong wanted (first : others)
+
+wordAmong :: Content -> [Item] -> Maybe Word'
+wordAmong wanted ws = case ws of
+  [] -> Nothing
+  AWord w : _ | content w == wanted -> Just w
+  _ : others -> wordAmong wanted others
 
 -- | The largest number of pulses in the word of an axis; 0 for an axis without one.
 capacity :: Machine -> Axis -> Pulses
@@ -332,9 +346,9 @@ capacity machine a = maybe 0 (Pulses . largest . form) (wordFor machine (Along a
 
 -- | The largest number in the words of an arc's centre.
 centreCapacity :: Machine -> Pulses
-centreCapacity machine = case [largest (form w) | w <- wordsOf machine, Centre _ <- [content w]] of
-  [] -> 0
-  ns -> Pulses (minimum ns)
+centreCapacity machine = if least == maxBound then 0 else Pulses least
+  where
+    least = foldl' min maxBound [largest (form w) | w <- wordsOf machine, Centre _ <- [content w]]
 
 largest :: NumberForm -> Int
 largest f = 10 ^ min 17 (digits f) - 1

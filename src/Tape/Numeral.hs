@@ -10,8 +10,8 @@ module Tape.Numeral
 where
 
 import Data.Bits (shiftL)
-import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
 import Data.Maybe (fromMaybe, isJust)
 import Data.Word (Word8)
 import Machine.Machine (Content, NumberForm (..), OrderName, Service (..), Sign (..))
@@ -39,20 +39,15 @@ data Numeral = Numeral
   }
 
 -- | The number in a form that stands at a row.
-numeral :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault Numeral
+numeral :: Plan -> Content -> NumberForm -> ShortByteString -> Int -> Either Fault Numeral
 numeral plan c f rows begin = do
-  (minus, first) <- readSign plan c f rows begin
-  let zero = Digits {at = fst first, amount = 0, negative = minus, told = [], slow = False, count = snd first, services = service f}
-      whole = digits f - decimals f
-  front <- if padded f then exactly plan c rows whole zero else upTo plan c rows whole zero
-  ds <-
-    if decimals f > 0
-      then do
-        behind <- point plan c rows front
-        exactly plan c rows (decimals f) behind
-      else Right front
+  Signed behind minus weight <- readSign plan c f rows begin
+  let whole = digits f - decimals f
+      zero = Digits {at = behind, amount = 0, negative = minus, told = [], slow = False, count = weight, services = service f}
+  front <- figures plan c rows (if padded f then whole else min 1 whole) whole zero
+  ds <- if decimals f > 0 then point plan c rows front >>= figures plan c rows (decimals f) (decimals f) else Right front
   if negative ds && amount ds == 0 && isPlain
-    then Left (Fault (at zero) (Just c) MinusZero)
+    then Left (Fault behind (Just c) MinusZero)
     else
       Right
         Numeral
@@ -73,10 +68,10 @@ numeral plan c f rows begin = do
       EitherSign -> True
 
 -- | Whether a number may begin at a row.
-begins :: Plan -> NumberForm -> ByteString -> Int -> Bool
-begins plan f rows k = digits f == 0 || k < ByteString.length rows && (isJust (Symbol.digitAt (Plan.symbols plan) w) || isSign)
+begins :: Plan -> NumberForm -> ShortByteString -> Int -> Bool
+begins plan f rows k = digits f == 0 || k < Short.length rows && (isJust (Symbol.digitAt (Plan.symbols plan) w) || isSign)
   where
-    w = ByteString.index rows k
+    w = Short.index rows k
     is c = w == Symbol.holes (Symbol.symbol (Plan.symbols plan) c)
     isSign = case sign f of
       Unsigned -> False
@@ -85,28 +80,31 @@ begins plan f rows k = digits f == 0 || k < ByteString.length rows && (isJust (S
       MinusSign -> is '-'
       EitherSign -> is '-' || is '+'
 
--- | What stands before the digits: whether it says minus, the row behind it, and what it counts.
-readSign :: Plan -> Content -> NumberForm -> ByteString -> Int -> Either Fault (Bool, (Int, Int))
+-- | What stands before the digits: the row behind it, whether it says minus, and what it counts.
+data Signed = Signed Int Bool Int
+
+readSign :: Plan -> Content -> NumberForm -> ShortByteString -> Int -> Either Fault Signed
 readSign plan c f rows k = case sign f of
-  Unsigned -> Right (False, (k, 0))
-  ServiceSign -> Right (False, (k, 0))
-  MinusSign -> if here minus then Right (True, behind minus) else Right (False, (k, 0))
+  Unsigned -> Right (Signed k False 0)
+  ServiceSign -> Right (Signed k False 0)
+  MinusSign -> Right (if here minus then behind minus True else Signed k False 0)
   EitherSign
-    | here minus -> Right (True, behind minus)
-    | here plus -> Right (False, behind plus)
-    | k >= ByteString.length rows -> Left (cutOff c rows)
-    | otherwise -> Left (Fault k (Just c) (fromMaybe NoSign (blemish plan (ByteString.index rows k))))
+    | here minus -> Right (behind minus True)
+    | here plus -> Right (behind plus False)
+    | k >= Short.length rows -> Left (cutOff c rows)
+    | otherwise -> Left (Fault k (Just c) (fromMaybe NoSign (blemish plan (Short.index rows k))))
   Priority leadForth leadBack forth back -> do
     d <- digit plan (Just c) rows k
-    let after = (k + 1, Symbol.digitWeight (Plan.symbols plan) d)
+    let after isMinus = Right (Signed (k + 1) isMinus (Symbol.digitWeight (Plan.symbols plan) d))
     if d == leadBack || d == back
-      then Right (True, after)
-      else if d == leadForth || d == forth then Right (False, after) else Left (Fault k (Just c) (NoPriority d))
+      then after True
+      else if d == leadForth || d == forth then after False else Left (Fault k (Just c) (NoPriority d))
   where
-    minus = Symbol.symbol (Plan.symbols plan) '-'
-    plus = Symbol.symbol (Plan.symbols plan) '+'
-    here s = k < ByteString.length rows && ByteString.index rows k == Symbol.holes s
-    behind s = (k + 1, Symbol.weight s)
+    minus = Plan.minus plan
+    plus = Plan.plus plan
+    here s = k < Short.length rows && Short.index rows k == Symbol.holes s
+    behind s isMinus = Signed (k + 1) isMinus (Symbol.weight s)
+{-# INLINE readSign #-}
 
 -- | The digits read so far.
 data Digits = Digits
@@ -120,73 +118,65 @@ data Digits = Digits
     services :: [Service]
   }
 
--- | So many digits.
-exactly :: Plan -> Content -> ByteString -> Int -> Digits -> Either Fault Digits
-exactly plan c rows n ds
-  | n <= 0 = Right ds
-  | isBare plan ds, let done = bareDigits plan rows n ds, at done == at ds + n = Right done
-  | otherwise = do
-    d <- digit plan (Just c) rows (at ds)
-    served <- noted plan c (ByteString.index rows (at ds)) ds
-    exactly plan c rows (n - 1) served {at = at ds + 1, amount = 10 * amount ds + d, count = count ds + Symbol.digitWeight (Plan.symbols plan) d, services = drop 1 (services ds)}
-
--- | At least one digit, and as many as there are up to a number.
-upTo :: Plan -> Content -> ByteString -> Int -> Digits -> Either Fault Digits
-upTo plan c rows n ds
-  | n <= 0 = Right ds
-  | isBare plan ds, let done = bareDigits plan rows n ds, at done > at ds = Right done
-  | otherwise = do
-    one <- exactly plan c rows 1 ds
-    if at one < ByteString.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (ByteString.index rows (at one)))
-      then upTo plan c rows (n - 1) one
-      else Right one
-
--- | Whether nothing can stand beside the digits.
-isBare :: Plan -> Digits -> Bool
-isBare plan ds = null (services ds) && Symbol.service (Plan.symbols plan) == 0
-
--- | The digits up to a number of them, as many as there are.
-bareDigits :: Plan -> ByteString -> Int -> Digits -> Digits
-bareDigits plan rows n ds = go (at ds) (amount ds) (count ds)
+-- | At least so many digits, and as many as there are up to a number.
+figures :: Plan -> Content -> ShortByteString -> Int -> Int -> Digits -> Either Fault Digits
+figures plan c rows least most ds
+  | at now < at ds + least || at now < at ds + most && isDigit = Left (stopped plan c rows now)
+  | otherwise = Right now
   where
-    end = min (at ds + n) (ByteString.length rows)
+    now = sound plan rows (at ds + most) ds
+    isDigit = at now < Short.length rows && isJust (Symbol.digitAt (Plan.symbols plan) (Short.index rows (at now)))
+{-# INLINE figures #-}
+
+-- | The digits up to a row, as far as the service track says what it may beside them.
+sound :: Plan -> ShortByteString -> Int -> Digits -> Digits
+sound plan rows end ds = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
+  where
     table = Plan.symbols plan
-    go k m w
-      | k < end, Just d <- Symbol.digitAt table (ByteString.index rows k) = go (k + 1) (10 * m + d) (w + Symbol.digitWeight table d)
-      | otherwise = ds {at = k, amount = m, count = w}
+    limit = min end (Short.length rows)
+    go k n minus bits brakes weight track
+      | k < limit,
+        Just d <- Symbol.digitAt table (Short.index rows k) =
+        let hole = Symbol.holeAt table (Short.index rows k)
+            next minus' bits' brakes' = go (k + 1) (10 * n + d) minus' bits' brakes' (weight + Symbol.digitWeight table d)
+         in case track of
+              [] -> if hole then reached else next minus bits brakes []
+              NoHole : more -> if hole then reached else next minus bits brakes more
+              Marker : more -> if hole then next minus bits brakes more else reached
+              MinusHole : more -> next (minus || hole) bits brakes more
+              OrderBit o b : more -> next minus (if hole then (o, 1 `shiftL` b) : bits else bits) brakes more
+              BrakingHole : more -> next minus bits (brakes || hole) more
+      | otherwise = reached
+      where
+        reached = Digits {at = k, amount = n, negative = minus, told = bits, slow = brakes, count = weight, services = track}
+
+-- | Why the digits end.
+stopped :: Plan -> Content -> ShortByteString -> Digits -> Fault
+stopped plan c rows ds = case (digit plan (Just c) rows (at ds), services ds) of
+  (Left fault, _) -> fault
+  (Right _, Marker : _) -> Fault (at ds) (Just c) MarkerMissing
+  (Right _, _) -> Fault (at ds) (Just c) ServiceHole
 
 -- | The decimal point.
-point :: Plan -> Content -> ByteString -> Digits -> Either Fault Digits
+point :: Plan -> Content -> ShortByteString -> Digits -> Either Fault Digits
 point plan c rows ds
-  | at ds >= ByteString.length rows = Left (cutOff c rows)
+  | at ds >= Short.length rows = Left (cutOff c rows)
   | w == Symbol.holes s = Right ds {at = at ds + 1, count = count ds + Symbol.weight s}
   | otherwise = Left (Fault (at ds) (Just c) (fromMaybe (Missing '.') (blemish plan w)))
   where
-    w = ByteString.index rows (at ds)
-    s = Symbol.symbol (Plan.symbols plan) '.'
-
--- | What the service track says beside a digit.
-noted :: Plan -> Content -> Word8 -> Digits -> Either Fault Digits
-noted plan c w ds = case services ds of
-  [] -> if hole then Left (Fault (at ds) (Just c) ServiceHole) else Right ds
-  s : _ -> case s of
-    NoHole -> if hole then Left (Fault (at ds) (Just c) ServiceHole) else Right ds
-    Marker -> if hole then Right ds else Left (Fault (at ds) (Just c) MarkerMissing)
-    MinusHole -> Right (if hole then ds {negative = True} else ds)
-    OrderBit o k -> Right (if hole then ds {told = (o, 1 `shiftL` k) : told ds} else ds)
-    BrakingHole -> Right (if hole then ds {slow = True} else ds)
-  where
-    hole = Symbol.holeAt (Plan.symbols plan) w
+    w = Short.index rows (at ds)
+    s = Plan.point plan
+{-# INLINE point #-}
 
 -- | The digit at a row.
-digit :: Plan -> Maybe Content -> ByteString -> Int -> Either Fault Int
+digit :: Plan -> Maybe Content -> ShortByteString -> Int -> Either Fault Int
 digit plan c rows k
-  | k >= ByteString.length rows = Left (Fault (ByteString.length rows - 1) c CutOff)
+  | k >= Short.length rows = Left (Fault (Short.length rows - 1) c CutOff)
   | otherwise = case Symbol.digitAt (Plan.symbols plan) w of
     Just d -> Right d
     Nothing -> Left (Fault k c why)
   where
-    w = ByteString.index rows k
+    w = Short.index rows k
     why = case (blemish plan w, Symbol.symbolAt (Plan.symbols plan) w) of
       (Just reason, _) -> reason
       (Nothing, Just s) -> NotADigit s
@@ -199,5 +189,5 @@ blemish plan w
   | Symbol.isOdd (Plan.symbols plan) w = Just BadParity
   | otherwise = Nothing
 
-cutOff :: Content -> ByteString -> Fault
-cutOff c rows = Fault (ByteString.length rows - 1) (Just c) CutOff
+cutOff :: Content -> ShortByteString -> Fault
+cutOff c rows = Fault (Short.length rows - 1) (Just c) CutOff

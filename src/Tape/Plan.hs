@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | One interpretation of a machine's layout. Here it writes: a frame becomes marks, rows with what they mean, and both
 -- the tape and its picture are made of them. Reading follows the same steps.
 module Tape.Plan
@@ -12,7 +14,8 @@ module Tape.Plan
     Piece (..),
     Stretch (..),
     frameMarks,
-    foldFrame,
+    foldRows,
+    mostRows,
     blanks,
     constant,
     after,
@@ -20,9 +23,12 @@ module Tape.Plan
 where
 
 import Data.Bits (testBit)
-import Data.List (foldl', nub)
+import Data.Functor.Identity (runIdentity)
+import Data.List (nub)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe)
+import Data.Primitive.PrimArray (PrimArray)
+import Data.Primitive.PrimArray qualified as Primitive
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Frame.Frame (Frame (..))
@@ -41,6 +47,9 @@ data Plan = Plan
     steps :: [Step],
     -- | between two words
     between :: [Symbol],
+    minus :: Symbol,
+    plus :: Symbol,
+    point :: Symbol,
     ws :: [Word'],
     -- | the axes in the order of their words
     leaders :: [Axis],
@@ -68,6 +77,9 @@ fromMachine machine =
       axes = State.axes machine,
       steps,
       between,
+      minus = Symbol.symbol symbols '-',
+      plus = Symbol.symbol symbols '+',
+      point = Symbol.symbol symbols '.',
       ws,
       leaders = [a | w <- ws, Along a <- [content w]],
       commands = nub (concatMap commandsOf ws),
@@ -125,66 +137,100 @@ blanks stretch n = replicate n (Mark 0 0 (Blank stretch))
 
 -- | The marks of a frame without the gap behind it.
 frameMarks :: Plan -> State -> Frame -> [Mark]
-frameMarks p state frame
-  | isChecked p = map complete marks
-  | otherwise = marks
-  where
-    marks = foldFrame (\h n s rest -> Mark h n s : rest) p state frame []
-    total = foldl' (\n m -> n + weight m) 0 marks
-    complete m = case sense m of
-      CheckSymbol modulus -> let d = checkDigit p modulus total in Mark (Symbol.digit (symbols p) d) (Symbol.digitWeight (symbols p) d) (CheckSymbol d)
-      _ -> m
+frameMarks p state frame = reverse (runIdentity (foldRows (\marks h n s -> pure (Mark h n s : marks)) p state frame []))
 
--- | The rows of a frame, before something. A check digit is not known yet.
-foldFrame :: (Word8 -> Int -> Sense -> r -> r) -> Plan -> State -> Frame -> r -> r
-foldFrame mark p state frame = go False (steps p)
+-- | The rows of a frame in order, each with what it counts and what it is for, onto what came before them.
+foldRows :: Monad m => (r -> Word8 -> Int -> Sense -> m r) -> Plan -> State -> Frame -> r -> m r
+foldRows mark p state frame = foldBare mark (if isChecked p then counted p state frame else 0) p state frame
+{-# INLINE foldRows #-}
+
+-- | What the symbols of a frame add to, but for its check digit.
+counted :: Plan -> State -> Frame -> Int
+counted p state frame = runIdentity (foldBare count 0 p state frame 0)
   where
-    go behindWord todo end = case todo of
-      [] -> end
-      Fixed cs : more -> constants Constant cs (go False more end)
-      Checked m : more -> mark 0 0 (CheckSymbol m) (go False more end)
+    count total _ n s =
+      pure $! case s of
+        CheckSymbol _ -> total
+        _ -> total + n
+
+-- | The same, given what the symbols of the frame add to.
+foldBare :: Monad m => (r -> Word8 -> Int -> Sense -> m r) -> Int -> Plan -> State -> Frame -> r -> m r
+foldBare mark total p state frame = go False (steps p)
+  where
+    go behindWord todo before = case todo of
+      [] -> pure before
+      Fixed cs : more -> constants Constant cs before >>= go False more
+      Checked m : more -> let d = checkDigit p m total in figure (CheckSymbol d) d before >>= go False more
       Worded w cs _ : more -> case State.number (axes p) state frame w of
-        Nothing -> go behindWord more end
-        Just n -> constants Separator (if behindWord then between p else []) (constants (InWord (content w) n . Address) cs (signMark w n (digitMarks w n (go True more end))))
-    constants use cs end = case cs of
-      [] -> end
-      Symbol.Symbol c h k : more -> mark h k (use c) (constants use more end)
-    signSymbol w n c end = let Symbol.Symbol _ h k = Symbol.symbol (symbols p) c in mark h k (InWord (content w) n (SignSymbol c)) end
-    signMark w n end = case sign (form w) of
-      Unsigned -> end
-      ServiceSign -> end
-      MinusSign -> if n < 0 then signSymbol w n '-' end else end
-      EitherSign -> signSymbol w n (if n < 0 then '-' else '+') end
-      Priority leadForth leadBack forth back
-        | leads p frame (content w) -> lead w n (if n < 0 then leadBack else leadForth) end
-        | otherwise -> lead w n (if n < 0 then back else forth) end
-    lead w n d = mark (Symbol.digit (symbols p) (d `mod` 10)) (Symbol.digitWeight (symbols p) (d `mod` 10)) (InWord (content w) n (Lead d))
-    digitMarks w n end =
-      let f = form w
-          count = digitCount f (abs n)
-          emit k services ds = case ds of
-            [] -> end
-            d : rest ->
-              let (s, others) = case services of
-                    [] -> (NoHole, [])
-                    now : later -> (now, later)
-                  hole = punched frame n s
-                  holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
-                  behind = mark holes (Symbol.digitWeight (symbols p) d) (InWord (content w) n (Digit d k s hole)) (emit (k - 1) others rest)
-               in if k == decimals f - 1 then let Symbol.Symbol _ h m = Symbol.symbol (symbols p) '.' in mark h m (InWord (content w) n Point) behind else behind
-       in emit (count - 1) (service f) (digitsOf count (abs n) [])
-{-# INLINE foldFrame #-}
+        Nothing -> go behindWord more before
+        Just n -> do
+          separated <- if behindWord then constants Separator (between p) before else pure before
+          addressed <- constants (InWord (content w) n . Address) cs separated
+          signed <- signOf w n addressed
+          written <- numeral w n signed
+          go True more written
+    constants use cs !before = case cs of
+      [] -> pure before
+      Symbol.Symbol c h k : more -> mark before h k (use c) >>= constants use more
+    figure use d before = mark before (Symbol.digit (symbols p) d) (Symbol.digitWeight (symbols p) d) use
+    single use (Symbol.Symbol _ h k) before = mark before h k use
+    signOf w n before = case sign (form w) of
+      Unsigned -> pure before
+      ServiceSign -> pure before
+      MinusSign -> if n < 0 then single (InWord (content w) n (SignSymbol '-')) (minus p) before else pure before
+      EitherSign
+        | n < 0 -> single (InWord (content w) n (SignSymbol '-')) (minus p) before
+        | otherwise -> single (InWord (content w) n (SignSymbol '+')) (plus p) before
+      Priority leadForth leadBack forth back -> lead w n (if leads p frame (content w) then (if n < 0 then leadBack else leadForth) else (if n < 0 then back else forth)) before
+    lead w n d = figure (InWord (content w) n (Lead d)) (d `mod` 10)
+    numeral w n = let f = form w; places = digitCount f (abs n) in figures (InWord (content w) n) n (decimals f) (places - 1) (service f) (lowest places (abs n))
+    -- The digits of what is left from a place on.
+    figures use n pointed k !services !left !before
+      | k < 0 = pure before
+      | otherwise = do
+        let d = left `quot` power k
+            s = case services of
+              [] -> NoHole
+              now : _ -> now
+            hole = punched frame n s
+            !holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
+        ready <- if k == pointed - 1 then single (use Point) (point p) before else pure before
+        behind <- mark ready holes (Symbol.digitWeight (symbols p) d) (use (Digit d k s hole))
+        figures use n pointed (k - 1) (drop 1 services) (left - d * power k) behind
+{-# INLINE foldBare #-}
+
+-- | No frame has more rows.
+mostRows :: Plan -> Int
+mostRows p = sum (map most (steps p))
+  where
+    most step = case step of
+      Fixed cs -> length cs
+      Checked _ -> 1
+      -- A sign and a point.
+      Worded w _ joined -> length joined + 2 + max mostDigits (digits (form w))
+
+-- | No number has more digits.
+mostDigits :: Int
+mostDigits = 19
+
+-- | The powers of ten that a number can reach; beyond them one that no number does.
+power :: Int -> Int
+power k = if k < mostDigits then Primitive.indexPrimArray powers k else maxBound
+
+powers :: PrimArray Int
+powers = Primitive.primArrayFromList (take mostDigits (iterate (10 *) 1))
 
 -- | How many digits a number has in a form.
 digitCount :: NumberForm -> Int -> Int
-digitCount f n = max (if padded f then digits f else least) (if padded f then 0 else lengthOf n)
+digitCount f n
+  | padded f = digits f
+  | otherwise = go (min (digits f) (if decimals f > 0 then decimals f + 1 else 1))
   where
-    least = min (digits f) (if decimals f > 0 then decimals f + 1 else 1)
-    lengthOf m = if m == 0 then 0 else 1 + lengthOf (m `quot` 10) :: Int
+    go k = if k < mostDigits && power k <= n && n > 0 then go (k + 1) else k
 
--- | So many digits of a number, before others.
-digitsOf :: Int -> Int -> [Int] -> [Int]
-digitsOf k m ds = if k <= 0 then ds else digitsOf (k - 1) (m `quot` 10) (m `rem` 10 : ds)
+-- | So many of the lowest digits of a number.
+lowest :: Int -> Int -> Int
+lowest places n = if n < power places then n else n `rem` power places
 
 -- | A row that always is the same.
 constant :: (Char -> Sense) -> Symbol -> Mark

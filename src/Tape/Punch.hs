@@ -9,14 +9,19 @@ module Tape.Punch
   )
 where
 
-import Base.Quantity (Pulses)
+import Base.Lattice (V3)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder qualified as Builder
+import Data.ByteString.Builder.Prim qualified as Prim
+import Data.ByteString.Builder.Prim.Internal qualified as Prim (boundedPrim)
 import Data.ByteString.Lazy qualified as LazyByteString
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
 import Data.Text qualified as Text
+import Foreign.Ptr (plusPtr)
+import Foreign.Storable (poke)
 import Frame.Frame (Frame)
-import Linear.V3 (V3)
 import Machine.Machine (Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Damage (..), Reason (..), toReport)
@@ -36,37 +41,36 @@ import Prelude hiding (read)
 -- Writing -----------------------------------------------------------------------------------------
 
 -- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
-write :: Machine -> V3 Pulses -> [Frame] -> Tape
+write :: Machine -> V3 -> [Frame] -> Tape
 write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (holesOf (opened plan) <> go (State.first (State.rising frames) start) frames)))
   where
     plan = Plan.fromMachine machine
-    medium = Machine.medium machine
     holesOf = foldMap (Builder.word8 . holes)
-    between = holesOf (Plan.blanks Gap (gap medium))
+    -- The same before every frame with an even number.
+    shifted = holesOf (shift plan 2)
+    between = holesOf (Plan.blanks Gap (gap (Machine.medium machine)))
+    -- The rows of a frame go straight into the buffer.
+    punched state f = Prim.primBounded (Prim.boundedPrim most (const (Plan.foldRows put plan state f))) ()
+    most = Plan.mostRows plan
+    put at h _ _ = plusPtr at 1 <$ poke at h
     go state todo = case todo of
       [] -> holesOf (closed plan)
-      f : more -> holesOf (shift plan state) <> punched plan state f (between <> go (Plan.after plan state f) more)
-
--- | The rows of a frame, before others.
-punched :: Plan -> State -> Frame -> Builder.Builder -> Builder.Builder
-punched plan state f end
-  | Plan.isChecked plan = foldMap (Builder.word8 . holes) (Plan.frameMarks plan state f) <> end
-  | otherwise = Plan.foldFrame (\h _ _ rest -> Builder.word8 h <> rest) plan state f end
+      f : more -> (if even (State.ordinal state) then shifted else mempty) <> punched state f <> between <> go (Plan.after plan state f) more
 
 -- | The rows of the same tape, each with what it means.
-rows :: Machine -> V3 Pulses -> [Frame] -> [Row]
+rows :: Machine -> V3 -> [Frame] -> [Row]
 rows machine start frames = [Layout.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
   where
     plan = Plan.fromMachine machine
 
 -- | The marks of a tape, those of each frame with its number.
-stretches :: Plan -> V3 Pulses -> [Frame] -> [(Maybe Int, [Mark])]
+stretches :: Plan -> V3 -> [Frame] -> [(Maybe Int, [Mark])]
 stretches plan start frames = (Nothing, opened plan) : go (State.first (State.rising frames) start) frames
   where
     medium = Machine.medium (Plan.machine plan)
     go state todo = case todo of
       [] -> [(Nothing, closed plan)]
-      f : more -> (Just (State.ordinal state), shift plan state <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)) : go (Plan.after plan state f) more
+      f : more -> (Just (State.ordinal state), shift plan (State.ordinal state) <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)) : go (Plan.after plan state f) more
 
 -- | What stands before the first frame.
 opened :: Plan -> [Mark]
@@ -80,9 +84,9 @@ closed plan = map (Plan.constant Closing) (symbolsOf plan (closing medium)) <> P
   where
     medium = Machine.medium (Plan.machine plan)
 
--- | What stands right before the next frame.
-shift :: Plan -> State -> [Mark]
-shift plan state = Plan.blanks Shift (shiftRows (Machine.medium (Plan.machine plan)) (State.ordinal state))
+-- | What stands right before a frame, by its number from 1.
+shift :: Plan -> Int -> [Mark]
+shift plan n = Plan.blanks Shift (shiftRows (Machine.medium (Plan.machine plan)) n)
 
 -- | The blank rows before a frame, by its number from 1.
 shiftRows :: Medium -> Int -> Int
@@ -97,10 +101,10 @@ symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
 --
 -- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows that the code passes
 -- over are left out first, and blank rows are passed over between frames.
-read :: Machine -> V3 Pulses -> Tape -> Either Damage [Frame]
+read :: Machine -> V3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case frontOf source of
   Left fault -> Left (damage Nothing fault)
-  Right at -> case Reading.expect plan (kept source) at (symbolsOf plan (opening (grid source))) of
+  Right at -> case Reading.expect plan (line source) at (symbolsOf plan (opening (grid source))) of
     Left fault -> Left (damage Nothing fault)
     -- Only the frames tell whether the height has to be said.
     Right behind -> case (attempt behind True, attempt behind False) of
@@ -121,6 +125,8 @@ data Source = Source
     raw :: ByteString,
     -- | without those that are passed over
     kept :: ByteString,
+    -- | the same, where one row at a time is looked at
+    line :: ShortByteString,
     -- | those that are passed over
     skipped :: ByteString,
     -- | the medium, as far as blank rows are kept
@@ -128,7 +134,7 @@ data Source = Source
   }
 
 sourceOf :: Plan -> ByteString -> Source
-sourceOf plan raw = Source {plan, raw, kept, skipped, grid}
+sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped, grid}
   where
     medium = Machine.medium (Plan.machine plan)
     skipped = case spare medium of
@@ -190,7 +196,7 @@ framesFrom source = go []
         let first = case spare (grid source) of
               Counted -> begin
               Skipped -> blankFrom source begin
-        case Reading.readFrame p state (kept source) first of
+        case Reading.readFrame p state (line source) first of
           Left fault -> Left (maybe (Just n, fault) (Nothing,) (tornAt source at))
           Right (f, end) -> do
             behind <- numbered (blankRows source GapNotBlank (gap (grid source)) end)
@@ -232,7 +238,7 @@ blanksBehind source found
 
 -- | The blank rows behind the closing symbols, where these and nothing else stand at a row.
 tailAt :: Source -> Int -> Maybe Int
-tailAt source at = case Reading.expect (plan source) (kept source) first cs of
+tailAt source at = case Reading.expect (plan source) (line source) first cs of
   Right behind | ByteString.all (== 0) (ByteString.drop behind (kept source)) -> Just (ByteString.length (kept source) - behind)
   _ -> Nothing
   where

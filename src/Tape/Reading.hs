@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The rows of one frame read back, by the steps that wrote them.
 --
 -- What is read becomes a frame, and the frame is written again: rows that the layout would not have written are
@@ -10,17 +12,17 @@ module Tape.Reading
   )
 where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
-import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
-import Data.List (find)
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
+import Data.Functor.Identity (runIdentity)
+import Data.List (find, foldl')
 import Data.Maybe (fromMaybe, isJust)
 import Data.Word (Word8)
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Axis (..), Content (..), FeedCode (..), Measure (..), MotionCodes (..), NumberForm (..), Presence (..), Word' (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Reason (..))
@@ -36,7 +38,7 @@ import Tape.Symbol qualified as Symbol
 
 -- | What the words of a frame say, each with the row of its number.
 data Reading = Reading
-  { found :: [(Content, Said)],
+  { found :: [Said],
     commands :: [(Machine.OrderName, Int)],
     braked :: Bool,
     -- | what the symbols add to so far
@@ -45,10 +47,10 @@ data Reading = Reading
     check :: Maybe (Int, Int)
   }
 
-data Said = Said {at :: Int, number :: Int}
+data Said = Said {word :: Content, at :: Int, number :: Int}
 
 -- | The frame that begins at a row, and the row behind it.
-readFrame :: Plan -> State -> ByteString -> Int -> Either Fault (Frame, Int)
+readFrame :: Plan -> State -> ShortByteString -> Int -> Either Fault (Frame, Int)
 readFrame plan state rows begin = do
   (reading, end) <- readSteps plan rows begin
   case check reading of
@@ -56,57 +58,58 @@ readFrame plan state rows begin = do
     _ -> Right ()
   f <- frameOf plan state begin reading
   lawful plan begin reading f
-  if Plan.isChecked plan || not (isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
+  if not (isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
   Right (f, end)
 
 -- | The words of a frame in order.
-readSteps :: Plan -> ByteString -> Int -> Either Fault (Reading, Int)
+readSteps :: Plan -> ShortByteString -> Int -> Either Fault (Reading, Int)
 readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
   where
-    go behindWord todo now k = case todo of
+    go behindWord todo !now !k = case todo of
       [] -> Right (now, k)
       Fixed cs : more -> do
         next <- expect plan rows k cs
         go False more (now {total = total now + weights cs}) next
       Checked modulus : more -> do
         d <- Numeral.digit plan Nothing rows k
-        go False more (now {total = total now + weightOf d, check = Just (k, modulus)}) (k + 1)
+        go False more (now {total = total now + Symbol.digitWeight (Plan.symbols plan) d, check = Just (k, modulus)}) (k + 1)
       Worded w cs joined : more
         | stands -> do
-          n <- Numeral.numeral plan (content w) (form w) rows (k + length prefix)
-          go True more (store w n now {total = total now + weights prefix + Numeral.total n}) (Numeral.next n)
+          n <- Numeral.numeral plan (content w) (form w) rows begin
+          go True more (store w n now {total = total now + weights prefix}) (Numeral.next n)
         | presence w == Always -> Left (mismatch plan (Just (content w)) rows k prefix)
         | otherwise -> go behindWord more now k
         where
           prefix = if behindWord then joined else cs
-          stands = matches rows k prefix && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows (k + length prefix))
-    weights cs = sum (map Symbol.weight cs)
-    weightOf = Symbol.digitWeight (Plan.symbols plan)
+          begin = behind rows k prefix
+          stands = begin >= 0 && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows begin)
+    weights = foldl' (\n c -> n + Symbol.weight c) 0
     store w n now =
       now
-        { found = (content w, Said (Numeral.start n) (Numeral.value n)) : found now,
+        { found = Said (content w) (Numeral.start n) (Numeral.value n) : found now,
           commands = [(o, Numeral.value n) | Command o <- [content w]] <> Numeral.bits n <> commands now,
-          braked = braked now || Numeral.brakes n
+          braked = braked now || Numeral.brakes n,
+          total = total now + Numeral.total n
         }
 
--- | Whether these symbols stand here.
-matches :: ByteString -> Int -> [Symbol] -> Bool
-matches rows k cs = case cs of
-  [] -> True
-  c : more -> k < ByteString.length rows && ByteString.index rows k == Symbol.holes c && matches rows (k + 1) more
+-- | The row behind symbols that stand here; below 0 where they do not.
+behind :: ShortByteString -> Int -> [Symbol] -> Int
+behind rows k cs = case cs of
+  [] -> k
+  c : more -> if k < Short.length rows && Short.index rows k == Symbol.holes c then behind rows (k + 1) more else -1
 
 -- | The row behind symbols that have to stand here.
-expect :: Plan -> ByteString -> Int -> [Symbol] -> Either Fault Int
-expect plan rows k cs = if matches rows k cs then Right (k + length cs) else Left (mismatch plan Nothing rows k cs)
+expect :: Plan -> ShortByteString -> Int -> [Symbol] -> Either Fault Int
+expect plan rows k cs = let next = behind rows k cs in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
 
 -- | The first of some symbols that does not stand where it should.
-mismatch :: Plan -> Maybe Content -> ByteString -> Int -> [Symbol] -> Fault
+mismatch :: Plan -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> Fault
 mismatch plan c rows k cs = case cs of
   [] -> Fault k c NotBlank
   s : more
-    | k >= ByteString.length rows -> Fault (ByteString.length rows - 1) c CutOff
-    | ByteString.index rows k == Symbol.holes s -> mismatch plan c rows (k + 1) more
-    | otherwise -> Fault k c (insteadOf plan (ByteString.index rows k) s)
+    | k >= Short.length rows -> Fault (Short.length rows - 1) c CutOff
+    | Short.index rows k == Symbol.holes s -> mismatch plan c rows (k + 1) more
+    | otherwise -> Fault k c (insteadOf plan (Short.index rows k) s)
 
 -- | Why a row is not the symbol that it should be.
 insteadOf :: Plan -> Word8 -> Symbol -> Reason
@@ -123,7 +126,7 @@ insteadOf plan w s = case Numeral.blemish plan w of
 
 -- | The word that was read.
 saidOf :: Reading -> Content -> Maybe Said
-saidOf reading c = lookup c (found reading)
+saidOf reading c = find ((== c) . word) (found reading)
 
 -- | A fault of a word, or of the frame as a whole.
 faultOf :: Int -> Reading -> Content -> Reason -> Fault
@@ -135,7 +138,7 @@ faultOf begin reading c why = case saidOf reading c of
 frameOf :: Plan -> State -> Int -> Reading -> Either Fault Frame
 frameOf plan state begin reading = do
   mapM_ (numbered plan state) (saidOf reading FrameNumber)
-  let moved = fmap Pulses (V3 (distance X) (distance Y) (distance Z))
+  let moved = V3 (distance X) (distance Y) (distance Z)
       V3 i j _ = State.signs axes * V3 (spoken (Centre X)) (spoken (Centre Y)) 0
   m <- motionOf plan begin reading moved
   code <- speedOf plan state begin reading m
@@ -143,22 +146,21 @@ frameOf plan state begin reading = do
     Frame
       { motion = m,
         increment = moved,
-        centre = fmap Pulses (V2 i j),
+        centre = V2 i j,
         speed = FeedCode code,
         braking = braked reading,
         orders = if null (commands reading) then [] else [(o, v) | (o, zero) <- Plan.commands plan, let vs = [v' | (o', v') <- commands reading, o' == o], not (null vs), let v = sum vs, v /= 0 || zero]
       }
   where
     axes = Plan.axes plan
-    spoken c = maybe 0 number (saidOf reading c)
+    spoken c = maybe 0 (Pulses . number) (saidOf reading c)
     distance a = case saidOf reading (Along a) of
       Nothing -> 0
       Just s ->
-        let n = State.along a (State.signs axes) * number s
-            Pulses here = State.along a (place state)
+        let n = State.along a (State.signs axes) * Pulses (number s)
          in case State.measure axes of
               Increments -> n
-              Positions -> n - here
+              Positions -> n - State.along a (place state)
 
 -- | Frames are counted.
 numbered :: Plan -> State -> Said -> Either Fault ()
@@ -169,7 +171,7 @@ numbered plan state s = case find ((== FrameNumber) . content) (Plan.ws plan) of
       Left (Fault (at s) (Just FrameNumber) (WrongNumber (number s) n))
   _ -> Right ()
 
-motionOf :: Plan -> Int -> Reading -> V3 Pulses -> Either Fault Motion
+motionOf :: Plan -> Int -> Reading -> V3 -> Either Fault Motion
 motionOf plan begin reading moved = case Plan.motions plan of
   Nothing -> Right (if moved == 0 then Still else Straightway)
   Just (w, codes) -> case saidOf reading (content w) of
@@ -210,11 +212,11 @@ speedOf plan state begin reading m = case (saidOf reading FeedWord, m) of
 lawful :: Plan -> Int -> Reading -> Frame -> Either Fault ()
 lawful plan begin reading f
   | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading FeedWord IdleFrame)
-  | otherwise = case Frame.invariants (Plan.machine plan) [f] of
+  | otherwise = case Frame.broken (Plan.machine plan) 1 f of
     [] -> Right ()
-    broken : _ -> Left (blame broken (Rule broken))
+    rule : _ -> Left (blame rule (Rule rule))
   where
-    blame broken = case broken of
+    blame rule = case rule of
       Frame.OverCapacity _ a _ -> faultOf begin reading (Along a)
       Frame.BadCentre _ -> faultOf begin reading (Centre X)
       Frame.NoSuchSpeed _ _ -> faultOf begin reading FeedWord
@@ -225,23 +227,26 @@ lawful plan begin reading f
 motionWord :: Plan -> Maybe Content
 motionWord plan = fmap (content . fst) (Plan.motions plan)
 
--- | Whether the rows of a frame without a check digit are those that would be written for it.
-isWritten :: Plan -> State -> ByteString -> Int -> Int -> Frame -> Bool
-isWritten plan state rows begin end f = Plan.foldFrame (\h _ _ others k -> k < end && ByteString.index rows k == h && others (k + 1)) plan state f (== end) begin
+-- | Whether the rows of a frame are those that would be written for it.
+isWritten :: Plan -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
+isWritten plan state rows begin end f = runIdentity (Plan.foldRows same plan state f begin) == end
+  where
+    -- Behind a row that is another one there is none.
+    same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
 -- | The rows of a frame are those that its marks are. A check digit that would be another one follows from the other rows:
 -- they are blamed first.
-written :: Plan -> ByteString -> Int -> Int -> [Mark] -> Either Fault ()
+written :: Plan -> ShortByteString -> Int -> Int -> [Mark] -> Either Fault ()
 written plan rows begin end = go begin (Right ())
   where
     go k before marks = case marks of
       [] -> if k == end then before else Left (Fault (min k (end - 1)) Nothing (Otherwise "the end of the frame"))
       m : more
         | k >= end -> Left (Fault (max begin (end - 1)) (wordOf m) (Otherwise (Layout.meaning (Layout.row plan Nothing m))))
-        | ByteString.index rows k == holes m -> go (k + 1) before more
+        | Short.index rows k == holes m -> go (k + 1) before more
         | CheckSymbol _ <- sense m -> go (k + 1) (Left (fault k m)) more
         | otherwise -> Left (fault k m)
-    fault k m = Fault k (wordOf m) (difference plan (ByteString.index rows k) m)
+    fault k m = Fault k (wordOf m) (difference plan (Short.index rows k) m)
 
 -- | The word that a mark is of.
 wordOf :: Mark -> Maybe Content

@@ -13,14 +13,13 @@ module Tape.State
   )
 where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust)
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Axis (..), AxisForm (..), Content (..), FeedCode (..), Machine, Measure (..), MotionCodes (..), NumberForm (..), OrderName, Presence (..), Word' (..))
 import Machine.Machine qualified as Machine
 
@@ -28,9 +27,9 @@ data State = State
   { -- | of the next frame, from 1
     ordinal :: Int,
     -- | where the cutter stands, along the axes of the part
-    place :: V3 Pulses,
-    -- | whether the tape has said the position of an axis
-    said :: V3 Bool,
+    place :: V3,
+    -- | the axes whose position the tape has not said yet
+    unsaid :: [Axis],
     -- | the feed said last
     feed :: Maybe FeedCode
   }
@@ -38,8 +37,8 @@ data State = State
 
 -- | Before the first frame: whether the tape has to do with heights, and where the cutter stands. The first frame that
 -- moves says where it goes; its height only if that ever changes, since else it is set by hand.
-first :: Bool -> V3 Pulses -> State
-first rises start = State {ordinal = 1, place = start, said = V3 False False (not rises), feed = Nothing}
+first :: Bool -> V3 -> State
+first rises start = State {ordinal = 1, place = start, unsaid = [X, Y] <> [Z | rises], feed = Nothing}
 
 -- | Whether frames change the height.
 rising :: [Frame] -> Bool
@@ -49,7 +48,7 @@ rising = any (\f -> let V3 _ _ z = increment f in z /= 0)
 data Axes = Axes
   { measure :: Measure,
     -- | 1, or −1 for an axis that points the other way
-    signs :: V3 Int,
+    signs :: V3,
     -- | seen from the machine clockwise arcs of the part are counter-clockwise
     mirrored :: Bool
   }
@@ -57,11 +56,10 @@ data Axes = Axes
 axes :: Machine -> Axes
 axes machine = Axes {measure = Machine.measure (Machine.layout machine), signs = V3 (sign X) (sign Y) (sign Z), mirrored = Machine.isMirrored machine}
   where
-    sign :: Axis -> Int
     sign a = if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
 
 -- | The component along an axis.
-along :: Axis -> V3 a -> a
+along :: Axis -> V3 -> Pulses
 along a (V3 x y z) = case a of
   X -> x
   Y -> y
@@ -77,10 +75,10 @@ number system state frame word = case content word of
   FeedWord -> standing (feedStands (presence word)) code
   Command o -> commandNumber (presence word) o
   where
-    standing yes n = if yes then Just n else Nothing
+    standing yes n = if yes then Just $! n else Nothing
     moving = Frame.isMoving frame
     FeedCode code = speed frame
-    centreNumber a = let V2 (Pulses i) (Pulses j) = centre frame in along a (signs system * V3 i j 0)
+    centreNumber a = let V2 i j = centre frame; Pulses n = along a (signs system * V3 i j 0) in n
     centreStands p = case p of
       Always -> True
       InMotion -> moving
@@ -139,12 +137,13 @@ axisStands system state frame p a = case p of
   WhenNeeded -> needed
   WhenChanged -> needed
   where
-    needed = Frame.isMoving frame && (along a (increment frame) /= 0 || measure system == Positions && not (along a (said state)))
+    needed = Frame.isMoving frame && (along a (increment frame) /= 0 || measure system == Positions && a `elem` unsaid state)
 
 axisNumber :: Axes -> State -> Frame -> Axis -> Int
-axisNumber system state frame a = along a (signs system) * n
+axisNumber system state frame a = n
   where
-    Pulses n = case measure system of
+    Pulses n = along a (signs system) * counted
+    counted = case measure system of
       Increments -> along a (increment frame)
       Positions -> along a (place state) + along a (increment frame)
 
@@ -154,10 +153,10 @@ after system ws state frame =
   State
     { ordinal = ordinal state + 1,
       place = place state + increment frame,
-      said = case measure system of
-        Increments -> said state
-        Positions -> V3 (saidOf X) (saidOf Y) (saidOf Z),
+      unsaid = case measure system of
+        Increments -> unsaid state
+        Positions -> filter (not . isSaid) (unsaid state),
       feed = if hasFeed frame then Just (speed frame) else feed state
     }
   where
-    saidOf a = along a (said state) || or [isJust (number system state frame w) | w <- ws, content w == Along a]
+    isSaid a = or [isJust (number system state frame w) | w <- ws, content w == Along a]

@@ -16,8 +16,8 @@ module Tape.Symbol
 where
 
 import Data.Bits (complement, popCount, setBit, shiftL, xor, (.&.), (.|.))
-import Data.ByteString (ByteString)
-import Data.ByteString qualified as ByteString
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
 import Data.Char (intToDigit)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -32,13 +32,13 @@ data Symbols = Symbols
     -- | the symbols of whole rows
     nameOf :: Map Word8 Char,
     -- | the rows of the ten digits without a hole in the service track
-    digitRows :: ByteString,
+    digitRows :: ShortByteString,
     -- | and with one
-    serviceRows :: ByteString,
+    serviceRows :: ShortByteString,
     -- | what the ten digits count
-    digitWeights :: ByteString,
+    digitWeights :: ShortByteString,
     -- | the digit of every row, the service track left out of account; 'noDigit' for a row that is none
-    digitOf :: ByteString,
+    digitOf :: ShortByteString,
     -- | the bit of the service track, or none
     service :: Word8,
     -- | the bits beside the tape
@@ -56,10 +56,10 @@ fromMachine machine =
     { rowOf = rows,
       weightOf = Machine.weights code,
       nameOf = Map.fromList [(w, c) | (c, w) <- Map.toList rows],
-      digitRows = ByteString.pack (map plain ciphers),
-      serviceRows = ByteString.pack (map withHole ciphers),
-      digitWeights = ByteString.pack [fromIntegral (Map.findWithDefault 0 c (Machine.weights code)) | c <- ciphers],
-      digitOf = ByteString.pack [Map.findWithDefault noDigit w digits | w <- [minBound .. maxBound]],
+      digitRows = Short.pack (map plain ciphers),
+      serviceRows = Short.pack (map withHole ciphers),
+      digitWeights = Short.pack [fromIntegral (Map.findWithDefault 0 c (Machine.weights code)) | c <- ciphers],
+      digitOf = Short.pack [Map.findWithDefault noDigit w digits | w <- [minBound .. maxBound]],
       service = mask,
       beside = besideOf (Machine.medium machine),
       parity = isJust (Machine.evenTrack code)
@@ -94,19 +94,20 @@ symbol table c = Symbol {name = c, holes = Map.findWithDefault 0 c (rowOf table)
 
 -- | The row of a digit, 0 to 9.
 digit :: Symbols -> Int -> Word8
-digit table = ByteString.index (digitRows table)
+digit table = Short.index (digitRows table)
 
 -- | The row of a digit with a hole in the service track.
 serviceDigit :: Symbols -> Int -> Word8
-serviceDigit table = ByteString.index (serviceRows table)
+serviceDigit table = Short.index (serviceRows table)
 
 -- | What a digit, 0 to 9, counts in a sum.
 digitWeight :: Symbols -> Int -> Int
-digitWeight table = fromIntegral . ByteString.index (digitWeights table)
+digitWeight table = fromIntegral . Short.index (digitWeights table)
 
 -- | The digit of a row, whatever the service track holds.
 digitAt :: Symbols -> Word8 -> Maybe Int
-digitAt table w = let d = ByteString.index (digitOf table) (fromIntegral w) in if d == noDigit then Nothing else Just (fromIntegral d)
+digitAt table w = let d = Short.index (digitOf table) (fromIntegral w) in if d == noDigit then Nothing else Just (fromIntegral d)
+{-# INLINE digitAt #-}
 
 -- | Whether there is a hole in the service track.
 holeAt :: Symbols -> Word8 -> Bool

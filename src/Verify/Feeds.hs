@@ -8,6 +8,7 @@ module Verify.Feeds
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Control.Walk (Stroke (..))
@@ -15,7 +16,6 @@ import Control.Walk qualified as Control
 import Data.Maybe (fromMaybe, mapMaybe)
 import Frame.Frame (Frame, Motion (..), Program)
 import Frame.Frame qualified as Frame
-import Linear.V3 (V3 (..))
 import Machine.Machine (BrakingForm (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part

@@ -14,6 +14,7 @@ module Verify.FromTape
   )
 where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..))
 import Control.Compensation qualified as Compensation
@@ -36,7 +37,6 @@ import Geometry.Offset (Side (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)

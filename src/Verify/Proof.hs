@@ -13,6 +13,7 @@ module Verify.Proof
 where
 
 import Base.Decimal qualified as Decimal
+import Base.Lattice (V3 (..))
 import Base.Name (Name)
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
@@ -23,7 +24,6 @@ import Frame.Frame (Broken)
 import Frame.Frame qualified as Frame
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 import Machine.Machine qualified as Machine
 import Report.Report (Place (..), Report (label, message), report)
@@ -51,9 +51,9 @@ data Proof = Proof
   { frames :: Int,
     passages :: [Passage],
     -- | the last position less the one where the tape should end
-    closure :: V3 Pulses,
+    closure :: V3,
     -- | the largest increment of each axis, whatever its sign
-    largest :: V3 Pulses,
+    largest :: V3,
     -- | the first frame that is not as the program's own
     firstDifference :: Maybe Int,
     -- | in the order of the tape; none when the tape is proven
@@ -93,7 +93,7 @@ data Finding
   | -- | the frame at the end of which the cutter is too fast to come down to what follows: how fast it is, how fast it
     -- may be
     TooFast Int Feed Feed
-  | NotClosed (V3 Pulses)
+  | NotClosed V3
   deriving stock (Eq, Show)
 
 -- | How fast a frame goes: in a rapid motion, or by its code; whether it slows down to that.

@@ -2,6 +2,7 @@
 -- the compiler's own or a damaged one.
 module Control.CompensationSpec (spec) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..))
 import Base.Result qualified as Result
@@ -22,8 +23,6 @@ import Geometry.Segment (Segment (Arc, Straight, sweep))
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import LinuxCnc qualified
 import Machine.Machine (OrderName (..))
 import Machines (iso6983)
@@ -71,7 +70,7 @@ compared close change =
       _ -> False
 
 -- | The frames of a milling, from where.
-programOf :: Part.Milling -> Maybe (V3 Pulses, [Frame])
+programOf :: Part.Milling -> Maybe (V3, [Frame])
 programOf job = do
   from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach job]
   path <- ByControl.path (Vec.shift (Vec.vec 7 5) from) job
@@ -79,13 +78,13 @@ programOf job = do
   Just (Frame.start program, map Frame.frame (Frame.planned program))
 
 -- | What LinuxCNC makes of frames. It stands at the zero of the part, and is moved to their beginning.
-interpreted :: V3 Pulses -> [Frame] -> IO (Either Text [LinuxCnc.Way])
+interpreted :: V3 -> [Frame] -> IO (Either Text [LinuxCnc.Way])
 interpreted begin fs = inFolder $ \folder -> do
   let file = folder </> "a.ngc"
       onto = [(Frame.still []) {motion = Rapid, increment = begin} | begin /= 0]
       Tape rows = Punch.write iso6983 0 (onto <> fs)
   ByteString.writeFile file rows
-  fmap (drop (length onto) . LinuxCnc.ways 0) <$> LinuxCnc.canonical file
+  fmap (drop (length onto) . LinuxCnc.ways (LinuxCnc.Place 0 0 0)) <$> LinuxCnc.canonical file
 
 -- | Where the moves are not the same, one by one. Those that are no longer than the rounding of what is printed may be left out.
 differences :: Mm -> [Segment] -> [Segment] -> [String]

@@ -1,6 +1,7 @@
 -- | The laws of arcs in whole pulses.
 module Frame.ArcSpec (spec) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Control.Walk qualified as Control
@@ -16,8 +17,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
@@ -50,14 +49,14 @@ spec = do
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
           let Mm grain = Machine.pulse m
-              turned = sum [s | Arc {sweep = Rad s} <- Made.walked m p]
+              whole = sum [s | Arc {sweep = Rad s} <- Made.walked m p]
               Mm r = Segment.radius (centre a) (start a)
               Rad exact = sweep a
               straight = length (filter (not . Made.roundly) (framesOf p))
               -- A frame that is written straight turns by no more than half a pulse of sagitta does.
               rounds = length (filter Made.roundly (framesOf p))
               slack = fromIntegral (max 1 rounds) * 4 * grain / r + fromIntegral straight * 4 * sqrt (grain / r)
-           in r > 20 * grain ==> counterexample (show (turned, exact, straight)) (abs (turned - exact) <= slack)
+           in r > 20 * grain ==> counterexample (show (whole, exact, straight)) (abs (whole - exact) <= slack)
     it "has no increments only as a full circle (catches the zero that means all)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
@@ -79,6 +78,14 @@ spec = do
       property $
         forAll (ordinary (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
           classify (length (framesOf p) == 1) "one" $ length (framesOf p) <= (if alone (Machines.named "lki-u") a then 1 else 4)
+    it "is as true as about any lattice point beside its centre (catches a centre that is passed over too early)" $
+      property $
+        forAll (ordinary (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
+          let m = Machines.named "lki-u"
+              Mm grain = Machine.pulse m
+           in case Made.walked m p of
+                [w@Arc {}] -> counterexample (show (offEither a (centre w) w, offAbout 1 m a)) (all (>= offEither a (centre w) w - 0.02 * grain) (offAbout 1 m a))
+                _ -> property True
     it "takes about one frame for each quadrant where it has to (catches a frame for what rounding leaves at an axis)" $
       property $
         checkCoverage $
@@ -132,17 +139,43 @@ offCircle a w = maximum [abs (d - r) | k <- [0 .. 96 :: Int], let Mm d = Vec.dis
 
 -- | Whether some lattice point near the centre of an arc gives one frame that stays well within a pulse.
 alone :: Machine -> Segment -> Bool
-alone m a = or [maximum (map (offCircle a) [turned c w, other c w]) <= 0.98 * grain && maximum (evenly c w) <= 0.98 * grain && abs (away c (end w) - away c (start w)) <= 2 * grain | di <- [-3 .. 3], dj <- [-3 .. 3], let c = on (Vec.shift (Vec.vec (di * grain) (dj * grain)) (Segment.centre a)), let w = Segment.arc (if sweep a > Rad 0 then CounterClockwise else Clockwise) c (on (start a)) (on (end a))]
+alone m a = any (<= 0.98 * grain) (offAbout 3 m a)
+  where
+    Mm grain = Machine.pulse m
+
+-- | How far frames about lattice points are off in mm, so many pulses from the centre of an arc at most, that stay well within a pulse
+-- with the radius of either end.
+offAbout :: Double -> Machine -> Segment -> [Double]
+offAbout most m a =
+  [ offEither a c w
+    | di <- [-most .. most],
+      dj <- [-most .. most],
+      let c = on (Vec.shift (Vec.vec (di * grain) (dj * grain)) (Segment.centre a)),
+      let w = Segment.arc (if sweep a > Rad 0 then CounterClockwise else Clockwise) c (on (start a)) (on (end a)),
+      maximum (map (offCircle a) [turned c w, other c w]) <= 0.98 * grain,
+      abs (away c (end w) - away c (start w)) <= 2 * grain
+  ]
   where
     Mm grain = Machine.pulse m
     on p = Vec.point (nearest (Vec.x p)) (nearest (Vec.y p))
     nearest x = grain * fromIntegral (floor (x / grain + 0.5) :: Int)
-    away p q = let Mm d = Vec.distance p q in d
     -- With the radius of the end all the way.
     other c w = let k = away c (end w) / away c (start w); scaled p = Vec.shift (Vec.scale k (Vec.to c p)) c in w {start = scaled (start w), end = scaled (end (turned c w))}
-    -- The radius changes evenly from the beginning to the end.
-    evenly c w = [abs (away (Segment.centre a) p - away (Segment.centre a) (start a)) | k <- [0 .. 24 :: Int], let t = fromIntegral k / 24, let r = away c (start w), let p = Vec.shift (Vec.scale (1 + t * (away c (end w) - r) / r) (Vec.to c (Segment.at t (turned c w)))) c]
-    turned c w = let r = away c (start w) in w {end = Vec.shift (Vec.scale (r / away c (end w)) (Vec.to c (end w))) c}
+
+-- | With the radius of its beginning all the way, or going evenly to that of its end.
+offEither :: Segment -> Point -> Segment -> Double
+offEither a c w = max (offCircle a (turned c w)) (evenly a c w)
+
+-- | How far an arc about a point is off another one at most, when its radius changes evenly from the beginning to the end.
+evenly :: Segment -> Point -> Segment -> Double
+evenly a c w = maximum [abs (away (Segment.centre a) p - away (Segment.centre a) (start a)) | k <- [0 .. 24 :: Int], let t = fromIntegral k / 24, let r = away c (start w), let p = Vec.shift (Vec.scale (1 + t * (away c (end w) - r) / r) (Vec.to c (Segment.at t (turned c w)))) c]
+
+-- | With the radius of the beginning all the way.
+turned :: Point -> Segment -> Segment
+turned c w = let r = away c (start w) in w {end = Vec.shift (Vec.scale (r / away c (end w)) (Vec.to c (end w))) c}
+
+away :: Point -> Point -> Double
+away p q = let Mm d = Vec.distance p q in d
 
 circle :: Point -> Double -> Segment
 circle c r = let a = Vec.shift (Vec.vec r 0) c in Arc {start = a, end = a, centre = c, sweep = Rad (2 * pi)}

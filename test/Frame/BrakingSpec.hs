@@ -1,6 +1,7 @@
 -- | The laws of braking, held against a walk along the frames and along the path.
 module Frame.BrakingSpec (spec) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Frame.Feed qualified as Feed
@@ -54,7 +55,7 @@ spec = do
       fmap (map brief) (framesOn (Machines.named "n55") [to 0 60 (At (here 240)) True, to 60 120 (At (here 24)) False]) `shouldBe` Just [(6000, 240, False), (6000, 24, False)]
   where
     brief f = (pulses f, code f, braking f)
-    pulses f = let n = sum (fmap abs (increment f)) in fromIntegral n :: Int
+    pulses f = let V3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
     code f = let FeedCode n = speed f in n
     to a b pace slow = Move (Straight (Vec.point a 0) (Vec.point b 0)) (Mm 0, Mm 0) pace slow (Region 0 0) False
 

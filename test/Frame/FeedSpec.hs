@@ -1,6 +1,7 @@
 -- | The laws of feeds.
 module Frame.FeedSpec (spec) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Pulses (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -13,7 +14,6 @@ import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 import Machine.Machine qualified as Machine
 import Machines qualified

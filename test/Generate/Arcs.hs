@@ -8,6 +8,7 @@ module Generate.Arcs
   )
 where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..))
 import Data.List (minimumBy)
@@ -20,8 +21,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Axis (..), FeedCode, Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Spot (..))
@@ -52,13 +51,13 @@ quantise machine path = Program begin (go begin (concat (zipWith block [0 ..] (P
         let fs = framesOf machine at m
          in [Planned {Frame.frame = f, Frame.role = role, origin = Path.origin m, tool} | f <- fs] <> go (at + sum (map increment fs)) rest
 
-rounded :: Machine -> (Point, Mm) -> V3 Pulses
+rounded :: Machine -> (Point, Mm) -> V3
 rounded machine (p, Mm z) = V3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
   where
     on axis v = let Mm step = Machine.pulseOf machine axis in Pulses (round (v / step))
 
 -- | The frames of one move, from where the tape stands.
-framesOf :: Machine -> V3 Pulses -> Move -> [Frame]
+framesOf :: Machine -> V3 -> Move -> [Frame]
 framesOf machine at m = case Path.segment m of
   s@Arc {} -> snd (foldl next (at, []) (inQuadrants s))
   Straight _ q -> straight speed' at (rounded machine (q, snd (Path.heights m)))
@@ -73,7 +72,7 @@ framesOf machine at m = case Path.segment m of
       Machine.Arcs {Machine.quadrants = True} -> quarters s
       _ -> [s]
 
-straight :: FeedCode -> V3 Pulses -> V3 Pulses -> [Frame]
+straight :: FeedCode -> V3 -> V3 -> [Frame]
 straight code from to = [Frame {motion = Straightway, increment = to - from, centre = 0, speed = code, braking = False, orders = []} | to /= from]
 
 -- | An arc cut where it crosses the axes through its centre.
@@ -89,7 +88,7 @@ quarters s = case s of
     piece a b = let upTo = if b < 1 then fst (Segment.cutAt b s) else s in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
 -- | The frames of an arc: one, if a centre of whole pulses keeps it within a pulse; else those of its halves.
-arcFrames :: Machine -> FeedCode -> Mm -> V3 Pulses -> Segment -> [Frame]
+arcFrames :: Machine -> FeedCode -> Mm -> V3 -> Segment -> [Frame]
 arcFrames machine code z at s = case (Segment.bulge s, candidates) of
   (Mm bulge, _) | bulge < pulse / 2 -> straight code at end
   (_, []) -> halves
@@ -126,7 +125,7 @@ data Off = Off {deepest :: Double, most :: Double}
 
 -- | How far frames from a position are off from a contour with a cutter of a radius, by points close to one another on
 -- both. An arc goes with the radius of its beginning and ends where it ends.
-deviation :: Machine -> V3 Pulses -> [Frame] -> [Segment] -> Double -> Off
+deviation :: Machine -> V3 -> [Frame] -> [Segment] -> Double -> Off
 deviation machine begin frames contour radius =
   Off {deepest = radius - minimum [nearest on p | p <- walked], most = maximum [nearest walked q | q <- on] - radius}
   where

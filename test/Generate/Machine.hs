@@ -5,6 +5,7 @@
 -- where blank rows between frames are passed over a frame begins with a hole.
 module Generate.Machine (machine, frames) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Data.Bits (shiftL, (.|.))
 import Data.Char (intToDigit, ord)
@@ -18,8 +19,6 @@ import Data.Word (Word8)
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine hiding (braking, choose, orders)
 import Machine.Machine qualified as Machine
 import Test.QuickCheck
@@ -252,15 +251,15 @@ ascii = Map.fromList [(c, fromIntegral (ord c)) | c <- '\n' : [' ' .. '~']]
 -- Frames ------------------------------------------------------------------------------------------
 
 -- | Where the cutter stands, and frames that the machine can be told from there.
-frames :: Machine -> Gen (V3 Pulses, [Frame])
+frames :: Machine -> Gen (V3, [Frame])
 frames m = do
   n <- choose (0, 12)
-  start <- traverse (\a -> Pulses <$> choose (negate (reach a), reach a)) (V3 X Y Z)
+  start <- let on a = Pulses <$> choose (negate (reach a), reach a) in V3 <$> on X <*> on Y <*> on Z
   feeds' <- vectorOf 2 (feedOf m)
   (,) start <$> go n feeds' start
   where
     reach a = let Pulses c = capacity m a in c
-    go :: Int -> [FeedCode] -> V3 Pulses -> Gen [Frame]
+    go :: Int -> [FeedCode] -> V3 -> Gen [Frame]
     go n feeds' at
       | n <= 0 = pure []
       | otherwise = do
@@ -273,7 +272,7 @@ feedOf m = case codes (feeds m) of
   Listed table -> elements (Map.keys table)
 
 -- | A frame from where the cutter stands, at one of some feeds.
-frame :: Machine -> [FeedCode] -> V3 Pulses -> Gen Frame
+frame :: Machine -> [FeedCode] -> V3 -> Gen Frame
 frame m feeds' at = do
   f <- frequency ([(6, straightway)] <> [(2, rapidly) | hasRapidMotion m] <> [(2, only) | not (null (orderNames m))] <> [(6, round') | arcs m /= NoArcs])
   if null (Frame.invariants m [f]) && fits f then pure f else frame m feeds' at
@@ -298,11 +297,11 @@ frame m feeds' at = do
       given <- ordersOf m 3
       pure Frame {motion = Straightway, increment = 0, centre = 0, speed = code', braking = slow, orders = given}
 
-parts :: V3 a -> [a]
+parts :: V3 -> [Pulses]
 parts (V3 x y z) = [x, y, z]
 
 -- | A move within what the words hold; now and then one axis only, or a small one.
-move :: Machine -> V3 Pulses -> Gen (V3 Pulses)
+move :: Machine -> V3 -> Gen V3
 move m (V3 x y z) = V3 <$> along X x <*> along Y y <*> along Z z
   where
     along a p = do
@@ -314,7 +313,7 @@ move m (V3 x y z) = V3 <$> along X x <*> along Y y <*> along Z z
       Pulses <$> frequency [(2, pure 0), (1, elements [max low (-1), min high 1]), (4, choose (low, high)), (1, elements [low, high])]
 
 -- | An arc within what the words hold, in one quadrant or anywhere.
-arc :: Machine -> V3 Pulses -> Gen (Turn, V3 Pulses, V2 Pulses)
+arc :: Machine -> V3 -> Gen (Turn, V3, V2)
 arc m at = case arcs m of
   Arcs {quadrants = True} -> do
     (p, q) <- (,) <$> sign' <*> sign'

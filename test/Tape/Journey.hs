@@ -1,14 +1,13 @@
 -- | Frames that every machine can be told: round a plate, with arcs, rapid moves and commands where it has them.
 module Tape.Journey (machines, start, journey) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
 import Data.List (sortOn)
 import Data.Map.Strict qualified as Map
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), Axis (..), Content (..), FeedCode (..), FeedCodes (..), Machine, Service (..))
 import Machine.Machine qualified as Machine
 import Machines qualified
@@ -17,7 +16,7 @@ import Machines qualified
 machines :: [Machine]
 machines = Machines.known
 
-start :: V3 Pulses
+start :: V3
 start = V3 500 (-200) 100
 
 -- | Frames that keep the invariants of a machine; the same way round for all.

@@ -1,6 +1,7 @@
 -- | Tapes of all machines: written and read back, and damaged in every possible way.
 module Tape.PunchSpec (spec) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
@@ -13,8 +14,6 @@ import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Generate.Machine qualified as Generate
 import Geometry.Shape (Turn (..))
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Arcs (..), AxisForm (..), FeedCode (..), Item (..), Machine, Measure (..), OrderName (..), Presence (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
@@ -81,7 +80,7 @@ covered m fs =
     . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
     . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "feeds said once"
 
-mirroredPlace :: V3 Pulses -> V3 Pulses
+mirroredPlace :: V3 -> V3
 mirroredPlace (V3 x y z) = V3 (negate x) y z
 
 mirroredFrame :: Frame -> Frame
@@ -226,7 +225,7 @@ rowsOf (Tape rows) = rows
 written :: Machine -> [Frame] -> [Word8]
 written m fs = ByteString.unpack (rowsOf (Punch.write m start fs))
 
-text :: Machine -> V3 Pulses -> [Frame] -> [Text.Text]
+text :: Machine -> V3 -> [Frame] -> [Text.Text]
 text m at fs = Text.lines (Encoding.decodeUtf8 (rowsOf (Punch.write m at fs)))
 
 blank :: Int -> [Word8]

@@ -1,6 +1,7 @@
 -- | The proof of tapes with arcs: the flange and random contours on machines that walk arcs, and every change of theirs.
 module Verify.ArcSpec (spec) where
 
+import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -24,8 +25,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V2 (V2 (..))
-import Linear.V3 (V3 (..))
 import Machine.Machine (Braking (deceleration), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified

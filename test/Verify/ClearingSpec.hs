@@ -1,6 +1,7 @@
 -- | The proof of a pocket.
 module Verify.ClearingSpec (spec) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Result qualified as Result
 import Data.List.NonEmpty (NonEmpty (..))
@@ -18,7 +19,6 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Winding qualified as Winding
-import Linear.V3 (V3 (..))
 import Machine.Machine (Machine)
 import Machines qualified
 import Part.Part (Pocketing)

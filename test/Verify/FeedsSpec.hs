@@ -1,6 +1,7 @@
 -- | The proof of feeds: frame by frame, along contours on foreign tapes, and whether the machine can brake in time.
 module Verify.FeedsSpec (spec) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -15,7 +16,6 @@ import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 import Machine.Machine qualified as Machine
 import Machines qualified

@@ -1,6 +1,7 @@
 -- | The proof finds every change of the flange's tape that moves the path or changes a feed.
 module Verify.FromTapeSpec (spec) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -15,7 +16,6 @@ import Generate qualified
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (FeedCode (..), Machine, OrderName (..))
 import Machines qualified
 import Part.Part qualified as Part
@@ -179,8 +179,10 @@ backwards = wayIn <> reverse [f {increment = negate (increment f)} | f <- along]
 -- | The first frame in two halves.
 doubledFirst :: [Frame] -> [Frame]
 doubledFirst fs = case fs of
-  f : rest -> [f {increment = fmap (`div` 2) (increment f)}, f {increment = increment f - fmap (`div` 2) (increment f)}] <> rest
+  f : rest -> [f {increment = half (increment f)}, f {increment = increment f - half (increment f)}] <> rest
   [] -> []
+  where
+    half (V3 x y z) = V3 (x `div` 2) (y `div` 2) (z `div` 2)
 
 -- | With an auxiliary command in the last frame.
 commanded :: [Frame] -> [Frame]

@@ -1,6 +1,7 @@
 -- | The proof of profiles that are turned with a nose without radius: the tool lies on the contour.
 module Verify.PointedSpec (spec) where
 
+import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -18,7 +19,6 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Vec qualified as Vec
-import Linear.V3 (V3 (..))
 import Machine.Machine (Braking (deceleration), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
