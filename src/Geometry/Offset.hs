@@ -24,6 +24,8 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Search qualified as Search
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -82,9 +84,10 @@ attempt style side radius contour = do
 raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
 raw style side radius contour = do
   shifted <- traverse (\(i, s) -> along side (plus radius (extra style i)) i s) (NonEmpty.zip (0 :| [1 ..]) (segments contour))
-  corners <- traverse (corner style side radius (NonEmpty.length shifted)) (Contour.joints contour)
-  let bends = [(number, next, t) | (number, before, after) <- Contour.joints contour, let next = (number + 1) `mod` NonEmpty.length shifted, Just t <- [slightBend style side radius number next before after]]
-  cut <- traverse (shortened bends) (NonEmpty.zip (0 :| [1 ..]) shifted)
+  let count = NonEmpty.length shifted
+  corners <- traverse (corner style side radius count) (Contour.joints contour)
+  let bends = IntMap.fromList [(number, t) | (number, before, after) <- Contour.joints contour, Just t <- [slightBend style side radius number ((number + 1) `mod` count) before after]]
+  cut <- traverse (shortened count bends) (NonEmpty.zip (0 :| [1 ..]) shifted)
   let pieces = concat (zipWith (:) (NonEmpty.toList cut) (corners <> [[]]))
       real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) pieces
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
@@ -104,17 +107,19 @@ slightBend style side (Mm radius) number next before after
     Mm rest = Tolerance.slightRest
     r = let Mm more = extra style number in radius + more
 
--- | A way without what lies beyond the slight bends at its ends.
-shortened :: [(Int, Int, Double)] -> (Int, Piece) -> Either Cause Piece
-shortened bends (i, piece)
+-- | A way without what lies beyond the slight bends at its ends. They are known by the number of the segment, of so many,
+-- behind which they are.
+shortened :: Int -> IntMap Double -> (Int, Piece) -> Either Cause Piece
+shortened count bends (i, piece)
   | front + back <= 0 = Right piece
-  | front + back >= l = Left (case [(a, b) | (a, b, _) <- bends, a == i || b == i] of (a, b) : _ -> InnerCorner a b (Segment.end s); [] -> InnerCorner i i (Segment.end s))
+  | front + back >= l = Left (case filter (`IntMap.member` bends) (if i == 0 then [i, before] else [before, i]) of a : _ -> InnerCorner a ((a + 1) `mod` count) (Segment.end s); [] -> InnerCorner i i (Segment.end s))
   | otherwise = Right piece {segment = snd (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) s)))}
   where
     s = segment piece
     Mm l = Segment.length s
-    front = sum [t | (_, b, t) <- bends, b == i]
-    back = sum [t | (a, _, t) <- bends, a == i]
+    before = (i - 1) `mod` count
+    front = IntMap.findWithDefault 0 before bends
+    back = IntMap.findWithDefault 0 i bends
 
 -- | A segment moved to its side.
 along :: Side -> Mm -> Int -> Segment -> Either Cause Piece
