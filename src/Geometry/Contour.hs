@@ -12,9 +12,10 @@ module Geometry.Contour
 where
 
 import Base.Quantity (Mm (..), Rad (..), total)
+import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Ord (comparing)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
@@ -51,18 +52,15 @@ joints (Contour ends ss) = zip3 [0 ..] list (drop 1 list <> back)
 -- | Let each segment begin exactly where the one before it ends, and a closed contour end where it
 -- begins. The gaps are rounding errors.
 chained :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
-chained get set ends things = case ends of
-  Open -> linked
-  Closed -> case NonEmpty.last linked of
-    final -> foldr NonEmpty.cons (set (get final) {end = Segment.start (get (NonEmpty.head linked))} final :| []) (NonEmpty.init linked)
+chained get set ends (first :| rest) = case rest of
+  [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
+  _ -> first :| follow (end (get first)) rest
   where
-    linked = case things of
-      first :| rest -> first :| follow first rest
-    follow before rest = case rest of
+    follow from things = case things of
       [] -> []
-      a : more ->
-        let a' = set (get a) {start = Segment.end (get before)} a
-         in a' : follow a' more
+      [a] -> [set (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from}) a]
+      a : more -> let s = (get a) {start = from} in set s a : follow (end s) more
+    closing s = s {end = start (get first)}
 
 -- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
 signedArea :: Contour -> Double
@@ -79,16 +77,15 @@ signedArea (Contour _ ss@(first :| _)) = sum (fmap part ss)
 
 -- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
 selfCrossing :: Contour -> Maybe (Int, Int, Point)
-selfCrossing (Contour ends ss) = listToMaybe (concatMap pairs numbered)
+selfCrossing (Contour ends ss) = case concatMap crossings (Box.pairs index) of
+  [] -> Nothing
+  found -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) found)
   where
-    numbered = zip [0 ..] (NonEmpty.toList ss)
     count = NonEmpty.length ss
-    index = Box.index (Box.ofSegment . snd) numbered
-    pairs (i, s) =
+    index = Box.index (Box.ofSegment . snd) (zip [0 ..] (NonEmpty.toList ss))
+    crossings ((i, s), (j, other)) =
       [ (i, j, p)
-        | (j, other) <- Box.within (Box.ofSegment s) index,
-          j > i,
-          p <- case joints' i j s of
+        | p <- case joints' i j s of
             [] -> Distance.crossings s other
             _ | goesOn i j s other -> []
             shared -> retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
