@@ -110,6 +110,10 @@ instance Grammar Quick where
       | Just a <- accept t -> ok a s {left = rest, room = room s - 1, ended = Region.end (Token.place t)}
     _ -> no (room s)
   {-# INLINE token #-}
+  upcoming = Quick (\s ok _ -> ok (left s) s)
+  {-# INLINE upcoming #-}
+  wordAhead = Quick (\s ok _ -> ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s)
+  {-# INLINE wordAhead #-}
   memory = Quick (\s ok _ -> ok (memoryOf s) s)
   {-# INLINE memory #-}
   remember f = Quick (\s ok _ -> let m = f (memoryOf s) in ok () s {ended = lastEnd m, open = depth m, blocks = within m})
