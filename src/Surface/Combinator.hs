@@ -96,6 +96,12 @@ class MonadParsec Problem Input p => Grammar p where
   -- | A token that the function accepts; the label names what was expected.
   token :: Text -> (Token -> Maybe a) -> p a
 
+  -- | As many as there are.
+  several :: p a -> p [a]
+
+  -- | What is made of a mistake in a parser.
+  blaming :: (ParseError Input Problem -> p a) -> p a -> p a
+
   -- | What is left to read.
   upcoming :: p [Token]
 
@@ -117,6 +123,8 @@ instance Grammar (ParsecT Problem Input (State Memory)) where
     (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
     lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
     pure a
+  several = Parsec.many
+  blaming blame p = Parsec.observing p >>= either blame pure
   upcoming = (\(Input ts) -> ts) <$> Parsec.getInput
   wordAhead = pure True
   memory = lift get
@@ -163,10 +171,10 @@ name = do
 
 -- | A name that is no keyword.
 usedName :: Grammar p => p (Located Name)
-usedName = located (token "a name" nameOf)
+usedName = token "a name" nameOf
   where
     nameOf t = case shape t of
-      Word word | not (Keyword.isReserved word) -> Just (Name word)
+      Word word | not (Keyword.isReserved word) -> Just (Located (Token.place t) (Name word))
       _ -> Nothing
 {-# INLINEABLE usedName #-}
 
@@ -217,8 +225,7 @@ brackets = enclosed "[" "]"
 enclosed :: Grammar p => Text -> Text -> p a -> p a
 enclosed open close inside = do
   opened <- symbol open
-  attempt <- Parsec.observing (nested inside)
-  x <- either (blame opened) pure attempt
+  x <- blaming (blame opened) (nested inside)
   ended <- lineEnds
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol close)
@@ -237,7 +244,7 @@ enclosed open close inside = do
 block :: Grammar p => Text -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
-  items <- Parsec.many (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+  items <- several (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
   closing opened what "}"
   pure items
   where
@@ -261,7 +268,7 @@ statementBlock :: Grammar p => Text -> p Statement -> p [Statement]
 statementBlock what one = do
   opened <- symbol "{"
   remember (\m -> m {within = within m + 1})
-  statements <- nested (Parsec.many (inside *> recovering brokenStatement one))
+  statements <- nested (several (inside *> recovering brokenStatement one))
   remember (\m -> m {within = within m - 1})
   ended <- null <$> upcoming
   when ended (Parsec.customFailure (UnclosedBlock opened what))
@@ -310,7 +317,7 @@ atEnd = maybe True beginsStatement . listToMaybe <$> upcoming
 {-# INLINEABLE atEnd #-}
 
 sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
-sepBy1 p separator = (:|) <$> p <*> Parsec.many (symbol separator *> p)
+sepBy1 p separator = (:|) <$> p <*> several (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
 -- | One bracket deeper.

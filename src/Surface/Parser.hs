@@ -180,7 +180,7 @@ lines' = (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quota
 line :: Parser Line_
 line = (Header <$> onLine NotInHeadings column) <|> (Entries <$> onLine NotInRow cell) <|> misfit NotInRow
   where
-    onLine problem p = (:|) <$> p <*> Parsec.many (onThisLine p) <* lineDone problem
+    onLine problem p = (:|) <$> p <*> several (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
     cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow)))) <|> parens expr
@@ -204,7 +204,7 @@ piece = do
   base <- expr
   ciphers <- Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> sideless)
-  Piece what base ciphers side <$> Parsec.many (located joggle)
+  Piece what base ciphers side <$> several (located joggle)
   where
     -- The end of the statement, or a side of something else.
     sideless = do
@@ -236,7 +236,7 @@ choice = do
   Located region (condition, then') <- located (keyword "if" *> ((,) <$> expr <*> branch))
   case then' of
     Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
-    Left (a, b) -> Element Nothing (Located region (If condition a b)) <$> Parsec.many (located modifier) <*> Parsec.optional (located link)
+    Left (a, b) -> Element Nothing (Located region (If condition a b)) <$> several (located modifier) <*> Parsec.optional (located link)
   where
     branch = (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
     otherwise' = ((: []) <$> located choice) <|> nested (block "the block of ‘else’" BrokenItem item)
@@ -247,7 +247,7 @@ element = do
   what <- expr
   ahead <- wordAhead
   if ahead
-    then Element walk what <$> Parsec.many (located modifier) <*> Parsec.optional (located link)
+    then Element walk what <$> several (located modifier) <*> Parsec.optional (located link)
     else pure (Element walk what [] Nothing)
 
 modifier :: Parser Modifier_
@@ -313,16 +313,18 @@ expr :: Parser Expr
 expr = do
   begin <- upcoming
   case begin of
-    t : _ | beginsOperand t -> primary >>= operated
+    t : _ | Just first <- operand t -> first >>= operated
     _ -> conditional <|> disjunction
 
--- | Whether a token is the first of an operand without a sign.
-beginsOperand :: Token -> Bool
-beginsOperand t = case shape t of
-  Number _ _ -> True
-  Word word -> not (Keyword.isReserved word)
-  Symbol s -> s == "(" || s == "["
-  _ -> False
+-- | An operand by its first token.
+operand :: Grammar p => Token -> Maybe (p Expr)
+operand t = case shape t of
+  Number _ _ -> Just number
+  Word word | not (Keyword.isReserved word) -> Just variableOrCall
+  Symbol "(" -> Just pairOrGroup
+  Symbol "[" -> Just list
+  Symbol "-" -> Just negative
+  _ -> Nothing
 
 -- | An expression that begins with an operand.
 operated :: Grammar p => Expr -> p Expr
@@ -398,31 +400,38 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
 
 -- | Operands joined by operators, from left to right, behind the first of them.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
-chain operator operand = more
+chain operator next = more
   where
-    more left = (operator >>= \op -> operand >>= \right -> more (joined op left right)) <|> pure left
+    more left = (operator >>= \op -> next >>= \right -> more (joined op left right)) <|> pure left
 
 joined :: Operator -> Expr -> Expr -> Expr
 joined op left right = Located (span (Region.region left) (Region.region right)) (Binary op left right)
 
 factor :: Parser Expr
-factor = Parsec.hidden (located (Negate <$> (symbol "-" *> nested factor))) <|> primary
+factor = do
+  begin <- upcoming
+  case begin of
+    t : _ | Just found <- operand t -> found
+    _ -> Parsec.hidden negative <|> primary
+
+negative :: Parser Expr
+negative = located (Negate <$> (symbol "-" *> nested factor))
 
 primary :: Parser Expr
 primary = (number <|> variableOrCall <|> pairOrGroup <|> list) <?> "a value"
 
 number :: Parser Expr
-number = located (token "a number" numberOf)
+number = token "a number" numberOf
   where
     numberOf t = case shape t of
-      Number x unit -> Just (Literal x unit)
+      Number x unit -> Just (Located (Token.place t) (Literal x unit))
       _ -> Nothing
 
 -- | @[a, b, c]@ and @[e for x in list]@
 list :: Parser Expr
 list = located (brackets (Parsec.option (List []) (expr >>= more)))
   where
-    more e = (each e <$> (Parsec.hidden (keyword "for") *> forEach)) <|> (List . (e :) <$> Parsec.many (symbol "," *> expr))
+    more e = (each e <$> (Parsec.hidden (keyword "for") *> forEach)) <|> (List . (e :) <$> several (symbol "," *> expr))
     each e (variable, from) = Each e variable from
 
 variableOrCall :: Parser Expr
@@ -437,12 +446,15 @@ argument :: Parser Argument
 argument = do
   begin <- upcoming
   case begin of
-    t : _ | beginsOperand t -> Given <$> expr
+    t : _ | not (isWord' t) -> Given <$> expr
     _ -> Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
   where
     chosen = Chosen <$> located (Parsec.choice [c <$ keyword k | (k, c) <- choices]) <*> expr
     choices = [("near", Near), ("left", ToLeft), ("right", ToRight), ("inside", Within'), ("outside", Beyond), ("within", UpTo)]
     ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
+    isWord' t = case shape t of
+      Word _ -> True
+      _ -> False
 
 -- | Only if a parenthesis follows without a space.
 touching :: Parser ()
