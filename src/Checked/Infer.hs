@@ -25,6 +25,7 @@ module Checked.Infer
     monomorphic,
     known,
     knownDimension,
+    decidedAs,
     settledPlaces,
 
     -- * Equations
@@ -195,6 +196,13 @@ freshType = Variable <$> freshNumber
 
 freshDimension :: Infer Dimension
 freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
+
+-- | An unknown that is this type, as was decided at a place.
+decidedAs :: Region -> Type -> Infer Type
+decidedAs region t = do
+  n <- freshNumber
+  modify' (\m -> m {types = IntMap.insert n t (types m), decided = IntMap.insert n region (decided m)})
+  pure (Variable n)
 
 -- | The unknowns of a dimension have one value for all uses of the function at hand.
 monomorphic :: Dimension -> Infer ()
