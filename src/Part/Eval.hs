@@ -14,8 +14,8 @@ module Part.Eval
 where
 
 import Base.Region (Region)
-import Control.Monad (when)
 import Data.Either (fromLeft)
+import GHC.Exts (oneShot)
 import Part.Error (Error (..), Fact (..))
 
 -- | What is done with some steps left.
@@ -24,24 +24,29 @@ newtype Eval a = Eval (Int -> Outcome a)
 -- | The steps then left, and what was found; or the mistakes, none when they are reported already.
 data Outcome a = Found Int a | Failed Int [Error]
 
+-- | One by its steps. It is run once, as the compiler is told: then it makes no function of it first.
+steps :: (Int -> Outcome a) -> Eval a
+steps f = Eval (oneShot f)
+{-# INLINE steps #-}
+
 instance Functor Eval where
-  fmap f (Eval e) = Eval $ \left -> case e left of
+  fmap f (Eval e) = steps $ \left -> case e left of
     Found left' a -> Found left' (f a)
     Failed left' errors -> Failed left' errors
   {-# INLINE fmap #-}
+  b <$ e = fmap (const b) e
+  {-# INLINE (<$) #-}
 
 instance Applicative Eval where
-  pure a = Eval (`Found` a)
+  pure a = steps (`Found` a)
   {-# INLINE pure #-}
-  Eval e <*> Eval e' = Eval $ \left -> case e left of
-    Found left' f -> case e' left' of
-      Found left'' a -> Found left'' (f a)
-      Failed left'' errors -> Failed left'' errors
-    Failed left' errors -> Failed left' errors
+  e <*> e' = e >>= \f -> fmap f e'
   {-# INLINE (<*>) #-}
+  e *> e' = e >>= const e'
+  {-# INLINE (*>) #-}
 
 instance Monad Eval where
-  Eval e >>= f = Eval $ \left -> case e left of
+  Eval e >>= f = steps $ \left -> case e left of
     Found left' a -> let Eval e' = f a in e' left'
     Failed left' errors -> Failed left' errors
   {-# INLINE (>>=) #-}
@@ -70,21 +75,19 @@ gather evals = do
     [] -> either (const absent) pure (sequence results)
     errors -> mistakes errors
   where
-    tried (Eval e) = Eval $ \left -> case e left of
+    tried (Eval e) = steps $ \left -> case e left of
       Found left' a -> Found left' (Right a)
       Failed left' errors -> Found left' (Left errors)
 {-# INLINEABLE gather #-}
 
 -- | Take steps. When there are none left, that is reported once; below zero it is reported already.
 spend :: Region -> Int -> Eval ()
-spend region steps = do
-  left <- Eval (\left -> Found left left)
-  when (left < 0) absent
-  if steps > left
-    then leave (-1) *> mistake (TooMuchWork region mostSteps)
-    else leave (left - steps)
-  where
-    leave left = Eval (const (Found left ()))
+spend region wanted = steps $ \left -> case () of
+  _
+    | left < 0 -> Failed left []
+    | wanted > left -> Failed (-1) [Error (TooMuchWork region mostSteps) []]
+    | otherwise -> Found (left - wanted) ()
+{-# INLINE spend #-}
 
 -- | A program may take so many steps.
 mostSteps :: Int
@@ -92,6 +95,6 @@ mostSteps = 5000000
 
 -- | Note through which call of a function a mistake came.
 inCall :: Region -> Eval a -> Eval a
-inCall region (Eval e) = Eval $ \left -> case e left of
+inCall region (Eval e) = steps $ \left -> case e left of
   Found left' a -> Found left' a
   Failed left' errors -> Failed left' (map (\(Error fact calls) -> Error fact (calls <> [region])) errors)
