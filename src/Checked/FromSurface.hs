@@ -328,10 +328,11 @@ item defined (Located at i) = case i of
     pure (\sol -> Located at (Checked.Choose (e' sol) (solved sol items') (solved sol others')))
   Surface.Element walk e modifiers link -> do
     (t, e') <- walked defined walk e
-    columns <- Piece.columnsOf t
-    modifiers' <- mapM (modified defined columns) (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
+    modifiers' <- if null modifiers then pure [] else Piece.columnsOf t >>= modified' modifiers
     link' <- traverse (linked defined) link
     pure (\sol -> Located at (Checked.Element (eagerly value walk) (e' sol) (solved sol modifiers') (eagerly ($ sol) link')))
+  where
+    modified' modifiers columns = mapM (modified defined columns) (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
 
 isBevel :: Surface.Modifier -> Bool
 isBevel (Located _ m) = case m of

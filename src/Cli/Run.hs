@@ -43,6 +43,7 @@ import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
+import Path.Path (Path)
 import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import Sheet.Error qualified as Sheet
@@ -148,6 +149,10 @@ delivered reporter written = case written of
 analyse :: Loaded -> Result Report Report Analysis
 analyse loaded = Compile.analyse (values loaded) (texts loaded)
 
+-- | A program without its tree, of which nobody needs to know while its tape is punched.
+unread :: Loaded -> Loaded
+unread loaded = loaded {texts = (texts loaded) {Compile.surface = Result [] [] Nothing}}
+
 -- Machines
 
 -- | The descriptions that the command line names, with those of the program.
@@ -169,14 +174,14 @@ withMachine reporter about wanted continue = do
 -- Commands
 
 -- | Punch a program for one machine and prove the tape.
-proven :: Bool -> Analysis -> Machine -> Result Report Report (Machine, Punched)
-proven unproven' analysis machine = do
-  punched <- Compile.punch machine (path analysis) >>= moving
+proven :: Bool -> Path -> Machine -> Result Report Report (Machine, Punched)
+proven unproven' laid machine = do
+  punched <- Compile.punch machine laid >>= moving
   if unproven'
     then Result.warned [Cli.warningReport Unproven]
     else do
       read' <- Compile.readTape machine (Frame.start (program punched)) (tape punched)
-      _ <- Compile.prove machine (path analysis) (program punched) read'
+      _ <- Compile.prove machine laid (program punched) read'
       pure ()
   pure (machine, punched)
 
@@ -186,12 +191,14 @@ moving punched = if null (Frame.planned (program punched)) then Result.failed (C
 
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withProgram reporter (file options) (targets options) $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` \a -> chosen loaded (targets options) a >>= traverse (proven (unproven options) a)) $ \tapes -> do
-    places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
-    clash <- overwrites (ownFiles (file options) loaded) (map fst places)
-    case clash of
-      Just place -> complain reporter (name loaded) (OverwritesProgram (Text.pack place))
-      Nothing -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+  let known = unread loaded
+      onMachines a = let laid = path a in laid `seq` (chosen known (targets options) a >>= traverse (proven (unproven options) laid))
+   in known `seq` settle reporter known (analyse loaded `Result.thenSound` onMachines) $ \tapes -> do
+        places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
+        clash <- overwrites (ownFiles (file options) known) (map fst places)
+        case clash of
+          Just place -> complain reporter (name known) (OverwritesProgram (Text.pack place))
+          Nothing -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
 
 -- | Where a tape goes: beside the program, into a folder, or to the file that is named.
 destination :: CompileOptions -> Int -> Machine -> IO FilePath

@@ -19,7 +19,6 @@ module Geometry.Box
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
-import Data.Maybe (fromMaybe)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -77,21 +76,21 @@ index box things = fst (build (length things) things)
               (a, behind) = build half ts
               (b, left') = build (n - half) behind
            in (node a b, left')
-    node a b = case (extent a, extent b) of
-      (Just p, Just q) -> Node (p `union` q) a b
-      (Nothing, _) -> b
-      (_, Nothing) -> a
+    node a b = case (a, b) of
+      (Leaf p _, Leaf q _) -> Node (p `union` q) a b
+      (Leaf p _, Node q _ _) -> Node (p `union` q) a b
+      (Node p _ _, Leaf q _) -> Node (p `union` q) a b
+      (Node p _ _, Node q _ _) -> Node (p `union` q) a b
+      (Empty, _) -> b
+      (_, Empty) -> a
+{-# INLINE index #-}
 
 -- | A box around everything in an index; of nothing, one that meets no other.
 around :: Index a -> Box
-around = fromMaybe (Box (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)) . extent
-
--- | The same, if there is anything.
-extent :: Index a -> Maybe Box
-extent i = case i of
-  Empty -> Nothing
-  Leaf p _ -> Just p
-  Node p _ _ -> Just p
+around i = case i of
+  Empty -> Box (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)
+  Leaf p _ -> p
+  Node p _ _ -> p
 
 -- | All things whose boxes meet a box, in order.
 within :: Box -> Index a -> [a]

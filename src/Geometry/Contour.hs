@@ -59,8 +59,9 @@ chained get set ends (first :| rest) = case rest of
     follow from things = case things of
       [] -> []
       [a] -> [set (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from}) a]
-      a : more -> let s = (get a) {start = from} in set s a : follow (end s) more
+      a : more -> let s = (get a) {start = from}; a' = set s a in a' `seq` (a' : follow (end s) more)
     closing s = s {end = start (get first)}
+{-# INLINE chained #-}
 
 -- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
 signedArea :: Contour -> Double

@@ -105,7 +105,7 @@ raw style side radius contour = case concaves <> [cause | Blocked cause <- corne
           front + back > 0 && Mm (front + back) >= Segment.length (segment way),
           let a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
       ]
-    real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) (concat (zipWith (:) ways ([case c of Passed ps -> ps; Bent _ -> []; Blocked _ -> [] | c <- corners] <> [[]])))
+    real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) (concat (zipWith (:) ways ([case c of { Passed ps -> ps; Bent _ -> []; Blocked _ -> [] } | c <- corners] <> [[]])))
     chained = Contour.chained segment (\s p -> p {segment = s}) (Contour.ends contour)
 
 -- | A way without so much of it at its beginning and at its end, in mm.
@@ -154,19 +154,16 @@ data Corner
 corner :: Style -> Side -> Mm -> Int -> (Int, Segment, Segment) -> Corner
 corner style side radius count (number, before, after)
   | turned * leftward side > smooth && r1 == r2, Just t <- bend r1 = Bent t
-  | abs turned <= smooth || radius <= Mm 0 = Passed [Piece (Around number) (Straight p q) | r1 /= r2]
+  | abs turned <= smooth || radius <= Mm 0 = Passed [Piece (Around number) (Straight (from r1 before') (from r2 after')) | r1 /= r2]
   | turned * leftward side > 0 && pi - abs turned > smooth = Blocked (InnerCorner number next vertex)
-  | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Passed [Piece (Around number) (Straight p tip), Piece (Around number) (Straight tip q)]
-  | otherwise = Passed (map (Piece (Around number)) ([Straight p wideP | r1 < wide] <> [Segment.arc sense vertex wideP wideQ] <> [Straight wideQ q | r2 < wide]))
+  | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Passed [Piece (Around number) (Straight (from r1 before') (tip r1)), Piece (Around number) (Straight (tip r1) (from r2 after'))]
+  | r1 == r2 = Passed [Piece (Around number) (round' r1)]
+  | r1 < r2 = Passed [Piece (Around number) (Straight (from r1 before') (from r2 before')), Piece (Around number) (round' r2)]
+  | otherwise = Passed [Piece (Around number) (round' r1), Piece (Around number) (Straight (from r1 after') (from r2 after'))]
   where
-    next = (number + 1) `mod` count
+    next = if number + 1 == count then 0 else number + 1
     r1 = radiusAt style radius number
     r2 = radiusAt style radius next
-    wide = max r1 r2
-    p = from r1 before'
-    q = from r2 after'
-    wideP = from wide before'
-    wideQ = from wide after'
     Rad smooth = Tolerance.smoothAngle
     before' = Segment.endDirection before
     after' = Segment.startDirection after
@@ -175,7 +172,8 @@ corner style side radius count (number, before, after)
     bend (Mm r) = let Mm rest = Tolerance.slightRest in if r * (1 / cos (turned / 2) - 1) <= rest then Just (r * tan (abs turned / 2)) else Nothing
     from (Mm r) direction = Vec.shift (Vec.scale (leftward side * r) (Vec.left direction)) vertex
     -- Where the ways before and behind the corner meet.
-    tip = let Mm r = wide in Vec.shift (Vec.scale (r * tan (abs turned / 2)) before') p
+    tip (Mm r) = Vec.shift (Vec.scale (r * tan (abs turned / 2)) before') (from (Mm r) before')
+    round' r = Segment.arc sense vertex (from r before') (from r after')
     sense = case side of
       LeftOf -> Clockwise
       RightOf -> CounterClockwise
