@@ -84,19 +84,23 @@ selfCrossing (Contour ends ss) = case concatMap crossings (Box.pairs index) of
   where
     count = NonEmpty.length ss
     index = Box.index (Box.ofSegment . snd) (zip [0 ..] (NonEmpty.toList ss))
-    crossings ((i, s), (j, other)) =
-      [ (i, j, p)
-        | p <- case joints' i j s of
-            [] -> Distance.crossings s other
-            _ | goesOn i j s other -> []
-            shared -> retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
-      ]
+    crossings ((i, s), (j, other))
+      | j == i + 1 && straightOn s other = []
+      | closes && straightOn other s = []
+      | otherwise = [(i, j, p) | p <- if null shared then Distance.crossings s other else retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)]
+      where
+        closes = j /= i + 1 && ends == Closed && i == 0 && j == count - 1
+        -- Where the two are joined: behind the first, or where the contour closes.
+        shared = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
     -- Of two neighbours that hardly turn, the one lies in a cone behind their joint and the other before it.
-    goesOn i j s other
-      | j == i + 1 = straightOn s other
-      | otherwise = straightOn other s
-    straightOn a b = hardlyTurns a && hardlyTurns b && abs (turnOf a b) <= 0.1
-    turnOf a b = let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in t
+    straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving a, setting b) in abs (Vec.cross u v) <= tan 0.1 * Vec.dot u v)
+    -- Directions, not of length 1.
+    arriving a = case a of
+      Straight p q -> Vec.to p q
+      Arc {end, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre end))
+    setting a = case a of
+      Straight p q -> Vec.to p q
+      Arc {start, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre start))
     hardlyTurns a = case a of
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
@@ -106,5 +110,3 @@ selfCrossing (Contour ends ss) = case concatMap crossings (Box.pairs index) of
           longer = if Segment.length s <= Segment.length other then other else s
           middle = Segment.at 0.5 shorter
        in [middle | Distance.toPoint middle longer <= Tolerance.coincident]
-    -- Where two segments are joined: behind the first, or where the contour closes.
-    joints' i j s = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
