@@ -40,6 +40,7 @@ import Base.Result (Result (..), mapErrors)
 import Base.Result qualified as Result
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
+import Checked.Syntax (Mention)
 import Checked.Syntax qualified as Checked
 import Data.Functor.Identity (runIdentity)
 import Data.Text (Text)
@@ -118,7 +119,8 @@ isSheet = (== ".sheet") . takeExtension
 
 -- | What a program says, whatever the machine.
 data Analysis = Analysis
-  { checked :: Checked.Program,
+  { -- | every place at which a name stands
+    mentions :: [Mention],
     part :: Part,
     path :: Path
   }
@@ -126,9 +128,10 @@ data Analysis = Analysis
 -- | From the texts to the path; the values are given to the program's parameters, by their names.
 analyse :: [(Text, Text)] -> Loaded -> Result Report Report Analysis
 analyse values loaded = do
-  (checked, part) <- evaluated values loaded
+  -- Of the checked program only the mentions are held while the path is laid.
+  (mentions, part) <- (\(checked, part) -> let found = Checked.mentions checked in found `seq` (found, part)) <$> evaluated values loaded
   path <- mapErrors Path.warningReport Path.toReport (Path.lay part)
-  pure Analysis {checked, part, path}
+  pure Analysis {mentions, part, path}
 
 -- | From the texts to the exact geometry.
 evaluated :: [(Text, Text)] -> Loaded -> Result Report Report (Checked.Program, Part)

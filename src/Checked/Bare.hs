@@ -2,18 +2,26 @@
 module Checked.Bare
   ( number,
     plainFactor,
+    Call (..),
+    call,
   )
 where
 
+import Base.Name (Name (..))
 import Base.Region (Located (..))
+import Checked.Builtin (Form (..))
+import Checked.Builtin qualified as Builtin
+import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Infer (Infer)
 import Checked.Infer qualified as Infer
+import Checked.Later (Later, solved)
 import Checked.Piece (unitType)
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (void, when)
+import Control.Monad (void, when, zipWithM)
+import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
@@ -45,4 +53,49 @@ isBare (Located _ e) = case e of
   Surface.Literal _ Nothing -> True
   Surface.Negate inner -> isBare inner
   Surface.Binary _ l r -> isBare l && isBare r
+  _ -> False
+
+-- | A call whose type is known at once; whether the function has other forms.
+data Call = Call {answer :: Type, overloaded :: Bool, checked :: Later Checked.Expr}
+
+-- | A call of a function of the language with numbers and pairs as they are written, if only one of its forms takes
+-- such, without a detour by unknowns. Its values are checked by the function given.
+call :: (Type -> Surface.Expr -> Infer (Later Checked.Expr)) -> Surface.Expr -> Infer (Maybe Call)
+call expect (Located at e) = case e of
+  Surface.Call (Located place name@(Name text)) arguments
+    | Just es <- traverse given (NonEmpty.toList arguments),
+      Just kinds <- traverse kindOf es,
+      Just builtin <- Builtin.lookup text,
+      [(form, True)] <- filter (and . zipWith fits kinds . map Builtin.type' . parameters . fst) (Builtin.bare builtin (length es)) -> do
+      entry <- Infer.find name
+      case entry of
+        Just _ -> pure Nothing
+        Nothing -> do
+          Infer.mention place Nothing text (Infer.Said (Builtin.meaning builtin))
+          es' <- zipWithM expect (map Builtin.type' (parameters form)) es
+          pure (Just Call {answer = Builtin.result form, overloaded = Builtin.isOverloaded builtin, checked = \sol -> Located at (Checked.Builtin builtin (solved sol (map (Checked.Given .) es')))})
+  _ -> pure Nothing
+  where
+    given a = case a of
+      Surface.Given x -> Just x
+      Surface.Chosen _ _ -> Nothing
+      Surface.Ranked _ -> Nothing
+
+-- | What is plain to see of an expression: it is a quantity, of this dimension if that is plain too, or a pair.
+data Kind = Quantity (Maybe Dimension) | Pair
+
+kindOf :: Surface.Expr -> Maybe Kind
+kindOf (Located _ e) = case e of
+  Surface.Literal _ unit -> Just (Quantity (Type.dimensionOf . fst . unitType <$> unit))
+  Surface.Negate inner | Just (Quantity d) <- kindOf inner -> Just (Quantity d)
+  Surface.Pair _ _ -> Just Pair
+  _ -> Nothing
+
+-- | Whether such an expression may be of a type.
+fits :: Kind -> Type -> Bool
+fits kind t = case (kind, t) of
+  (_, Type.Variable _) -> True
+  (Quantity (Just own), Type.Quantity d) -> own == d || not (Dimension.isKnown d)
+  (Quantity Nothing, Type.Quantity _) -> True
+  (Pair, Type.Spatial _) -> True
   _ -> False

@@ -10,10 +10,13 @@ module Checked.Builtin
     lookup,
     forms,
     labelled,
+    bare,
+    isOverloaded,
     isConstant,
     names,
     name,
     written,
+    meaning,
     formsOf,
     formsHint,
   )
@@ -253,8 +256,22 @@ labelled Fresh {dimension, anything} builtin labels = map made (maybe [] (Map.fi
 -- | All forms by their labels; what is new at every call is 'anyUnknown' in them.
 byLabels :: Lazy.Map Builtin (Map [Label] [Form])
 byLabels = Lazy.fromList [(b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms template b]) | b <- [minBound .. maxBound]]
+
+template :: Fresh
+template = Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
+
+-- | The forms of a function that take so many values without a word, and whether all types of each are known.
+bare :: Builtin -> Int -> [(Form, Bool)]
+bare builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
+
+byCount :: Lazy.Map Builtin (Map Int [(Form, Bool)])
+byCount = fmap (\labels -> Map.fromList [(length ls, [(f, isKnown f) | f <- fs]) | (ls, fs) <- Map.toList labels, all (== Bare) ls]) byLabels
   where
-    template = Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
+    isKnown f = all (\t -> null (Type.dimensions t) && null (Type.variables t)) (result f : map type' (parameters f))
+
+-- | Whether a function has several forms.
+isOverloaded :: Builtin -> Bool
+isOverloaded builtin = not (null (drop 1 (forms template builtin)))
 
 -- | An unknown that no check has.
 anyUnknown :: Int
@@ -275,6 +292,10 @@ written builtin form = name builtin <> "(" <> Text.intercalate ", " (map paramet
       Within' -> "inside"
       Beyond -> "outside"
       UpTo -> "within"
+
+-- | A function for a reader, by the first of its forms.
+meaning :: Builtin -> Text
+meaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (formsOf builtin))
 
 -- | The forms of a function as calls, for a reader.
 formsOf :: Builtin -> [Text]

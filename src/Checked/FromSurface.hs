@@ -16,8 +16,9 @@ import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
-import Checked.Infer (Infer, Solution)
+import Checked.Infer (Infer)
 import Checked.Infer qualified as Infer
+import Checked.Later (Later, eagerly, solved)
 import Checked.Piece (unitType)
 import Checked.Piece qualified as Piece
 import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Pending (..))
@@ -39,9 +40,6 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
-
--- | A term that is known when the whole program has been looked at.
-type Later a = Solution -> a
 
 -- | Check a program.
 check :: Surface.Program -> Result w Error Program
@@ -109,7 +107,7 @@ statement defined (Located at s) = case s of
   Surface.Contour name closure items -> do
     checked <- Infer.separately (unused name *> mapM (item defined) items)
     defining name (const (Value (region name) Type.Contour)) checked
-    pure (plain (\items' sol -> Checked.Contour name closure (map ($ sol) items')) checked)
+    pure (plain (\items' sol -> Checked.Contour name closure (solved sol items')) checked)
   Surface.Table name written -> do
     checked <- Infer.separately (unused name *> Piece.table (checker defined) name (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> []))
     defining name (\(t, _) -> Value (region name) t) checked
@@ -118,7 +116,7 @@ statement defined (Located at s) = case s of
   Surface.Piece name e ciphers side joggles -> do
     checked <- Infer.separately (unused name *> piece defined e ciphers joggles)
     defining name (\(t, _) -> Value (region name) t) checked
-    pure (plain (\(_, (e', ciphers', joggles')) sol -> Checked.Piece name (e' sol) (map ($ sol) ciphers') side (map ($ sol) joggles')) checked)
+    pure (plain (\(_, (e', ciphers', joggles')) sol -> Checked.Piece name (e' sol) (solved sol ciphers') side (solved sol joggles')) checked)
   Surface.Assert e within -> one Checked.Assert (assertion defined e within)
   Surface.Mill e side options -> machining Checked.Mill "mill" e side options
   Surface.Pocket e apart options ->
@@ -142,16 +140,16 @@ statement defined (Located at s) = case s of
   Surface.Repeat counter list body -> do
     checked <- Infer.separately (repetition defined counter list)
     body' <- inBlock (maybe (Poisoned (region counter)) (Local (region counter) . fst) checked) (Just counter) body
-    pure (plain (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (map ($ sol) body')) checked)
+    pure (plain (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (solved sol body')) checked)
   Surface.When e body others -> do
     checked <- Infer.separately (expect defined Type.Truth' e)
     body' <- block' body
     others' <- block' others
-    pure (plain (\e' sol -> Checked.When (e' sol) (map ($ sol) body') (map ($ sol) others')) checked)
+    pure (plain (\e' sol -> Checked.When (e' sol) (solved sol body') (solved sol others')) checked)
   Surface.With e body -> do
     checked <- Infer.separately (expect defined Type.Placement e)
     body' <- block' body
-    pure (plain (\e' sol -> Checked.With (e' sol) (map ($ sol) body')) checked)
+    pure (plain (\e' sol -> Checked.With (e' sol) (solved sol body')) checked)
   where
     plain f = fmap (\x sol -> Located at (f x sol))
     one make inside = plain (\x sol -> make (x sol)) <$> Infer.separately inside
@@ -322,18 +320,19 @@ item defined (Located at i) = case i of
   Surface.For counter list items -> do
     (t, list') <- repetition defined counter list
     items' <- Infer.withLocals [(counter, t)] (mapM (item defined) items)
-    pure (\sol -> Located at (Checked.For (value counter) (list' sol) (map ($ sol) items')))
+    pure (\sol -> Located at (Checked.For (value counter) (list' sol) (solved sol items')))
   Surface.Choose e items others -> do
     e' <- expect defined Type.Truth' e
     items' <- mapM (item defined) items
     others' <- mapM (item defined) others
-    pure (\sol -> Located at (Checked.Choose (e' sol) (map ($ sol) items') (map ($ sol) others')))
+    pure (\sol -> Located at (Checked.Choose (e' sol) (solved sol items') (solved sol others')))
   Surface.Element walk e modifiers link -> do
     (t, e') <- walked defined walk e
-    columns <- Piece.columnsOf t
-    modifiers' <- mapM (modified defined columns) (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
+    modifiers' <- if null modifiers then pure [] else Piece.columnsOf t >>= modified' modifiers
     link' <- traverse (linked defined) link
-    pure (\sol -> Located at (Checked.Element (value <$> walk) (e' sol) (map ($ sol) modifiers') (($ sol) <$> link')))
+    pure (\sol -> Located at (Checked.Element (eagerly value walk) (e' sol) (solved sol modifiers') (eagerly ($ sol) link')))
+  where
+    modified' modifiers columns = mapM (modified defined columns) (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
 
 isBevel :: Surface.Modifier -> Bool
 isBevel (Located _ m) = case m of
@@ -354,10 +353,12 @@ modified defined columns (Located at m) = fmap (Located at .) $ case m of
 walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 walked defined walk e = case (walk, value e) of
   (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect defined Type.aPoint e
-  _ -> inferred
+  _ -> do
+    plain <- Bare.call (expect defined) e
+    inferred (maybe (infer defined e) (\c -> pure (Bare.answer c, Bare.checked c)) plain)
   where
-    inferred = do
-      (t, e') <- infer defined e
+    inferred found = do
+      (t, e') <- found
       t' <- Infer.known t
       case (t', walk) of
         (Type.Circle, Nothing) -> Infer.mistake (SenseMissing (region e))
@@ -424,7 +425,11 @@ infer defined (Located at e) = case e of
     unless (x == 0) (Infer.monomorphic d)
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
   Surface.Variable name -> variable defined at name
-  Surface.Call name arguments -> call defined at name arguments
+  Surface.Call name arguments -> do
+    plain <- Bare.call (expect defined) (Located at e)
+    case plain of
+      Nothing -> call defined at name arguments
+      Just c -> (,Bare.checked c) <$> (if Bare.overloaded c then Infer.decidedAs at (Bare.answer c) else pure (Bare.answer c))
   Surface.Negate inner -> do
     (t, inner') <- infer defined inner
     result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
@@ -470,7 +475,7 @@ infer defined (Located at e) = case e of
   Surface.List es -> do
     t <- Infer.freshType
     es' <- mapM (expect defined t) es
-    pure (Type.ListOf t, \sol -> Located at (Checked.List (map ($ sol) es')))
+    pure (Type.ListOf t, \sol -> Located at (Checked.List (solved sol es')))
   Surface.Each inner counter list -> do
     (t, list') <- repetition defined counter list
     (result, inner') <- Infer.withLocals [(counter, t)] (infer defined inner)
@@ -495,7 +500,7 @@ variable defined at name@(Name text) = do
     Just (Poisoned _) -> nothing <$ Infer.taint
     Nothing -> case Builtin.lookup text of
       Just builtin -> do
-        Infer.mention at Nothing text (Infer.Said (builtinMeaning builtin))
+        Infer.mention at Nothing text (Infer.Said (Builtin.meaning builtin))
         forms <- fresh builtin
         case forms of
           [Form [] t] -> pure (t, here (Checked.Builtin builtin []))
@@ -515,9 +520,6 @@ freshUnknowns = do
   d <- Infer.freshDimension
   t <- Infer.freshType
   pure Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t}
-
-builtinMeaning :: Checked.Builtin -> Text
-builtinMeaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (Builtin.formsOf builtin))
 
 -- | A name that means nothing here: it stands further down, it is being defined, or it is misspelt.
 unknown :: Defined -> Region -> Name -> Infer Error
@@ -549,7 +551,7 @@ call defined at (Located place name@(Name text)) arguments = do
     Nothing -> case Builtin.lookup text of
       Just builtin
         | Builtin.isConstant builtin -> wrong (NotAFunction place name Nothing)
-        | otherwise -> Infer.mention place Nothing text (Infer.Said (builtinMeaning builtin)) *> builtinCall builtin
+        | otherwise -> Infer.mention place Nothing text (Infer.Said (Builtin.meaning builtin)) *> builtinCall builtin
       Nothing -> unknown defined place name >>= wrong
   where
     given = NonEmpty.toList arguments

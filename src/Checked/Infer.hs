@@ -25,6 +25,7 @@ module Checked.Infer
     monomorphic,
     known,
     knownDimension,
+    decidedAs,
     settledPlaces,
 
     -- * Equations
@@ -78,10 +79,7 @@ type Solution = Dimension -> Dimension
 
 data Memory = Memory
   { next :: Int,
-    dimensions :: IntMap Dimension,
-    types :: IntMap Type,
-    -- | where an unknown was decided
-    decided :: IntMap Region,
+    decisions :: IntMap Decision,
     -- | unknowns below this one belong to definitions outside the function at hand
     outside :: Int,
     -- | younger unknowns that must not be generalised
@@ -95,9 +93,12 @@ data Memory = Memory
     scope :: Map Name Entry
   }
 
+-- | What an unknown is, and where that was decided.
+data Decision = TypeAt Region Type | DimensionAt Region Dimension
+
 -- | Run a check from the beginning: the errors in order, the solution, the output, and the names of the text.
 run :: Infer a -> ([Error], Solution, a, [Mention])
-run infer = (reverse (found memory), resolveDimension (dimensions memory), a, map said (mentioned memory))
+run infer = (reverse (found memory), resolveDimension (decisions memory), a, map said (mentioned memory))
   where
     said (place', definition, word, meaning') = Mention place' definition word (inWords meaning')
     inWords meaning' = case meaning' of
@@ -112,9 +113,7 @@ run infer = (reverse (found memory), resolveDimension (dimensions memory), a, ma
     start =
       Memory
         { next = 0,
-          dimensions = IntMap.empty,
-          types = IntMap.empty,
-          decided = IntMap.empty,
+          decisions = IntMap.empty,
           outside = 0,
           shared = IntSet.empty,
           pending = [],
@@ -196,6 +195,16 @@ freshType = Variable <$> freshNumber
 freshDimension :: Infer Dimension
 freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
 
+-- | An unknown that is this type, as was decided at a place.
+decidedAs :: Region -> Type -> Infer Type
+decidedAs region t = do
+  n <- freshNumber
+  decideAs n (TypeAt region t)
+  pure (Variable n)
+
+decideAs :: Int -> Decision -> Infer ()
+decideAs n decision = modify' (\m -> m {decisions = IntMap.insert n decision (decisions m)})
+
 -- | The unknowns of a dimension have one value for all uses of the function at hand.
 monomorphic :: Dimension -> Infer ()
 monomorphic d = modify' (\m -> m {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared m)})
@@ -205,28 +214,39 @@ known :: Type -> Infer Type
 known t = gets (\m -> resolve m t)
 
 knownDimension :: Dimension -> Infer Dimension
-knownDimension d = gets (\m -> resolveDimension (dimensions m) d)
+knownDimension d = gets (\m -> resolveDimension (decisions m) d)
 
 resolve :: Memory -> Type -> Type
-resolve m t = Type.replaced (resolveDimension (dimensions m)) (\n -> maybe (Variable n) (resolve m) (IntMap.lookup n (types m))) t
+resolve m t = Type.replaced (resolveDimension (decisions m)) unknown t
+  where
+    unknown n = case IntMap.lookup n (decisions m) of
+      Just (TypeAt _ t') -> resolve m t'
+      Just (DimensionAt _ _) -> Variable n
+      Nothing -> Variable n
 
-resolveDimension :: IntMap Dimension -> Dimension -> Dimension
-resolveDimension bound d = case [(n, b) | n <- Dimension.unknowns d, Just b <- [IntMap.lookup n bound]] of
+resolveDimension :: IntMap Decision -> Dimension -> Dimension
+resolveDimension known' d = case [(n, b) | n <- Dimension.unknowns d, Just (DimensionAt _ b) <- [IntMap.lookup n known']] of
   [] -> d
-  replaced -> resolveDimension bound (foldl (\d' (n, b) -> Dimension.substitute n b d') d replaced)
+  replaced -> resolveDimension known' (foldl (\d' (n, b) -> Dimension.substitute n b d') d replaced)
 
 -- | Where an unknown of the type, as it is written down, was decided.
 decidedAt :: Type -> Infer (Maybe Region)
 decidedAt t = gets (\m -> listToMaybe (places m t))
   where
     places m t' = case t' of
-      Variable n -> mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (places m) (IntMap.lookup n (types m))
+      Variable n -> case IntMap.lookup n (decisions m) of
+        Just (TypeAt region t'') -> region : places m t''
+        Just (DimensionAt region _) -> [region]
+        Nothing -> []
       Quantity d -> ofDimension m d
       Spatial d -> ofDimension m d
       _ -> []
     ofDimension m d =
       concat
-        [ mapMaybe (`IntMap.lookup` decided m) [n] <> maybe [] (ofDimension m) (IntMap.lookup n (dimensions m))
+        [ case IntMap.lookup n (decisions m) of
+            Just (DimensionAt region d') -> region : ofDimension m d'
+            Just (TypeAt region _) -> [region]
+            Nothing -> []
           | n <- Dimension.unknowns d
         ]
 
@@ -264,7 +284,7 @@ unify region a b = do
     bind n t
       | n `elem` Type.variables t = pure False
       | otherwise = do
-        modify' (\m -> m {types = IntMap.insert n t (types m), decided = IntMap.insert n region (decided m)})
+        decideAs n (TypeAt region t)
         share n (Type.variables t <> Type.dimensions t)
         pure True
 
@@ -278,7 +298,7 @@ unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
         Dimension.Solved -> pure True
         Dimension.Impossible -> pure False
         Dimension.Replace n e -> do
-          modify' (\m -> m {dimensions = IntMap.insert n e (dimensions m), decided = IntMap.insert n region (decided m)})
+          decideAs n (DimensionAt region e)
           share n (Dimension.unknowns e)
           go d'
 
@@ -313,7 +333,7 @@ generalising infer = do
       Overloaded c -> chosen c : map snd (given c)
     sharedNow m n =
       Type.variables (resolve m (Variable n))
-        <> Dimension.unknowns (resolveDimension (dimensions m) (Dimension.atom (Dimension.Unknown n)))
+        <> Dimension.unknowns (resolveDimension (decisions m) (Dimension.atom (Dimension.Unknown n)))
 
 -- | What stays open, each once. When there is too much, what is unknown is a quantity after all.
 undecided :: Infer [Pending]
@@ -382,11 +402,14 @@ require p = do
 decide :: Infer [Pending]
 decide = do
   waiting <- gets pending
-  modify' (\m -> m {pending = []})
-  left' <- filterM (fmap not . attempt) (reverse waiting)
-  if length left' < length waiting
-    then modify' (\m -> m {pending = reverse left'}) *> decide
-    else pure left'
+  if null waiting
+    then pure []
+    else do
+      modify' (\m -> m {pending = []})
+      left' <- filterM (fmap not . attempt) (reverse waiting)
+      if length left' < length waiting
+        then modify' (\m -> m {pending = reverse left'}) *> decide
+        else pure left'
 
 -- | Decide all that waits: what is still unknown is a quantity, and of several forms the first is meant.
 settle :: Infer ()

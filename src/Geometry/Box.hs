@@ -10,8 +10,10 @@ module Geometry.Box
     atLeast,
     Index,
     index,
+    around,
     within,
     select,
+    pairs,
     closest,
   )
 where
@@ -35,7 +37,7 @@ ofPoints p ps = foldl (\box q -> box `union` single q) (single p) ps
 -- | A box that holds a segment; for an arc its chord's box grown by the sagitta, or the circle's.
 ofSegment :: Segment -> Box
 ofSegment segment = case segment of
-  Straight a b -> ofPoints a [b]
+  Straight a b -> Box (min (Vec.x a) (Vec.x b)) (min (Vec.y a) (Vec.y b)) (max (Vec.x a) (Vec.x b)) (max (Vec.y a) (Vec.y b))
   Arc {start, end, centre, sweep = Rad s}
     | abs s < pi -> inflate (Segment.bulge segment) (ofPoints start [end])
     | otherwise -> inflate (Segment.radius centre start) (ofPoints centre [])
@@ -58,27 +60,37 @@ atLeast distanceTo (Box l b r t) = minus (distanceTo (Vec.point ((l + r) / 2) ((
 
 -- | Things in the order in which they were given, with the boxes of their groups: the order of a
 -- contour is a good order in space.
-data Index a = Empty | Leaf Box a | Node Box (Index a) (Index a)
+data Index a = Empty | Leaf {-# UNPACK #-} Box a | Node {-# UNPACK #-} Box (Index a) (Index a)
 
--- | Build an index, n·log n.
+-- | Build an index of things by their boxes; linear.
 index :: (a -> Box) -> [a] -> Index a
-index box things = build (length things) things
+index box things = fst (build (length things) things)
   where
+    -- Of so many things at the front of a list; and what is behind them.
     build n ts = case ts of
-      [] -> Empty
-      [a] -> Leaf (box a) a
-      _ ->
-        let half = n `div` 2
-            (first, second) = splitAt half ts
-         in node (build half first) (build (n - half) second)
-    node a b = case (extent a, extent b) of
-      (Just p, Just q) -> Node (p `union` q) a b
-      (Nothing, _) -> b
-      (_, Nothing) -> a
-    extent i = case i of
-      Empty -> Nothing
-      Leaf p _ -> Just p
-      Node p _ _ -> Just p
+      [] -> (Empty, [])
+      t : rest
+        | n == 1 -> (Leaf (box t) t, rest)
+        | otherwise ->
+          let half = n `div` 2
+              (a, behind) = build half ts
+              (b, left') = build (n - half) behind
+           in (node a b, left')
+    node a b = case (a, b) of
+      (Leaf p _, Leaf q _) -> Node (p `union` q) a b
+      (Leaf p _, Node q _ _) -> Node (p `union` q) a b
+      (Node p _ _, Leaf q _) -> Node (p `union` q) a b
+      (Node p _ _, Node q _ _) -> Node (p `union` q) a b
+      (Empty, _) -> b
+      (_, Empty) -> a
+{-# INLINE index #-}
+
+-- | A box around everything in an index; of nothing, one that meets no other.
+around :: Index a -> Box
+around i = case i of
+  Empty -> Box (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)
+  Leaf p _ -> p
+  Node p _ _ -> p
 
 -- | All things whose boxes meet a box, in order.
 within :: Box -> Index a -> [a]
@@ -92,6 +104,22 @@ select holds i = go i []
       Empty -> rest
       Leaf p a -> if holds p then a : rest else rest
       Node p a b -> if holds p then go a (go b rest) else rest
+
+-- | All pairs of things whose boxes meet, in no order; of each pair the earlier thing is the first.
+pairs :: Index a -> [(a, a)]
+pairs i = inside i []
+  where
+    inside one rest = case one of
+      Empty -> rest
+      Leaf _ _ -> rest
+      Node _ a b -> inside a (across a b (inside b rest))
+    across one other rest = case (one, other) of
+      (Leaf p a, Leaf q b) -> if meets p q then (a, b) : rest else rest
+      (Leaf p _, Node q b b') -> if meets p q then across one b (across one b' rest) else rest
+      (Node p a a', Leaf q _) -> if meets p q then across a other (across a' other rest) else rest
+      (Node p a a', Node q b b') -> if meets p q then across a b (across a b' (across a' b (across a' b' rest))) else rest
+      (Empty, _) -> rest
+      (_, Empty) -> rest
 
 -- | The thing nearest to a point, by a distance that is no less than that of its box; of several the first.
 closest :: (a -> Mm) -> Point -> Index a -> Maybe (Mm, a)

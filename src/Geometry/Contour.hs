@@ -12,9 +12,10 @@ module Geometry.Contour
 where
 
 import Base.Quantity (Mm (..), Rad (..), total)
+import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Ord (comparing)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
@@ -51,18 +52,16 @@ joints (Contour ends ss) = zip3 [0 ..] list (drop 1 list <> back)
 -- | Let each segment begin exactly where the one before it ends, and a closed contour end where it
 -- begins. The gaps are rounding errors.
 chained :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
-chained get set ends things = case ends of
-  Open -> linked
-  Closed -> case NonEmpty.last linked of
-    final -> foldr NonEmpty.cons (set (get final) {end = Segment.start (get (NonEmpty.head linked))} final :| []) (NonEmpty.init linked)
+chained get set ends (first :| rest) = case rest of
+  [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
+  _ -> first :| follow (end (get first)) rest
   where
-    linked = case things of
-      first :| rest -> first :| follow first rest
-    follow before rest = case rest of
+    follow from things = case things of
       [] -> []
-      a : more ->
-        let a' = set (get a) {start = Segment.end (get before)} a
-         in a' : follow a' more
+      [a] -> [set (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from}) a]
+      a : more -> let s = (get a) {start = from}; a' = set s a in a' `seq` (a' : follow (end s) more)
+    closing s = s {end = start (get first)}
+{-# INLINE chained #-}
 
 -- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
 signedArea :: Contour -> Double
@@ -79,26 +78,29 @@ signedArea (Contour _ ss@(first :| _)) = sum (fmap part ss)
 
 -- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
 selfCrossing :: Contour -> Maybe (Int, Int, Point)
-selfCrossing (Contour ends ss) = listToMaybe (concatMap pairs numbered)
+selfCrossing (Contour ends ss) = case concatMap crossings (Box.pairs index) of
+  [] -> Nothing
+  found -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) found)
   where
-    numbered = zip [0 ..] (NonEmpty.toList ss)
     count = NonEmpty.length ss
-    index = Box.index (Box.ofSegment . snd) numbered
-    pairs (i, s) =
-      [ (i, j, p)
-        | (j, other) <- Box.within (Box.ofSegment s) index,
-          j > i,
-          p <- case joints' i j s of
-            [] -> Distance.crossings s other
-            _ | goesOn i j s other -> []
-            shared -> retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
-      ]
+    index = Box.index (Box.ofSegment . snd) (zip [0 ..] (NonEmpty.toList ss))
+    crossings ((i, s), (j, other))
+      | j == i + 1 && straightOn s other = []
+      | closes && straightOn other s = []
+      | otherwise = [(i, j, p) | p <- if null shared then Distance.crossings s other else retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)]
+      where
+        closes = j /= i + 1 && ends == Closed && i == 0 && j == count - 1
+        -- Where the two are joined: behind the first, or where the contour closes.
+        shared = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
     -- Of two neighbours that hardly turn, the one lies in a cone behind their joint and the other before it.
-    goesOn i j s other
-      | j == i + 1 = straightOn s other
-      | otherwise = straightOn other s
-    straightOn a b = hardlyTurns a && hardlyTurns b && abs (turnOf a b) <= 0.1
-    turnOf a b = let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in t
+    straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving a, setting b) in abs (Vec.cross u v) <= tan 0.1 * Vec.dot u v)
+    -- Directions, not of length 1.
+    arriving a = case a of
+      Straight p q -> Vec.to p q
+      Arc {end, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre end))
+    setting a = case a of
+      Straight p q -> Vec.to p q
+      Arc {start, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre start))
     hardlyTurns a = case a of
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
@@ -108,5 +110,3 @@ selfCrossing (Contour ends ss) = listToMaybe (concatMap pairs numbered)
           longer = if Segment.length s <= Segment.length other then other else s
           middle = Segment.at 0.5 shorter
        in [middle | Distance.toPoint middle longer <= Tolerance.coincident]
-    -- Where two segments are joined: behind the first, or where the contour closes.
-    joints' i j s = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]

@@ -80,56 +80,60 @@ attempt style side radius contour = do
 
 -- | Segments and corners, each for itself.
 raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
-raw style side radius contour = do
-  shifted <- traverse (\(i, s) -> along side (plus radius (extra style i)) i s) (NonEmpty.zip (0 :| [1 ..]) (segments contour))
-  corners <- traverse (corner style side radius (NonEmpty.length shifted)) (Contour.joints contour)
-  let bends = [(number, next, t) | (number, before, after) <- Contour.joints contour, let next = (number + 1) `mod` NonEmpty.length shifted, Just t <- [slightBend style side radius number next before after]]
-  cut <- traverse (shortened bends) (NonEmpty.zip (0 :| [1 ..]) shifted)
-  let pieces = concat (zipWith (:) (NonEmpty.toList cut) (corners <> [[]]))
-      real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) pieces
+raw style side radius contour = case concaves <> [cause | Blocked cause <- corners] <> overlong of
+  cause : _ -> Left cause
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
-  Right (maybe (NonEmpty.head shifted :| []) chained (NonEmpty.nonEmpty real))
+  [] -> Right (maybe (moved 0 (NonEmpty.head (segments contour)) :| []) chained (NonEmpty.nonEmpty real))
   where
+    list = NonEmpty.toList (segments contour)
+    count = length list
+    concaves = [Concave i r | (i, s) <- zip [0 ..] list, Just r <- [tooTight side (radiusAt style radius i) s]]
+    corners = map (corner style side radius count) (Contour.joints contour)
+    moved i = along side (radiusAt style radius i) i
+    ways
+      | isBent = map shortened bent
+      | otherwise = zipWith moved [0 ..] list
+    -- By how much each way is shortened at its end, and at its beginning.
+    backs = [case c of Bent t -> t; Passed _ -> 0; Blocked _ -> 0 | c <- corners]
+    fronts = (if Contour.ends contour == Closed then last (0 : backs) else 0) : backs
+    isBent = any (> 0) backs
+    bent = zip3 fronts (backs <> [0]) (zipWith moved [0 ..] list)
+    overlong =
+      [ InnerCorner a ((a + 1) `mod` count) (Segment.end (segment way))
+        | isBent,
+          (i, (front, back, way)) <- zip [0 ..] bent,
+          front + back > 0 && Mm (front + back) >= Segment.length (segment way),
+          let a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
+      ]
+    real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) (concat (zipWith (:) ways ([case c of { Passed ps -> ps; Bent _ -> []; Blocked _ -> [] } | c <- corners] <> [[]])))
     chained = Contour.chained segment (\s p -> p {segment = s}) (Contour.ends contour)
 
--- | A corner towards the cutter that is too slight to leave more than 'Tolerance.slightRest' standing: by how much
--- the ways before and behind it are shortened, @r·tan(θ/2)@. Measured curves that are joined smoothly have such ones.
-slightBend :: Style -> Side -> Mm -> Int -> Int -> Segment -> Segment -> Maybe Double
-slightBend style side (Mm radius) number next before after
-  | turned * leftward side > smooth && extra style number == extra style next && r * (1 / cos (turned / 2) - 1) <= rest = Just (r * tan (abs turned / 2))
-  | otherwise = Nothing
+-- | A way without so much of it at its beginning and at its end, in mm.
+shortened :: (Double, Double, Piece) -> Piece
+shortened (front, back, way)
+  | front + back <= 0 = way
+  | otherwise = way {segment = snd (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) (segment way))))}
   where
-    Rad smooth = Tolerance.smoothAngle
-    Rad turned = Vec.turn (Segment.endDirection before) (Segment.startDirection after)
-    Mm rest = Tolerance.slightRest
-    r = let Mm more = extra style number in radius + more
+    Mm l = Segment.length (segment way)
 
--- | A way without what lies beyond the slight bends at its ends.
-shortened :: [(Int, Int, Double)] -> (Int, Piece) -> Either Cause Piece
-shortened bends (i, piece)
-  | front + back <= 0 = Right piece
-  | front + back >= l = Left (case [(a, b) | (a, b, _) <- bends, a == i || b == i] of (a, b) : _ -> InnerCorner a b (Segment.end s); [] -> InnerCorner i i (Segment.end s))
-  | otherwise = Right piece {segment = snd (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) s)))}
-  where
-    s = segment piece
-    Mm l = Segment.length s
-    front = sum [t | (_, b, t) <- bends, b == i]
-    back = sum [t | (a, _, t) <- bends, a == i]
+-- | The radius of an arc towards the cutter that is smaller than the cutter's own.
+tooTight :: Side -> Mm -> Segment -> Maybe Mm
+tooTight side radius s = case s of
+  Arc {start, centre, sweep = Rad angle}
+    | signum angle == leftward side, old <- Segment.radius centre start, minus old radius < times (-1) Tolerance.coincident -> Just old
+  _ -> Nothing
 
 -- | A segment moved to its side.
-along :: Side -> Mm -> Int -> Segment -> Either Cause Piece
-along side radius@(Mm r) number s = case s of
+along :: Side -> Mm -> Int -> Segment -> Piece
+along side (Mm r) number s = case s of
   Straight a b ->
     let n = Vec.scale (leftward side * r) (Vec.left (Vec.unit (Vec.to a b)))
-     in Right (Piece (Along number) (Straight (Vec.shift n a) (Vec.shift n b)))
-  Arc {start, end, centre, sweep = sweep@(Rad angle)}
-    | towardsCentre && minus old radius < times (-1) Tolerance.coincident -> Left (Concave number old)
-    | otherwise -> Right (Piece (Along number) Arc {start = moved start, end = moved end, centre, sweep})
-    where
-      old@(Mm before) = Segment.radius centre start
-      towardsCentre = signum angle == leftward side
-      after = if towardsCentre then max 0 (before - r) else before + r
-      moved p = Vec.shift (Vec.scale (after / before) (Vec.to centre p)) centre
+     in Piece (Along number) (Straight (Vec.shift n a) (Vec.shift n b))
+  Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
+    let Mm before = Segment.radius centre start
+        after = if signum angle == leftward side then max 0 (before - r) else before + r
+        moved p = Vec.shift (Vec.scale (after / before) (Vec.to centre p)) centre
+     in Piece (Along number) Arc {start = moved start, end = moved end, centre, sweep}
 
 -- | +1 when the cutter is on the left.
 leftward :: Side -> Double
@@ -137,31 +141,39 @@ leftward side = case side of
   LeftOf -> 1
   RightOf -> -1
 
--- | The way round the corner behind a segment, if there is one, and from one distance to another.
-corner :: Style -> Side -> Mm -> Int -> (Int, Segment, Segment) -> Either Cause [Piece]
+-- | What is behind a segment.
+data Corner
+  = -- | the way round it, if there is one, and from one distance to another
+    Passed [Piece]
+  | -- | a corner towards the cutter that is too slight to leave more than 'Tolerance.slightRest' standing: by how much the ways
+    -- before and behind it are shortened, @r·tan(θ/2)@. Measured curves that are joined smoothly have such ones
+    Bent Double
+  | -- | a corner into which the cutter does not get
+    Blocked Cause
+
+corner :: Style -> Side -> Mm -> Int -> (Int, Segment, Segment) -> Corner
 corner style side radius count (number, before, after)
-  | abs turned <= smooth || radius <= Mm 0 = Right [Piece (Around number) (Straight p q) | r1 /= r2]
-  | Just _ <- slightBend style side radius number next before after = Right []
-  | turned * leftward side > 0 && pi - abs turned > smooth = Left (InnerCorner number next vertex)
-  | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Right [Piece (Around number) (Straight p tip), Piece (Around number) (Straight tip q)]
-  | otherwise = Right (map (Piece (Around number)) ([Straight p wideP | r1 < wide] <> [Segment.arc sense vertex wideP wideQ] <> [Straight wideQ q | r2 < wide]))
+  | turned * leftward side > smooth && r1 == r2, Just t <- bend r1 = Bent t
+  | abs turned <= smooth || radius <= Mm 0 = Passed [Piece (Around number) (Straight (from r1 before') (from r2 after')) | r1 /= r2]
+  | turned * leftward side > 0 && pi - abs turned > smooth = Blocked (InnerCorner number next vertex)
+  | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Passed [Piece (Around number) (Straight (from r1 before') (tip r1)), Piece (Around number) (Straight (tip r1) (from r2 after'))]
+  | r1 == r2 = Passed [Piece (Around number) (round' r1)]
+  | r1 < r2 = Passed [Piece (Around number) (Straight (from r1 before') (from r2 before')), Piece (Around number) (round' r2)]
+  | otherwise = Passed [Piece (Around number) (round' r1), Piece (Around number) (Straight (from r1 after') (from r2 after'))]
   where
-    next = (number + 1) `mod` count
-    r1 = plus radius (extra style number)
-    r2 = plus radius (extra style next)
-    wide = max r1 r2
-    p = from r1 before'
-    q = from r2 after'
-    wideP = from wide before'
-    wideQ = from wide after'
+    next = if number + 1 == count then 0 else number + 1
+    r1 = radiusAt style radius number
+    r2 = radiusAt style radius next
     Rad smooth = Tolerance.smoothAngle
     before' = Segment.endDirection before
     after' = Segment.startDirection after
     Rad turned = Vec.turn before' after'
     vertex = Segment.end before
+    bend (Mm r) = let Mm rest = Tolerance.slightRest in if r * (1 / cos (turned / 2) - 1) <= rest then Just (r * tan (abs turned / 2)) else Nothing
     from (Mm r) direction = Vec.shift (Vec.scale (leftward side * r) (Vec.left direction)) vertex
     -- Where the ways before and behind the corner meet.
-    tip = let Mm r = wide in Vec.shift (Vec.scale (r * tan (abs turned / 2)) before') p
+    tip (Mm r) = Vec.shift (Vec.scale (r * tan (abs turned / 2)) before') (from (Mm r) before')
+    round' r = Segment.arc sense vertex (from r before') (from r after')
     sense = case side of
       LeftOf -> Clockwise
       RightOf -> CounterClockwise

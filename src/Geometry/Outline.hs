@@ -17,6 +17,7 @@ module Geometry.Outline
 where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Control.Monad.ST (runST)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
@@ -104,13 +105,33 @@ folded o f = go 0 0
 
 -- | A contour, and for each segment of the outline the number of the contour's segment, from 0.
 fromContour :: Contour -> (Outline, PrimArray Int)
-fromContour (Contour ends ss) = (outline ends (map vertex parts <> [(Vec.x p, Vec.y p, 0) | ends == Open, let p = Segment.end (NonEmpty.last ss)]), PrimArray.primArrayFromList (map fst parts))
+fromContour (Contour ends ss) = runST $ do
+  let room = 2 * NonEmpty.length ss + 1
+  px <- PrimArray.newPrimArray room
+  py <- PrimArray.newPrimArray room
+  pb <- PrimArray.newPrimArray room
+  numbers <- PrimArray.newPrimArray room
+  let vertex k p b = do
+        PrimArray.writePrimArray px k (Vec.x p)
+        PrimArray.writePrimArray py k (Vec.y p)
+        PrimArray.writePrimArray pb k b
+      put k i s = do
+        vertex k (Segment.start s) (bulge s)
+        PrimArray.writePrimArray numbers k (i :: Int)
+      fill k i rest = case rest of
+        [] -> pure k
+        s : more -> case s of
+          Arc {sweep = Rad a} | abs a > pi, (first, second) <- Segment.cutAt 0.5 s -> put k i first >> put (k + 1) i second >> fill (k + 2) (i + 1) more
+          _ -> put k i s >> fill (k + 1 :: Int) (i + 1) more
+  count <- fill 0 0 (NonEmpty.toList ss)
+  used <- case ends of
+    Closed -> pure count
+    Open -> (count + 1) <$ vertex count (Segment.end (NonEmpty.last ss)) 0
+  mapM_ (`PrimArray.shrinkMutablePrimArray` used) [px, py, pb]
+  PrimArray.shrinkMutablePrimArray numbers count
+  o <- Outline ends <$> PrimArray.unsafeFreezePrimArray px <*> PrimArray.unsafeFreezePrimArray py <*> PrimArray.unsafeFreezePrimArray pb
+  (o,) <$> PrimArray.unsafeFreezePrimArray numbers
   where
-    parts = concat (zipWith (\i s -> map (i,) (halves s)) [0 ..] (NonEmpty.toList ss))
-    halves s = case s of
-      Arc {sweep = Rad a} | abs a > pi -> let (first, second) = Segment.cutAt 0.5 s in [first, second]
-      _ -> [s]
-    vertex (_, s) = (Vec.x (Segment.start s), Vec.y (Segment.start s), bulge s)
     bulge s = case s of
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> tan (a / 4)

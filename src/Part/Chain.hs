@@ -205,6 +205,11 @@ shortest walks begin before final joints = go walks [(begin, Route (Mm 0) [] Not
         next <- advance w states layer
         go rest next more
       _ -> Right (minimumBy (comparing cost) (map snd states))
+    -- Most links join their neighbours in one place.
+    advance w [state] layer
+      | [joint] <- maybe final (NonEmpty.toList . snd) layer = case extend before w state joint of
+        Left by -> Left (overrun w by layer)
+        Right route -> Right [(enter joint, route)]
     advance w states layer = do
       let candidates = maybe final (NonEmpty.toList . snd) layer
           ways joint = [extend before w state joint | state <- states]
@@ -307,7 +312,10 @@ begun shape a b = case shape of
 -- | The segments of one element from a place on it, cut where its bevel is known. Those that go on smoothly on the same
 -- curve are marked.
 marked :: Walk -> Mm -> [Segment] -> [Element]
-marked Walk {place, shape, finish, bevel} (Mm from) whole = zipWith3 element ss (False : zipWith smoothly ss (drop 1 ss)) (zip marks (drop 1 marks))
+marked Walk {place, shape, finish, bevel} (Mm from) whole = case whole of
+  [] -> []
+  [s] | null bevel -> [Element s place finish False isCurve Nothing]
+  _ -> zipWith3 element ss (False : zipWith smoothly ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
     element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning angles a <*> leaning angles b)
     (isCurve, round') = case shape of

@@ -16,6 +16,7 @@ import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Control.Monad (when)
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -58,9 +59,9 @@ data State = State
 
 -- | Evaluate a program. What depends on a mistake is left out.
 evaluate :: Checked.Program -> Result w Error Part
-evaluate program = Result {warnings = [], errors = reverse (errors' final), output = Just part}
+evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked.machine = wanted, Checked.statements = statements} = Result {warnings = [], errors = reverse (errors' final), output = Just part}
   where
-    final = foldl step begin (Checked.statements program)
+    final = foldl' step begin statements
     begin =
       State
         { environment = Value.empty,
@@ -79,9 +80,9 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
         }
     part =
       Part
-        { name = Checked.name program,
-          title = Checked.title program,
-          machine = Checked.machine program,
+        { name = called,
+          title = titled,
+          machine = wanted,
           start = start' final,
           contours = reverse (contours' final),
           operations = reverse (operations' final),

@@ -85,8 +85,8 @@ evaluate env (Located region e) =
       range a b by
     If c a b -> evaluate env c >>= \v -> evaluate env (if isTrue v then a else b)
     Pair x y -> do
-      a <- number <$> evaluate env x
-      b <- number <$> evaluate env y
+      a <- numberOf x
+      b <- numberOf y
       Data.spatial region (Vec.vec a b)
     Triple x y z -> do
       a <- number <$> evaluate env x
@@ -98,6 +98,10 @@ evaluate env (Located region e) =
       vs <- items <$> evaluate env list
       ListValue <$> traverse (\v -> evaluate (bind name v env) inner) vs
   where
+    -- Most coordinates are numbers as they are written.
+    numberOf x = case x of
+      Located at (Number c) -> c <$ Eval.spend at 1
+      _ -> number <$> evaluate env x
     firstOf a b = case a of
       Just _ -> a
       Nothing -> b

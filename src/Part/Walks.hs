@@ -53,7 +53,7 @@ contour env name closure items = do
     Nothing -> Eval.mistake (EmptyContour (region name) (value name))
     Just some -> case Chain.solve (region name) ends some of
       Left facts -> Eval.mistakes (NonEmpty.toList (fmap (`Error` []) facts))
-      Right elements -> pure Contour {contourName = name, ends, elements, legs = map leg (NonEmpty.toList some)}
+      Right elements -> let legs = map leg (NonEmpty.toList some) in pure Contour {contourName = name, ends, elements, legs = foldr seq legs legs}
   where
     ends = case closure of
       Checked.Open -> Open
@@ -73,7 +73,8 @@ item env (Located _ i) = case i of
     finish <- foldl (\before m -> before >>= modified env m) (pure plainFinish) modifiers
     bevel <- bevelOf env v modifiers
     link' <- traverse (linkOf env) link
-    map (\w -> w {Chain.bevel = if null bevel then Chain.bevel w else bevel}) <$> walksOf (region e) walk v finish link'
+    walks <- walksOf (region e) walk v finish link'
+    pure (if null bevel then walks else map (\w -> w {Chain.bevel}) walks)
 
 modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
 modified env (Located _ m) finish = case m of

@@ -128,12 +128,18 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
   swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
       origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
-      cut = NonEmpty.zipWith (\(previous, (a, b)) piece -> (move piece) {Path.continues = goesOn previous piece, Path.heights = (plus z a, plus z b)}) (NonEmpty.zip (Nothing :| map Just (NonEmpty.toList pieces)) swivels) pieces
+      cut = let (p, h) :| rest = NonEmpty.zip pieces swivels in move False h p :| following p rest
+      following previous rest = case rest of
+        [] -> []
+        (piece, h) : more -> let m = move (goesOn previous piece) h piece in m `seq` (m : following piece more)
+      -- Most pieces lie at one height.
+      level' = (plus z (Mm 0), plus z (Mm 0))
+      raised (a, b) = if a == Mm 0 && b == Mm 0 then level' else (plus z a, plus z b)
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
       -- A feed of its own holds on the element, not round its corners; nor does it slow down there.
-      move piece =
+      move continues h piece =
         let e = origins Vector.! numberOf piece
             own = case Offset.origin piece of
               Offset.Along _ -> Part.ownFeed (Part.finish e)
@@ -141,10 +147,10 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
             slows = case Offset.origin piece of
               Offset.Along _ -> Part.slow (Part.finish e)
               Offset.Around _ -> False
-         in Move (Offset.segment piece) (z, z) (maybe pace Part.At own) slows (Part.origin e) False
+         in Move (Offset.segment piece) (raised h) (maybe pace Part.At own) slows (Part.origin e) continues
       -- Behind an arc in which the cutter stands still there may be a corner.
-      goesOn previous piece = case (Offset.origin <$> previous, Offset.origin piece) of
-        (Just (Offset.Along i), Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
+      goesOn previous piece = case (Offset.origin previous, Offset.origin piece) of
+        (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
         _ -> False
       entry = Segment.start (Offset.segment (NonEmpty.head pieces))
       exit = Segment.end (Offset.segment (NonEmpty.last pieces))
@@ -313,7 +319,7 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       Cutting {job = Located _ milling, pass} | value (side milling) /= On -> Just (number pass, milling, [contour milling])
       Clearing {pocket = Located _ p, pass} -> Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
       _ -> Nothing
-    index = Box.index (Box.ofSegment . Part.segment . snd) [((n, milling), e) | (n, milling, walls) <- jobs, c <- walls, e <- NonEmpty.toList (elements c)]
+    index = Box.index (Box.around . snd) [((n, milling), Box.index (Box.ofSegment . Part.segment) (concatMap (NonEmpty.toList . elements) walls)) | (n, milling, walls) <- jobs]
     inBlock b = case b of
       Commanding _ -> []
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
@@ -340,8 +346,10 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       _ -> False
     hits tool own m =
       [ (n, CutsPart (Path.origin m) (Path.segment m) element (minus tool d) (d <= Tolerance.coincident) p)
-        | ((n, milling), element) <- Box.within (Box.inflate tool (Box.ofSegment (Path.segment m))) index,
+        | let reach = Box.inflate tool (Box.ofSegment (Path.segment m)),
+          ((n, milling), walls) <- Box.within reach index,
           Just n /= own,
+          element <- Box.within reach walls,
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
           plus d (plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance) < tool
       ]

@@ -9,7 +9,6 @@ where
 
 import Base.Region (Region)
 import Checked.Syntax (Mention (..))
-import Checked.Syntax qualified as Checked
 import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
@@ -23,7 +22,7 @@ none :: Facts
 none = Facts [] []
 
 -- | The facts of a program, as far as it could be checked and computed.
-facts :: Maybe (Checked.Program, Part) -> Facts
+facts :: Maybe ([Mention], Part) -> Facts
 facts known = case known of
   Nothing -> none
-  Just (program, part) -> Facts {mentions = Checked.mentions program, values = Part.readings part}
+  Just (mentions, part) -> Facts {mentions, values = Part.readings part}

@@ -11,8 +11,10 @@ where
 import Base.Region (Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
+import Checked.Syntax qualified as Checked
 import Compile (Analysis, Loaded)
 import Compile qualified
+import Data.Bifunctor (first)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -41,8 +43,8 @@ take check loaded = Snapshot {source, reports, program, facts = Facts.facts know
     -- What the text itself says, without what it imports.
     program = whole {statements = filter ((<= Text.length (Region.text source)) . Region.start . Region.region) (statements whole)}
     known = case output result of
-      Just analysis -> Just (Compile.checked analysis, Compile.part analysis)
-      Nothing -> output (Compile.evaluated [] loaded)
+      Just analysis -> Just (Compile.mentions analysis, Compile.part analysis)
+      Nothing -> first Checked.mentions <$> output (Compile.evaluated [] loaded)
 
 -- | Whether the program has no errors.
 isGood :: Snapshot -> Bool

@@ -47,6 +47,7 @@ import Control.Monad.State.Strict (State, get, lift, modify', runState)
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -95,6 +96,19 @@ class MonadParsec Problem Input p => Grammar p where
   -- | A token that the function accepts; the label names what was expected.
   token :: Text -> (Token -> Maybe a) -> p a
 
+  -- | As many as there are.
+  several :: p a -> p [a]
+
+  -- | What is made of a mistake in a parser.
+  blaming :: (ParseError Input Problem -> p a) -> p a -> p a
+
+  -- | What is left to read.
+  upcoming :: p [Token]
+
+  -- | Whether the next token is a word, so that what begins with a keyword may follow. The reader that tells what is wrong says
+  -- so in any case: it names the keywords that were expected.
+  wordAhead :: p Bool
+
   memory :: p Memory
   remember :: (Memory -> Memory) -> p ()
 
@@ -109,6 +123,10 @@ instance Grammar (ParsecT Problem Input (State Memory)) where
     (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
     lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
     pure a
+  several = Parsec.many
+  blaming blame p = Parsec.observing p >>= either blame pure
+  upcoming = (\(Input ts) -> ts) <$> Parsec.getInput
+  wordAhead = pure True
   memory = lift get
   remember f = lift (modify' f)
 
@@ -145,42 +163,44 @@ isWord word t = case shape t of
 -- | A name that is to be given to something. A keyword in its place is a mistake of its own.
 name :: Grammar p => p (Located Name)
 name = do
-  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  next <- upcoming
   case next of
-    Just Token {shape = Word word, newLine} | Keyword.isReserved word && not newLine -> Parsec.customFailure (NoName word)
+    Token {shape = Word word, newLine} : _ | Keyword.isReserved word && not newLine -> Parsec.customFailure (NoName word)
     _ -> usedName
 {-# INLINEABLE name #-}
 
 -- | A name that is no keyword.
 usedName :: Grammar p => p (Located Name)
-usedName = located (token "a name" nameOf)
+usedName = token "a name" nameOf
   where
     nameOf t = case shape t of
-      Word word | not (Keyword.isReserved word) -> Just (Name word)
+      Word word | not (Keyword.isReserved word) -> Just (Located (Token.place t) (Name word))
       _ -> Nothing
 {-# INLINEABLE usedName #-}
 
 -- | Only if the next token stands on the line of the last one.
 onThisLine :: Grammar p => p a -> p a
 onThisLine p = do
-  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
-  if maybe False newLine next then Parsec.empty else p
+  next <- upcoming
+  case next of
+    t : _ | newLine t -> Parsec.empty
+    _ -> p
 {-# INLINEABLE onThisLine #-}
 
 -- | Nothing more stands on this line, but for the end of the block.
 endOfLine :: Grammar p => p ()
 endOfLine = do
-  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  next <- upcoming
   inBlock <- (> 0) . within <$> memory
   case next of
-    Just t | not (newLine t) && not (inBlock && shape t == Symbol "}") -> Parsec.customFailure (Trailing (shape t))
+    t : _ | not (newLine t) && not (inBlock && shape t == Symbol "}") -> Parsec.customFailure (Trailing (shape t))
     _ -> pure ()
 {-# INLINEABLE endOfLine #-}
 
 -- | With the region from the first to the last token.
 located :: Grammar p => p a -> p (Located a)
 located p = do
-  Input input <- Parsec.getInput
+  input <- upcoming
   x <- p
   Memory {lastEnd} <- memory
   let begin = case input of
@@ -205,8 +225,7 @@ brackets = enclosed "[" "]"
 enclosed :: Grammar p => Text -> Text -> p a -> p a
 enclosed open close inside = do
   opened <- symbol open
-  attempt <- Parsec.observing (nested inside)
-  x <- either (blame opened) pure attempt
+  x <- blaming (blame opened) (nested inside)
   ended <- lineEnds
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol close)
@@ -225,12 +244,12 @@ enclosed open close inside = do
 block :: Grammar p => Text -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
-  items <- Parsec.many (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+  items <- several (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
   closing opened what "}"
   pure items
   where
     inside = do
-      Input rest <- Parsec.getInput
+      rest <- upcoming
       case rest of
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
@@ -238,9 +257,9 @@ block what broken one = do
         _ -> pure ()
     -- A statement in a block whose closing brace follows further down.
     strayStatement = do
-      next <- Parsec.lookAhead Parsec.anySingle
-      case shape next of
-        Word word | beginsStatement next -> Parsec.customFailure (Misplaced word)
+      next <- upcoming
+      case next of
+        t@Token {shape = Word word} : _ | beginsStatement t -> Parsec.customFailure (Misplaced word)
         _ -> pure ()
 {-# INLINEABLE block #-}
 
@@ -249,16 +268,15 @@ statementBlock :: Grammar p => Text -> p Statement -> p [Statement]
 statementBlock what one = do
   opened <- symbol "{"
   remember (\m -> m {within = within m + 1})
-  statements <- nested (Parsec.many (inside *> recovering brokenStatement one))
+  statements <- nested (several (inside *> recovering brokenStatement one))
   remember (\m -> m {within = within m - 1})
-  ended <- null <$> rest
+  ended <- null <$> upcoming
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol "}")
   pure statements
   where
-    rest = Parsec.getInput >>= \(Input ts) -> pure ts
     inside = do
-      ts <- rest
+      ts <- upcoming
       case ts of
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
@@ -286,18 +304,20 @@ closing opened what close = do
 
 -- | Whether something else than a closing bracket begins a new line, or nothing follows at all.
 lineEnds :: Grammar p => p Bool
-lineEnds = maybe True begins <$> Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+lineEnds = begins <$> upcoming
   where
-    begins t = newLine t && shape t `notElem` map Symbol [")", "]", "}"]
+    begins ts = case ts of
+      [] -> True
+      t : _ -> newLine t && shape t `notElem` map Symbol [")", "]", "}"]
 {-# INLINEABLE lineEnds #-}
 
 -- | Whether the program or the statement ends here.
 atEnd :: Grammar p => p Bool
-atEnd = maybe True beginsStatement <$> Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+atEnd = maybe True beginsStatement . listToMaybe <$> upcoming
 {-# INLINEABLE atEnd #-}
 
 sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
-sepBy1 p separator = (:|) <$> p <*> Parsec.many (symbol separator *> p)
+sepBy1 p separator = (:|) <$> p <*> several (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
 -- | One bracket deeper.
@@ -322,7 +342,7 @@ deepest = 500
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
-  Input input <- Parsec.getInput
+  input <- upcoming
   before <- memory
   Parsec.withRecovery (again before begin input) p
   where
@@ -353,7 +373,7 @@ brokenStatement taken = do
     -- What is skipped; the brace that closes the block in which the statement stands is not.
     skipped :: Bool -> Int -> Parser [Token]
     skipped inBlock open = do
-      Input rest <- Parsec.getInput
+      rest <- upcoming
       case rest of
         t : others
           | not (beginsStatement t && not (inItsBlock open rest) || opensBlock open t || misspelt open t others || inBlock && open <= 0 && shape t == Symbol "}") ->

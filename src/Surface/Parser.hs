@@ -24,6 +24,7 @@ import Data.Text qualified as Text
 import Surface.Combinator
 import Surface.Error (Error)
 import Surface.Error qualified as Error
+import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Quick qualified as Quick
 import Surface.Syntax
@@ -179,7 +180,7 @@ lines' = (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quota
 line :: Parser Line_
 line = (Header <$> onLine NotInHeadings column) <|> (Entries <$> onLine NotInRow cell) <|> misfit NotInRow
   where
-    onLine problem p = (:|) <$> p <*> Parsec.many (onThisLine p) <* lineDone problem
+    onLine problem p = (:|) <$> p <*> several (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
     cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow)))) <|> parens expr
@@ -191,9 +192,9 @@ misfit problem = Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailur
 -- | Nothing more stands on the line of a table, but for the end of it.
 lineDone :: (Token_ -> Problem) -> Parser ()
 lineDone problem = do
-  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  next <- upcoming
   case next of
-    Just t | not (newLine t) && shape t /= Symbol "}" -> misfit problem
+    t : _ | not (newLine t) && shape t /= Symbol "}" -> misfit problem
     _ -> pure ()
 
 -- | @skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@
@@ -203,13 +204,13 @@ piece = do
   base <- expr
   ciphers <- Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> sideless)
-  Piece what base ciphers side <$> Parsec.many (located joggle)
+  Piece what base ciphers side <$> several (located joggle)
   where
     -- The end of the statement, or a side of something else.
     sideless = do
-      next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+      next <- upcoming
       case next of
-        Just t | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] -> Parsec.empty
+        t : _ | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] -> Parsec.empty
         _ -> Parsec.customFailure NoSide
     cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> ((touching *> parens (expr `sepBy1` ",")) <?> "the values of the cipher in brackets that touch its digit")
     digit t = case shape t of
@@ -218,7 +219,7 @@ piece = do
     joggle = Joggle <$> (keyword "joggle" *> keyword "from" *> expr) <*> (keyword "to" *> expr) <*> (keyword "depth" *> expr) <*> (keyword "radius" *> expr)
 
 item :: Parser Item_
-item = repetition <|> choice <|> element
+item = wordAhead >>= \ahead -> if ahead then repetition <|> choice <|> element else element
 
 -- | @for x in list@, behind its first word.
 forEach :: Parser (Located Name, Expr)
@@ -235,13 +236,19 @@ choice = do
   Located region (condition, then') <- located (keyword "if" *> ((,) <$> expr <*> branch))
   case then' of
     Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
-    Left (a, b) -> Element Nothing (Located region (If condition a b)) <$> Parsec.many (located modifier) <*> Parsec.optional (located link)
+    Left (a, b) -> Element Nothing (Located region (If condition a b)) <$> several (located modifier) <*> Parsec.optional (located link)
   where
     branch = (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
     otherwise' = ((: []) <$> located choice) <|> nested (block "the block of ‘else’" BrokenItem item)
 
 element :: Parser Item_
-element = Element <$> Parsec.optional (located sense) <*> expr <*> Parsec.many (located modifier) <*> Parsec.optional (located link)
+element = do
+  walk <- wordAhead >>= \ahead -> if ahead then Parsec.optional (located sense) else pure Nothing
+  what <- expr
+  ahead <- wordAhead
+  if ahead
+    then Element walk what <$> several (located modifier) <*> Parsec.optional (located link)
+    else pure (Element walk what [] Nothing)
 
 modifier :: Parser Modifier_
 modifier =
@@ -301,8 +308,36 @@ stops = stop `sepBy1` ","
 
 -- Expressions, the loosest operators first
 
+-- | Most expressions are one operand, behind which no operator stands.
 expr :: Parser Expr
-expr = conditional <|> disjunction
+expr = do
+  begin <- upcoming
+  case begin of
+    t : _ | Just first <- operand t -> first >>= operated
+    _ -> conditional <|> disjunction
+
+-- | An operand by its first token.
+operand :: Grammar p => Token -> Maybe (p Expr)
+operand t = case shape t of
+  Number _ _ -> Just number
+  Word word | not (Keyword.isReserved word) -> Just variableOrCall
+  Symbol "(" -> Just pairOrGroup
+  Symbol "[" -> Just list
+  Symbol "-" -> Just negative
+  _ -> Nothing
+
+-- | An expression that begins with an operand.
+operated :: Grammar p => Expr -> p Expr
+operated first = do
+  next <- upcoming
+  case next of
+    t : _ | mayOperate t -> moreFactors first >>= moreSummands >>= moreOfRange >>= compared >>= moreConjuncts >>= moreDisjuncts
+    _ -> pure first
+  where
+    mayOperate t = case shape t of
+      Symbol s -> Text.any (`elem` ("+-*/<>=!." :: String)) s
+      Word word -> word == "and" || word == "or"
+      _ -> False
 
 -- | @if c then a else b@
 conditional :: Parser Expr
@@ -312,33 +347,49 @@ alternatives :: Parser (Expr, Expr)
 alternatives = (,) <$> (keyword "then" *> nested expr) <*> (keyword "else" *> nested expr)
 
 disjunction :: Parser Expr
-disjunction = chain (Parsec.hidden (Or <$ keyword "or")) conjunction
+disjunction = conjunction >>= moreDisjuncts
+
+moreDisjuncts :: Grammar p => Expr -> p Expr
+moreDisjuncts = chain (Parsec.hidden (Or <$ keyword "or")) conjunction
 
 conjunction :: Parser Expr
-conjunction = chain (Parsec.hidden (And <$ keyword "and")) negation
+conjunction = negation >>= moreConjuncts
+
+moreConjuncts :: Grammar p => Expr -> p Expr
+moreConjuncts = chain (Parsec.hidden (And <$ keyword "and")) negation
 
 negation :: Parser Expr
 negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) <|> comparison
 
--- | At most one comparison: @a < b < c@ is none.
 comparison :: Parser Expr
-comparison = range >>= more
+comparison = range >>= compared
+
+-- | At most one comparison: @a < b < c@ is none.
+compared :: Grammar p => Expr -> p Expr
+compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
   where
-    more left = (operators table >>= \op -> joined op left <$> range) <|> pure left
     table = [("<=", AtMost), (">=", AtLeast), ("!=", Unequal), ("<", Less), (">", Greater), ("=", Equal)]
 
--- | @a..b by s@
 range :: Parser Expr
-range = sum' >>= more
+range = sum' >>= moreOfRange
+
+-- | @a..b by s@
+moreOfRange :: Grammar p => Expr -> p Expr
+moreOfRange low = (Parsec.hidden (symbol "..") *> (to <$> sum' <*> Parsec.optional (Parsec.hidden (keyword "by") *> sum'))) <|> pure low
   where
-    more low = (Parsec.hidden (symbol "..") *> (to low <$> sum' <*> Parsec.optional (Parsec.hidden (keyword "by") *> sum'))) <|> pure low
-    to low high step = Located (span (Region.region low) (Region.region (Maybe.fromMaybe high step))) (Range low high step)
+    to high step = Located (span (Region.region low) (Region.region (Maybe.fromMaybe high step))) (Range low high step)
 
 sum' :: Parser Expr
-sum' = chain (operators [("+", Add), ("-", Subtract)]) product'
+sum' = product' >>= moreSummands
+
+moreSummands :: Grammar p => Expr -> p Expr
+moreSummands = chain (operators [("+", Add), ("-", Subtract)]) product'
 
 product' :: Parser Expr
-product' = chain (operators [("*", Multiply), ("/", Divide)]) factor
+product' = factor >>= moreFactors
+
+moreFactors :: Grammar p => Expr -> p Expr
+moreFactors = chain (operators [("*", Multiply), ("/", Divide)]) factor
 
 operators :: [(Text, Operator)] -> Parser Operator
 operators table = Parsec.hidden (token "an operator" operatorOf)
@@ -347,51 +398,70 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | Operands joined by operators, from left to right.
-chain :: Grammar p => p Operator -> p Expr -> p Expr
-chain operator operand = operand >>= more
+-- | Operands joined by operators, from left to right, behind the first of them.
+chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
+chain operator next = more
   where
-    more left = (operator >>= \op -> operand >>= \right -> more (joined op left right)) <|> pure left
+    more left = (operator >>= \op -> next >>= \right -> more (joined op left right)) <|> pure left
 
 joined :: Operator -> Expr -> Expr -> Expr
 joined op left right = Located (span (Region.region left) (Region.region right)) (Binary op left right)
 
 factor :: Parser Expr
-factor = Parsec.hidden (located (Negate <$> (symbol "-" *> nested factor))) <|> primary
+factor = do
+  begin <- upcoming
+  case begin of
+    t : _ | Just found <- operand t -> found
+    _ -> Parsec.hidden negative <|> primary
+
+negative :: Parser Expr
+negative = located (Negate <$> (symbol "-" *> nested factor))
 
 primary :: Parser Expr
 primary = (number <|> variableOrCall <|> pairOrGroup <|> list) <?> "a value"
 
 number :: Parser Expr
-number = located (token "a number" numberOf)
+number = token "a number" numberOf
   where
     numberOf t = case shape t of
-      Number x unit -> Just (Literal x unit)
+      Number x unit -> Just (Located (Token.place t) (Literal x unit))
       _ -> Nothing
 
 -- | @[a, b, c]@ and @[e for x in list]@
 list :: Parser Expr
 list = located (brackets (Parsec.option (List []) (expr >>= more)))
   where
-    more e = (each e <$> (Parsec.hidden (keyword "for") *> forEach)) <|> (List . (e :) <$> Parsec.many (symbol "," *> expr))
+    more e = (each e <$> (Parsec.hidden (keyword "for") *> forEach)) <|> (List . (e :) <$> several (symbol "," *> expr))
     each e (variable, from) = Each e variable from
 
 variableOrCall :: Parser Expr
 variableOrCall = located $ do
   what <- usedName
-  arguments <- Parsec.optional (touching *> parens (argument `sepBy1` ","))
-  pure (maybe (Variable (value what)) (Call what) arguments)
+  next <- upcoming
+  case next of
+    t : _ | touches t -> Call what <$> parens (argument `sepBy1` ",")
+    _ -> pure (Variable (value what))
 
 argument :: Parser Argument
-argument = Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
+argument = do
+  begin <- upcoming
+  case begin of
+    t : _ | not (isWord' t) -> Given <$> expr
+    _ -> Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
   where
     chosen = Chosen <$> located (Parsec.choice [c <$ keyword k | (k, c) <- choices]) <*> expr
     choices = [("near", Near), ("left", ToLeft), ("right", ToRight), ("inside", Within'), ("outside", Beyond), ("within", UpTo)]
     ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
+    isWord' t = case shape t of
+      Word _ -> True
+      _ -> False
 
 -- | Only if a parenthesis follows without a space.
 touching :: Parser ()
-touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy (\t -> attached t && shape t == Symbol "("))))
+touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy touches)))
+
+touches :: Token -> Bool
+touches t = attached t && shape t == Symbol "("
 
 -- | @(a)@ is a, @(a, b)@ a point or a vector, @(a, b, c)@ a point in space.
 pairOrGroup :: Parser Expr

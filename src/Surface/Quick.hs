@@ -110,6 +110,14 @@ instance Grammar Quick where
       | Just a <- accept t -> ok a s {left = rest, room = room s - 1, ended = Region.end (Token.place t)}
     _ -> no (room s)
   {-# INLINE token #-}
+  several (Quick p) = Quick (\s ok no -> let more as s' = p s' (\a -> more (a : as)) (\at -> if at == room s' then let !all' = reverse as in ok all' s' else no at) in more [] s)
+  {-# INLINE several #-}
+  blaming _ p = p
+  {-# INLINE blaming #-}
+  upcoming = Quick (\s ok _ -> ok (left s) s)
+  {-# INLINE upcoming #-}
+  wordAhead = Quick (\s ok _ -> ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s)
+  {-# INLINE wordAhead #-}
   memory = Quick (\s ok _ -> ok (memoryOf s) s)
   {-# INLINE memory #-}
   remember f = Quick (\s ok _ -> let m = f (memoryOf s) in ok () s {ended = lastEnd m, open = depth m, blocks = within m})

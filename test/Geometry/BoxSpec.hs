@@ -2,7 +2,8 @@
 module Geometry.BoxSpec (spec) where
 
 import Base.Quantity (Mm (..))
-import Data.List (minimumBy)
+import Data.Bifunctor (bimap)
+import Data.List (minimumBy, sort)
 import Data.Ord (comparing)
 import Generate.Run qualified as Curve
 import Geometry.Box qualified as Box
@@ -28,5 +29,11 @@ spec = describe "an index" $ do
           [ counterexample (show s) ([o | o <- others, Distance.distance (Distance.segments s o) <= Mm d] === [o | o <- Box.select (\box -> Box.atLeast (`Distance.toPoint` s) box <= Mm d) (Box.index Box.ofSegment others), Distance.distance (Distance.segments s o) <= Mm d])
             | s <- take 5 ss
           ]
+  it "pairs all things whose boxes meet, the earlier one first (catches a branch that is not gone down)" $
+    property $
+      forAll curve $ \ss ->
+        let numbered = zip [0 :: Int ..] ss
+            meet (_, s) (_, t) = Box.meets (Box.ofSegment s) (Box.ofSegment t)
+         in sort (map (bimap fst fst) (Box.pairs (Box.index (Box.ofSegment . snd) numbered))) === [(fst a, fst b) | a <- numbered, b <- numbered, fst a < fst b, meet a b]
   where
     curve = oneof [Curve.open, Curve.closed]

@@ -87,7 +87,7 @@ walk :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> (Int -> Double
 walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx ry rb rm rs) !a !e !k0 =
   tangents a $ \sx sy ex ey l ->
     tangents (e - 1) $ \_ _ zx zy lz ->
-      joint (e - 1) a zx zy sx sy lz l $ \closing bend cut -> do
+      joint (e - 1) a zx zy sx sy (if lz < l then lz else l) lz l $ \closing bend cut -> do
         markSmooth a closing
         go a k0 sx sy ex ey l cut (if closing == Smooth then Chain.smooth else 0) $ const (closing, bend, cut)
   where
@@ -115,9 +115,10 @@ walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx 
       Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + Chain.smooth)
       _ -> pure ()
     -- From the end of segment i into segment j: the kind of joint, tan(θ/4) of an outer one, and by how much lines are cut
-    -- that are so long at least.
-    joint i j ax ay bx by restI restJ k
-      | dt > 0 && abs cr <= smoothness = k (if di == dj then Smooth else Step) 0 0
+    -- that are so long at least. The direction of a chord is known to the rounding of its ends; no corner is made of that where
+    -- the ways beside it are not moved sideways, by the turn or with an arc, by more than rounding either.
+    joint i j ax ay bx by shorter restI restJ k
+      | dt > 0 && (abs cr <= smoothness || abs cr * shorter <= tolerance && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance) = k (if di == dj then Smooth else Step) 0 0
       | dt < 0 && abs (cr * d) <= tolerance = k Outer (signum d) 0
       | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
       | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ = k Trimmed 0 cut
@@ -148,7 +149,7 @@ walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx 
       | otherwise =
         tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
           let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
-          joint i (i + 1) ex ey sx' sy' (l - cut) kept $ \kind bend cut' -> do
+          joint i (i + 1) ex ey sx' sy' (if l < l' then l else l') (l - cut) kept $ \kind bend cut' -> do
             markSmooth (i + 1) kind
             segment i (i + 1) k sx sy ex ey l cut cut' begins kind bend $ \k' begins' ->
               go (i + 1) k' sx' sy' ex' ey' l' cut' begins' closing

@@ -38,6 +38,8 @@ spec = do
          in fmap (sum . map Outline.area) (loopsOf RightOf r [o] >>= loopsOf LeftOf r) `nearly` Right (Outline.area o)
     it "crossed: two sides that cross are named (catches a source that is taken for simple)" $
       property (forAll bowTie crossedLaw)
+    it "far out: short arcs that go over into lines leave no corners (catches directions that are compared more finely than they are known)" $
+      fmap (map Outline.size) (loopsOf RightOf 3 [lobes 10000]) `shouldBe` Right [20000]
   describe "slots, pockets and islands" $ do
     it "a gap of exactly the cutter's width is closed" $
       loopsOf LeftOf 1 [Generate.loop [(0, 0, 0), (10, 0, 0), (10, 2, 0), (0, 2, 0)]] `shouldBe` Right []
@@ -65,6 +67,14 @@ spec = do
       areaOf LeftOf 1 [Outline.outline Open [(0, 0, 0), (5, 0, 0)]] `nearly` Right (-(10 + pi))
     it "the side of an open line does not matter but for the way round" $
       areaOf RightOf 1 [Outline.outline Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]] `nearly` Right (20 + pi - 1 + pi / 4)
+
+-- | So many circles of radius 4 around a large one, joined by tangents.
+lobes :: Int -> Outline
+lobes n = Outline.outline Closed (concat [[at (a - half) k, at (a + half) 0] | i <- [0 .. n - 1], let a = 2 * half * fromIntegral i, let at b bulge = (r * cos a + 4 * cos b, r * sin a + 4 * sin b, bulge)])
+  where
+    half = pi / fromIntegral n
+    k = tan (half / 2)
+    r = 6 / sin half
 
 -- | A law of so many random problems; the seed of one that breaks it is told.
 each :: Int -> String -> Gen Case -> (Case -> Verdict) -> Spec
