@@ -30,20 +30,30 @@ data Visitor s = Visitor
 -- share as neighbours. The tolerance (in mm) is that of rounding; boxes of segments that meet within it overlap.
 meet :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor !i !j
-  | j == i + 1 = unless (goesOn c i j) (joined tolerance c visitor i j)
+  | j == i + 1 = unless (goesOn tolerance c i j) (joined tolerance c visitor i j)
   | mark Chain.opening i && mark Chain.closing j = joined tolerance c visitor i j
   | otherwise = apart' tolerance c visitor i j
   where
     mark m k = Chain.marked m (indexPrimArray (Chain.marks c) k)
 {-# INLINE meet #-}
 
--- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back. Not for a walk of two segments.
-goesOn :: Chain -> Int -> Int -> Bool
-goesOn c i j
+-- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back onto themselves. Not for a walk
+-- of two segments.
+goesOn :: Double -> Chain -> Int -> Int -> Bool
+goesOn tolerance c i j
   | Chain.marked Chain.opening (indexPrimArray (Chain.marks c) i) = False
   | curved c i || curved c j = Chain.marked Chain.smooth (indexPrimArray (Chain.marks c) j)
-  | otherwise = Chain.chord c i (\ux uy -> Chain.chord c j (\vx vy -> ux * vx + uy * vy >= 0))
+  | otherwise = Chain.chord c i (\ux uy -> Chain.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
 {-# INLINE goesOn #-}
+
+-- | Whether the second of two vectors leads back along the first, so that the end of one lies on the other.
+foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
+foldsBack tolerance ux uy vx vy = ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
+  where
+    cross = ux * vy - uy * vx
+    uu = ux * ux + uy * uy
+    vv = vx * vx + vy * vy
+{-# INLINE foldsBack #-}
 
 curved :: Chain -> Int -> Bool
 curved c k = indexPrimArray (Chain.bulges c) k /= 0
@@ -290,12 +300,7 @@ arcs !tolerance !c visitor !i !j
 neighbours :: Double -> Chain -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | bi == 0 && bj == 0 =
-    Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy ->
-      when (ux * vx + uy * vy < 0) $ do
-        let d = abs (ux * vy - uy * vx)
-            a = sqrt (ux * ux + uy * uy)
-            b = sqrt (vx * vx + vy * vy)
-        when (d <= tolerance * (if a > b then a else b)) farEnds
+    Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy -> when (foldsBack tolerance ux uy vx vy) farEnds
   | Chain.marked Chain.smooth (indexPrimArray (Chain.marks c) j) = pure ()
   | liesOn tolerance c j i || liesOn tolerance c i (j + 1) = farEnds
   | bi == 0 = other i j False

@@ -61,6 +61,7 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
       Rightmost -> -1
     go !i !best !t !least
       | i >= end = found best t least
+      | Boxes.run bs i outermost >= least = go (Boxes.behind i) best t least
       | edge >= least = go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (Chain.xs c) i
@@ -84,7 +85,11 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
                     t' = (dx * (sign * ex - indexPrimArray (Chain.xs c) i) + dy * (cy - indexPrimArray (Chain.ys c) i)) / (l * l)
                  in if out < 0 && into > 0 && ex < least1 && t' > 0 && t' < 1 then go (i + 1) i t' ex else go (i + 1) best1 t1 least1
       where
-        edge = Boxes.leaf bs i (\lx _ hx _ -> case outward of Leftmost -> lx; Rightmost -> -hx)
+        edge = Boxes.leaf bs i outermost
+    -- The side of a box that lies furthest out.
+    outermost lx _ hx _ = case outward of
+      Leftmost -> lx
+      Rightmost -> -hx
     found i t least
       | t > 0 = Extreme i t (sign * least) (indexPrimArray (Chain.ys c) i + 0.5 * dyOf i + heightOf i) (Just (if b > 0 then 1 else 0))
       | otherwise = Extreme i 0 (sign * least) (indexPrimArray (Chain.ys c) i) (atVertex i)
