@@ -42,7 +42,7 @@ find !tolerance !c !bs = runST $ do
   rs <- newPrimArray 64 >>= newMutVar
   ss <- newPrimArray 32 >>= newMutVar
   let unclear = writePrimArray state 1 1
-      record i s j t x y turn = do
+      record !i !s !j !t !x !y !turn = do
         k <- readPrimArray state 0
         grow rs ss k
         r <- readMutVar rs
