@@ -30,19 +30,21 @@ clip :: Double -> Int -> Chain -> Boxes -> Crossings -> Maybe Loops
 clip !tolerance !wanted !c !bs !xs = do
   -- On the left of each walk at its leftmost place, and at its rightmost.
   known <- traverse outside [0 .. Chain.walks c - 1]
-  runST $ do
-    let n = sizeofPrimArray (Chain.xs c)
-    begins <- newPrimArray (n + 1)
-    order <- newPrimArray (max 1 total)
-    sorted c xs begins order
-    starts <- unsafeFreezePrimArray begins
-    inOrder <- unsafeFreezePrimArray order
-    if not (distinct tolerance xs starts inOrder n)
-      then pure Nothing
-      else do
-        lefts <- newPrimArray (max 1 total)
-        sound <- and <$> traverse (sums c xs starts inOrder lefts) (zip [0 ..] known)
-        if not sound then pure Nothing else gather wanted c xs starts inOrder lefts known
+  if total == 0
+    then uncut wanted c known
+    else runST $ do
+      let n = sizeofPrimArray (Chain.xs c)
+      begins <- newPrimArray (n + 1)
+      order <- newPrimArray (max 1 total)
+      sorted c xs begins order
+      starts <- unsafeFreezePrimArray begins
+      inOrder <- unsafeFreezePrimArray order
+      if not (distinct tolerance xs starts inOrder n)
+        then pure Nothing
+        else do
+          lefts <- newPrimArray (max 1 total)
+          sound <- and <$> traverse (sums c xs starts inOrder lefts) (zip [0 ..] known)
+          if not sound then pure Nothing else gather wanted c xs starts inOrder lefts known
   where
     total = 2 * Crossings.count xs
     outside w = do
@@ -53,6 +55,19 @@ clip !tolerance !wanted !c !bs !xs = do
       a <- leftMore leftmost
       b <- leftMore rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
+
+-- | The walks of a chain that does not cross itself, as they are; one that is all there is, without a copy.
+uncut :: Int -> Chain -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe Loops
+uncut wanted c known
+  | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) known = Nothing
+  | kept == [0] && Chain.walks c == 1 = Just (Loops starts (Chain.xs c) (Chain.ys c) (Chain.bulges c) raws)
+  | otherwise = Just (Loops starts (gathered (Chain.xs c)) (gathered (Chain.ys c)) (gathered (Chain.bulges c)) raws)
+  where
+    kept = [w | (w, (_, left, _)) <- zip [0 ..] known, left == wanted]
+    size w = Chain.behind c w - Chain.first c w
+    starts = primArrayFromList (scanl (+) 0 (map size kept))
+    gathered a = mconcat [clonePrimArray a (Chain.first c w) (size w) | w <- kept]
+    raws = mconcat [generatePrimArray (size w) (\i -> fromIntegral (Chain.first c w + i)) | w <- kept]
 
 -- | Fill the occurrences of every segment, in the order of the walk; and where those of each segment begin.
 sorted :: Chain -> Crossings -> MutablePrimArray s Int32 -> MutablePrimArray s Int32 -> ST s ()
