@@ -62,25 +62,25 @@ segmentBox c i k = k lx ly hx hy
     !hy = most y0 y1 + most 0 oy
 {-# INLINE segmentBox #-}
 
--- | The same with a margin and without a branch, from middle and width: good to a few units in the last place, which are
--- much less than the margins of 'pairs'.
-quickBox :: Double -> Chain -> Int -> (Double -> Double -> Double -> Double -> r) -> r
-quickBox !m c i k = k (cx - wx) (cy - wy) (cx + wx) (cy + wy)
+-- | The same with a margin, twice as large in all its numbers, and without a branch, from middle and width: good to a few
+-- units in the last place, which are much less than the margins of 'pairs'.
+twiceBox :: Double -> Chain -> Int -> (Double -> Double -> Double -> Double -> r) -> r
+twiceBox !m c i k = k (cx - wx) (cy - wy) (cx + wx) (cy + wy)
   where
     !x0 = indexPrimArray (Chain.xs c) i
     !y0 = indexPrimArray (Chain.ys c) i
     !x1 = indexPrimArray (Chain.xs c) (i + 1)
     !y1 = indexPrimArray (Chain.ys c) (i + 1)
-    !b = indexPrimArray (Chain.bulges c) i
+    !b = 0.5 * indexPrimArray (Chain.bulges c) i
     !dx = x1 - x0
     !dy = y1 - y0
-    !ox = 0.5 * b * dy
-    !oy = 0.5 * b * dx
-    !cx = 0.5 * (x0 + x1 + ox)
-    !cy = 0.5 * (y0 + y1 - oy)
-    !wx = 0.5 * (abs dx + abs ox) + m
-    !wy = 0.5 * (abs dy + abs oy) + m
-{-# INLINE quickBox #-}
+    !ox = b * dy
+    !oy = b * dx
+    !cx = x0 + x1 + ox
+    !cy = y0 + y1 - oy
+    !wx = abs dx + abs ox + 2 * m
+    !wy = abs dy + abs oy + 2 * m
+{-# INLINE twiceBox #-}
 
 -- | 1 where the first number is no smaller, 0 else, without a branch.
 reaches :: Double -> Double -> Int
@@ -228,14 +228,15 @@ everyWay = 255
 -- | Visit every two segments whose boxes overlap and that may meet, the earlier one first, as long as the test allows.
 pairs :: Boxes -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn visit = do
-  -- The boxes of the segments of some runs, each run in the slot of its number's last digit or in a spare one; and the runs.
+  -- Twice the boxes of the segments of some runs, each run in the slot of its number's last digit or in a spare one; and
+  -- the runs.
   near <- newPrimArray (4 * fan * (fan + 1))
   held <- newPrimArray (fan + 1)
   setPrimArray held 0 (fan + 1) (-1)
   let n = sizeofPrimArray (Chain.xs c)
       within !l !a
         | way (at l + a) /= 0 = pure ()
-        | l == 0 = load (slot a) a >> inRun a 0
+        | l == 0 = load (slot a) a >> inRun (fan * a) (begin (slot a)) (begin (slot a) + 4 * fan)
         | otherwise = do
           more <- goesOn
           when more (outer (fan * a))
@@ -252,10 +253,10 @@ pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn
       between !l !a !b
         | b == a + 1 && way (at l + a) .&. way (at l + b) /= 0 = pure ()
         | l == 0 = do
-          let other = if slot a == slot b then fan else slot b
-          load (slot a) a
-          load other b
-          boxAt sides b (acrossRuns a b other 0)
+          let own = slot a
+              other = if own == slot b then fan else slot b
+          load own a
+          boxAt sides b (\lx ly hx hy -> acrossRuns (fan * a) (begin own) (begin own + 4 * fan) b other (2 * lx) (2 * ly) (2 * hx) (2 * hy))
         | otherwise = boxAt sides (at l + b) (outer (fan * a))
         where
           !ea = min (size (l - 1)) (fan * a + fan)
@@ -272,44 +273,44 @@ pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn
         r' <- readPrimArray held s
         when (r' /= r) $ do
           writePrimArray held s r
-          fill (fan * s) (fan * r) (fan * r + fan)
+          fill (begin s) (fan * r) (fan * r + fan)
       fill !k !i !e
         | i >= e = pure ()
-        | i < n && present c i = quickBox m c i (put k) >> fill (k + 1) (i + 1) e
-        | otherwise = put k far far (-far) (-far) >> fill (k + 1) (i + 1) e
+        | i < n && present c i = twiceBox m c i (put k) >> fill (k + 4) (i + 1) e
+        | otherwise = put k far far (-far) (-far) >> fill (k + 4) (i + 1) e
       put !k !lx !ly !hx !hy = do
-        writePrimArray near (4 * k) lx
-        writePrimArray near (4 * k + 1) ly
-        writePrimArray near (4 * k + 2) hx
-        writePrimArray near (4 * k + 3) hy
+        writePrimArray near k lx
+        writePrimArray near (k + 1) ly
+        writePrimArray near (k + 2) hx
+        writePrimArray near (k + 3) hy
       -- The segments of a run among themselves, and those of a run that overlap the box of another one against that one's.
-      inRun !r !k
-        | k >= fan = pure ()
-        | otherwise = against (fan * slot r + k) (fan * r + k) (fan * slot r + k + 1) (fan * slot r + fan) (fan * r + k + 1) >> inRun r (k + 1)
-      acrossRuns !a !b !other !k !lx !ly !hx !hy
-        | k >= fan = pure ()
+      inRun !i !k !e
+        | k >= e = pure ()
+        | otherwise = against i k (i + 1) (k + 4) e >> inRun (i + 1) (k + 4) e
+      acrossRuns !i !k !e !b !other !lx !ly !hx !hy
+        | k >= e = pure ()
         | otherwise = do
-          hit <- overlapNear (fan * slot a + k) lx ly hx hy
-          when (hit /= 0) $ against (fan * slot a + k) (fan * a + k) (fan * other) (fan * other + fan) (fan * b)
-          acrossRuns a b other (k + 1) lx ly hx hy
-      -- The segment i in a place, and the segments from j on in the places from q to e.
-      against !p !i !q !e !j = do
-        lx <- readPrimArray near (4 * p)
-        ly <- readPrimArray near (4 * p + 1)
-        hx <- readPrimArray near (4 * p + 2)
-        hy <- readPrimArray near (4 * p + 3)
+          hit <- overlapNear k lx ly hx hy
+          when (hit /= 0) $ load other b >> against i k (fan * b) (begin other) (begin other + 4 * fan)
+          acrossRuns (i + 1) (k + 4) e b other lx ly hx hy
+      -- The segment i, whose box is at p, and the segments from j on, whose boxes are from q to e.
+      against !i !p !j !q !e = do
+        lx <- readPrimArray near p
+        ly <- readPrimArray near (p + 1)
+        hx <- readPrimArray near (p + 2)
+        hy <- readPrimArray near (p + 3)
         let go !k
               | k >= e = pure ()
               | otherwise = do
                 hit <- overlapNear k lx ly hx hy
-                when (hit /= 0) $ visit i (j + k - q)
-                go (k + 1)
+                when (hit /= 0) $ visit i (j + (k - q) `shiftR` 2)
+                go (k + 4)
         go q
       overlapNear !k !lx !ly !hx !hy = do
-        a <- readPrimArray near (4 * k)
-        b <- readPrimArray near (4 * k + 1)
-        a' <- readPrimArray near (4 * k + 2)
-        b' <- readPrimArray near (4 * k + 3)
+        a <- readPrimArray near k
+        b <- readPrimArray near (k + 1)
+        a' <- readPrimArray near (k + 2)
+        b' <- readPrimArray near (k + 3)
         pure $! overlap a b a' b' lx ly hx hy
       {-# INLINE overlapNear #-}
   within highest 0
@@ -318,6 +319,7 @@ pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn
     size l = indexPrimArray counts l
     way k = indexPrimArray ways k
     slot r = r .&. (fan - 1)
+    begin s = 4 * fan * s
 {-# INLINE pairs #-}
 
 -- | Whether a box overlaps another one.
