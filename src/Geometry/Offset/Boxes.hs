@@ -234,22 +234,13 @@ pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn
   held <- newPrimArray (fan + 1)
   setPrimArray held 0 (fan + 1) (-1)
   let n = sizeofPrimArray (Chain.xs c)
+      -- What is in a box of a level, and in two different boxes of one.
       within !l !a
         | way (at l + a) /= 0 = pure ()
         | l == 0 = load (slot a) a >> inRun (fan * a) (begin (slot a)) (begin (slot a) + 4 * fan)
         | otherwise = do
           more <- goesOn
-          when more (outer (fan * a))
-        where
-          !e = min (size (l - 1)) (fan * a + fan)
-          !o = at (l - 1)
-          outer !i
-            | i >= e = pure ()
-            | otherwise = within (l - 1) i >> boxAt sides (o + i) (inner i (i + 1)) >> outer (i + 1)
-          inner !i !j !lx !ly !hx !hy
-            | j >= e = pure ()
-            | otherwise = when (overlaps sides (o + j) lx ly hx hy) (between (l - 1) i j) >> inner i (j + 1) lx ly hx hy
-      -- Two different boxes of a level.
+          when more (among (l - 1) a)
       between !l !a !b
         | b == a + 1 && way (at l + a) .&. way (at l + b) /= 0 = pure ()
         | l == 0 = do
@@ -257,17 +248,23 @@ pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn
               other = if own == slot b then fan else slot b
           load own a
           boxAt sides b (\lx ly hx hy -> acrossRuns (fan * a) (begin own) (begin own + 4 * fan) b other (2 * lx) (2 * ly) (2 * hx) (2 * hy))
-        | otherwise = boxAt sides (at l + b) (outer (fan * a))
+        | otherwise = boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
+      -- The boxes of a level that are in one above; those from i to e, and those that are in another one above.
+      among !l !a = go (fan * a)
         where
-          !ea = min (size (l - 1)) (fan * a + fan)
-          !eb = min (size (l - 1)) (fan * b + fan)
-          !o = at (l - 1)
-          outer !i !lx !ly !hx !hy
-            | i >= ea = pure ()
-            | otherwise = when (overlaps sides (o + i) lx ly hx hy) (boxAt sides (o + i) (inner i (fan * b))) >> outer (i + 1) lx ly hx hy
-          inner !i !j !lx !ly !hx !hy
-            | j >= eb = pure ()
-            | otherwise = when (overlaps sides (o + j) lx ly hx hy) (between (l - 1) i j) >> inner i (j + 1) lx ly hx hy
+          !e = min (size l) (fan * a + fan)
+          !o = at l
+          go !i
+            | i >= e = pure ()
+            | otherwise = within l i >> boxAt sides (o + i) (follow l i (i + 1) e) >> go (i + 1)
+      across !l !i !e !b !lx !ly !hx !hy
+        | i >= e = pure ()
+        | otherwise = do
+          when (overlaps sides (at l + i) lx ly hx hy) $ boxAt sides (at l + i) (follow l i (fan * b) (min (size l) (fan * b + fan)))
+          across l (i + 1) e b lx ly hx hy
+      follow !l !i !j !e !lx !ly !hx !hy
+        | j >= e = pure ()
+        | otherwise = when (overlaps sides (at l + j) lx ly hx hy) (between l i j) >> follow l i (j + 1) e lx ly hx hy
       -- Have the boxes of a run's segments in a slot.
       load !s !r = do
         r' <- readPrimArray held s

@@ -34,7 +34,7 @@ clip !tolerance !wanted !c !bs !xs = do
     then uncut wanted c known
     else runST $ do
       let n = sizeofPrimArray (Chain.xs c)
-      begins <- newPrimArray (n + 1)
+      begins <- newPrimArray (n + 2)
       order <- newPrimArray (max 1 total)
       sorted c xs begins order
       starts <- unsafeFreezePrimArray begins
@@ -69,36 +69,36 @@ uncut wanted c known
     gathered a = mconcat [clonePrimArray a (Chain.first c w) (size w) | w <- kept]
     raws = mconcat [generatePrimArray (size w) (\i -> fromIntegral (Chain.first c w + i)) | w <- kept]
 
--- | Fill the occurrences of every segment, in the order of the walk; and where those of each segment begin.
+-- | Fill the occurrences of every segment, in the order of the walk; and where those of each segment begin (there is room for
+-- two more).
 sorted :: Chain -> Crossings -> MutablePrimArray s Int32 -> MutablePrimArray s Int32 -> ST s ()
 sorted c xs begins order = do
   let n = sizeofPrimArray (Chain.xs c)
       total = 2 * Crossings.count xs
       segmentOf o = fromIntegral (indexPrimArray (Crossings.segments xs) o) `quot` 2 :: Int
-  setPrimArray begins 0 (n + 1) 0
-  forM' total $ \o -> readPrimArray begins (segmentOf o + 1) >>= writePrimArray begins (segmentOf o + 1) . (+ 1)
+  setPrimArray begins 0 (n + 2) 0
+  setPrimArray order 0 total (-1)
+  forM' total $ \o -> readPrimArray begins (segmentOf o + 2) >>= writePrimArray begins (segmentOf o + 2) . (+ 1)
   let add !i !a
-        | i > n = pure ()
+        | i > n + 1 = pure ()
         | otherwise = do
           v <- readPrimArray begins i
           writePrimArray begins i (a + v)
           add (i + 1) (a + v)
-  add 1 0
-  fill <- newPrimArray n
-  copyMutablePrimArray fill 0 begins 0 n
+  add 2 0
+  -- Behind every segment stands where its next occurrence goes, and at last where those of the one behind it begin.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
-    b <- readPrimArray begins s
-    e <- readPrimArray fill s
-    writePrimArray fill s (e + 1)
-    let sink !q
-          | q <= fromIntegral b = writePrimArray order q (fromIntegral o)
+        sink !q
+          | q == 0 = writePrimArray order q (fromIntegral o)
           | otherwise = do
-            o' <- readPrimArray order (q - 1)
-            if parameterOf xs (fromIntegral o') > t
-              then writePrimArray order q o' >> sink (q - 1)
+            o' <- fromIntegral <$> readPrimArray order (q - 1)
+            if o' >= 0 && segmentOf o' == s && parameterOf xs o' > t
+              then writePrimArray order q (fromIntegral o') >> sink (q - 1)
               else writePrimArray order q (fromIntegral o)
+    e <- readPrimArray begins (s + 1)
+    writePrimArray begins (s + 1) (e + 1)
     sink (fromIntegral (e :: Int32))
 
 -- | How far along its segment's chord an occurrence lies.
