@@ -89,3 +89,4 @@ fromPoint c i x y k
     -- The foot's distances from the rays to both ends.
     inSector = 0.5 * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx)) / max 1e-300 (hypotenuse gx gy)
     hypotenuse u v = sqrt (u * u + v * v)
+{-# INLINE fromPoint #-}

@@ -108,7 +108,7 @@ marked m w = w .&. m /= 0
 -- and arcs that rise by no more over their chords are lines. Segments are numbered through all outlines.
 fromOutlines :: Double -> [Outline] -> Chain
 fromOutlines tolerance outlines = runST $ do
-  let room = 2 * sum (map Outline.size outlines) + length outlines
+  let room = sum (map most outlines)
   rx <- newPrimArray room
   ry <- newPrimArray room
   rb <- newPrimArray room
@@ -176,6 +176,9 @@ fromOutlines tolerance outlines = runST $ do
   (count, used) <- walk 0 0 0 outlines
   when (count == 0) (writePrimArray rh 0 0)
   finish rx ry rb rm rs rh used count
+  where
+    -- The most that an outline may take: an arc over half a turn counts twice.
+    most o = foldlPrimArray' (\m b -> if abs b > 1 then m + 1 else m) (sizeofPrimArray (Outline.bulges o) + 1) (Outline.bulges o)
 
 -- | Whether no segment is shorter than a tolerance, no arc flatter, and none over half a turn.
 isPlain :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool

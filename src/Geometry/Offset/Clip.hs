@@ -30,19 +30,21 @@ clip :: Double -> Int -> Chain -> Boxes -> Crossings -> Maybe Loops
 clip !tolerance !wanted !c !bs !xs = do
   -- On the left of each walk at its leftmost place, and at its rightmost.
   known <- traverse outside [0 .. Chain.walks c - 1]
-  runST $ do
-    let n = sizeofPrimArray (Chain.xs c)
-    begins <- newPrimArray (n + 1)
-    order <- newPrimArray (max 1 total)
-    sorted c xs begins order
-    starts <- unsafeFreezePrimArray begins
-    inOrder <- unsafeFreezePrimArray order
-    if not (distinct tolerance xs starts inOrder n)
-      then pure Nothing
-      else do
-        lefts <- newPrimArray (max 1 total)
-        sound <- and <$> traverse (sums c xs starts inOrder lefts) (zip [0 ..] known)
-        if not sound then pure Nothing else gather wanted c xs starts inOrder lefts known
+  if total == 0
+    then uncut wanted c known
+    else runST $ do
+      let n = sizeofPrimArray (Chain.xs c)
+      begins <- newPrimArray (n + 2)
+      order <- newPrimArray (max 1 total)
+      sorted c xs begins order
+      starts <- unsafeFreezePrimArray begins
+      inOrder <- unsafeFreezePrimArray order
+      if not (distinct tolerance xs starts inOrder n)
+        then pure Nothing
+        else do
+          lefts <- newPrimArray (max 1 total)
+          sound <- and <$> traverse (sums c xs starts inOrder lefts) (zip [0 ..] known)
+          if not sound then pure Nothing else gather wanted c xs starts inOrder lefts known
   where
     total = 2 * Crossings.count xs
     outside w = do
@@ -54,36 +56,49 @@ clip !tolerance !wanted !c !bs !xs = do
       b <- leftMore rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
--- | Fill the occurrences of every segment, in the order of the walk; and where those of each segment begin.
+-- | The walks of a chain that does not cross itself, as they are; one that is all there is, without a copy.
+uncut :: Int -> Chain -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe Loops
+uncut wanted c known
+  | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) known = Nothing
+  | kept == [0] && Chain.walks c == 1 = Just (Loops starts (Chain.xs c) (Chain.ys c) (Chain.bulges c) raws)
+  | otherwise = Just (Loops starts (gathered (Chain.xs c)) (gathered (Chain.ys c)) (gathered (Chain.bulges c)) raws)
+  where
+    kept = [w | (w, (_, left, _)) <- zip [0 ..] known, left == wanted]
+    size w = Chain.behind c w - Chain.first c w
+    starts = primArrayFromList (scanl (+) 0 (map size kept))
+    gathered a = mconcat [clonePrimArray a (Chain.first c w) (size w) | w <- kept]
+    raws = mconcat [generatePrimArray (size w) (\i -> fromIntegral (Chain.first c w + i)) | w <- kept]
+
+-- | Fill the occurrences of every segment, in the order of the walk; and where those of each segment begin (there is room for
+-- two more).
 sorted :: Chain -> Crossings -> MutablePrimArray s Int32 -> MutablePrimArray s Int32 -> ST s ()
 sorted c xs begins order = do
   let n = sizeofPrimArray (Chain.xs c)
       total = 2 * Crossings.count xs
       segmentOf o = fromIntegral (indexPrimArray (Crossings.segments xs) o) `quot` 2 :: Int
-  setPrimArray begins 0 (n + 1) 0
-  forM' total $ \o -> readPrimArray begins (segmentOf o + 1) >>= writePrimArray begins (segmentOf o + 1) . (+ 1)
+  setPrimArray begins 0 (n + 2) 0
+  setPrimArray order 0 total (-1)
+  forM' total $ \o -> readPrimArray begins (segmentOf o + 2) >>= writePrimArray begins (segmentOf o + 2) . (+ 1)
   let add !i !a
-        | i > n = pure ()
+        | i > n + 1 = pure ()
         | otherwise = do
           v <- readPrimArray begins i
           writePrimArray begins i (a + v)
           add (i + 1) (a + v)
-  add 1 0
-  fill <- newPrimArray n
-  copyMutablePrimArray fill 0 begins 0 n
+  add 2 0
+  -- Behind every segment stands where its next occurrence goes, and at last where those of the one behind it begin.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
-    b <- readPrimArray begins s
-    e <- readPrimArray fill s
-    writePrimArray fill s (e + 1)
-    let sink !q
-          | q <= fromIntegral b = writePrimArray order q (fromIntegral o)
+        sink !q
+          | q == 0 = writePrimArray order q (fromIntegral o)
           | otherwise = do
-            o' <- readPrimArray order (q - 1)
-            if parameterOf xs (fromIntegral o') > t
-              then writePrimArray order q o' >> sink (q - 1)
+            o' <- fromIntegral <$> readPrimArray order (q - 1)
+            if o' >= 0 && segmentOf o' == s && parameterOf xs o' > t
+              then writePrimArray order q (fromIntegral o') >> sink (q - 1)
               else writePrimArray order q (fromIntegral o)
+    e <- readPrimArray begins (s + 1)
+    writePrimArray begins (s + 1) (e + 1)
     sink (fromIntegral (e :: Int32))
 
 -- | How far along its segment's chord an occurrence lies.

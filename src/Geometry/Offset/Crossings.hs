@@ -21,6 +21,7 @@ import Data.Primitive.PrimArray
 import Geometry.Offset.Boxes (Boxes)
 import Geometry.Offset.Boxes qualified as Boxes
 import Geometry.Offset.Chain (Chain)
+import Geometry.Offset.Chain qualified as Chain
 import Geometry.Offset.Meet (Visitor (..))
 import Geometry.Offset.Meet qualified as Meet
 
@@ -39,12 +40,12 @@ find !tolerance !c !bs = runST $ do
   state <- newPrimArray 2
   writePrimArray state 0 (0 :: Int)
   writePrimArray state 1 0
-  rs <- newPrimArray 64 >>= newMutVar
-  ss <- newPrimArray 32 >>= newMutVar
+  rs <- newPrimArray 0 >>= newMutVar
+  ss <- newPrimArray 0 >>= newMutVar
   let unclear = writePrimArray state 1 1
-      record i s j t x y turn = do
+      record !i !s !j !t !x !y !turn = do
         k <- readPrimArray state 0
-        grow rs ss k
+        grow (sizeofPrimArray (Chain.xs c) `quot` 16) rs ss k
         r <- readMutVar rs
         writePrimArray r (4 * k) x
         writePrimArray r (4 * k + 1) y
@@ -75,15 +76,17 @@ proper tolerance c bs = runST $ do
   Boxes.pairs bs ((== Nothing) <$> readMutVar found) (Meet.meet tolerance c visitor)
   readMutVar found
 
--- | Room for one more.
-grow :: MutVar s (MutablePrimArray s Double) -> MutVar s (MutablePrimArray s Int32) -> Int -> ST s ()
-grow rs ss k = do
+-- | Room for one more: none at first, then for so many, and then always four times as much. Room that is not used costs no
+-- memory, but what was copied does.
+grow :: Int -> MutVar s (MutablePrimArray s Double) -> MutVar s (MutablePrimArray s Int32) -> Int -> ST s ()
+grow some rs ss k = do
   g <- readMutVar ss
   room <- getSizeofMutablePrimArray g
   when (2 * k + 2 > room) $ do
     r <- readMutVar rs
-    resizeMutablePrimArray r (4 * room) >>= writeMutVar rs
-    resizeMutablePrimArray g (2 * room) >>= writeMutVar ss
+    let more = if room == 0 then max 16 some else 2 * room
+    resizeMutablePrimArray r (4 * more) >>= writeMutVar rs
+    resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
 
 -- | The two segments of a crossing.
 firstOf :: Crossings -> Int -> (Int, Int)

@@ -29,21 +29,33 @@ data Visitor s = Visitor
 -- | Visit the meetings of two different segments, the first before the second in the chain, but for the vertices that they
 -- share as neighbours. The tolerance (in mm) is that of rounding; boxes of segments that meet within it overlap.
 meet :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
-meet !tolerance !c visitor !i !j
-  | j == i + 1 = unless (goesOn c i j) (joined tolerance c visitor i j)
-  | mark Chain.opening i && mark Chain.closing j = joined tolerance c visitor i j
-  | otherwise = apart' tolerance c visitor i j
+meet !tolerance !c visitor = pair
   where
+    pair !i !j
+      | j == i + 1 = unless (goesOn tolerance c i j) (joined tolerance c visitor i j)
+      | mark Chain.opening i && mark Chain.closing j = joined tolerance c visitor i j
+      | otherwise = others i j
+    others = apart' tolerance c visitor
     mark m k = Chain.marked m (indexPrimArray (Chain.marks c) k)
 {-# INLINE meet #-}
 
--- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back. Not for a walk of two segments.
-goesOn :: Chain -> Int -> Int -> Bool
-goesOn c i j
+-- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back onto themselves. Not for a walk
+-- of two segments.
+goesOn :: Double -> Chain -> Int -> Int -> Bool
+goesOn tolerance c i j
   | Chain.marked Chain.opening (indexPrimArray (Chain.marks c) i) = False
   | curved c i || curved c j = Chain.marked Chain.smooth (indexPrimArray (Chain.marks c) j)
-  | otherwise = Chain.chord c i (\ux uy -> Chain.chord c j (\vx vy -> ux * vx + uy * vy >= 0))
+  | otherwise = Chain.chord c i (\ux uy -> Chain.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
 {-# INLINE goesOn #-}
+
+-- | Whether the second of two vectors leads back along the first, so that the end of one lies on the other.
+foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
+foldsBack tolerance ux uy vx vy = ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
+  where
+    cross = ux * vy - uy * vx
+    uu = ux * ux + uy * uy
+    vv = vx * vx + vy * vy
+{-# INLINE foldsBack #-}
 
 curved :: Chain -> Int -> Bool
 curved c k = indexPrimArray (Chain.bulges c) k /= 0
@@ -64,12 +76,17 @@ joined !tolerance !c visitor !i !j
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
 {-# NOINLINE joined #-}
 
--- | Two segments that are no neighbours.
+-- | Two segments that are no neighbours. Compiled where the visitor is known.
 apart' :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
-apart' !tolerance !c visitor !i !j
-  | curved c i = if curved c j then arcsBySize tolerance c visitor i j else lineArc tolerance c visitor j i
-  | curved c j = lineArc tolerance c visitor i j
-  | otherwise = lines' tolerance c visitor i j
+apart' !tolerance !c visitor = pair
+  where
+    pair !i !j
+      | curved c i = if curved c j then arcsBySize i j else lineAndArc j i
+      | curved c j = lineAndArc i j
+      | otherwise = lines' tolerance c visitor i j
+    lineAndArc !i !j = unless (beside tolerance c i j) (lineArc tolerance c visitor (crossingAlong c visitor i j) i j)
+    arcsBySize !i !j = if Chain.diameter c i <= Chain.diameter c j then bySize i j else bySize j i
+    bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
 {-# INLINE apart' #-}
 
 -- | Two lines that are no neighbours.
@@ -134,12 +151,46 @@ liesOn !tolerance !c !i !k =
             then aside * aside <= tolerance * tolerance * square && along > 0 && along < square
             else aside * b <= 0 && abs (Chain.power c i px py) <= tolerance * (Chain.diameter c i + tolerance)
 
+-- | Whether a line and an arc are certainly apart: the parallelogram over the arc's chord that its highest point touches lies
+-- on one side of the line, or the line on one side of the parallelogram.
+beside :: Double -> Chain -> Int -> Int -> Bool
+beside !tolerance !c !i !j =
+  above nearLine arcStart arcEnd rise
+    || above nearLine (-arcStart) (-arcEnd) (-rise)
+    || (lineStart < -nearChord && lineEnd < -nearChord)
+    || (lineStart > height + nearChord && lineEnd > height + nearChord)
+  where
+    x k = indexPrimArray (Chain.xs c) k
+    y k = indexPrimArray (Chain.ys c) k
+    !b = indexPrimArray (Chain.bulges c) j
+    !ux = x (i + 1) - x i
+    !uy = y (i + 1) - y i
+    !dx = x (j + 1) - x j
+    !dy = y (j + 1) - y j
+    !wx = x j - x i
+    !wy = y j - y i
+    !turning = ux * dy - uy * dx
+    -- Twice the areas between the line and the arc's ends, and by how much more its highest point may lie beside it.
+    !arcStart = ux * wy - uy * wx
+    !arcEnd = arcStart + turning
+    !rise = -0.5 * b * (ux * dx + uy * dy)
+    -- Those between the chord and the line's ends, on the arc's side, and how far the arc reaches there.
+    !sign = if b > 0 then 1 else -1
+    !lineStart = sign * (dx * wy - dy * wx)
+    !lineEnd = lineStart + sign * turning
+    !height = 0.5 * abs b * (dx * dx + dy * dy)
+    !nearLine = 2 * tolerance * (abs ux + abs uy)
+    !nearChord = 2 * tolerance * (abs dx + abs dy)
+    above !limit !p !q !r = p > limit && q > limit && p + r > limit && q + r > limit
+    {-# INLINE above #-}
+{-# INLINE beside #-}
+
 -- | A line and an arc that are no neighbours. Along the line the power is @aa·s² + 2·half·s + c0@, from a place near the arc.
 --
 -- Where both cross at an angle, a point of one may be off by the tolerance over its sine. Nearer to an end than that
 -- nothing is decided here.
-lineArc :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
-lineArc !tolerance !c visitor !i !j
+lineArc :: Double -> Chain -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
+lineArc !tolerance !c visitor tell !i !j
   | disc < -verge = pure ()
   | disc <= verge = closely
   | otherwise = do
@@ -176,10 +227,6 @@ lineArc !tolerance !c visitor !i !j
         !px = lx + s * ux
         !py = ly + s * uy
     {-# INLINE verdict #-}
-    tell s = do
-      let !px = lx + s * ux
-          !py = ly + s * uy
-      crossing visitor i s j (parameter c j px py) px py (Chain.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy)))
     -- Touching, or at an end.
     closely = do
       let rest = eitherRests tolerance c i j
@@ -195,7 +242,26 @@ lineArc !tolerance !c visitor !i !j
       if abs disc <= verge
         then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
         else try (q / aa) >> try (if half == 0 then -(q / aa) else c0 / q)
-{-# NOINLINE lineArc #-}
+{-# INLINE lineArc #-}
+
+-- | Tell that a line crosses an arc, so far along it.
+crossingAlong :: Chain -> Visitor s -> Int -> Int -> Double -> ST s ()
+crossingAlong c visitor !i !j !s = Chain.chord c i $ \ux uy -> do
+  let !px = indexPrimArray (Chain.xs c) i + s * ux
+      !py = indexPrimArray (Chain.ys c) i + s * uy
+      !t = parameter c j px py
+      !turn = Chain.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy))
+  crossing visitor i s j t px py turn
+{-# INLINE crossingAlong #-}
+
+-- | Tell that two arcs cross at a place.
+crossingAt :: Chain -> Visitor s -> Int -> Int -> Double -> Double -> ST s ()
+crossingAt c visitor !i !j !px !py = do
+  let !s = parameter c i px py
+      !t = parameter c j px py
+      !turn = Chain.gradient c i px py (\ax ay -> Chain.gradient c j px py (\bx by -> turned c i (turned c j (ax * by - ay * bx))))
+  crossing visitor i s j t px py turn
+{-# INLINE crossingAt #-}
 
 -- | What is known of a point in which two carriers meet.
 data Verdict = Crosses | Passes | Doubtful
@@ -218,16 +284,9 @@ nearEnds c i within px py = near i || near (i + 1)
        in dx * dx + dy * dy <= within * within
 {-# INLINE nearEnds #-}
 
--- | Two arcs that are no neighbours.
-arcsBySize :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
-arcsBySize tolerance c visitor i j
-  | Chain.diameter c i <= Chain.diameter c j = arcs tolerance c visitor i j
-  | otherwise = arcs tolerance c visitor j i
-{-# NOINLINE arcsBySize #-}
-
 -- | Two arcs that are no neighbours, the one with the smaller circle first.
-arcs :: Double -> Chain -> Visitor s -> Int -> Int -> ST s ()
-arcs !tolerance !c visitor !i !j
+arcs :: Double -> Chain -> Visitor s -> (Double -> Double -> ST s ()) -> Int -> Int -> ST s ()
+arcs !tolerance !c visitor tell !i !j
   | dist <= 4 * tolerance = rests tolerance c visitor i j
   | disc < -verge = pure ()
   | disc <= verge = closely
@@ -239,7 +298,7 @@ arcs !tolerance !c visitor !i !j
         !s2 = if half == 0 then -(q / gg) else c0 / q
         !sure1 = verdict blurred s1
         !sure2 = verdict blurred s2
-    decided closely sure1 (tell s1) sure2 (tell s2)
+    decided closely sure1 (tellAt s1) sure2 (tellAt s2)
   where
     !x0 = indexPrimArray (Chain.xs c) i
     !y0 = indexPrimArray (Chain.ys c) i
@@ -266,10 +325,8 @@ arcs !tolerance !c visitor !i !j
         !px = lx - s * gy
         !py = ly + s * gx
     {-# INLINE verdict #-}
-    tell s = do
-      let !px = lx - s * gy
-          !py = ly + s * gx
-      crossing visitor i (parameter c i px py) j (parameter c j px py) px py (Chain.gradient c i px py (\ax ay -> Chain.gradient c j px py (\bx by -> turned c i (turned c j (ax * by - ay * bx)))))
+    tellAt s = tell (lx - s * gy) (ly + s * gx)
+    {-# INLINE tellAt #-}
     -- Touching, or at an end.
     closely = do
       let rest = eitherRests tolerance c i j
@@ -279,23 +336,18 @@ arcs !tolerance !c visitor !i !j
           try s = do
             let px = lx - s * gy
                 py = ly + s * gx
-            when (onArc c i px py && onArc c j px py && not (rest && (nearEnds c i (4 * tolerance) px py || nearEnds c j (4 * tolerance) px py))) (tell s)
+            when (onArc c i px py && onArc c j px py && not (rest && (nearEnds c i (4 * tolerance) px py || nearEnds c j (4 * tolerance) px py))) (tell px py)
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
         then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
-{-# NOINLINE arcs #-}
+{-# INLINE arcs #-}
 
 -- | Two segments of which the second begins where the first ends, at a vertex.
 neighbours :: Double -> Chain -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | bi == 0 && bj == 0 =
-    Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy ->
-      when (ux * vx + uy * vy < 0) $ do
-        let d = abs (ux * vy - uy * vx)
-            a = sqrt (ux * ux + uy * uy)
-            b = sqrt (vx * vx + vy * vy)
-        when (d <= tolerance * (if a > b then a else b)) farEnds
+    Chain.chord c i $ \ux uy -> Chain.chord c j $ \vx vy -> when (foldsBack tolerance ux uy vx vy) farEnds
   | Chain.marked Chain.smooth (indexPrimArray (Chain.marks c) j) = pure ()
   | liesOn tolerance c j i || liesOn tolerance c i (j + 1) = farEnds
   | bi == 0 = other i j False

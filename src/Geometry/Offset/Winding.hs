@@ -11,6 +11,7 @@ module Geometry.Offset.Winding
   )
 where
 
+import Data.List (foldl')
 import Data.Primitive.PrimArray
 import Geometry.Offset.Boxes (Boxes)
 import Geometry.Offset.Boxes qualified as Boxes
@@ -61,6 +62,7 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
       Rightmost -> -1
     go !i !best !t !least
       | i >= end = found best t least
+      | Boxes.run bs i outermost > bound = go (Boxes.behind i) best t least
       | edge >= least = go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (Chain.xs c) i
@@ -84,7 +86,18 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
                     t' = (dx * (sign * ex - indexPrimArray (Chain.xs c) i) + dy * (cy - indexPrimArray (Chain.ys c) i)) / (l * l)
                  in if out < 0 && into > 0 && ex < least1 && t' > 0 && t' < 1 then go (i + 1) i t' ex else go (i + 1) best1 t1 least1
       where
-        edge = Boxes.leaf bs i (\lx _ hx _ -> case outward of Leftmost -> lx; Rightmost -> -hx)
+        edge = Boxes.leaf bs i outermost
+    -- The outermost vertex of the run that reaches furthest out: what does not reach as far is left out.
+    bound =
+      let i = furthest start start 1e300
+       in foldl' min 1e300 [sign * indexPrimArray (Chain.xs c) k | k <- [i .. min end (Boxes.behind i) - 1]]
+    furthest !i !best !least
+      | i >= end = best
+      | otherwise = let edge = Boxes.run bs i outermost in if edge < least then furthest (Boxes.behind i) i edge else furthest (Boxes.behind i) best least
+    -- The side of a box that lies furthest out.
+    outermost lx _ hx _ = case outward of
+      Leftmost -> lx
+      Rightmost -> -hx
     found i t least
       | t > 0 = Extreme i t (sign * least) (indexPrimArray (Chain.ys c) i + 0.5 * dyOf i + heightOf i) (Just (if b > 0 then 1 else 0))
       | otherwise = Extreme i 0 (sign * least) (indexPrimArray (Chain.ys c) i) (atVertex i)
