@@ -214,8 +214,9 @@ reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
 reachable style side radius contour = (ways, map rest (cuts contour (radiusAt style radius) ways))
   where
     ways = Way.along style side radius contour
+    whole = Vector.fromList (NonEmpty.toList (segments contour))
     onWays = IntMap.fromListWith (<>) [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
-    rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays contour o o' at)}
+    rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
     -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side. What lies beyond the
     -- contour, where the cutter touches it from behind, does not stay.
     closedBy at stretch
@@ -226,15 +227,14 @@ reachable style side radius contour = (ways, map rest (cuts contour (radiusAt st
 
 -- | The contour from where a cutter touches one segment to where it touches a later one; nothing when a way goes along what lies
 -- between, when it touches both at one point, or when an open contour ends between them.
-stretchBetween :: IntMap.IntMap [Piece] -> Contour -> Origin -> Origin -> Point -> Maybe (NonEmpty Segment)
-stretchBetween onWays contour o o' at
-  | i == j || any (`IntMap.member` onWays) between || (Contour.ends contour == Open && j < i) = Nothing
+stretchBetween :: IntMap.IntMap [Piece] -> Ends -> Vector.Vector Segment -> Origin -> Origin -> Point -> Maybe (NonEmpty Segment)
+stretchBetween onWays ends whole o o' at
+  | i == j || any (`IntMap.member` onWays) between || (ends == Open && j < i) = Nothing
   | any (passes i (> from)) (on i) || any (passes j (< to)) (on j) = Nothing
   | otherwise = NonEmpty.nonEmpty ([snd (Segment.cutAt from (whole Vector.! i)) | from < 1] <> map (whole Vector.!) between <> [fst (Segment.cutAt to (whole Vector.! j)) | to > 0])
   where
     (i, j) = (numberOf o, numberOf o')
     (from, to) = (touched o, touched o')
-    whole = Vector.fromList (NonEmpty.toList (segments contour))
     n = Vector.length whole
     between = takeWhile (/= j) (drop 1 (take n (iterate (\k -> (k + 1) `mod` n) i)))
     on k = IntMap.findWithDefault [] k onWays

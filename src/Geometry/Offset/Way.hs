@@ -135,8 +135,12 @@ along style side radius contour = case asked style side radius contour of
     runs before behind found = case found of
       [] -> []
       p : rest
-        | own p, (more, others) <- span own rest, next <- headOr behind others -> Way {ends = Open, pieces = merged (fmap snd (p :| more)), stops = (stopAt (2 * numbers - 1) 0 before p, stopAt (numbers - 1) (numbers - 1) next (NonEmpty.last (p :| more)))} : runs next behind (drop 1 others)
+        | own p,
+          (more, others) <- span own rest,
+          next <- headOr behind others ->
+          stretch before (p :| more) next : runs next behind (drop 1 others)
         | otherwise -> runs p behind rest
+    stretch before own' next = Way {ends = Open, pieces = merged (fmap snd own'), stops = (stopAt (2 * numbers - 1) 0 before (NonEmpty.head own'), stopAt (numbers - 1) (numbers - 1) next (NonEmpty.last own'))}
     headOr other list = case list of
       a : _ -> a
       [] -> other
