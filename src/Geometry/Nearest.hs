@@ -10,7 +10,7 @@ module Geometry.Nearest
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), minus)
 import Data.List (foldl')
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
@@ -18,6 +18,7 @@ import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Box (Box (..))
 import Geometry.Box qualified as Box
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 
 -- | The things in order; four numbers for each box: left, bottom, right, top.
@@ -76,7 +77,8 @@ select holds n = case levels n of
       | otherwise = go level below (i + 1) end rest
 {-# INLINE select #-}
 
--- | The thing nearest to a point, by a distance that is no less than that of its box; of several the first.
+-- | The thing nearest to a point; of several the first. Its distance is that of its box or more, but for 'Tolerance.coincident':
+-- distances of lines, arcs and boxes are computed in different ways, and each is rounded.
 closest :: (a -> Mm) -> Point -> Nearest a -> Maybe (Mm, a)
 closest distanceTo p n = case levels n of
   [] -> Nothing
@@ -102,7 +104,7 @@ closest distanceTo p n = case levels n of
                 [] -> distanceTo (Vector.unsafeIndex (things n) k)
                 next : lower -> guess next lower (fan * k) (min (count next) (fan * (k + 1)))
       nearestBox level i end = fst (foldl' (\(k, d) j -> let e = away level j in if e < d then (j, e) else (k, d)) (i, away level i) [i + 1 .. end - 1])
-      away level i = Box.distance p (boxAt level i)
+      away level i = minus (Box.distance p (boxAt level i)) Tolerance.coincident
 
 -- | All things in order.
 toList :: Nearest a -> [a]

@@ -24,6 +24,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Search qualified as Search
+import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -225,36 +226,55 @@ reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
 reachable style side radius contour = (ways, map rest (cuts contour (radiusAt style radius) ways))
   where
     ways = Way.along style side radius contour
-    onWays = IntSet.fromList [numberOf (origin p) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
-    rest (cause, i, j, at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays contour i j at)}
-    -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side.
-    closedBy at stretch = NonEmpty.toList stretch <> [Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (NonEmpty.last stretch)) (Segment.start (NonEmpty.head stretch))]
+    whole = Vector.fromList (NonEmpty.toList (segments contour))
+    onWays = IntMap.fromListWith (<>) [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
+    rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
+    -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side. What lies beyond the
+    -- contour, where the cutter touches it from behind, does not stay.
+    closedBy at stretch
+      | Contour.signedArea (Contour Closed (stretch <> (edge :| []))) * leftward side > 0 = NonEmpty.toList stretch <> [edge]
+      | otherwise = []
+      where
+        edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (NonEmpty.last stretch)) (Segment.start (NonEmpty.head stretch))
 
 -- | The contour from where a cutter touches one segment to where it touches a later one; nothing when a way goes along what lies
--- between, or when it touches both at one point.
-stretchBetween :: IntSet.IntSet -> Contour -> Int -> Int -> Point -> Maybe (NonEmpty Segment)
-stretchBetween onWays contour i j at
-  | i == j || any (`IntSet.member` onWays) between = Nothing
-  | otherwise = NonEmpty.nonEmpty (behind (whole Vector.! i) <> map (whole Vector.!) between <> upTo (whole Vector.! j))
+-- between, when it touches both at one point, or when an open contour ends between them.
+stretchBetween :: IntMap.IntMap [Piece] -> Ends -> Vector.Vector Segment -> Origin -> Origin -> Point -> Maybe (NonEmpty Segment)
+stretchBetween onWays ends whole o o' at
+  | i == j || any (`IntMap.member` onWays) between || (ends == Open && j < i) = Nothing
+  | any (passes i (> from)) (on i) || any (passes j (< to)) (on j) = Nothing
+  | otherwise = NonEmpty.nonEmpty ([snd (Segment.cutAt from (whole Vector.! i)) | from < 1] <> map (whole Vector.!) between <> [fst (Segment.cutAt to (whole Vector.! j)) | to > 0])
   where
-    whole = Vector.fromList (NonEmpty.toList (segments contour))
+    (i, j) = (numberOf o, numberOf o')
+    (from, to) = (touched o, touched o')
     n = Vector.length whole
     between = takeWhile (/= j) (drop 1 (take n (iterate (\k -> (k + 1) `mod` n) i)))
-    behind s = [snd (Segment.cutAt t s) | let t = touched s, t < 1]
-    upTo s = [fst (Segment.cutAt t s) | let t = touched s, t > 0]
-    touched s = max 0 (min 1 (Segment.fraction s (snd (Distance.nearest at s))))
+    on k = IntMap.findWithDefault [] k onWays
+    passes k beyond p = beyond (case origin p of Around _ -> 1; Along _ -> foot k (Segment.at 0.5 (segment p)))
+    touched origin' = case origin' of
+      Around _ -> 1
+      Along k -> foot k at
+    -- The place of a segment next to a point, as a part of its length.
+    foot k p = let s = whole Vector.! k in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
 
--- | What is in the way wherever a way goes over from one segment to another that does not follow it; both segments, and
--- where the centre then is.
-cuts :: Contour -> (Int -> Mm) -> [Way] -> [(Cause, Int, Int, Point)]
+-- | What is in the way wherever a way goes over from one segment to another that does not follow it, or ends before the contour
+-- does; what the cutter touches on both sides, and where its centre then is.
+cuts :: Contour -> (Int -> Mm) -> [Way] -> [(Cause, Origin, Origin, Point)]
 cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
   where
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     n = Vector.length whole
-    along' way = concat (zipWith between list (drop 1 list <> [NonEmpty.head (Way.pieces way) | Way.ends way == Closed]))
+    along' way =
+      [stopped (Along i) (origin p) front | Just i <- [fst (Way.stops way)], not (passed front (reverse [0 .. numberOf (origin p) - 1]))]
+        <> concat (zipWith between list (drop 1 list <> [p | Way.ends way == Closed]))
+        <> [stopped (origin q) (Along j) back | Just j <- [snd (Way.stops way)], not (passed back [numberOf (origin q) + 1 .. n - 1])]
       where
         list = NonEmpty.toList (Way.pieces way)
-    between p q = [(cause, numberOf (origin p), numberOf (origin q), Segment.end (segment p)) | cause <- inTheWay p q]
+        p = NonEmpty.head (Way.pieces way)
+        q = NonEmpty.last (Way.pieces way)
+        (front, back) = (Segment.start (segment p), Segment.end (segment q))
+    stopped o o' at = (Collision (numberOf o) (numberOf o') at, o, o', at)
+    between p q = [(cause, origin p, origin q, Segment.end (segment p)) | cause <- inTheWay p q]
     inTheWay p q = case (origin p, origin q) of
       (Around i, Along j) | j == next i -> []
       (Around i, Around j) | j == i -> []
@@ -265,6 +285,11 @@ cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
       (o, o') -> [Collision (numberOf o) (numberOf o') (Segment.end (segment p))]
     next i = if i + 1 == n then 0 else i + 1
     turns a b = let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b); Rad smooth = Tolerance.smoothAngle in abs t > smooth
+    -- Beyond a place there are only arcs of the cutter's radius, in which it stands still there.
+    passed at is = not (null is) && all (standsStill at) is
+    standsStill at i = case whole Vector.! i of
+      Arc {centre, start} -> let Mm d = minus (radiusOf i) (Segment.radius centre start) in Mm (abs d) <= Tolerance.clearance && Vec.distance at centre <= Tolerance.clearance
+      Straight _ _ -> False
     tight i = case whole Vector.! i of
       Arc {start, centre} | r <- Segment.radius centre start, r <= plus (radiusOf i) Tolerance.clearance -> Just r
       _ -> Nothing

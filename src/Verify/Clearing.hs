@@ -196,16 +196,16 @@ uncleared pocket (Mm r) strokes = listToMaybe (look Nothing False ((left + right
     -- What is within the distance of a stroke is found to be at the finest squares, too.
     r' = r + finest
     Mm finest = floorResolution
-    nearestStroke x y = courses . snd <$> Nearest.closest (\t -> Mm (rangeOf x y (courses t) + Course.unsure)) (Vec.point x y) strokes
+    nearestStroke x y = courses . snd <$> Nearest.closest (\t -> Mm (rangeOf x y (courses t))) (Vec.point x y) strokes
     rangeOf x y = foldl' (\m c -> max m (Course.distance c x y)) 0
 
 -- | Squares of the floor are divided until no place of them lies further from their middle. So much further than it may a place lie from a stroke.
 floorResolution :: Mm
 floorResolution = Mm 0.02
 
--- | The wall nearest to a point, and how far it is. By rounding a box may seem to be further away than what is in it.
+-- | The wall nearest to a point, and how far it is.
 nearestWall :: Pocket -> Point -> Maybe (Mm, Edge)
-nearestWall pocket p = (\(Mm d, e) -> (Mm (d - Course.unsure), e)) <$> Nearest.closest (\e -> Mm (Course.distance (Passage.course e) (Vec.x p) (Vec.y p) + Course.unsure)) p (walls pocket)
+nearestWall pocket p = Nearest.closest (\e -> Mm (Course.distance (Passage.course e) (Vec.x p) (Vec.y p))) p (walls pocket)
 
 -- | Whether a point lies on the free side of the wall nearest to it. Nearest to a corner, it is on the same side of both walls there.
 isFree :: Pocket -> Point -> Edge -> Bool

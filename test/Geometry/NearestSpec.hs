@@ -1,7 +1,7 @@
 -- | The flat index against looking at everything.
 module Geometry.NearestSpec (spec) where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), plus)
 import Data.List (minimumBy)
 import Data.Ord (comparing)
 import Geometry.Box (Box (..))
@@ -26,6 +26,15 @@ spec = do
             wanted = case things of
               [] -> Nothing
               _ -> let t = minimumBy (comparing distanceTo) things in Just (distanceTo t, fst t)
+         in found === wanted
+  it "finds it though distances are rounded otherwise than those of boxes (catches a thing that is passed over because its box seems further away than it)" $
+    property $
+      forAll ((,) <$> boxes <*> point) $ \(things, p) -> forAll (vectorOf (length things) (choose (-1e-9, 0))) $ \slips ->
+        let slipped = [(plus (Box.distance p b) (Mm e), (i, b)) | ((i, b), e) <- zip things slips]
+            found = fmap (\(d, (_, (i, _))) -> (d, i)) (Nearest.closest fst p (Nearest.index (snd . snd) slipped))
+            wanted = case slipped of
+              [] -> Nothing
+              _ -> let (d, (i, _)) = minimumBy (comparing fst) slipped in Just (d, i)
          in found === wanted
   it "gives everything back in order (catches a level taken for the things)" $
     property $

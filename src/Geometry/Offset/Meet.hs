@@ -196,7 +196,7 @@ lineArc !tolerance !c visitor tell !i !j
   | otherwise = do
     let !root = sqrt disc
         !q = if half > 0 then -half - root else root - half
-        !blurred = 4 * tolerance * (1 + r * sqrt aa / root)
+        !blurred = blur root
         !margin = blurred / sqrt aa
         !s1 = s0 + q / aa
         !s2 = s0 + (if half == 0 then -(q / aa) else c0 / q)
@@ -217,6 +217,7 @@ lineArc !tolerance !c visitor tell !i !j
     !disc = half * half - aa * c0
     !r = 0.5 * Chain.diameter c j
     !verge = aa * tolerance * (2 * r + tolerance)
+    blur root = 4 * tolerance * (1 + r * sqrt aa / root)
     verdict blurred margin s
       | s < -margin || s > 1 + margin = Passes
       | nearEnds c j blurred px py = Doubtful
@@ -233,11 +234,12 @@ lineArc !tolerance !c visitor tell !i !j
           foot = s0 - half / aa
           footX = lx + foot * ux
           footY = ly + foot * uy
-          q = if half > 0 then -half - sqrt disc else sqrt disc - half
+          root = sqrt disc
+          q = if half > 0 then -half - root else root - half
           try step = when (s0 + step > 0 && s0 + step < 1) $ do
             let px = lx + (s0 + step) * ux
                 py = ly + (s0 + step) * uy
-            when (onArc c j px py && not (rest && (nearEnds c i (4 * tolerance) px py || nearEnds c j (4 * tolerance) px py))) (tell (s0 + step))
+            when (onArc c j px py && not (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))) (tell (s0 + step))
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
         then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
@@ -293,7 +295,7 @@ arcs !tolerance !c visitor tell !i !j
   | otherwise = do
     let !root = sqrt disc
         !q = if half > 0 then -half - root else root - half
-        !blurred = 4 * tolerance * (1 + opening * 2 * dist / root)
+        !blurred = blur root
         !s1 = q / gg
         !s2 = if half == 0 then -(q / gg) else c0 / q
         !sure1 = verdict blurred s1
@@ -317,6 +319,7 @@ arcs !tolerance !c visitor tell !i !j
     !c0 = Chain.power c i lx ly
     !disc = half * half - gg * c0
     !verge = 4 * gg * tolerance * (opening + tolerance)
+    blur root = 4 * tolerance * (1 + opening * 2 * dist / root)
     verdict blurred s
       | nearEnds c i blurred px py || nearEnds c j blurred px py = Doubtful
       | onArc c i px py && onArc c j px py = Crosses
@@ -332,11 +335,12 @@ arcs !tolerance !c visitor tell !i !j
       let rest = eitherRests tolerance c i j
           footX = lx + half / gg * gy
           footY = ly - half / gg * gx
-          q = if half > 0 then -half - sqrt disc else sqrt disc - half
+          root = sqrt disc
+          q = if half > 0 then -half - root else root - half
           try s = do
             let px = lx - s * gy
                 py = ly + s * gx
-            when (onArc c i px py && onArc c j px py && not (rest && (nearEnds c i (4 * tolerance) px py || nearEnds c j (4 * tolerance) px py))) (tell px py)
+            when (onArc c i px py && onArc c j px py && not (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))) (tell px py)
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
         then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)

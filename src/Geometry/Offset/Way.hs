@@ -70,7 +70,12 @@ numberOf origin = case origin of
   Around i -> i
 
 -- | A way that the centre can go without a gap, closed or from end to end.
-data Way = Way {ends :: Ends, pieces :: NonEmpty Piece}
+data Way = Way
+  { ends :: Ends,
+    pieces :: NonEmpty Piece,
+    -- | the segments of the contour that stop the cutter before and behind an open way; nothing where the contour ends
+    stops :: (Maybe Int, Maybe Int)
+  }
   deriving stock (Eq, Show)
 
 -- | Whether the cutter reaches every segment: there is one way, and nothing but arcs that have shrunk to a point is missing on it.
@@ -117,17 +122,32 @@ along style side radius contour = case asked style side radius contour of
         parts = [PrimArray.indexPrimArray (Loops.starts l) k .. PrimArray.indexPrimArray (Loops.starts l) (k + 1) - 1]
         l = Kernel.loops reach
     joined found = case Contour.ends contour of
-      Closed -> [Way Closed (rotated ps) | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
+      Closed -> [round' ps | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
       -- The loop goes round the whole contour: here counts what lies on the side that was asked, up to the ends.
       Open -> case span own found of
-        (_, []) -> [Way Closed (rotated ps) | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
-        (front, rest) -> map (Way Open . merged . fmap snd) (runs (rest <> front))
+        (_, []) -> [round' ps | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
+        (front, other : rest) -> runs other other (rest <> front)
+    round' ps = Way {ends = Closed, pieces = rotated ps, stops = (Nothing, Nothing)}
     own (number, p) = case origin p of
       Along _ -> number < numbers
       Around _ -> number < numbers - 1
-    runs found = case dropWhile (not . own) found of
+    -- The open ways of a loop, between what is before the rest of it and what is behind it.
+    runs before behind found = case found of
       [] -> []
-      p : rest -> let (more, others) = span own rest in (p :| more) : runs others
+      p : rest
+        | own p,
+          (more, others) <- span own rest,
+          next <- headOr behind others ->
+          stretch before (p :| more) next : runs next behind (drop 1 others)
+        | otherwise -> runs p behind rest
+    stretch before own' next = Way {ends = Open, pieces = merged (fmap snd own'), stops = (stopAt (2 * numbers - 1) 0 before (NonEmpty.head own'), stopAt (numbers - 1) (numbers - 1) next (NonEmpty.last own'))}
+    headOr other list = case list of
+      a : _ -> a
+      [] -> other
+    -- What stops the cutter is not the way round the contour's own end, from the segment there.
+    stopAt end number (k, other) (own', _) = case origin other of
+      Around _ | k == end, own' == number -> Nothing
+      o -> Just (numberOf o)
     -- Begin where the first segment begins that is on it.
     rotated ps = merged (fromMaybe ps (NonEmpty.nonEmpty (reverse lastRun <> reverse others)))
       where
@@ -143,7 +163,8 @@ piece reach whole elements k after = (number, Piece {origin, segment})
     l = Kernel.loops reach
     raw = fromIntegral (PrimArray.indexPrimArray (Loops.raws l) k)
     number = fromIntegral (PrimArray.indexPrimArray (Chain.sources (Kernel.raw reach)) raw)
-    element = if number < PrimArray.sizeofPrimArray elements then PrimArray.indexPrimArray elements number else 0
+    -- An open outline is walked there and back.
+    element = PrimArray.indexPrimArray elements (if number < PrimArray.sizeofPrimArray elements then number else 2 * PrimArray.sizeofPrimArray elements - 1 - number)
     isAround = Chain.marked Chain.around (PrimArray.indexPrimArray (Chain.marks (Kernel.raw reach)) raw)
     origin = if isAround then Around element else Along element
     s = whole Vector.! element

@@ -4,6 +4,9 @@ module Geometry.Offset.Judge
     judge,
     consistent,
     rounds,
+    identity,
+    uncrossed,
+    stays,
     answer,
     scaleOf,
     apart,
@@ -28,6 +31,7 @@ import Geometry.Outline (Outline)
 import Geometry.Outline qualified as Outline
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
 
 data Verdict
   = -- | so many places were looked at
@@ -124,6 +128,44 @@ rounds c = case answer c of
           | abs (Loops.area l - total) <= 1e-7 * size * size -> []
           | otherwise -> [name <> " area " <> show (Loops.area l) <> " not " <> show total]
 
+-- | Out and in again by less than a cutter that is known to fit: by what a larger one has swept. It has no hollow, no inner corner and no
+-- gap that is too narrow, but islands and hollows of all kinds.
+identity :: Case -> Verdict
+identity c = case answer c >>= offset' (other (side c)) (radius c) . loopsOf of
+  Left _ -> Refused
+  Right reach
+    | illConditioned c || null (loopsOf reach) -> Right' 0
+    | otherwise -> maybe (Right' 1) Wrong (listToMaybe (concatMap (again (loopsOf reach)) [0.9, 0.35]))
+  where
+    loopsOf = Loops.outlines . Kernel.loops
+    offset' s d = Kernel.offset (Kernel.plain s (Mm d))
+    again swept part = case offset' (side c) (part * radius c) swept >>= offset' (other (side c)) (part * radius c) . loopsOf of
+      Left fault -> [show part <> ": " <> show fault]
+      Right back ->
+        let same :: String -> ([Outline] -> Double) -> Double -> [String]
+            same name f allowed = [show part <> ": " <> name <> " " <> show (f (loopsOf back)) <> " not " <> show (f swept) | abs (f (loopsOf back) - f swept) > allowed]
+         in same "loops" (fromIntegral . length) 0 <> same "area" (sum . map Outline.area) (1e-8 * scaleOf c * scaleOf c) <> same "length" (\os -> sum [l | o <- os, let Mm l = Outline.length o]) (1e-6 * scaleOf c)
+
+-- | Whether no two segments of the answer cross between their ends.
+uncrossed :: Case -> Verdict
+uncrossed c = case answer c of
+  Left _ -> Refused
+  Right reach ->
+    let segments = concatMap (Outline.segments . straightened) (Loops.outlines (Kernel.loops reach))
+     in maybe (Right' (length segments)) Wrong (listToMaybe [show a <> " crosses " <> show b <> " at " <> show p | a : more <- tails segments, b <- more, p <- Distance.crossings a b, all (clearly p) [a, b], slant a b p])
+  where
+    clearly p s = all (\q -> let Mm d = Vec.distance p q in d > 1e-5 * scaleOf c) [Segment.start s, Segment.end s]
+    slant a b p = abs (Vec.cross (Segment.directionAt (Segment.fraction a p) a) (Segment.directionAt (Segment.fraction b p) b)) > 1e-3
+
+-- | Whether an offset by nothing keeps the area; and the length, but where sides lie along one another: what has no width is no boundary.
+stays :: Case -> Verdict
+stays c = case answer c {radius = 0} of
+  Left _ -> Refused
+  Right reach ->
+    let same :: String -> (Outline -> Double) -> Double -> [String]
+        same name f allowed = [name <> " " <> show (total os) <> " not " <> show (total (outlines c)) | let os = Loops.outlines (Kernel.loops reach); total = sum . map f, abs (total os - total (outlines c)) > allowed]
+     in maybe (Right' 1) Wrong (listToMaybe (same "area" Outline.area (1e-9 * scaleOf c * scaleOf c) <> (if apart c then same "length" (\o -> let Mm l = Outline.length o in l) (1e-8 * scaleOf c) else [])))
+
 -- | Whether all segments keep clearly apart but for the vertices that they share.
 apart :: Case -> Bool
 apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- Outline.vertices o] && and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
@@ -158,8 +200,10 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     scale = scaleOf c
     near = 2e-9 * scale
     d = radius c
-    tooNear (x, y) = or [Naive.blocked (if side c == LeftOf then 1 else -1) d ps x y | ps <- asked]
-    asked = map (\ps -> if isOpen then ps <> map backwards (reverse ps) else ps) . walks (outlines c) $ map (d +) (cycle (if null (extras c) then [0] else extras c))
+    -- What the walls of a pocket ask for holds inside it.
+    tooNear (x, y) = or [Naive.blocked leftward d ps x y | (isPocket, ps) <- asked, not isPocket || Naive.winding (map fst ps) x y /= 0]
+    leftward = if side c == LeftOf then 1 else -1
+    asked = zipWith (\o ps -> (not isOpen && leftward * Outline.area o > 0, if isOpen then ps <> map backwards (reverse ps) else ps)) (outlines c) . walks (outlines c) $ map (d +) (cycle (if null (extras c) then [0] else extras c))
     walks os es = case os of
       [] -> []
       o : rest -> let ps = Naive.pieces o; (mine, others) = splitAt (length ps) es in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] : walks rest others

@@ -2,10 +2,11 @@
 module Geometry.Offset.KernelSpec (spec) where
 
 import Base.Quantity (Mm (..))
-import Generate.Outline (Case (..), turned)
+import Data.List (tails)
+import Generate.Outline (Case (..), Family (..), turned)
 import Generate.Outline qualified as Generate
 import Geometry.Contour (Ends (..))
-import Geometry.Offset.Judge (Verdict (..), consistent, judge, rounds)
+import Geometry.Offset.Judge (Verdict (..), consistent, identity, judge, rounds, stays, uncrossed)
 import Geometry.Offset.Kernel (Corners (..), Fault (..), Side (..), Task (..))
 import Geometry.Offset.Kernel qualified as Kernel
 import Geometry.Offset.Loops qualified as Loops
@@ -27,9 +28,17 @@ spec = do
     each (count `div` 3) "sameness: quarter turns and mirrors give the same loops digit for digit, another start, motion and reversal the same area (catches an order round a node that knows the axes)" Generate.problem consistent
     each (count `div` 6) "sameness, beside open outlines (catches a side that counts from one end)" Generate.open consistent
     each (count `div` 3) "composition: by a and then by b is by a + b; there, back and there is there (catches loops in loops that are each taken by themselves)" Generate.problem rounds
+    each (count `div` 3) "identity: out and in again, where hollows, corners and gaps have room for a larger cutter, is as before, concave or not (catches an arc that is cut to another one)" Generate.problem identity
+    each (count `div` 3) "uncrossed: no segments of an answer cross (catches a loop that takes in a vertex of another one)" Generate.problem uncrossed
     it "nothing: an offset by nothing is the outline itself (catches a joint that leaves a trace)" $
       property . forAll Generate.simple $ \o -> forAll (elements [LeftOf, RightOf]) $ \s ->
         fmap (map Outline.vertices) (loopsOf s 0 [o]) === Right [Outline.vertices o]
+    each (count `div` 3) "nothing, whatever the outlines: an offset by nothing keeps area and length (catches an arc that is lost where nothing moves)" Generate.problem stays
+    it "Steiner, with arcs: the same round what one cutter leaves (catches an arc that keeps its radius)" $
+      property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r -> forAll (choose (0.01, 5)) $ \r' ->
+        case loopsOf RightOf r' [Generate.loop vs] of
+          Right [o] -> steiner o r
+          other -> counterexample (show other) False
     it "Steiner: round a convex outline the area is A + LR + πR², the length L + 2πR (catches a corner that is cut off)" $
       property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r -> steiner (Generate.loop vs) r
     it "back: in after out is the identity for a convex outline (catches two sides that move to the same one)" $
@@ -40,6 +49,8 @@ spec = do
       property (forAll bowTie crossedLaw)
     it "far out: short arcs that go over into lines leave no corners (catches directions that are compared more finely than they are known)" $
       fmap (map Outline.size) (loopsOf RightOf 3 [lobes 10000]) `shouldBe` Right [20000]
+    it "comes upon everything that degenerates: repeated vertices, spikes, sides along one another, touching outlines, whole numbers, arcs of next to nothing and of nearly a whole turn" $
+      [name | (name, has) <- degenerate, length (filter has (take 3000 [unGen Generate.problem (mkQCGen seed) 30 | seed <- [1 ..]])) < 20] `shouldBe` []
   describe "slots, pockets and islands" $ do
     it "a gap of exactly the cutter's width is closed" $
       loopsOf LeftOf 1 [Generate.loop [(0, 0, 0), (10, 0, 0), (10, 2, 0), (0, 2, 0)]] `shouldBe` Right []
@@ -63,6 +74,9 @@ spec = do
       fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1]) `shouldBe` Right 1
     it "sharp corners stay where the ways meet" $
       fmap (map Outline.vertices . found) (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2]) `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
+    it "into a cusp nothing reaches: what is asked for there is not asked for behind it (catches a way round a cusp that opens to the cutter)" $
+      fmap (maximum . concatMap (\o -> [y | (_, y, _) <- Outline.vertices o]) . found) (Kernel.offset (Kernel.plain RightOf (Mm 1)) {extra = Just (\i -> Mm (if i == 1 || i == 2 then 4 else 0))} [Generate.loop [(0, 0, 0), (3, 0, 1), (4, 0, 1), (5, 0, 0), (8, 0, 0), (8, 1.5, 0), (0, 1.5, 0)]])
+        `nearly` Right 2.5
     it "an open line is gone round on both sides and at both ends" $
       areaOf LeftOf 1 [Outline.outline Open [(0, 0, 0), (5, 0, 0)]] `nearly` Right (-(10 + pi))
     it "the side of an open line does not matter but for the way round" $
@@ -85,6 +99,23 @@ each count title gen law = it title (filter wrong verdicts `shouldBe` [])
       Wrong _ -> True
       Right' _ -> False
       Refused -> False
+
+-- | What the cases have to hold some of.
+degenerate :: [(String, Case -> Bool)]
+degenerate =
+  [ ("repeated vertices", anyVertex (\_ (x, y, _) (x', y', _) -> (x, y) == (x', y'))),
+    ("spikes", anyVertex (\(x, y, _) (x1, y1, b1) (x', y', b') -> b1 == 0 && b' == 0 && (x, y) == (x', y') && (x, y) /= (x1, y1))),
+    ("straight on", anyVertex (\(x, y, b) (x1, y1, b1) (x2, y2, _) -> b == 0 && b1 == 0 && (x1 - x) * (y2 - y1) == (y1 - y) * (x2 - x1) && (x1 - x) * (x2 - x1) + (y1 - y) * (y2 - y1) > 0)),
+    ("outlines that touch", \c -> or [(x, y) == (x', y') | (o, p) <- pairs (outlines c), (x, y, _) <- Outline.vertices o, (x', y', _) <- Outline.vertices p]),
+    ("an outline that touches itself", \c -> or [(x, y) == (x', y') | o <- outlines c, let vs = zip [0 :: Int ..] (Outline.vertices o), (i, (x, y, _)) <- vs, (j, (x', y', _)) <- vs, j > i + 1, not (i == 0 && j == length vs - 1)]),
+    ("whole numbers", anyVertex (\_ (x, y, _) _ -> all (\v -> v == fromIntegral (round v :: Int)) [x, y] && x /= 0 && y /= 0)),
+    ("arcs of next to nothing", anyVertex (\_ (_, _, b) _ -> b /= 0 && abs b < 1e-5)),
+    ("arcs of nearly a whole turn", anyVertex (\_ (_, _, b) _ -> abs b > 1e3)),
+    ("a gap or a hollow of the cutter's size", \c -> family c == Cells && radius c `elem` [0.5, 1, 1.5, 2])
+  ]
+  where
+    anyVertex f c = or [f u v w | o <- outlines c, let vs = Outline.vertices o, (u, v, w) <- zip3 (drop (length vs - 1) vs <> vs) vs (drop 1 vs <> vs)]
+    pairs os = [(o, p) | o : more <- tails os, p <- more]
 
 found :: Kernel.Reach -> [Outline]
 found = Loops.outlines . Kernel.loops

@@ -46,8 +46,11 @@ blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> t
           (vx, vy) = direction q (-1)
           turn = ux * vy - uy * vx
           (wx, wy) = (x - x0 q, y - y0 q)
-          outer = side * turn < -1e-9 || (abs turn <= 1e-9 && ux * vx + uy * vy < 0)
+          -- Two arcs that meet in a cusp turn to the side from which they bend away; a fold has no side.
+          bend = side * (curvature p + curvature q)
+          outer = side * turn < -1e-9 || (abs turn <= 1e-9 && ux * vx + uy * vy < 0 && bend >= 0)
        in outer && ux * wx + uy * wy > 0 && vx * wx + vy * wy < 0 && norm wx wy < max d e
+    curvature p@(Piece _ _ _ _ b) = if b == 0 then 0 else let (_, _, r) = circle p in 1 / r
     direction (Piece ax ay bx by b) end =
       let h = end * 2 * atan b; l = norm (bx - ax) (by - ay) in (((bx - ax) * cos h - (by - ay) * sin h) / l, ((by - ay) * cos h + (bx - ax) * sin h) / l)
 
