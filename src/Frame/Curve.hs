@@ -44,23 +44,26 @@ data Part
     Arcs (NonEmpty Segment)
   deriving stock (Eq, Show)
 
--- | Ways to walk a run at one height, in parts one behind the other: on arcs, and if the centres of some of it do not fit
--- their fields, in chords there or everywhere as well.
+-- | Ways to walk a run at one height, in parts one behind the other: on arcs, and if the centres of some of them do not fit
+-- their fields, in chords where the run itself is so nearly straight, or everywhere as well.
 ways :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [Part]
 ways machine bounds run
-  | or kinds = [onArcs run] :| [map part (NonEmpty.groupBy (\(a, _) (b, _) -> a == b) (zip kinds moves)), [Chords run]]
-  | otherwise = [onArcs run] :| []
+  | or kinds && any isBent few = [Arcs few] :| [map part (NonEmpty.groupBy (\(a, _) (b, _) -> a == b) (zip kinds moves)), [Chords run]]
+  | otherwise = [Arcs few] :| []
   where
+    few = onArcs run
     moves = NonEmpty.toList run
     -- A straight move is walked like what is before it.
     kinds = drop 1 (scanl (\before m -> fromMaybe before (isFar (segment m))) False moves)
     part ms@((far, _) :| _)
       | far = Chords (fmap snd ms)
-      | otherwise = onArcs (fmap snd ms)
-    onArcs ms = Arcs (arcs (allowance machine bounds) ms)
+      | otherwise = Arcs (onArcs (fmap snd ms))
+    onArcs = arcs (allowance machine bounds)
     isFar s = case s of
       Straight _ _ -> Nothing
       Arc {start, centre} -> Just (Segment.radius centre start >= most)
+    -- What leaves its chord by less is walked straight, wherever its centre is.
+    isBent s = isFar s == Just True && Segment.bulge s >= times 0.5 (Machine.pulse machine)
     most = let Pulses n = Machine.centreCapacity machine in times (fromIntegral n) (minimum [Machine.pulseOf machine axis | axis <- [X, Y]])
 
 -- | Few arcs and lines that stay so near to a run, from its beginning to its end.
