@@ -17,7 +17,7 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Search qualified as Search
 import Control.Monad (foldM_)
-import Control.Monad.ST (runST)
+import Control.Monad.ST (ST, runST)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector.Unboxed (Vector)
@@ -70,20 +70,24 @@ approximate (Mm tolerance) segments = runST $ do
     sharp to u = let i = min (to - 1) (Search.lastBelow n u (stations chain)) in Track.further (Mm tolerance) (trackOf chain i (min to (i + 64))) (station chain (min to (i + 64))) u
 
 chainOf :: NonEmpty Segment -> Chain
-chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.create (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (written array) 0 list)}
+chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.create (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (numbers array) 0 list)}
   where
     n = NonEmpty.length segments
     list = NonEmpty.toList segments
-    written array i s = case s of
-      Straight p q -> let d = Vec.unit (Vec.to p q) in numbers array i p d d 0
-      Arc {start, end, centre, sweep = Rad a} ->
-        let Mm r = Segment.radius centre start
-            k = signum a / r
-         in numbers array i start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
-    numbers array i p (Vec.Vec sx sy) (Vec.Vec ex ey) k = do
-      let put j = Mutable.unsafeWrite array (i + j)
+
+-- | The numbers of a piece from a place in the array on; gives the place behind them.
+numbers :: Mutable.MVector s Double -> Int -> Segment -> ST s Int
+numbers array i s = case s of
+  Straight p q -> let d = Vec.unit (Vec.to p q) in written p d d 0
+  Arc {start, end, centre, sweep = Rad a} ->
+    let Mm r = Segment.radius centre start
+        k = signum a / r
+     in written start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
+  where
+    written p (Vec.Vec sx sy) (Vec.Vec ex ey) k = do
       put 0 (Vec.x p) >> put 1 (Vec.y p) >> put 2 sx >> put 3 sy >> put 4 ex >> put 5 ey >> put 6 k
       pure (i + 7)
+    put j = Mutable.unsafeWrite array (i + j)
 
 station :: Chain -> Int -> Double
 station chain = Unboxed.unsafeIndex (stations chain)
