@@ -17,8 +17,7 @@ import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
-import Data.Vector qualified as Vector
-import Geometry.Piece (Curve (..), Kind (..), Piece (..), Table, best, missed, parabola, row, rows)
+import Geometry.Piece (Curve (..), Kind (..), Piece (..), Table, best, bestWithin, missed, parabola, row, rows)
 import Geometry.Tolerance qualified as Tolerance
 
 -- Choosing them ---------------------------------------------------------------------------------
@@ -36,9 +35,9 @@ import Geometry.Tolerance qualified as Tolerance
 -- D > d, A − B has its second zero between these rows, is at least D − d at the later one, and no smaller at row j;
 -- but there it is at most d. So D is at most 2·d.
 --
--- With n rows, and pieces over at most m of them at twice the tolerance, n·m pairs of rows are looked at, each in a
--- few passes over the rows between. One piece over the whole table is found at once; the worst is three, about n³/27
--- times a few passes (300 rows half a second, 1000 rows some seconds).
+-- With n rows, and pieces over at most m of them at twice the tolerance, n·m pairs of rows are looked at: those that are too far
+-- apart by the two rows that said so before, the others in one or two passes over the rows between. One piece over the whole table is
+-- found at once; the worst is three, about n³/27 times a pass (300 rows a tenth of a second, 1000 rows a second or two).
 fit :: NonEmpty Kind -> Mm -> Table -> NonEmpty Piece
 fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
   where
@@ -63,22 +62,23 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
     go seen current = case IntMap.mapMaybe id (IntMap.mapWithKey (\i _ -> direct i) current) of
       done | not (IntMap.null done) -> done :| []
       _ ->
-        let out = IntMap.mapWithKey (\i _ -> filter (\(j, _) -> not (IntMap.member j seen)) (reaches Vector.! i)) current
+        let out = IntMap.mapWithKey (\i _ -> grow (`IntMap.member` seen) i (i + 1) [(k, Nothing) | k <- kinds]) current
             next = IntMap.fromList [(j, ()) | ps <- IntMap.elems out, (j, _) <- ps]
          in NonEmpty.cons out (go (IntMap.union seen next) next)
-    direct i = fmap (\ks -> [(final, ks)]) (NonEmpty.nonEmpty [m | m@(_, d) <- misses kinds i final, d <= within])
-    reaches = Vector.generate (final + 1) (\i -> grow i (i + 1) kinds)
-    -- Longer and longer pieces from a row, of the kinds that can still become good.
-    grow i j alive
+    direct i = fmap (\ks -> [(final, ks)]) (NonEmpty.nonEmpty [(k, d) | (k, d, _) <- misses [(k, Nothing) | k <- kinds] i final, d <= within])
+    -- Longer and longer pieces from a row, of the kinds that can still become good, to rows that have not been reached; each kind with
+    -- the rows at which it missed most.
+    grow reached i j alive
       | j > final || null alive = []
+      | reached j = grow reached i (j + 1) alive
       | otherwise =
         let ms = misses alive i j
-            onward = if j == i + 1 then alive else [k | (k, d) <- ms, d <= tolerance + within]
-            good = [m | m@(_, d) <- ms, d <= within]
-         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow i (j + 1) onward)
+            onward = if j == i + 1 then alive else [(k, most) | (k, d, most) <- ms, d <= tolerance + within]
+            good = [(k, d) | (k, d, _) <- ms, d <= within]
+         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow reached i (j + 1) onward)
     misses ks i j
-      | j == i + 1 = [(LineKind, 0)]
-      | otherwise = [(k, fst (best t k i j)) | k <- ks]
+      | j == i + 1 = [(LineKind, 0, Nothing)]
+      | otherwise = [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
 
 -- | The least largest deviation of a chain through the layers.
 bottleneck :: Layers -> Double

@@ -25,10 +25,12 @@ module Geometry.Piece
     -- * Making them
     parabola,
     best,
+    bestWithin,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Data.Maybe (fromMaybe)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Geometry.Segment (Segment (Straight))
@@ -190,20 +192,27 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
 
 -- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its rows.
 best :: Table -> Kind -> Int -> Int -> (Double, Curve)
-best t@(Table xs ys) k i j = case k of
-  LineKind -> (let (_, low, _, high) = extremes i j (\m -> relative Line m) in max (-low) high, Line)
-  _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0)
+best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
+
+-- | The same as far as the deviation is no more than a limit; else one beyond the limit that it is no less than. Two rows that say
+-- so are given, and may be tried first where a piece ends a little further on.
+bestWithin :: Double -> Maybe (Int, Int) -> Table -> Kind -> Int -> Int -> (Double, Curve, Maybe (Int, Int))
+bestWithin limit known t@(Table xs ys) k i j = case k of
+  LineKind
+    | Just (p, r) <- known, max (abs (relative Line p)) (abs (relative Line r)) > limit -> (max (abs (relative Line p)) (abs (relative Line r)), Line, known)
+    | otherwise -> let (p, low, r, high) = extremes i j (relative Line) in (max (-low) high, Line, Just (p, r))
+  _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0, Nothing)
   ParabolaKind ->
     let q m = let x = across m in x * (x - w)
         off m = relative Line m
-        (worst, s) = least (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
-     in (worst, Parabola s)
+        (worst, s, rows') = least limit known (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
+     in (worst, Parabola s, Just rows')
   ArcKind ->
-    let limit = pi / 2 - atan2 (abs h) (abs w)
+    let steepest = pi / 2 - atan2 (abs h) (abs w)
         off a m = arcRise chord (tan a) (across m) - up m
-        (worst, s) = least (\p r -> root limit (\a -> off a p + off a r)) off' i j
+        (worst, s, rows') = least limit known (\p r -> root steepest (\a -> off a p + off a r)) off' i j
         off' a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
-     in (worst, Arc (Rad s))
+     in (worst, Arc (Rad s), Just rows')
   where
     chord@(Chord w h) = chordOf (row t i) (row t j)
     across m = Vector.unsafeIndex xs m - Vector.unsafeIndex xs i
@@ -225,17 +234,19 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | The parameter that makes the largest deviation of the rows between two least, and that deviation. It is where some
--- two rows balance; a row that misses by more takes the place of the one that misses to the same side. The amount by
--- which the two miss rises every time, so there is an end; it takes about four rounds.
-least :: (Int -> Int -> Double) -> (Double -> Int -> Double) -> Int -> Int -> (Double, Double)
-least balance off i j = go (-1) (1 / 0, 0) low0 high0
+-- | The parameter that makes the largest deviation of the rows between two least, that deviation, and the rows that tell. It is where
+-- some two rows balance; a row that misses by more takes the place of the one that misses to the same side. The amount by
+-- which the two miss rises every time, so there is an end, where it is no longer asked for beyond the limit; it takes about four
+-- rounds, or one or two from rows that are nearly right.
+least :: Double -> Maybe (Int, Int) -> (Int -> Int -> Double) -> (Double -> Int -> Double) -> Int -> Int -> (Double, Double, (Int, Int))
+least limit known balance off i j = uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) known)
   where
     (low0, _, high0, _) = extremes i j (off 0)
     go before found one other
-      | worst <= level * (1 + 1e-13) || level <= before = min found (worst, t)
-      | vHigh >= -vLow = go level (min found (worst, t)) low high'
-      | otherwise = go level (min found (worst, t)) low' high
+      | level > limit = (level, t, (low, high))
+      | worst <= level * (1 + 1e-13) || level <= before = min found (worst, t, (low, high))
+      | vHigh >= -vLow = go level (min found (worst, t, (low, high))) low high'
+      | otherwise = go level (min found (worst, t, (low, high))) low' high
       where
         t = balance one other
         (low, high) = if off t one <= off t other then (one, other) else (other, one)
@@ -244,17 +255,21 @@ least balance off i j = go (-1) (1 / 0, 0) low0 high0
         worst = max (-vLow) vHigh
 {-# INLINE least #-}
 
--- | Where a rising function is 0, by halving to the last digit; the end of the range where it does not come to 0.
+-- | Where a rising function is 0, to the last digit or nearly so; the end of the range where it does not come to 0. A secant cuts off
+-- what is on one side of the zero; the value of an end that has stayed is halved, so that it moves, too (the Illinois rule).
 root :: Double -> (Double -> Double) -> Double
 root limit f
   | f (-limit) >= 0 = -limit
   | f limit <= 0 = limit
-  | otherwise = go (-limit) limit
+  | otherwise = go (100 :: Int) (-limit) (f (-limit)) limit (f limit)
   where
-    go low high
-      | middle <= low || middle >= high || high - low < 1e-16 = middle
-      | f middle < 0 = go middle high
-      | otherwise = go low middle
+    go left low below high above
+      | left <= 0 || not (low < t && t < high) || high - low < 1e-16 || v == 0 = t
+      | v < 0 = onward t v high above
+      | otherwise = back low below t v
       where
-        middle = (low + high) / 2
+        t = low + (high - low) * (below / (below - above))
+        v = f t
+        onward a va b vb = let u = a + (b - a) * (va / (va - vb)) in if abs (u - a) < 1e-16 then u else go (left - 1) a va b (0.5 * vb)
+        back a va b vb = let u = a + (b - a) * (va / (va - vb)) in if abs (b - u) < 1e-16 then u else go (left - 1) a (0.5 * va) b vb
 {-# INLINE root #-}

@@ -65,7 +65,8 @@ fromOutline o = ofChain (Vector.unfoldrN (n - 1) segment (0, place 0))
       | i + 1 >= n = Nothing
       | otherwise =
         let q = place (i + 1)
-         in Just (bent p q (PrimArray.indexPrimArray (Outline.bulges o) i), (i + 1, q))
+            s = bent p q (PrimArray.indexPrimArray (Outline.bulges o) i)
+         in s `seq` Just (s, (i + 1, q))
 
 -- | A line, or the arc of a bulge.
 bent :: Point -> Point -> Double -> Segment

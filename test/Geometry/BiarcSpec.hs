@@ -13,10 +13,13 @@ import Data.Maybe (fromMaybe, isJust)
 import Geometry.Apart (apart, away)
 import Geometry.Biarc qualified as Biarc
 import Geometry.Contour (Ends (..))
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Spline qualified as Spline
 import Geometry.Track (Side (..), Track (..))
 import Geometry.Track qualified as Track
+import Geometry.Track.Cubic qualified as Cubic
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Test.Hspec
@@ -76,6 +79,9 @@ spec = do
     it "approximate: hardly more than the best choice among 64 joints needs (catches a step that stops early)" $
       property $
         forAll tracked fewLaw
+    it "along cubics: hardly more than the best choice among 64 joints needs (catches a step that stops early)" $
+      property $
+        forAll smoothCubic fewOnCubicsLaw
     it "approximate: 10 m at 1e-5 mm (catches distances that lose their digits)" $
       property $
         withMaxSuccess 10 $
@@ -261,6 +267,13 @@ large = Tracked <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> break
 turning :: Gen Tracked
 turning = Tracked <$> (Cusp <$> choose (0.05, 3) <*> breaking 3) <*> ((10 **) <$> choose (-2, 0))
 
+smoothCubic :: Gen Tracked
+smoothCubic = Tracked <$> (short <$> cubic 1) <*> ((10 **) <$> choose (-3, -1.5))
+  where
+    short c = case c of
+      Cubic _ nodes -> Cubic False [(p, a, 0, v, w) | (p, a, _, v, w) <- take 3 nodes]
+      _ -> c
+
 curve :: Double -> Gen Curve
 curve size =
   oneof
@@ -412,7 +425,7 @@ kinkLaw (Tracked c tolerance) =
 -- there segments are counted, and one biarc more is two of them.
 fewLaw :: Tracked -> Property
 fewLaw w@(Tracked c tolerance) =
-  corners c == 0 && not (kinks c) && length ss <= 40 ==> counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + slack :: Double))
+  corners c == 0 && not (kinks c) && length ss <= 40 ==> fewerLaw found (fewestOf size tolerance t) slack
   where
     ss = chain w
     t = trackOf c
@@ -424,10 +437,37 @@ fewLaw w@(Tracked c tolerance) =
       let (_, u) = near (Segment.start s)
           Rad off = Vec.turn (Segment.startDirection s) (direction t Leaving u)
        in abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9 && abs off < 5e-6
+
+-- | The same where the biarcs have other directions than the curve: segments are counted.
+fewOnCubicsLaw :: Tracked -> Property
+fewOnCubicsLaw (Tracked c tolerance) = case c of
+  Cubic closed nodes
+    | length ss <= 60 -> fewerLaw (length ss) (fewestOf length tolerance (trackOf c)) 2
+    where
+      pairs = zip nodes (drop 1 nodes <> [p | closed, p <- take 1 nodes])
+      part f = let spans = IntMap.fromList (zip [0 ..] pairs) in Spline.generate (length pairs) (\i -> spanOf f (spans ! i))
+      ss = toList (Polyarc.segments (Polyarc.fromOutline (Cubic.approximate (Mm tolerance) (part (Vec.vec 1 0)) (part (Vec.vec 0 1)))))
+  _ -> discard
+  where
+    -- The same cubic as 'hermite', in one coordinate.
+    spanOf axis ((p, a, jump, _, out), (q, b, _, into, _)) =
+      let chord = Vec.to p q
+          p0 = Vec.dot axis (Vec.to (Vec.point 0 0) p)
+          d = Vec.dot axis chord
+          v = Vec.dot axis (Vec.polar (Mm (Vec.norm chord * out)) (Rad (a + jump)))
+          w = Vec.dot axis (Vec.polar (Mm (Vec.norm chord * into)) (Rad b))
+       in Spline.Cubic p0 v (3 * d - 2 * v - w) (v + w - 2 * d)
+
+fewerLaw :: Int -> Int -> Int -> Property
+fewerLaw found fewest slack = counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + fromIntegral slack :: Double))
+
+-- | The fewest biarcs by their size.
+fewestOf :: (NonEmpty Segment -> Int) -> Double -> Track -> Int
+fewestOf size tolerance t = best ! n
+  where
     n = 64 :: Int
     us = IntMap.fromList (zip [0 ..] (parameters n t))
     best = IntMap.fromList (zip [0 ..] (0 : map upTo [1 .. n])) :: IntMap Int
-    fewest = best ! n
     upTo j = minimum (1000 : [best ! i + cost | i <- [0 .. j - 1], Just cost <- [cheapest i j]])
     cheapest i j =
       let from = (place t (us ! i), direction t Leaving (us ! i))

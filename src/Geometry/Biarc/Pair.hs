@@ -55,7 +55,15 @@ joined times (Pose x0 y0 sx sy) end@(Pose x1 y1 ex ey)
     sa = sinA / (2 * ca)
     cb = sqrt (0.5 + 0.5 * cosB)
     sb = sinB / (2 * cb)
-    r = times * ratio sinA cosA sinB cosB
+    usual = times * ratio sinA cosA sinB cosB
+    -- An arc that turns by next to nothing is put as a line; the ratio with which it is one leaves no kink.
+    r
+      | abs ((sa + usual * sb) * ca + (ca + usual * cb) * sa) <= hardly = near (-(sinA / halved))
+      | abs ((ca + usual * cb) * sb + (sa + usual * sb) * cb) <= hardly = near (-(halved / sinB))
+      | otherwise = usual
+    halved = sa * cb + ca * sb
+    hardly = 0.5 * straight * (1 + usual)
+    near exact = if 0.5 * usual < exact && exact < 2 * usual then exact else usual
     wr = ca + r * cb
     wi = sa + r * sb
     square = wr * wr + wi * wi

@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
 --
 -- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the curvature k is where
@@ -14,11 +16,13 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Search qualified as Search
-import Control.Monad.ST (runST)
+import Control.Monad (foldM_)
+import Control.Monad.ST (ST, runST)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
+import Data.Vector.Unboxed.Mutable qualified as Mutable
 import Geometry.Biarc.Pair (Frame (..), Pair (..), Pose (..), forwards, frame)
 import Geometry.Outline (Outline)
 import Geometry.Segment (Segment (..))
@@ -66,16 +70,24 @@ approximate (Mm tolerance) segments = runST $ do
     sharp to u = let i = min (to - 1) (Search.lastBelow n u (stations chain)) in Track.further (Mm tolerance) (trackOf chain i (min to (i + 64))) (station chain (min to (i + 64))) u
 
 chainOf :: NonEmpty Segment -> Chain
-chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromList (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.fromList (concatMap numbers list)}
+chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.create (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (numbers array) 0 list)}
   where
+    n = NonEmpty.length segments
     list = NonEmpty.toList segments
-    numbers s = case s of
-      Straight p q -> let d = Vec.unit (Vec.to p q) in all' p d d 0
-      Arc {start, end, centre, sweep = Rad a} ->
-        let Mm r = Segment.radius centre start
-            k = signum a / r
-         in all' start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
-    all' p (Vec.Vec sx sy) (Vec.Vec ex ey) k = [Vec.x p, Vec.y p, sx, sy, ex, ey, k]
+
+-- | The numbers of a piece from a place in the array on; gives the place behind them.
+numbers :: Mutable.MVector s Double -> Int -> Segment -> ST s Int
+numbers array i s = case s of
+  Straight p q -> let d = Vec.unit (Vec.to p q) in written p d d 0
+  Arc {start, end, centre, sweep = Rad a} ->
+    let Mm r = Segment.radius centre start
+        k = signum a / r
+     in written start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
+  where
+    written p (Vec.Vec sx sy) (Vec.Vec ex ey) k = do
+      put 0 (Vec.x p) >> put 1 (Vec.y p) >> put 2 sx >> put 3 sy >> put 4 ex >> put 5 ey >> put 6 k
+      pure (i + 7)
+    put j = Mutable.unsafeWrite array (i + j)
 
 station :: Chain -> Int -> Double
 station chain = Unboxed.unsafeIndex (stations chain)
@@ -150,9 +162,10 @@ poseWithin chain from to i u
           l = sqrt (sx * sx + sy * sy)
        in b {dx = sx / l, dy = sy / l}
 
--- | How far a biarc is from the chain between two places; of what is further than a limit only that it is so.
-apart :: Chain -> Double -> Int -> Double -> Pose -> Double -> Pose -> Pair -> Off
-apart chain most first u from v to pair
+-- | How far a biarc is from the chain between two places, given the pieces of both; of what is further than a limit only that it is so.
+apart :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off
+apart chain most first u from final v to pair
+  | strays = unknown
   | single pair = if forwards one then let Reached _ _ _ d = onward chain most v to True one start in Off d d else unknown
   | forwards one && forwards two = case onward chain most v to False one start of
     Reached i s p d1 | d1 <= most -> case onward chain most v to True two (Reached i s p 0) of
@@ -166,34 +179,55 @@ apart chain most first u from v to pair
     unknown = Off (1 / 0) (1 / 0)
     one = frame from (bend1 pair) (if single pair then to else joint pair)
     two = frame (joint pair) (bend2 pair) to
+    -- Most of what is too far off is so at one of a few places.
+    -- Most of what is too far off is so at one of a few places.
+    strays = final - first >= 4 && (stray 1 || stray 2 || stray 3)
+    stray k = let p = beginning chain (first + k * (final - first) `quot` 4) in abs (level (if single pair || beyond one p < 0 then one else two) p) > most
 
 -- | A piece, a place on the chain and the pose there, and the distance up to there.
 data Reached = Reached Int Double Pose Double
 
 -- | Past one arc: to the normal at its end or, on the last one, to a place with its pose.
 onward :: Chain -> Double -> Double -> Pose -> Bool -> Frame -> Reached -> Reached
-onward chain most v to final f (Reached i0 u0 p0 d0) = go i0 u0 p0 d0
+onward !chain !most !v !to !final !f (Reached i0 u0 (Pose x0 y0 dx0 dy0) d0) = go i0 u0 x0 y0 dx0 dy0 d0
   where
-    go i u p d
+    -- The pose in bare numbers: there are many.
+    go !i !u !px0 !py0 !ux0 !uy0 !d
       | d > most = Reached i u p d
-      | final || ahead q < 0 = if whole then Reached i v q (if final then beyond else 1 / 0) else go (i + 1) w (beginning chain (i + 1)) beyond
-      | otherwise = let s = crossing; c = advanced k p s in Reached i (u + s) c (worse d (beside f p c s))
+      | whole && final = Reached i v to (past p to)
+      | whole && beyond f to < 0 = Reached i v to (1 / 0)
+      | whole = across to
+      | final || beyond f next < 0 = let Pose x y ux uy = beginning chain (i + 1) in go (i + 1) w x y ux uy (past p next)
+      | otherwise = across next
       where
-        whole = station chain (i + 1) >= v
-        w = if whole then v else station chain (i + 1)
-        k = curvature chain i
-        q
-          | whole = to
-          | otherwise = let (ex, ey) = ending chain i in (beginning chain (i + 1)) {dx = ex, dy = ey}
-        beyond = worse d (beside f p q (w - u))
-        crossing =
-          let from = ahead p
-              newton s = let c = advanced k p s in held (s - ahead c / (dx c * dx (limit f) + dy c * dy (limit f)))
+        !p = Pose px0 py0 ux0 uy0
+        !end = station chain (i + 1)
+        !whole = end >= v
+        !w = if whole then v else end
+        !k = curvature chain i
+        next = let (ex, ey) = ending chain i in (beginning chain (i + 1)) {dx = ex, dy = ey}
+        past a b = worse d (beside f a b (w - u))
+        -- To the normal at the arc's end, before the end of the piece.
+        across q = let s = crossing q; c = advanced k p s in Reached i (u + s) c (worse d (beside f p c s))
+        crossing q =
+          let from = beyond f p
+              newton s = let c = advanced k p s in held (s - beyond f c / (dx c * dx (limit f) + dy c * dy (limit f)))
               held s = if s > 0 then if s < w - u then s else w - u else 0
-           in newton (held ((u - w) * from / (ahead q - from)))
-    -- How far a place is beyond the normal at the arc's end.
-    ahead p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
+           in newton (held ((u - w) * from / (beyond f q - from)))
     worse d e = if e <= d then d else e
+
+-- | How far a place is beyond the normal at an arc's end.
+beyond :: Frame -> Pose -> Double
+beyond f p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
+{-# INLINE beyond #-}
+
+-- | F of an arc's circle at a place.
+level :: Frame -> Pose -> Double
+level f p = uy * dx (origin f) - ux * dy (origin f) - 0.5 * bend f * (ux * ux + uy * uy)
+  where
+    ux = px p - px (origin f)
+    uy = py p - py (origin f)
+{-# INLINE level #-}
 
 -- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite where it may not go forwards.
 beside :: Frame -> Pose -> Pose -> Double -> Double
@@ -206,13 +240,9 @@ beside f p q l
     k = abs (bend f)
     vx a = dx a * tx + dy a * ty
     vy a = dy a * tx - dx a * ty
-    value a =
-      let ux = px a - px (origin f)
-          uy = py a - py (origin f)
-       in uy * tx - ux * ty - 0.5 * bend f * (ux * ux + uy * uy)
     slope a = vy a - bend f * ((px a - px (origin f)) * dx a + (py a - py (origin f)) * dy a)
-    from = value p
-    to = value q
+    from = level f p
+    to = level f q
     m = slope p
     n = slope q
     -- What the piece turns by; by its square the extremum is not quite a parabola's.
@@ -222,6 +252,7 @@ beside f p q l
       | otherwise = 0
     d = greater extreme (greater (abs from) (abs to))
     greater a b = if a > b then a else b
+{-# INLINE beside #-}
 
 -- | Some of the pieces, from one to before another, as a track by the chain's length.
 trackOf :: Chain -> Int -> Int -> Track

@@ -88,8 +88,8 @@ poseWithin xs ys from to i u
        in b {dx = sx / s, dy = sy / s}
 
 -- | How far a biarc is from the curve between two parameters; of what is further than a limit only that it is so.
-apart :: Cubics -> Cubics -> Double -> Int -> Double -> Pose -> Double -> Pose -> Pair -> Off
-apart xs ys most first u from v to pair
+apart :: Cubics -> Cubics -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off
+apart xs ys most first u from _ v to pair
   | single pair = if forwards one then let Reached _ _ d = onward xs ys most v True one start in Off d d else unknown
   | forwards one && forwards two = case onward xs ys most v False one start of
     Reached i a d1 | d1 <= most -> case onward xs ys most v True two (Reached i a 0) of

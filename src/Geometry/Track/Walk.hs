@@ -34,9 +34,9 @@ data Spans = Spans
     seek :: Int -> Double -> Int,
     -- | the pose at a parameter, given its span; where spans meet the mean of both directions
     pose :: Int -> Double -> Pose,
-    -- | how far a biarc is from the curve between two parameters, given the span of the first one; of what is further than
+    -- | how far a biarc is from the curve between two parameters, each given with its span and pose; of what is further than
     -- the first argument only that it is so
-    off :: Double -> Int -> Double -> Pose -> Double -> Pose -> Pair -> Off,
+    off :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off,
     -- | a biarc from a pose by other means, with a step to try
     other :: Double -> (Point, Vec) -> Double -> Further,
     -- | whether longer biarcs with other ratios are looked for where the curvature does not change evenly: fewer by a tenth,
@@ -65,7 +65,7 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
         j = seek i v
         to = pose j v
         pair = Pair.joined r from to
-        Off d1 d2 = off (1e6 * aim) i u from v to pair
+        Off d1 d2 = off (1e6 * aim) i u from j v to pair
         d = if d1 > d2 then d1 else d2
         known = d < 1e5 * aim
         -- The arc that is further off is made shorter, until both are equally far off.
@@ -88,22 +88,25 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
     -- Where the curvature does not change evenly, longer biarcs can hold where shorter ones do not.
     longer i u from before j v to pair step
       | not patient || v >= final || single pair || abs (rate - lastRate before) <= even' * abs rate = taken j from v to pair step rate
-      | otherwise = beyond 0 0
+      | otherwise = beyond 0
       where
         rate = (bend2 pair - bend1 pair) / (v - u)
         -- Longer ones first, with several ratios of the chords each.
-        beyond k tried
+        beyond k
           | k >= 5 = taken j from v to pair step rate
-          | w >= final || tried >= 7 = beyond (k + 1 :: Int) (0 :: Int)
-          | d1 <= aim && d2 <= aim = longer i u from before l w at pair' (w - u)
-          | otherwise = beyond k (tried + 1)
+          | w >= final = beyond (k + 1 :: Int)
+          | otherwise = divided 0
           where
             w = u + (v - u) * (case k of 0 -> 2.2; 1 -> 1.8; 2 -> 1.5; 3 -> 1.25; _ -> 1.1)
             l = seek i w
             at = pose l w
-            r = case tried of 0 -> 1; 1 -> 0.7; 2 -> 1.4; 3 -> 0.5; 4 -> 2; 5 -> 0.35; _ -> 2.8
-            pair' = Pair.joined r from at
-            Off d1 d2 = off aim i u from w at pair'
+            divided tried
+              | tried >= 7 = beyond (k + 1)
+              | d1 <= aim && d2 <= aim = longer i u from before l w at pair' (w - u)
+              | otherwise = divided (tried + 1 :: Int)
+              where
+                pair' = Pair.joined (case tried of 0 -> 1; 1 -> 0.7; 2 -> 1.4; 3 -> 0.5; 4 -> 2; 5 -> 0.35; _ -> 2.8) from at
+                Off d1 d2 = off aim i u from l w at pair'
     taken j from v to pair step rate = do
       Vertices.push vertices (px from) (py from) (bulge1 pair)
       if single pair then pure () else Vertices.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
