@@ -20,7 +20,6 @@ module Control.Walk
 where
 
 import Base.Quantity (Mm (..), Pulses, Rad (..))
-import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
 import Frame.Frame (Frame (increment, motion), Motion (..))
 import Frame.Frame qualified as Frame
@@ -39,9 +38,13 @@ data Stroke = Stroke {number :: Int, from :: V3 Pulses, to :: V3 Pulses, frame :
 
 -- | Run frames from a position. A frame that only commands makes no stroke; a full circle makes one.
 run :: V3 Pulses -> [Frame] -> [Stroke]
-run begin frames = [s | s <- snd (mapAccumL step begin (zip [1 ..] frames)), from s /= to s || isRound (frame s)]
+run = go 1
   where
-    step at (n, f) = let next = at + increment f in (next, Stroke {number = n, from = at, to = next, frame = f})
+    go n at frames = case frames of
+      [] -> []
+      f : more
+        | increment f /= 0 || isRound f -> let next = at + increment f in Stroke {number = n, from = at, to = next, frame = f} : go (n + 1) next more
+        | otherwise -> go (n + 1) at more
 
 -- | Whether a frame goes about a centre. About its own beginning or its own end there is no arc.
 isRound :: Frame -> Bool
@@ -90,9 +93,11 @@ across (one :| others) = concat [[Straight (Segment.start one) (Segment.start ot
 
 -- | The radii of an arc at its beginning and at its end.
 radii :: Machine -> Stroke -> Maybe (Mm, Mm)
-radii machine s = case segment machine s of
-  Straight _ _ -> Nothing
-  Arc {start, end, centre = c} -> Just (Vec.distance c start, Vec.distance c end)
+radii machine s = if isRound (frame s) then ends else Nothing
+  where
+    ends = case segment machine s of
+      Straight _ _ -> Nothing
+      Arc {start, end, centre = c} -> Just (Vec.distance c start, Vec.distance c end)
 
 -- | The heights at the beginning and at the end, in mm.
 height :: Machine -> Stroke -> (Mm, Mm)

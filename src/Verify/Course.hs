@@ -5,6 +5,7 @@
 module Verify.Course
   ( Course,
     ofSegment,
+    segment,
     spot,
     isLine,
     distance,
@@ -43,6 +44,12 @@ ofSegment s = case s of
   Straight a b -> Line (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b)
   Arc {start = a, end = b, centre = c, sweep = Rad angle} ->
     let Mm r = Vec.distance c a in Bow (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b) (Vec.x c) (Vec.y c) r angle
+
+-- | The same as a segment.
+segment :: Course -> Segment
+segment course = case course of
+  Line ax ay bx by -> Straight (Vec.point ax ay) (Vec.point bx by)
+  Bow ax ay bx by cx cy _ angle -> Arc {start = Vec.point ax ay, end = Vec.point bx by, centre = Vec.point cx cy, sweep = Rad angle}
 
 -- | A single point.
 spot :: Double -> Double -> Course
