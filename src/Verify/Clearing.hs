@@ -152,7 +152,7 @@ unreached allowance strokes = go (Mm 0)
       [] -> []
       (e, s) : rest
         | surely least s -> go least rest
-        | otherwise -> case Cover.furthest others least s of
+        | otherwise -> case Cover.furthest others Nothing least s of
           Nothing -> go least rest
           Just Cover.Beyond {Cover.most = most', Cover.place = p, Cover.around} ->
             let nearest = minimumBy (comparing (Cover.distanceTo p . Trace.ways)) around

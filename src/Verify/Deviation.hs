@@ -204,7 +204,7 @@ uncut job index = go (Mm 0)
       [] -> []
       e : rest
         | surely least e -> go least rest
-        | otherwise -> case Cover.furthest (others (element e)) least (Part.segment (element e)) of
+        | otherwise -> case Cover.furthest (others (element e)) (Just (range e)) least (Part.segment (element e)) of
           Nothing -> go least rest
           Just Cover.Beyond {Cover.most = left', Cover.place = p, Cover.around} ->
             let nearest = minimumBy (comparing (Cover.distanceTo p . ways)) around
@@ -213,6 +213,12 @@ uncut job index = go (Mm 0)
     surely least e =
       let far@(Mm d) = plus (reach job) least
        in Course.isCovered d courses (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index) (course e)
+    -- No other stroke is nearer than what is looked at.
+    range e =
+      let far@(Mm d) = plus (reach job) (allowance job)
+          near = filter (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index)
+          (low, high) = Course.range (map courses near) (course e)
+       in Cover.Range {Cover.atLeast = Mm (min d low), Cover.atMost = Mm high}
     counts e t = all (surelyOn (course e)) (courses t) || all (onLeadingSide job (Part.segment (element e))) (ways t)
     surelyOn e c = case side job of
       Nothing -> True
@@ -242,7 +248,7 @@ strayOf job near t
     ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
   where
     Mm d = plus (reach job) (allowance job)
-    beyond way = case Cover.furthest others (allowance job) way of
+    beyond way = case Cover.furthest others Nothing (allowance job) way of
       Nothing -> Nothing
       Just Cover.Beyond {Cover.most = strays, Cover.place = p, Cover.around} ->
         let e = element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)

@@ -44,7 +44,7 @@ gougeOf side contour elements allowance t = case concatMap deep (NonEmpty.toList
     deep way = mapMaybe depth (concatMap (judged contour elements) (stretches (marks way) way))
     marks way = concatMap (Distance.crossings way . Part.segment . element) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofSegment way)) elements) <> beside way
     beside way = [p | n <- normals contour, p <- Distance.crossings way n]
-    depth (s, stretch) = if s == side then Nothing else witness <$> Cover.furthest others (Mm 0) stretch
+    depth (s, stretch) = if s == side then Nothing else witness <$> Cover.furthest others Nothing (Mm 0) stretch
     others = Others {index = elements, lines = (:| []) . Part.segment . element, counts = const True, reach = Mm 0, allowance}
     witness Beyond {most, Cover.place = p, around} =
       Witness {amount = most, frame = number t, Verify.Proof.element = Part.origin (element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)), place = p}
