@@ -172,6 +172,14 @@ furthest e t = min (beside e t) (min (fromPoint e tx ty) (fromPoint e ux uy))
       Line ax ay bx by -> (ax, ay, bx, by)
       Bow ax ay bx by _ _ _ _ -> (ax, ay, bx, by)
 
+-- | Whether no point of the first course is further from the second than so much. Mostly its beginning tells that it is.
+isWithin :: Double -> Course -> Course -> Bool
+isWithin most e t = atBegin && furthest e t <= most
+  where
+    atBegin = case e of
+      Line ax ay _ _ -> distance t ax ay <= most
+      Bow ax ay _ _ _ _ _ _ -> distance t ax ay <= most
+
 -- | How far the furthest point of a course is from a point.
 fromPoint :: Course -> Double -> Double -> Double
 fromPoint e px py = case e of
@@ -206,21 +214,21 @@ beside e t = case (e, t) of
           else never
   (Bow ax ay bx by cx cy r _, Bow px py qx qy dx dy q z)
     | abs z <= pi || isWhole z ->
-      let ex = cx - dx
-          ey = cy - dy
-          off = hypotenuse ex ey
+      let off = hypotenuse (cx - dx) (cy - dy)
           away x y = hypotenuse (x - dx) (y - dy)
           -- From the centre of the other its range has its extremes at its ends and on the line of both centres.
-          most sense = let x = cx + sense * r * ex / off; y = cy + sense * r * ey / off in if off > 0 && inSector e x y then abs (away x y - q) else 0
-          least sense = let x = cx + sense * r * ex / off; y = cy + sense * r * ey / off in if off > 0 && inSector e x y then away x y else never
-          high = max (max (abs (away ax ay - q)) (abs (away bx by - q))) (max (most 1) (most (-1)))
-          near = min (min (away ax ay) (away bx by)) (min (least 1) (least (-1)))
-          -- The furthest past an end is an end, too, or lies square to the line to that end.
+          onLine sense = let f = sense * r / off in off > 0 && inSector e (cx + f * (cx - dx)) (cy + f * (cy - dy))
+          behind = onLine 1
+          before = onLine (-1)
+          high = max (max (abs (away ax ay - q)) (abs (away bx by - q))) (max (if behind then abs (off + r - q) else 0) (if before then abs (abs (off - r) - q) else 0))
+          near = min (min (away ax ay) (away bx by)) (min (if behind then off + r else never) (if before then abs (off - r) else never))
+          -- What is furthest past an end of the other is an end, too, or lies square to the line to that end.
           squarePast x y sense = let f = sense * r / q; u = cx - f * (y - dy); v = cy + f * (x - dx) in if inSector e u v then pastArc t u v else 0
-          past = maximum' (pastArc t ax ay) (pastArc t bx by) (squarePast px py 1) (squarePast px py (-1)) (squarePast qx qy 1) (squarePast qx qy (-1))
+          past = max (max (pastArc t ax ay) (pastArc t bx by)) (max (max (squarePast px py 1) (squarePast px py (-1))) (max (squarePast qx qy 1) (squarePast qx qy (-1))))
+          {-# INLINE away #-}
+          {-# INLINE onLine #-}
+          {-# INLINE squarePast #-}
        in if q > 0 then aside high past near q else never
-    where
-      maximum' a b c d f g = max (max a b) (max (max c d) (max f g))
   _ -> never
 
 -- | How far something is at most that is so far beside a course, and past an end of it by so much. Past the end of an arc its centre
@@ -262,7 +270,7 @@ at e t = case e of
 isCovered :: Double -> (a -> [Course]) -> (a -> Bool) -> [a] -> Course -> Bool
 isCovered reach coursesOf counts others e = any (covers e) others || go others (parts e (concatMap coursesOf others))
   where
-    covers part other = all (\t -> furthest part t <= reach - 2 * unsure) (coursesOf other) && counts other
+    covers part other = all (isWithin (reach - 2 * unsure) part) (coursesOf other) && counts other
     -- The others lie in the order of the parts, as a rule.
     go ahead ps = case ps of
       [] -> False
@@ -323,6 +331,7 @@ parts e others = case marks of
 mostParts :: Int
 mostParts = 64
 
+-- | Its ends.
 begin, finish :: Course -> (Double, Double)
 begin t = case t of
   Line ax ay _ _ -> (ax, ay)
@@ -330,6 +339,8 @@ begin t = case t of
 finish t = case t of
   Line _ _ bx by -> (bx, by)
   Bow _ _ bx by _ _ _ _ -> (bx, by)
+{-# INLINE begin #-}
+{-# INLINE finish #-}
 
 -- | Where the foot of a point lies on a course, as a share of its length; of an arc in its sense from its beginning on.
 foot :: Course -> Double -> Double -> Double

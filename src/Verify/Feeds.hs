@@ -28,11 +28,9 @@ speedOf f = Speed {rapidly = Frame.motion f == Rapid, code = Frame.speed f, brak
 -- | Frames whose feed is not that of the program's own frame in the same place.
 asPlanned :: Program -> [Frame] -> [Finding]
 asPlanned program frames =
-  [ WrongFeed n (speedOf f) (speedOf own) (Frame.origin planned)
-    | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames,
-      let own = Frame.frame planned,
-      speedOf f /= speedOf own
-  ]
+  [WrongFeed n (speedOf f) (speedOf (Frame.frame planned)) (Frame.origin planned) | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames, isSlowerOrFaster f (Frame.frame planned)]
+  where
+    isSlowerOrFaster a b = Frame.speed a /= Frame.speed b || Frame.braking a /= Frame.braking b || (Frame.motion a == Rapid) /= (Frame.motion b == Rapid)
 
 -- | Strokes along a contour that run at another feed than its statement asks. Elements may have feeds of their own, or
 -- slow down; a frame that brakes may be slower.

@@ -61,16 +61,16 @@ import Verify.Trace qualified as Trace
 -- tell where the tape has to begin and end and which feeds belong where.
 prove :: Machine -> Path -> Program -> [Frame] -> Proof
 prove machine path program frames =
-  Proof (length frames) (passages <> emptied) closure largest firstDifference (sortOn order findings)
+  Proof count (passages <> emptied) closure largest firstDifference (sortOn order findings)
   where
     begin = Frame.start program
-    own = map Frame.frame (Frame.planned program)
+    count = length frames
     tools = ownTools program
     centres = Compensation.run machine (toolAt tools) begin
     (moved, unkept) = centres frames
     traces = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) moved)
-    ownTraces = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) (fst (centres own)))
-    sameCount = length own == length frames
+    ownTraces = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) (fst (centres (map Frame.frame (Frame.planned program)))))
+    sameCount = length (Frame.planned program) == count
     flat = Path.isFlat path
     located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
     toolOf = if sameCount then toolAt tools . number else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
@@ -135,7 +135,7 @@ prove machine path program frames =
       TooFast {} -> False
       Refused _ -> False
       NotClosed {} -> False
-    firstDifference = listToMaybe ([n | (n, a, b) <- zip3 [1 ..] own frames, a /= b] <> [1 + min (length own) (length frames) | length own /= length frames])
+    firstDifference = differenceFrom 1 (Frame.planned program) frames
     order finding = case finding of
       Gouge w _ _ -> (frame w, 0 :: Int)
       Excess w _ _ -> (frame w, 1)
@@ -152,6 +152,13 @@ prove machine path program frames =
       WrongCommand n _ _ _ -> (n, 7)
       Refused refusal -> (Proof.refusedFrame refusal, 8)
       NotClosed _ -> (maxBound, 9)
+
+-- | The number of the first frame that is not the program's own.
+differenceFrom :: Int -> [Frame.Planned] -> [Frame] -> Maybe Int
+differenceFrom n own frames = case (own, frames) of
+  ([], []) -> Nothing
+  (p : ps, f : fs) | Frame.frame p == f -> differenceFrom (n + 1) ps fs
+  _ -> Just n
 
 -- Where the passes are on the tape
 

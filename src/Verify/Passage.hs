@@ -76,13 +76,14 @@ elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 -- | Find a contour among strokes that begin at a point of its height, if they do. Of several arrivals at its beginning the first counts
 -- from which it is followed.
 find :: Job -> Maybe Point -> [Trace] -> Found
-find job at traces = case if measurable job then mapMaybe followed starts else [] of
+find job at traces = case if fits blurs then mapMaybe followed starts else [] of
   found : _ -> found
   [] -> case filter (staysBeside . snd) starts <> starts of
     (arrival, rest) : _ -> let (along, behind) = untilExit job rest in Lost arrival along behind
     [] -> NeverBegun
   where
-    ruler = measure job
+    blurs = blursOf job
+    ruler = measure job blurs
     followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
     starts = begun Nothing traces
     -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
@@ -129,8 +130,16 @@ data Ruler = Ruler {whole :: Double, slack :: Double, closed :: Bool}
 -- | Whether the place of the cutter's centre tells where it touches: not in a hollow in which the centre
 -- hardly moves while the cutter touches all of it. The arcs of a curve count together.
 measurable :: Job -> Bool
-measurable job = and [blurAlong job run < total (map Segment.length (NonEmpty.toList run)) | run <- runsOf job, any isArc run]
+measurable = fits . blursOf
+
+-- | How far back a step along a contour may seem to go by rounding alone, in mm; whether that is less than each run of it that has an
+-- arc.
+data Blurs = Blurs {furthestBack :: Double, fits :: Bool}
+
+blursOf :: Job -> Blurs
+blursOf job = foldl' with (Blurs 0 True) (runsOf job)
   where
+    with (Blurs most allFit) run = let b@(Mm far) = blurAlong job run in Blurs (max most far) (allFit && (not (any isArc run) || b < total (map Segment.length (NonEmpty.toList run))))
     isArc s = case s of
       Arc {} -> True
       Straight _ _ -> False
@@ -183,13 +192,8 @@ blur job s = case s of
 closedOf :: Job -> Bool
 closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed
 
-measure :: Job -> Ruler
-measure job =
-  Ruler
-    { whole = foldl' (+) 0 (map long (Nearest.toList (edges job))),
-      slack = maximum (0 : [b | run <- runsOf job, let Mm b = blurAlong job run]),
-      closed = closedOf job
-    }
+measure :: Job -> Blurs -> Ruler
+measure job blurs = Ruler {whole = foldl' (\l e -> l + long e) 0 (Nearest.toList (edges job)), slack = furthestBack blurs, closed = closedOf job}
 
 -- | The strokes that follow the contour to its end, and the rest; none when they stray from it, turn back on
 -- it, or end before.
