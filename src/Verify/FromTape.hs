@@ -60,16 +60,21 @@ import Verify.Trace qualified as Trace
 -- | Compare the frames of a tape with the part that a path goes around; the program's own frames
 -- tell where the tape has to begin and end and which feeds belong where.
 prove :: Machine -> Path -> Program -> [Frame] -> Proof
-prove machine path program frames =
+prove machine path program frames = case centres frames of
+  -- No one holds on to the strokes: their traces are much less.
+  (moved, unkept) -> compared machine path program frames tools (traced moved) (traced (fst (centres (map Frame.frame (Frame.planned program))))) unkept
+  where
+    tools = ownTools program
+    centres = Compensation.run machine (toolAt tools) (Frame.start program)
+    traced moved = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) moved)
+
+-- | The same of the traces on the tape and of the program's own, and what the control refuses.
+compared :: Machine -> Path -> Program -> [Frame] -> Vector Double -> [Trace] -> [Trace] -> [Compensation.Unkept] -> Proof
+compared machine path program frames tools traces ownTraces unkept =
   Proof count (passages <> emptied) closure largest firstDifference (sortOn order findings)
   where
     begin = Frame.start program
     count = length frames
-    tools = ownTools program
-    centres = Compensation.run machine (toolAt tools) begin
-    (moved, unkept) = centres frames
-    traces = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) moved)
-    ownTraces = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) (fst (centres (map Frame.frame (Frame.planned program)))))
     sameCount = length (Frame.planned program) == count
     flat = Path.isFlat path
     located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
