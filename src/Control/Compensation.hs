@@ -75,12 +75,14 @@ data Tag = Plain | First Keep | Later | Exit
 -- asked.
 run :: Machine -> (Int -> Mm) -> V3 -> [Frame] -> ([Moved], [Unkept])
 run machine toolAt begin frames = case Machine.compensation (Machine.orders machine) of
-  Nothing -> ([Moved s (Walk.segment machine s :| []) | s <- strokes], [])
-  Just c ->
-    let ((final, _), told) = mapAccumL (told' c) (Off, strokes) (zip [1 ..] frames)
-        (moved, problems) = unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
-     in (moved, concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final])
+  Just c
+    | any (switchesOn c) frames ->
+      let ((final, _), told) = mapAccumL (told' c) (Off, strokes) (zip [1 ..] frames)
+          (moved, problems) = unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
+       in (moved, concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final])
+  _ -> ([Moved s (Walk.segment machine s :| []) | s <- strokes], [])
   where
+    switchesOn c f = any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
     strokes = Walk.run begin frames
     told' c (mode, left) (n, f) =
       let (mode', problems) = switched machine c toolAt mode n f

@@ -21,7 +21,6 @@ where
 
 import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Mm (..), Rad (..))
-import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
 import Frame.Frame (Frame (increment, motion), Motion (..))
 import Frame.Frame qualified as Frame
@@ -38,9 +37,13 @@ data Stroke = Stroke {number :: Int, from :: V3, to :: V3, frame :: Frame}
 
 -- | Run frames from a position. A frame that only commands makes no stroke; a full circle makes one.
 run :: V3 -> [Frame] -> [Stroke]
-run begin frames = [s | s <- snd (mapAccumL step begin (zip [1 ..] frames)), from s /= to s || isRound (frame s)]
+run = go 1
   where
-    step at (n, f) = let next = at + increment f in (next, Stroke {number = n, from = at, to = next, frame = f})
+    go n at frames = case frames of
+      [] -> []
+      f : more
+        | increment f /= 0 || isRound f -> let next = at + increment f in Stroke {number = n, from = at, to = next, frame = f} : go (n + 1) next more
+        | otherwise -> go (n + 1) at more
 
 -- | Whether a frame goes about a centre. About its own beginning or its own end there is no arc.
 isRound :: Frame -> Bool
@@ -89,9 +92,11 @@ across (one :| others) = concat [[Straight (Segment.start one) (Segment.start ot
 
 -- | The radii of an arc at its beginning and at its end.
 radii :: Machine -> Stroke -> Maybe (Mm, Mm)
-radii machine s = case segment machine s of
-  Straight _ _ -> Nothing
-  Arc {start, end, centre = c} -> Just (Vec.distance c start, Vec.distance c end)
+radii machine s = if isRound (frame s) then ends else Nothing
+  where
+    ends = case segment machine s of
+      Straight _ _ -> Nothing
+      Arc {start, end, centre = c} -> Just (Vec.distance c start, Vec.distance c end)
 
 -- | The heights at the beginning and at the end, in mm.
 height :: Machine -> Stroke -> (Mm, Mm)

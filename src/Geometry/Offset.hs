@@ -265,9 +265,9 @@ cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     n = Vector.length whole
     along' way =
-      [stopped (Along i) (origin p) front | Just i <- [fst (Way.stops way)], not (passed front (reverse [0 .. numberOf (origin p) - 1]))]
+      [stopped (Along i) (origin p) front | not (passed front (reverse [0 .. numberOf (origin p) - 1])), Just i <- [fst (Way.stops way)]]
         <> concat (zipWith between list (drop 1 list <> [p | Way.ends way == Closed]))
-        <> [stopped (origin q) (Along j) back | Just j <- [snd (Way.stops way)], not (passed back [numberOf (origin q) + 1 .. n - 1])]
+        <> [stopped (origin q) (Along j) back | not (passed back [numberOf (origin q) + 1 .. n - 1]), Just j <- [snd (Way.stops way)]]
       where
         list = NonEmpty.toList (Way.pieces way)
         p = NonEmpty.head (Way.pieces way)

@@ -19,7 +19,6 @@ where
 
 import Base.Quantity (Mm (..), plus, times)
 import Base.Region (Located (..), Region)
-import Control.Walk (Stroke (number))
 import Data.Either (fromRight)
 import Data.Function (on)
 import Data.List (foldl', maximumBy, minimumBy, sortOn)
@@ -51,11 +50,13 @@ import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
 import Verify.Deviation (Spared (..))
 import Verify.Deviation qualified as Deviation
-import Verify.Passage (Edge (Edge, element), Trace (..))
+import Verify.Passage (Edge (Edge, element))
 import Verify.Passage qualified as Passage
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
 import Verify.Proof qualified
 import Verify.Reachable qualified as Reachable
+import Verify.Trace (Trace (number), box, bridges, courses, heights, line)
+import Verify.Trace qualified as Trace
 
 -- | A pocket, and its passes in the order of the tape.
 data Pocket = Pocket
@@ -112,7 +113,7 @@ isInOrder machine pocket = go (map NonEmpty.head (NonEmpty.group (map level (Non
       (z : more, t : rest)
         | isLevel t && Deviation.atLevel machine z (fst (heights t)) && holds pocket (Segment.at 0.5 (line t)) -> go more rest
         | otherwise -> go levels rest
-    isLevel t = uncurry (==) (heights t) && not (Passage.isUpright t)
+    isLevel t = uncurry (==) (heights t) && not (Trace.isUpright t)
 
 -- | How one pass came out: whether it is the first one of its pocket; all strokes, those that may touch what lies in a box, and those of the pass.
 examine :: Machine -> Bool -> (Trace -> Mm) -> [Trace] -> (Box -> [Trace]) -> (Trace -> Bool) -> Pocket -> Bool -> Pass -> (Passage, [Finding])
@@ -128,7 +129,7 @@ examine machine flat toolOf traces nearby isOwn pocket isFirst pass = (passage, 
     belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
     spared t = let d = if isOwn t then reach pass else toolOf t in Spared {upTo = d, most = d, required = \_ _ -> d}
     gouges = mapMaybe (\t -> Deviation.gougeOf (spared t) (walls pocket) t) looked
-    deepest = foldl' (\best t -> if Deviation.mayExceed (spared t) (walls pocket) best t then maybe best (deeper best) (Deviation.gougeOf (spared t) (walls pocket) t) else best) Nothing looked
+    deepest = foldl' (\best t -> if Deviation.mayExceed (spared t) best (courses t <> bridges t) (Nearest.within (Box.inflate (upTo (spared t)) (box t)) (walls pocket)) then maybe best (deeper best) (Deviation.gougeOf (spared t) (walls pocket) t) else best) Nothing looked
     deeper best w = case best of
       Just b | amount b >= amount w -> best
       _ -> Just w
@@ -151,14 +152,14 @@ unreached allowance strokes = go (Mm 0)
       [] -> []
       (e, s) : rest
         | surely least s -> go least rest
-        | otherwise -> case Cover.furthest others least s of
+        | otherwise -> case Cover.furthest others Nothing least s of
           Nothing -> go least rest
           Just Cover.Beyond {Cover.most = most', Cover.place = p, Cover.around} ->
-            let nearest = minimumBy (comparing (Cover.distanceTo p . Passage.ways)) around
+            let nearest = minimumBy (comparing (Cover.distanceTo p . Trace.ways)) around
                 next = if most' > allowance then least else most'
-             in Witness {amount = most', frame = number (stroke nearest), Verify.Proof.element = Part.origin e, place = p} : go next rest
+             in Witness {amount = most', frame = number nearest, Verify.Proof.element = Part.origin e, place = p} : go next rest
     surely least@(Mm d) s = Course.isCovered d courses (const True) (Nearest.within (Box.inflate least (Box.ofSegment s)) strokes) (Course.ofSegment s)
-    others = Cover.Others {Cover.index = strokes, Cover.lines = Passage.ways, Cover.counts = const True, Cover.reach = Mm 0, Cover.allowance = allowance}
+    others = Cover.Others {Cover.index = strokes, Cover.lines = Trace.ways, Cover.counts = const True, Cover.reach = Mm 0, Cover.allowance = allowance}
 
 -- The floor
 

@@ -5,12 +5,14 @@
 module Verify.Course
   ( Course,
     ofSegment,
+    segment,
     spot,
     isLine,
     distance,
     apart,
     furthest,
     isCovered,
+    range,
     isLeftOf,
     isRightOf,
     spansAbout,
@@ -21,7 +23,7 @@ module Verify.Course
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Data.List (sort)
+import Data.List (foldl', sort)
 import Geometry.Segment (Segment (..))
 import Geometry.Vec qualified as Vec
 
@@ -43,6 +45,12 @@ ofSegment s = case s of
   Straight a b -> Line (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b)
   Arc {start = a, end = b, centre = c, sweep = Rad angle} ->
     let Mm r = Vec.distance c a in Bow (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b) (Vec.x c) (Vec.y c) r angle
+
+-- | The same as a segment.
+segment :: Course -> Segment
+segment course = case course of
+  Line ax ay bx by -> Straight (Vec.point ax ay) (Vec.point bx by)
+  Bow ax ay bx by cx cy _ angle -> Arc {start = Vec.point ax ay, end = Vec.point bx by, centre = Vec.point cx cy, sweep = Rad angle}
 
 -- | A single point.
 spot :: Double -> Double -> Course
@@ -164,6 +172,14 @@ furthest e t = min (beside e t) (min (fromPoint e tx ty) (fromPoint e ux uy))
       Line ax ay bx by -> (ax, ay, bx, by)
       Bow ax ay bx by _ _ _ _ -> (ax, ay, bx, by)
 
+-- | Whether no point of the first course is further from the second than so much. Mostly its beginning tells that it is.
+isWithin :: Double -> Course -> Course -> Bool
+isWithin most e t = atBegin && furthest e t <= most
+  where
+    atBegin = case e of
+      Line ax ay _ _ -> distance t ax ay <= most
+      Bow ax ay _ _ _ _ _ _ -> distance t ax ay <= most
+
 -- | How far the furthest point of a course is from a point.
 fromPoint :: Course -> Double -> Double -> Double
 fromPoint e px py = case e of
@@ -179,7 +195,7 @@ beside :: Course -> Course -> Double
 beside e t = case (e, t) of
   (Line ax ay bx by, Line {}) -> max (distance t ax ay) (distance t bx by)
   (Line ax ay bx by, Bow _ _ _ _ cx cy r s)
-    | abs s <= pi ->
+    | abs s <= pi || isWhole s ->
       let near = distance e cx cy
           high = max (abs (near - r)) (max (abs (hypotenuse (ax - cx) (ay - cy) - r)) (abs (hypotenuse (bx - cx) (by - cy) - r)))
        in aside high (max (pastArc t ax ay) (pastArc t bx by)) near r
@@ -196,38 +212,52 @@ beside e t = case (e, t) of
      in if l > 0
           then aside high (max (max (past ax ay) (past bx by)) (max (furthestPast (cx + r * ix) (cy + r * iy)) (furthestPast (cx - r * ix) (cy - r * iy)))) l 0
           else never
-  (Bow ax ay bx by cx cy r s, Bow _ _ _ _ dx dy q z)
-    | abs s <= pi && abs z <= pi && off <= r / 2 ->
-      let (mx, my) = at e 0.5
-          from x y = abs (hypotenuse (x - dx) (y - dy) - q)
-          outermost sense = let x = cx + sense * r * ex / off; y = cy + sense * r * ey / off in if off > 0 && inSector e x y then from x y else 0
-          high = max (max (from ax ay) (from bx by)) (max (from mx my) (max (outermost 1) (outermost (-1))))
-       in aside high (max (pastArc t ax ay) (max (pastArc t bx by) (pastArc t mx my))) (r / 2) q
-    where
-      (ex, ey) = (cx - dx, cy - dy)
-      off = hypotenuse ex ey
+  (Bow ax ay bx by cx cy r _, Bow px py qx qy dx dy q z)
+    | abs z <= pi || isWhole z ->
+      let off = hypotenuse (cx - dx) (cy - dy)
+          away x y = hypotenuse (x - dx) (y - dy)
+          -- From the centre of the other its range has its extremes at its ends and on the line of both centres.
+          onLine sense = let f = sense * r / off in off > 0 && inSector e (cx + f * (cx - dx)) (cy + f * (cy - dy))
+          behind = onLine 1
+          before = onLine (-1)
+          high = max (max (abs (away ax ay - q)) (abs (away bx by - q))) (max (if behind then abs (off + r - q) else 0) (if before then abs (abs (off - r) - q) else 0))
+          near = min (min (away ax ay) (away bx by)) (min (if behind then off + r else never) (if before then abs (off - r) else never))
+          -- What is furthest past an end of the other is an end, too, or lies square to the line to that end.
+          squarePast x y sense = let f = sense * r / q; u = cx - f * (y - dy); v = cy + f * (x - dx) in if inSector e u v then pastArc t u v else 0
+          past = max (max (pastArc t ax ay) (pastArc t bx by)) (max (max (squarePast px py 1) (squarePast px py (-1))) (max (squarePast qx qy 1) (squarePast qx qy (-1))))
+          {-# INLINE away #-}
+          {-# INLINE onLine #-}
+          {-# INLINE squarePast #-}
+       in if q > 0 then aside high past near q else never
   _ -> never
 
 -- | How far something is at most that is so far beside a course, and past an end of it by so much. Past the end of an arc its centre
 -- tells, how near that comes, and its radius: the square of the distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@, and
--- up to a quarter turn that is no more than @(ρ − r)² + 2·(r/ρ)·(ρ·sin φ)²@.
+-- where @sin φ@ is no more than a hundredth that is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
 aside :: Double -> Double -> Double -> Double -> Double
 aside high past near r
   | past <= 0 = high
-  | past <= overlap && (r <= 0 || near > 100 * overlap) = sqrt (high * high + past * past * (1 + 2 * r / near))
+  | past > overlap = never
+  | r <= 0 = sqrt (high * high + past * past)
+  | near > 100 * past = sqrt (high * high + past * past * 1.001 * r / near)
   | otherwise = never
 
 -- | Beyond the end of one course by no more than this another one follows, in mm.
 overlap :: Double
-overlap = 0.01
+overlap = 0.1
 
--- | How far a point lies beside the sector of an arc of at most half a turn; 'never' far away.
+-- | How far a point lies beside the sector of an arc of at most half a turn, or of a whole turn; 'never' far away.
 pastArc :: Course -> Double -> Double -> Double
 pastArc t px py = case t of
   Line {} -> never
-  Bow ax ay bx by cx cy r s ->
-    bearing ax ay bx by cx cy s px py $ \behind before along ->
+  Bow ax ay bx by cx cy r s
+    | isWhole s -> 0
+    | otherwise -> bearing ax ay bx by cx cy s px py $ \behind before along ->
       if abs s <= pi / 2 && along < 0 then never else max 0 (max (negate behind) (negate before) / r)
+
+-- | Whether an arc goes all the way round.
+isWhole :: Double -> Bool
+isWhole s = abs s >= 2 * pi
 
 -- | The point at a share of the length.
 at :: Course -> Double -> (Double, Double)
@@ -238,25 +268,79 @@ at e t = case e of
 -- | Whether every point of a course surely has one of some others within a distance, all courses of that other; whether it
 -- counts is asked last.
 isCovered :: Double -> (a -> [Course]) -> (a -> Bool) -> [a] -> Course -> Bool
-isCovered reach coursesOf counts others e
-  | within e = True
-  | otherwise = case marks of
-    [] -> False
-    _ -> null (drop mostParts marks) && and (zipWith (\a b -> within (between e a b)) (0 : marks) (marks <> [1]))
+isCovered reach coursesOf counts others e = any (covers e) others || go others (parts e (concatMap coursesOf others))
   where
-    within part = any (\other -> all (\t -> furthest part t <= reach - 2 * unsure) (coursesOf other) && counts other) others
-    -- Where what is nearest changes there is an end of one of them.
-    marks = [m | m <- sort (concatMap (concatMap (footsOn e) . coursesOf) others), m > 0, m < 1]
+    covers part other = all (isWithin (reach - 2 * unsure) part) (coursesOf other) && counts other
+    -- The others lie in the order of the parts, as a rule.
+    go ahead ps = case ps of
+      [] -> False
+      [part] -> covered ahead part
+      part : more -> case dropWhile (not . covers part) ahead of
+        [] -> any (covers part) others && go ahead more
+        found -> go found more
+    covered ahead part = any (covers part) ahead || any (covers part) others
+{-# INLINE isCovered #-}
+
+-- | How far the point of a course is that is furthest from all of some others, of each from that of its courses from which it is
+-- furthest: surely further than the one, surely no further than the other.
+range :: [[Course]] -> Course -> (Double, Double)
+range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 2 * unsure)
+  where
+    pieces = case parts e (concat others) of
+      [] -> [e]
+      some -> some
+    to part = least [most [furthest part t | t <- ts] | ts <- others]
+    points = begin e : [p | part <- pieces, p <- at part 0.5 : finish part : concatMap (concatMap (summits part)) others]
+    from (x, y) = least [most [distance t x y | t <- ts] | ts <- others]
+    least = foldl' min never
+    most = foldl' max 0
+
+-- | Where a course may be furthest from another one, beside its ends: on the line of their centres, square above a line.
+summits :: Course -> Course -> [(Double, Double)]
+summits e t = case (e, t) of
+  (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy _ _) -> let d = hypotenuse (cx - dx) (cy - dy) in if d > 0 then both cx cy (r * (cx - dx) / d) (r * (cy - dy) / d) else []
+  (Bow _ _ _ _ cx cy r _, Line ax ay bx by) -> let l = hypotenuse (bx - ax) (by - ay) in if l > 0 then both cx cy (r * (ay - by) / l) (r * (bx - ax) / l) else []
+  (Line ax ay bx by, Bow _ _ _ _ dx dy _ _) -> let k = shareOf ax ay bx by dx dy in [at e k | k > 0, k < 1]
+  (Line {}, Line {}) -> []
+  where
+    both cx cy ux uy = [(x, y) | sense <- [1, -1], let x = cx + sense * ux; y = cy + sense * uy, inSector e x y]
+
+-- | The parts of a course between the places where what is nearest changes: there is an end of one of the others. None when it is
+-- not cut, or cut into more than 'mostParts'.
+parts :: Course -> [Course] -> [Course]
+parts e others = case marks of
+  [] -> []
+  _ -> if null (drop mostParts marks) then zipWith (between e) (0 : marks) (marks <> [1]) else []
+  where
+    marks = rising (sort (feet others))
+    -- Those one behind the other have an end in common.
+    feet ts = case ts of
+      [] -> []
+      t : u : more | (bx, by) <- finish t, (cx, cy) <- begin u, bx == cx && by == cy -> uncurry footInside (begin t) <> feet (u : more)
+      t : more -> uncurry footInside (begin t) <> uncurry footInside (finish t) <> feet more
+    footInside x y = [m | isAbout x y, let m = foot e x y, m > 0, m < 1]
+    isAbout x y = case e of
+      Line {} -> True
+      Bow {} -> inSector e x y
+    rising ms = case ms of
+      a : b : more | a == b -> rising (b : more)
+      a : more -> a : rising more
+      [] -> []
 
 -- | So many parts are looked at by themselves.
 mostParts :: Int
-mostParts = 24
+mostParts = 64
 
--- | Where on a course the feet of the ends of another one lie, as shares of its length.
-footsOn :: Course -> Course -> [Double]
-footsOn e t = case t of
-  Line ax ay bx by -> [foot e ax ay, foot e bx by]
-  Bow ax ay bx by _ _ _ _ -> [foot e ax ay, foot e bx by]
+-- | Its ends.
+begin, finish :: Course -> (Double, Double)
+begin t = case t of
+  Line ax ay _ _ -> (ax, ay)
+  Bow ax ay _ _ _ _ _ _ -> (ax, ay)
+finish t = case t of
+  Line _ _ bx by -> (bx, by)
+  Bow _ _ bx by _ _ _ _ -> (bx, by)
+{-# INLINE begin #-}
+{-# INLINE finish #-}
 
 -- | Where the foot of a point lies on a course, as a share of its length; of an arc in its sense from its beginning on.
 foot :: Course -> Double -> Double -> Double
@@ -296,12 +380,14 @@ heights ax ay bx by t = case t of
   where
     l = hypotenuse (bx - ax) (by - ay)
     height x y = if l > 0 then ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / l else 0
+{-# INLINE heights #-}
 
 -- | How far from a point a course lies at least and at most, or beyond both.
 ranges :: Double -> Double -> Course -> (Double, Double)
 ranges cx cy t = case t of
   Line px py qx qy -> (distance t cx cy, max (hypotenuse (px - cx) (py - cy)) (hypotenuse (qx - cx) (qy - cy)))
   Bow _ _ _ _ dx dy q _ -> let d = hypotenuse (dx - cx) (dy - cy) in (abs (d - q), d + q)
+{-# INLINE ranges #-}
 
 -- | Whether the foot of a point may fall on a course rather than before or behind it.
 spansAbout :: Course -> Double -> Double -> Bool

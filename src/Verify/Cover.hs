@@ -2,6 +2,7 @@
 -- of the elements. Exact over the whole segment, and fast where there are many others, short ones.
 module Verify.Cover
   ( Others (..),
+    Range (..),
     Beyond (..),
     furthest,
     distanceTo,
@@ -35,19 +36,26 @@ data Others a = Others
     allowance :: Mm
   }
 
+-- | What is known of a segment without comparing exactly: one of its points is further from all the others than the one, and none is further from all of
+-- them than the other.
+data Range = Range {atLeast :: Mm, atMost :: Mm}
+
 -- | How far beyond the reach a point lies, the point, and the others around it.
 data Beyond a = Beyond {most :: Mm, place :: Point, around :: [a]}
 
 -- | The most by which a point of a segment lies beyond the reach of all the others, if it is more than a bound. An
 -- excess beyond 'lost' is given as that.
-furthest :: Others a -> Mm -> Segment -> Maybe (Beyond a)
-furthest others least segment
+furthest :: Others a -> Maybe Range -> Mm -> Segment -> Maybe (Beyond a)
+furthest others known least segment
   | covered least = Nothing
   | otherwise = case dropWhile (not . covered) widths of
     [] -> witness lost
     enough : _ -> witness (snd (Search.turningPoint Tolerance.resolution (not . covered) least enough))
   where
-    covered m = isCovered others (plus (reach others) m) segment
+    covered m = case known of
+      Just Range {atMost} | plus (reach others) m > plus atMost touching -> True
+      Just Range {atLeast} | plus (reach others) m < minus atLeast touching -> False
+      _ -> isCovered others (plus (reach others) m) segment
     widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowance others)))
     witness m = case near others (plus (reach others) m) segment of
       [] -> Nothing
@@ -60,6 +68,10 @@ furthest others least segment
 -- | An excess that is as good as infinite: the part is not cut there at all.
 lost :: Mm
 lost = Mm 1e7
+
+-- | What two circles miss one another by may be so much and pass for a touch.
+touching :: Mm
+touching = times 3 Tolerance.coincident
 
 -- | The others that have a point of a segment within a distance.
 near :: Others a -> Mm -> Segment -> [a]

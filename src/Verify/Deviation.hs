@@ -12,14 +12,13 @@ module Verify.Deviation
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
-import Control.Walk (Stroke (number))
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrd)
 import Data.IntSet qualified as IntSet
 import Data.List (foldl', minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
@@ -35,14 +34,17 @@ import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
+import Verify.Course (Course)
 import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
-import Verify.Passage (Edge (..), Job (..), Trace (..), isUpright)
+import Verify.Passage (Edge (course, element), Job (..))
 import Verify.Passage qualified as Passage
 import Verify.Pointed qualified as Pointed
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
 import Verify.Proof qualified
 import Verify.Reachable qualified as Reachable
+import Verify.Trace (Trace (number, part), box, bridges, courses, fromHeight, heights, isUpright, line, toHeight, trail, ways)
+import Verify.Trace qualified as Trace
 
 -- | A pass and what was found of it.
 data Pass = Pass {job :: Job, passNumber :: Int, level :: Mm, found :: Passage.Found}
@@ -64,22 +66,19 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
       Passage.Lost _ along _ -> (atHeight traces, along)
       Passage.NeverBegun -> (atHeight traces, [])
     atHeight = filter (\t -> flat || isAt machine level t)
-    ownNumbers = IntSet.fromDistinctAscList (ascending (map (number . stroke) within))
+    ownNumbers = IntSet.fromDistinctAscList (ascending (map number within))
     -- Its own strokes stay away from the contour by what they leave; all others have to spare the contour.
     looked = if upon then [] else filter belowTop (if isFirst then nearby (Box.inflate (outreach job) contourBox) else within)
-    isOwn t = IntSet.member (number (stroke t)) ownNumbers
     spared t
-      | isOwn t = Spared {upTo = furthest t, most = plus (reach job) mostLeft, required = \e p -> plus (reach job) (leftAt (edges job) e p)}
+      | IntSet.member (number t) ownNumbers = Spared {upTo = furthest t, most = plus (reach job) mostLeft, required = \e p -> plus (reach job) (leftAt (edges job) e p)}
       | otherwise = Spared {upTo = furthest t, most = toolOf t, required = \_ _ -> toolOf t}
     furthest t = max (outreach job) (toolOf t)
-    mostLeft = maximum (Mm 0 : map (Part.allowance . Part.finish . element) (Nearest.toList (edges job)))
+    mostLeft = foldl' (\left' e -> max left' (Part.allowance (Part.finish (element e)))) (Mm 0) (Nearest.toList (edges job))
     gouges = mapMaybe (\t -> gougeOf (spared t) (edges job) t) looked <> pierced
     -- No distance tells when a tool without a radius crosses the contour; nor, then, that it leaves nothing.
     pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) (edges job) mayGouge t]]
-    deepest = foldl' deeper (foldl' (\best t -> if mayExceed (spared t) (edges job) best t then maybe best (deeper best) (gougeOf (spared t) (edges job) t) else best) Nothing looked) pierced
-    deeper best w = case best of
-      Just b | amount b >= amount w -> best
-      _ -> Just w
+    Seen {cut, strays, wrongly} = lookAlong job spared mayLeave looked within
+    deepest = foldl' deeper cut pierced
     missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex (concatMap (touchable (plus (reach job) more)) es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     -- What the cutter cannot touch may stay, where that is allowed.
     touchable distance e = case (Part.rest (milling job), side job) of
@@ -88,8 +87,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     elementSegments = Nearest.index Box.ofSegment (map (Part.segment . element) (Nearest.toList (edges job)))
     mayStay = Part.rest (milling job) == Part.Allowed
     milledIndex = Nearest.index box (filter (\t -> flat || isAt machine level t) milled)
-    strayed = mapMaybe (strayOf job {reach = outreach job, allowance = mayLeave}) level'
-    level' = filter (not . isUpright) within
+    strayed = reverse strays
     most' = listToMaybe (sortOn (negated . amount) (missed <> strayed))
     passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most', allowedGouge = mayGouge, allowedExcess = mayLeave}
     tooDeep w = amount w > mayGouge
@@ -97,7 +95,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     findings =
       [Gouge first worst mayGouge | Just worst <- [deepest], tooDeep worst, first : _ <- [filter tooDeep gouges]]
         <> [Excess first (fromMaybe first most') mayLeave | not (any tooDeep pierced), first : _ <- [filter tooMuch strayed <> sortOn frame (filter tooMuch missed)]]
-        <> take 1 (mapMaybe (wrongSide job) level')
+        <> maybeToList wrongly
     -- Nothing else is wrong with the contour but the order in which it is walked.
     order = case found of
       Passage.Followed {} -> []
@@ -106,7 +104,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
       Passage.NeverBegun -> [NeverBegun (statement job)]
     negated (Mm x) = -x
     -- Above the top of the part nothing is cut.
-    belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
+    belowTop t = fromHeight t <= Mm 0 || toHeight t <= Mm 0
 
 -- | Numbers that do not fall, each once.
 ascending :: [Int] -> [Int]
@@ -124,11 +122,49 @@ byAllowance es = [(more, [e | e <- es, left' e == more]) | more <- nubOrd (map l
 -- | What a stroke has to spare: elements up to a distance, at most and at a point beside one of them.
 data Spared = Spared {upTo :: Mm, most :: Mm, required :: Element -> Point -> Mm}
 
--- | Whether a stroke may cut deeper than the deepest so far, by what can be told without comparing exactly.
-mayExceed :: Spared -> Nearest Edge -> Maybe Witness -> Trace -> Bool
-mayExceed spared es best t = any (\e -> any (\c -> Course.apart c (course e) < least) lines') (Nearest.within (Box.inflate (upTo spared) (box t)) es)
+-- | What is seen along the strokes: the deepest cut, where they stray with the last one first, the first one on the wrong side.
+data Seen = Seen {cut :: Maybe Witness, strays :: [Witness], wrongly :: Maybe Finding}
+
+-- | Look along the strokes that have to spare a contour and those that have to follow it, both in the order of the tape. Each
+-- asks once for the elements around it.
+lookAlong :: Job -> (Trace -> Spared) -> Mm -> [Trace] -> [Trace] -> Seen
+lookAlong job spared mayLeave = go (Seen Nothing [] Nothing)
   where
-    lines' = courses t <> bridges t
+    go seen looked within = case (looked, within) of
+      (t : ts, w : ws) -> case comparing (\a -> (number a, part a)) t w of
+        EQ -> let near = around t in go (followed near t (spares near t seen)) ts ws
+        LT -> go (spares (around t) t seen) ts within
+        GT -> go (followed (around w) w seen) looked ws
+      (t : ts, []) -> go (spares (around t) t seen) ts []
+      ([], w : ws) -> go (followed (around w) w seen) [] ws
+      ([], []) -> seen
+    around t = Nearest.within (Box.inflate reaches (box t)) (edges job)
+    reaches = plus (outreach job) (allowance job)
+    spares near t seen = seen {cut = cutBy (spared t) near t (cut seen)}
+    cutBy s near t best
+      | mayExceed s best (courses t <> bridges t) (if upTo s <= reaches then near else Nearest.within (Box.inflate (upTo s) (box t)) (edges job)) = maybe best (deeper best) (gougeOf s (edges job) t)
+      | otherwise = best
+    followed near t seen
+      | isUpright t = seen
+      | otherwise =
+        seen
+          { strays = maybe (strays seen) (: strays seen) (strayOf job {reach = outreach job, allowance = mayLeave} near t),
+            wrongly = case wrongly seen of
+              Nothing -> wrongSide job near t
+              found -> found
+          }
+
+-- | The deeper one of two cuts, the first one if they are equally deep.
+deeper :: Maybe Witness -> Witness -> Maybe Witness
+deeper best w = case best of
+  Just b | amount b >= amount w -> best
+  _ -> Just w
+
+-- | Whether a stroke of some courses may cut deeper than the deepest so far into elements around it, by what can be told without
+-- comparing exactly.
+mayExceed :: Spared -> Maybe Witness -> [Course] -> [Edge] -> Bool
+mayExceed spared best lines' = any (\e -> any (\c -> Course.apart c (course e) < least) lines')
+  where
     least = let Mm d = most spared in d - maybe 0 (\w -> let Mm a = amount w in a) best + Course.unsure
 
 -- | How deep a stroke cuts into the contour, if it does: how much nearer it comes to an element than it may.
@@ -138,7 +174,7 @@ gougeOf Spared {upTo, required} es t
   | otherwise = Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) near)
   where
     near =
-      [ Witness {amount = minus (required e p) d, frame = number (stroke t), Verify.Proof.element = Part.origin e, place = p}
+      [ Witness {amount = minus (required e p) d, frame = number t, Verify.Proof.element = Part.origin e, place = p}
         | way <- NonEmpty.toList (ways t) <> Control.across (ways t),
           e <- map element (Nearest.select (\b -> Box.meets (around way) b && Box.atLeast (`Distance.toPoint` way) b <= upTo) es),
           let Distance.Nearest d p = Distance.segments way (Part.segment e),
@@ -168,15 +204,21 @@ uncut job index = go (Mm 0)
       [] -> []
       e : rest
         | surely least e -> go least rest
-        | otherwise -> case Cover.furthest (others (element e)) least (Part.segment (element e)) of
+        | otherwise -> case Cover.furthest (others (element e)) (Just (range e)) least (Part.segment (element e)) of
           Nothing -> go least rest
           Just Cover.Beyond {Cover.most = left', Cover.place = p, Cover.around} ->
             let nearest = minimumBy (comparing (Cover.distanceTo p . ways)) around
                 next = if left' > allowance job then least else left'
-             in Witness {amount = left', frame = number (stroke nearest), Verify.Proof.element = Part.origin (element e), place = p} : go next rest
+             in Witness {amount = left', frame = number nearest, Verify.Proof.element = Part.origin (element e), place = p} : go next rest
     surely least e =
       let far@(Mm d) = plus (reach job) least
        in Course.isCovered d courses (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index) (course e)
+    -- No other stroke is nearer than what is looked at.
+    range e =
+      let far@(Mm d) = plus (reach job) (allowance job)
+          near = filter (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index)
+          (low, high) = Course.range (map courses near) (course e)
+       in Cover.Range {Cover.atLeast = Mm (min d low), Cover.atMost = Mm high}
     counts e t = all (surelyOn (course e)) (courses t) || all (onLeadingSide job (Part.segment (element e))) (ways t)
     surelyOn e c = case side job of
       Nothing -> True
@@ -197,51 +239,45 @@ onLeadingSide job element t = case side job of
       Straight a b -> Vec.cross (Vec.to a b) (Vec.to a p) > 0
       Arc {start, centre, sweep = Rad s} -> (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
--- | How far a stroke strays from the contour, if it is more than is allowed.
-strayOf :: Job -> Trace -> Maybe Witness
-strayOf job t
-  | all (Course.isCovered d (pure . course) (const True) (Nearest.within (Box.inflate far (box t)) (edges job))) (courses t) = Nothing
+-- | How far a stroke strays from the contour, if it is more than is allowed; the elements around it.
+strayOf :: Job -> [Edge] -> Trace -> Maybe Witness
+strayOf job near t
+  | all (Course.isCovered d (pure . course) (const True) near) (courses t) = Nothing
   | otherwise = case mapMaybe beyond (NonEmpty.toList (ways t)) of
     [] -> Nothing
     ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
   where
-    far@(Mm d) = plus (reach job) (allowance job)
-    beyond way = case Cover.furthest others (allowance job) way of
+    Mm d = plus (reach job) (allowance job)
+    beyond way = case Cover.furthest others Nothing (allowance job) way of
       Nothing -> Nothing
       Just Cover.Beyond {Cover.most = strays, Cover.place = p, Cover.around} ->
         let e = element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)
-         in Just Witness {amount = strays, frame = number (stroke t), Verify.Proof.element = Part.origin e, place = p}
+         in Just Witness {amount = strays, frame = number t, Verify.Proof.element = Part.origin e, place = p}
     others = Cover.Others {Cover.index = edges job, Cover.lines = (:| []) . Part.segment . element, Cover.counts = const True, Cover.reach = reach job, Cover.allowance = allowance job}
 
--- | A stroke that lies beside an element on the wrong side: a straight one by its middle, an arc by places close to one
--- another.
-wrongSide :: Job -> Trace -> Maybe Finding
-wrongSide job t = case side job of
+-- | A stroke that lies beside one of the elements around it on the wrong side: a straight one by its middle, an arc by places close
+-- to one another.
+wrongSide :: Job -> [Edge] -> Trace -> Maybe Finding
+wrongSide job near t = case side job of
   Nothing -> Nothing
   Just keeps -> listToMaybe (mapMaybe (\p -> if mayBe keeps p then beside keeps p else Nothing) looked)
   where
-    looked = map (\k -> Segment.at k (line t)) (if isArc then let ks = Passage.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) ks else [0.5])
-    isArc = case line t of
-      Arc {} -> True
-      Straight _ _ -> False
-    near = Nearest.within around (edges job)
+    looked = map (\k -> Segment.at k (line t)) (if Course.isLine (trail t) then [0.5] else let ks = Trace.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) ks)
     -- Of those that are nearest, to a hair, one may have the place on its wrong side.
-    mayBe keeps p =
-      let (x, y) = (Vec.x p, Vec.y p)
-          away = [(Course.distance (course e) x y, e) | e <- near]
-          least = foldl' (\d (d', _) -> min d d') (1 / 0) away
-          wrong e = not (case keeps of Offset.LeftOf -> Course.isLeftOf (Course.spot x y) (course e); Offset.RightOf -> Course.isRightOf (Course.spot x y) (course e))
-          Mm a = allowance job
-       in least > a - Course.unsure && any (\(d, e) -> d <= least + Course.unsure && Course.spansAbout (course e) x y && wrong e) away
+    mayBe keeps p = least > a - Course.unsure && any (\e -> Course.distance (course e) x y <= least + Course.unsure && Course.spansAbout (course e) x y && wrong e) near
+      where
+        (x, y) = (Vec.x p, Vec.y p)
+        Mm a = allowance job
+        least = foldl' (\d e -> min d (Course.distance (course e) x y)) (1 / 0) near
+        wrong e = not (case keeps of Offset.LeftOf -> Course.isLeftOf (Course.spot x y) (course e); Offset.RightOf -> Course.isRightOf (Course.spot x y) (course e))
     beside keeps p = case closestOf [(Distance.toPoint p s, e) | e <- near, let s = Part.segment (element e)] of
       Just (d, nearest)
         | d > allowance job && Segment.spans (Part.segment nearest) p && sideOf p (Part.segment nearest) /= keeps ->
-          Just (WrongSide (number (stroke t)) (Part.origin nearest))
+          Just (WrongSide (number t) (Part.origin nearest))
       _ -> Nothing
     closestOf away = case away of
       [] -> Nothing
       _ -> let (d, e) = minimumBy (comparing fst) away in Just (d, element e)
-    around = Box.inflate (plus (outreach job) (allowance job)) (box t)
     sideOf p s =
       let foot = Segment.at (Segment.fraction s p) s
           ahead = Segment.directionAt (Segment.fraction s p) s
@@ -259,7 +295,7 @@ allowedOff milling
 
 -- | Whether a stroke runs at a height, to a pulse, or goes straight down to it or up from it.
 isAt :: Machine -> Mm -> Trace -> Bool
-isAt machine z t = atLevel machine z (fst (heights t)) && atLevel machine z (snd (heights t)) || isUpright t && atLevel machine z (uncurry min (heights t))
+isAt machine z t = atLevel machine z (fromHeight t) && atLevel machine z (toHeight t) || isUpright t && atLevel machine z (uncurry min (heights t))
 
 atLevel :: Machine -> Mm -> Mm -> Bool
 atLevel machine (Mm z) (Mm h) = let Mm pulse = Machine.pulseOf machine Z in abs (z - h) <= pulse

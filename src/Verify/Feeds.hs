@@ -28,11 +28,9 @@ speedOf f = Speed {rapidly = Frame.motion f == Rapid, code = Frame.speed f, brak
 -- | Frames whose feed is not that of the program's own frame in the same place.
 asPlanned :: Program -> [Frame] -> [Finding]
 asPlanned program frames =
-  [ WrongFeed n (speedOf f) (speedOf own) (Frame.origin planned)
-    | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames,
-      let own = Frame.frame planned,
-      speedOf f /= speedOf own
-  ]
+  [WrongFeed n (speedOf f) (speedOf (Frame.frame planned)) (Frame.origin planned) | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames, isSlowerOrFaster f (Frame.frame planned)]
+  where
+    isSlowerOrFaster a b = Frame.speed a /= Frame.speed b || Frame.braking a /= Frame.braking b || (Frame.motion a == Rapid) /= (Frame.motion b == Rapid)
 
 -- | Strokes along a contour that run at another feed than its statement asks. Elements may have feeds of their own, or
 -- slow down; a frame that brakes may be slower.
@@ -86,12 +84,13 @@ obtained machine s = case Machine.feedMeasure (Machine.feeds machine) of
 -- @√(v² + 2·a·s)@, s the way on to any lower speed v behind it (Kolsanova; the law is reconstructed). Frames that brake slow down to
 -- their speed; those one after the other with one speed have it at the end of the last of them. At the end of the tape
 -- the cutter has come down to the braking feed. Everywhere else the cutter is as fast as its frame says.
-tooFast :: Machine -> [Stroke] -> [Finding]
-tooFast machine strokes = case Machine.brakingForm (Machine.braking machine) of
+tooFast :: Machine -> V3 -> [Frame] -> [Finding]
+tooFast machine start frames = case Machine.brakingForm (Machine.braking machine) of
   ByControl -> []
   SlowFrames -> []
   BrakedFrames (Feed final) -> snd (foldr judge ((final / 60) ^ (2 :: Int) + 2 * a * sum ways, []) (zip3 (zip starts (drop 1 starts)) strokes (drop 1 (map Just strokes) <> [Nothing])))
   where
+    strokes = Control.run start frames
     a = Machine.deceleration (Machine.braking machine)
     ways = map (wayOf machine) strokes
     starts = scanl (+) 0 ways

@@ -18,16 +18,16 @@ import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..))
 import Control.Compensation qualified as Compensation
-import Control.Walk (Stroke (number, to))
 import Control.Walk qualified as Control
-import Data.Containers.ListUtils (nubOrdOn)
 import Data.Either (fromRight)
 import Data.IntMap.Strict qualified as IntMap
-import Data.List (sortOn)
+import Data.IntSet qualified as IntSet
+import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, listToMaybe)
-import Data.Vector qualified as Vector
+import Data.Maybe (fromMaybe, isJust, listToMaybe)
+import Data.Vector.Unboxed (Vector)
+import Data.Vector.Unboxed qualified as Vector
 import Frame.Frame (Frame (..), Program)
 import Frame.Frame qualified as Frame
 import Geometry.Box qualified as Box
@@ -48,68 +48,81 @@ import Verify.Clearing qualified as Clearing
 import Verify.Deviation (Pass (..))
 import Verify.Deviation qualified as Deviation
 import Verify.Feeds qualified as Feeds
-import Verify.Passage (Job (..), Trace (..))
+import Verify.Passage (Job (..))
 import Verify.Passage qualified as Passage
 import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotKept), Witness (frame))
 import Verify.Proof qualified as Proof
 import Verify.Rules qualified as Rules
 import Verify.Swivel qualified as Swivel
+import Verify.Trace (Trace (number), box, heights, line)
+import Verify.Trace qualified as Trace
 
 -- | Compare the frames of a tape with the part that a path goes around; the program's own frames
 -- tell where the tape has to begin and end and which feeds belong where.
 prove :: Machine -> Path -> Program -> [Frame] -> Proof
-prove machine path program frames =
-  Proof (length frames) (passages <> emptied) closure largest firstDifference (sortOn order findings)
+prove machine path program frames = case centres frames of
+  -- No one holds on to the strokes: their traces are much less.
+  (moved, unkept) -> compared machine path program frames tools (traced moved) (traced (fst (centres (map Frame.frame (Frame.planned program))))) unkept
+  where
+    tools = ownTools program
+    centres = Compensation.run machine (toolAt tools) (Frame.start program)
+    traced moved = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) moved)
+
+-- | The same of the traces on the tape and of the program's own, and what the control refuses.
+compared :: Machine -> Path -> Program -> [Frame] -> Vector Double -> [Trace] -> [Trace] -> [Compensation.Unkept] -> Proof
+compared machine path program frames tools traces ownTraces unkept =
+  Proof count (passages <> emptied) closure largest firstDifference (sortOn order findings)
   where
     begin = Frame.start program
-    own = map Frame.frame (Frame.planned program)
-    strokes = Control.run begin frames
-    planned = Vector.fromList (Frame.planned program)
-    centres = Compensation.run machine (\n -> maybe (Mm 0) Frame.tool (planned Vector.!? (n - 1))) begin
-    (moved, unkept) = centres frames
-    traces = Swivel.levelled machine path (concatMap (Passage.tracesOf machine) moved)
-    ownTraces = Swivel.levelled machine path (concatMap (Passage.tracesOf machine) (fst (centres own)))
-    sameCount = length own == length frames
+    count = length frames
+    sameCount = length (Frame.planned program) == count
     flat = Path.isFlat path
     located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
-    toolOf = if sameCount then ownTool program else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
+    toolOf = if sameCount then toolAt tools . number else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
     -- The last frame of a pass, by its number among all passes.
-    lastFrame n = snd <$> IntMap.lookup n framesOfPasses
-    framesOfPasses = IntMap.fromListWith (\(a, b) (c, d) -> (min a c, max b d)) [(n, (k, k)) | (k, p) <- zip [1 ..] (Frame.planned program), Just n <- [Frame.passOf (Frame.role p)]]
-    isOwn pass t = sameCount && maybe False (\(a, b) -> a <= number (stroke t) && number (stroke t) <= b) (IntMap.lookup (Clearing.order pass) framesOfPasses)
+    lastFrame n = (\(Frames _ b) -> b) <$> IntMap.lookup n framesOfPasses
+    framesOfPasses = IntMap.fromListWith wider [(n, Frames k k) | (k, p) <- zip [1 ..] (Frame.planned program), Just n <- [Frame.passOf (Frame.role p)]]
+    isOwn pass t = sameCount && maybe False (\(Frames a b) -> a <= number t && number t <= b) (IntMap.lookup (Clearing.order pass) framesOfPasses)
     ownTo p t = any (`isOwn` t) (Clearing.passes p)
     pockets = Clearing.pocketsOf (Path.blocks path)
     (emptied, foundIn) = unzip [Clearing.examine machine flat toolOf traces nearby (isOwn pass) p isFirst pass | p <- pockets, (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Clearing.passes p))]
     -- On a foreign tape, the strokes in each pass of a pocket.
     inPockets = [(p, pass, [t | t <- traces, flat || Deviation.isAt machine (Clearing.level pass) t, Clearing.holds p (Segment.at 0.5 (line t))]) | p <- pockets, pass <- NonEmpty.toList (Clearing.passes p)]
-    clearedIn = [(p, (number (stroke t), number (stroke (last' t ts)))) | (p, _, t : ts) <- inPockets]
+    clearedIn = [(p, (number t, number (last' t ts))) | (p, _, t : ts) <- inPockets]
     last' t ts = fromMaybe t (listToMaybe (reverse ts))
-    -- The strokes that may touch what lies in a box, in the order of the tape.
-    nearby about = Nearest.within (Box.inflate largestTool about) strokesByPlace
+    -- The strokes that may touch what lies in a box, in the order of the tape. An index pays where they are asked for often.
+    nearby about = let box' = Box.inflate largestTool about in if often then Nearest.within box' strokesByPlace else filter (Box.meets box' . box) traces
+    often = not (null (drop 1 (filter id (firsts located) <> map (const True) pockets)))
     strokesByPlace = Nearest.index box traces
-    largestTool = maximum (Mm 0 : map toolOf traces)
+    largestTool = foldl' (\most t -> max most (toolOf t)) (Mm 0) traces
     (passages, found) = unzip (zipWith (\isFirst l -> Deviation.examine machine flat toolOf isFirst traces nearby l) (firsts located) located)
-    closure = begin + sum (map increment frames) - Frame.end program
+    closure = foldl' (\at f -> at + increment f) begin frames - Frame.end program
     findings =
       concat found
         <> concat foundIn
         <> [NotInOrder (Clearing.statement p) | not flat, p <- pockets, not (Clearing.isInOrder machine p (if sameCount then filter (ownTo p) traces else traces))]
-        <> take 1 [OffPlane (number s) | flat, s <- strokes, V3 _ _ z <- [to s - begin], z /= 0]
+        <> take 1 [OffPlane n | flat, n <- rising 0 (zip [1 ..] frames)]
         <> missingHoles machine path traces
-        <> take 1 [CutsElsewhere n p | not flat, (n, p) <- strangers machine path ownTraces traces]
+        <> take 1 [CutsElsewhere n p | not flat, isJust firstDifference, (n, p) <- strangers machine path ownTraces traces]
         <> (if sameCount then Feeds.asPlanned program frames else concatMap foreignFeeds located <> concatMap foreignPocket inPockets)
-        <> Feeds.tooFast machine strokes
+        <> Feeds.tooFast machine begin frames
         <> Rules.wrongCommands program frames
-        <> Rules.refused machine strokes frames
+        <> Rules.refused machine begin frames
         <> map (Refused . NotKept) unkept
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found <> concat foundIn))]
     foreignFeeds pass = case Deviation.found pass of
-      Passage.Followed _ along _ -> Feeds.asAsked machine (Deviation.job pass) (nubOrdOn number (map stroke along))
-      Passage.Lost _ along _ -> Feeds.asAsked machine (Deviation.job pass) (nubOrdOn number (map stroke along))
+      Passage.Followed _ along _ -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
+      Passage.Lost _ along _ -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
       Passage.NeverBegun -> []
-    foreignPocket (p, pass, ts) = Feeds.alongAt machine (Part.feed (Clearing.milling p)) [] (nubOrdOn number [stroke t | t <- ts, not (Passage.isUpright t), not (any (isAlong (line t)) (Clearing.aside pass))])
+    foreignPocket (p, pass, ts) = Feeds.alongAt machine (Part.feed (Clearing.milling p)) [] (strokesOf [t | t <- ts, not (Trace.isUpright t), not (any (isAlong (line t)) (Clearing.aside pass))])
+    -- Few tapes are asked for them: they are run once more.
+    strokesOf ts = let numbers = IntSet.fromList (map number ts) in filter (\s -> IntSet.member (Control.number s) numbers) (Control.run begin frames)
     isAlong s way = all (\q -> Distance.toPoint q way <= times 2 (Machine.pulse machine)) [Segment.start s, Segment.end s]
-    largest = foldl (\(V3 a b c) (V3 x y z) -> V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) 0 (map increment frames)
+    -- The frames behind which the cutter is above or below its first height.
+    rising z numbered = case numbered of
+      [] -> []
+      (n, f) : more -> let V3 _ _ d = increment f; z' = z + d in [n | z' /= 0] <> rising z' more
+    largest = foldl' (\(V3 a b c) (V3 x y z) -> V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) 0 (map increment frames)
     -- A path that has left the band does not end where it should either.
     leaves finding = case finding of
       Gouge {} -> True
@@ -127,7 +140,7 @@ prove machine path program frames =
       TooFast {} -> False
       Refused _ -> False
       NotClosed {} -> False
-    firstDifference = listToMaybe ([n | (n, a, b) <- zip3 [1 ..] own frames, a /= b] <> [1 + min (length own) (length frames) | length own /= length frames])
+    firstDifference = differenceFrom 1 (Frame.planned program) frames
     order finding = case finding of
       Gouge w _ _ -> (frame w, 0 :: Int)
       Excess w _ _ -> (frame w, 1)
@@ -145,6 +158,13 @@ prove machine path program frames =
       Refused refusal -> (Proof.refusedFrame refusal, 8)
       NotClosed _ -> (maxBound, 9)
 
+-- | The number of the first frame that is not the program's own.
+differenceFrom :: Int -> [Frame.Planned] -> [Frame] -> Maybe Int
+differenceFrom n own frames = case (own, frames) of
+  ([], []) -> Nothing
+  (p : ps, f : fs) | Frame.frame p == f -> differenceFrom (n + 1) ps fs
+  _ -> Just n
+
 -- Where the passes are on the tape
 
 -- | The passes along contours one after the other, from where the cutter stands; each begins on the tape behind the
@@ -160,14 +180,14 @@ follow machine flat lastFrame begin traces blocks = go begin traces (zip (Path.p
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (filter (\t -> flat || Deviation.isAt machine atHeight t) rest)
             behind = case reverse (stretch found) of
-              final : _ -> drop 1 (dropWhile (not . Passage.isSame final) rest)
+              final : _ -> drop 1 (dropWhile (not . Trace.isSame final) rest)
               [] -> rest
             next = case reverse (stretch found) of
               final : _ -> (Segment.end (line final), snd (heights final))
               [] -> at
          in Pass {job, passNumber = n, level = atHeight, found} : go next behind more
       -- What a pocket asks is no way along a contour.
-      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number . stroke) rest in go (maybe at (\t -> (Segment.end (line t), snd (heights t))) (listToMaybe (reverse done))) rest' more
+      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at (\t -> (Segment.end (line t), snd (heights t))) (listToMaybe (reverse done))) rest' more
       _ : more -> go at rest more
       [] -> []
     stretch found = case found of
@@ -196,18 +216,26 @@ furthestOut milling reach
 firsts :: [Pass] -> [Bool]
 firsts passes = zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
 
--- | The cutter in the spindle in each stroke of a tape with the program's own frames.
-ownTool :: Program -> Trace -> Mm
-ownTool program = \t -> fromMaybe (Mm 0) (tools Vector.!? (number (stroke t) - 1))
-  where
-    tools = Vector.fromList (map Frame.tool (Frame.planned program))
+-- | The first and the last of some frames, by their numbers.
+data Frames = Frames Int Int
+
+wider :: Frames -> Frames -> Frames
+wider (Frames a b) (Frames c d) = Frames (min a c) (max b d)
+
+-- | The radius of the cutter in the spindle in each of the program's own frames, in mm.
+ownTools :: Program -> Vector Double
+ownTools program = Vector.fromList [r | p <- Frame.planned program, let Mm r = Frame.tool p]
+
+-- | The radius in a frame by its number.
+toolAt :: Vector Double -> Int -> Mm
+toolAt tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
 -- | The cutter in the spindle as far as a foreign tape tells, by the frames between which pockets are cleared and the passes along contours: that of the pass at hand; of two passes the smaller
 -- one between them.
 supposedTool :: [(Int, Int, Mm)] -> [Pass] -> Trace -> Mm
-supposedTool pockets passes = \t -> radiusAt (number (stroke t))
+supposedTool pockets passes = \t -> radiusAt (number t)
   where
-    spans = [(number (stroke begin), number (stroke end), Part.radius (milling (job p))) | p <- passes, let { s = strokesOf (found p) }, begin : _ <- [s], end : _ <- [reverse s]] <> pockets
+    spans = [(number begin, number end, Part.radius (milling (job p))) | p <- passes, let { s = strokesOf (found p) }, begin : _ <- [s], end : _ <- [reverse s]] <> pockets
     radiusAt n = case ([r | (_, e, r) <- reverse spans, e < n], [r | (b, _, r) <- spans, b > n], [r | (b, e, r) <- spans, b <= n, n <= e]) of
       (_, _, r : _) -> r
       (r : _, q : _, []) -> min r q
@@ -230,7 +258,7 @@ missingHoles machine path traces =
   ]
   where
     pulse = Machine.pulse machine
-    index = Box.index (Box.ofSegment . line) (filter Passage.isUpright traces)
+    index = Box.index (Box.ofSegment . line) (filter Trace.isUpright traces)
     reaches bottom p t =
       Vec.distance (Segment.start (line t)) p <= pulse && minus (uncurry min (heights t)) bottom <= times 0.6 (Machine.pulseOf machine Machine.Z)
 
@@ -238,7 +266,7 @@ missingHoles machine path traces =
 -- frame and a place.
 strangers :: Machine -> Path -> [Trace] -> [Trace] -> [(Int, Point)]
 strangers machine path own traces =
-  [ (number (stroke t), p)
+  [ (number t, p)
     | t <- traces,
       uncurry min (heights t) < minus (Mm 0) pulse,
       p : _ <- [[p | (p, z) <- places t, z < minus (Mm 0) pulse, not (known p z)]]
@@ -255,4 +283,4 @@ strangers machine path own traces =
       Path.Holing _ _ -> []
       Path.Commanding _ -> []
     known p z = or [Distance.toPoint p (line o) <= slack && uncurry min (heights o) <= plus z pulse | o <- Box.within (Box.inflate slack (Box.ofPoints p [])) index]
-    places t = [(Segment.at k (line t), plus (fst (heights t)) (times k (minus (snd (heights t)) (fst (heights t))))) | k <- 0 : Passage.places t]
+    places t = [(Segment.at k (line t), plus (fst (heights t)) (times k (minus (snd (heights t)) (fst (heights t))))) | k <- 0 : Trace.places t]

@@ -2,11 +2,6 @@
 -- direction of the walk.
 module Verify.Passage
   ( Job (..),
-    Trace (..),
-    tracesOf,
-    isSame,
-    isUpright,
-    places,
     Found (..),
     elementsOf,
     Edge (..),
@@ -18,11 +13,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus, total)
 import Base.Region (Region)
-import Control.Compensation (Moved)
-import Control.Compensation qualified as Compensation
 import Control.Monad (foldM)
-import Control.Walk (Stroke)
-import Control.Walk qualified as Control
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -35,61 +26,12 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Machine)
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Verify.Course (Course)
 import Verify.Course qualified as Course
-
--- | What the cutter's centre does in a stroke, or in one of several parts of it, in mm.
-data Trace = Trace
-  { stroke :: Stroke,
-    -- | which part, from 0
-    part :: Int,
-    -- | in the plane; without length when it goes straight up or down
-    line :: Segment,
-    -- | the ways between which the control goes there
-    ways :: NonEmpty Segment,
-    -- | the same as bare numbers, and the ways across from one to another
-    courses :: [Course],
-    bridges :: [Course],
-    -- | all of them lie in it
-    box :: Box.Box,
-    -- | at its beginning and its end
-    heights :: (Mm, Mm)
-  }
-
--- | What the cutter's centre does in a stroke on a machine. If there are several parts, it rises in the last one.
-tracesOf :: Machine -> Moved -> [Trace]
-tracesOf machine m = [trace s n leg (if n < final then (low, low) else (low, high)) | (n, leg) <- zip [0 ..] (NonEmpty.toList legs)]
-  where
-    s = Compensation.stroke m
-    legs = Compensation.legs m
-    final = NonEmpty.length legs - 1
-    (low, high) = Control.height machine s
-
--- | What is done in a part of a stroke.
-trace :: Stroke -> Int -> Segment -> (Mm, Mm) -> Trace
-trace stroke part line heights = Trace {stroke, part, line, ways, courses = map Course.ofSegment (NonEmpty.toList ways), bridges = map Course.ofSegment (Control.across ways), box = foldr1 Box.union (fmap Box.ofSegment ways), heights}
-  where
-    ways = Control.between line
-
--- | Whether two are the same part of the same stroke.
-isSame :: Trace -> Trace -> Bool
-isSame a b = Control.number (stroke a) == Control.number (stroke b) && part a == part b
-
--- | Whether a stroke goes straight up or down. A full circle ends where it begins, too.
-isUpright :: Trace -> Bool
-isUpright t = case line t of
-  Straight a b -> a == b
-  Arc {} -> False
-
--- | The places of a stroke at which it is looked at, as shares of its length, the last one its end: two of a straight one, and so many of
--- an arc that a contour that is followed does not turn by more than an eighth of a half turn from one to the next, nor is a quarter of a closed one passed.
-places :: Trace -> [Double]
-places t = case line t of
-  Straight _ _ -> [0.5, 1]
-  Arc {sweep = Rad s} -> let n = max 4 (ceiling (abs s / (pi / 8))) :: Int in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
+import Verify.Trace (Trace, line)
+import Verify.Trace qualified as Trace
 
 -- | A contour to be found on the tape.
 data Job = Job
@@ -134,13 +76,14 @@ elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 -- | Find a contour among strokes that begin at a point of its height, if they do. Of several arrivals at its beginning the first counts
 -- from which it is followed.
 find :: Job -> Maybe Point -> [Trace] -> Found
-find job at traces = case if measurable job then mapMaybe followed starts else [] of
+find job at traces = case if fits blurs then mapMaybe followed starts else [] of
   found : _ -> found
   [] -> case filter (staysBeside . snd) starts <> starts of
     (arrival, rest) : _ -> let (along, behind) = untilExit job rest in Lost arrival along behind
     [] -> NeverBegun
   where
-    ruler = measure job
+    blurs = blursOf job
+    ruler = measure job blurs
     followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
     starts = begun Nothing traces
     -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
@@ -148,7 +91,7 @@ find job at traces = case if measurable job then mapMaybe followed starts else [
     -- A straight stroke may cut across.
     final t = case line t of
       Straight _ _ -> [1]
-      Arc {} -> places t
+      Arc {} -> Trace.places t
     -- The strokes that set out from the beginning, with the one that arrived there: none when the cutter stood
     -- there already, or came from another height.
     begun before ts = case ts of
@@ -187,8 +130,16 @@ data Ruler = Ruler {whole :: Double, slack :: Double, closed :: Bool}
 -- | Whether the place of the cutter's centre tells where it touches: not in a hollow in which the centre
 -- hardly moves while the cutter touches all of it. The arcs of a curve count together.
 measurable :: Job -> Bool
-measurable job = and [blurAlong job run < total (map Segment.length (NonEmpty.toList run)) | run <- runsOf job, any isArc run]
+measurable = fits . blursOf
+
+-- | How far back a step along a contour may seem to go by rounding alone, in mm; whether that is less than each run of it that has an
+-- arc.
+data Blurs = Blurs {furthestBack :: Double, fits :: Bool}
+
+blursOf :: Job -> Blurs
+blursOf job = foldl' with (Blurs 0 True) (runsOf job)
   where
+    with (Blurs most allFit) run = let b@(Mm far) = blurAlong job run in Blurs (max most far) (allFit && (not (any isArc run) || b < total (map Segment.length (NonEmpty.toList run))))
     isArc s = case s of
       Arc {} -> True
       Straight _ _ -> False
@@ -241,13 +192,8 @@ blur job s = case s of
 closedOf :: Job -> Bool
 closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed
 
-measure :: Job -> Ruler
-measure job =
-  Ruler
-    { whole = foldl' (+) 0 (map long (Nearest.toList (edges job))),
-      slack = maximum (0 : [b | run <- runsOf job, let Mm b = blurAlong job run]),
-      closed = closedOf job
-    }
+measure :: Job -> Blurs -> Ruler
+measure job blurs = Ruler {whole = foldl' (\l e -> l + long e) 0 (Nearest.toList (edges job)), slack = furthestBack blurs, closed = closedOf job}
 
 -- | The strokes that follow the contour to its end, and the rest; none when they stray from it, turn back on
 -- it, or end before.
@@ -259,15 +205,18 @@ follows job ruler = go [] 0 0 (entry job)
         let (standing, behind) = span (staysNear job (exit job)) traces in Just (reverse done <> standing, behind)
       | otherwise = case traces of
         [] -> Nothing
-        t : rest -> case foldM (step (Nearest.within (Box.inflate (reaches job) (box t)) (edges job))) (Along gone mark) [Segment.at k (line t) | k <- places t] of
+        t : rest -> case foldM (step (Nearest.within (Box.inflate (reaches job) (Trace.box t)) (edges job))) (Along gone mark) [Segment.at k (line t) | k <- Trace.places t] of
           Just (Along gone' mark') -> go (t : done) gone' mark' (Segment.end (line t)) rest
           Nothing -> Nothing
     -- How far on the furthest place is that the cutter touches.
     ahead mark p = maximum (0 : map (difference mark) (touched job (around job p) p))
-    -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
-    step near (Along gone mark) p = case filter (>= negate (slack ruler)) (map (difference mark) (touched job near p)) of
-      [] -> Nothing
-      d : ds -> let delta = foldl' (\a b -> if abs b < abs a then b else a) d ds in Just (Along (gone + delta) (mark + delta))
+    -- Of several Trace.places that the cutter touches at once the one that it reaches by the smallest step.
+    step near (Along gone mark) p
+      | isInfinite delta = Nothing
+      | otherwise = Just (Along (gone + delta) (mark + delta))
+      where
+        delta = foldl' smaller (1 / 0) (touched job near p)
+        smaller least s = let d = difference mark s in if d >= negate (slack ruler) && abs d < abs least then d else least
     difference mark s
       | closed ruler = let d = s - mark - whole ruler * fromIntegral (floor ((s - mark) / whole ruler + 0.5) :: Int) in d
       | otherwise = s - mark
@@ -286,10 +235,10 @@ around job p = Nearest.within (Box.inflate (reaches job) (Box.ofPoints p [])) (e
 -- | The places along the contour that the cutter with its centre at a point touches, among elements with all that lie
 -- within its reach. What it touches is nearest to it; beside an arc the nearer of its ends counts.
 touched :: Job -> [Edge] -> Point -> [Double]
-touched job near p = [before e + Course.footOn (course e) x y * long e | (e, d) <- away, d <= far]
+touched job near p = [before e + Course.footOn (course e) x y * long e | e <- near, Course.distance (course e) x y <= far]
   where
     (x, y) = (Vec.x p, Vec.y p)
     Mm most = reaches job
     Mm a = allowance job
-    away = [(e, Course.distance (course e) x y) | e <- near]
-    far = min most (foldl' (\d (_, d') -> min d d') most away + 2 * a)
+    far = min most (foldl' (\d e -> min d (Course.distance (course e) x y)) most near + 2 * a)
+{-# INLINE touched #-}

@@ -10,7 +10,6 @@ module Verify.Pointed
 where
 
 import Base.Quantity (Mm (..))
-import Control.Walk (Stroke (number))
 import Data.List (minimumBy, sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -30,9 +29,10 @@ import Part.Part (Contour)
 import Part.Part qualified as Part
 import Verify.Cover (Beyond (Beyond, around, most), Others (..))
 import Verify.Cover qualified as Cover
-import Verify.Passage (Edge (element), Trace (..))
+import Verify.Passage (Edge (element))
 import Verify.Proof (Witness (Witness, amount, frame, place))
 import Verify.Proof qualified
+import Verify.Trace (Trace (number), ways)
 import Prelude hiding (lines)
 
 -- | The deepest that a stroke goes into the material beside a contour, if it does; the tool has to stay on a side of it.
@@ -44,10 +44,10 @@ gougeOf side contour elements allowance t = case concatMap deep (NonEmpty.toList
     deep way = mapMaybe depth (concatMap (judged contour elements) (stretches (marks way) way))
     marks way = concatMap (Distance.crossings way . Part.segment . element) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofSegment way)) elements) <> beside way
     beside way = [p | n <- normals contour, p <- Distance.crossings way n]
-    depth (s, stretch) = if s == side then Nothing else witness <$> Cover.furthest others (Mm 0) stretch
+    depth (s, stretch) = if s == side then Nothing else witness <$> Cover.furthest others Nothing (Mm 0) stretch
     others = Others {index = elements, lines = (:| []) . Part.segment . element, counts = const True, reach = Mm 0, allowance}
     witness Beyond {most, Cover.place = p, around} =
-      Witness {amount = most, frame = number (stroke t), Verify.Proof.element = Part.origin (element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)), place = p}
+      Witness {amount = most, frame = number t, Verify.Proof.element = Part.origin (element (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)), place = p}
 
 -- | The stretches of a segment between some of its points.
 stretches :: [Point] -> Segment -> [Segment]

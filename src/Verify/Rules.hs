@@ -5,6 +5,7 @@ module Verify.Rules
   )
 where
 
+import Base.Lattice (V3)
 import Base.Quantity (Mm (..), minus, plus, times)
 import Control.Walk (Stroke (..))
 import Control.Walk qualified as Control
@@ -12,16 +13,16 @@ import Data.List (nub)
 import Frame.Frame (Frame, Motion (..), Program)
 import Frame.Frame qualified as Frame
 import Geometry.Tolerance qualified as Tolerance
-import Machine.Machine (Machine)
+import Machine.Machine (Machine, OrderName)
 import Machine.Machine qualified as Machine
 import Verify.Proof (Finding (..), Refusal (..))
 
 -- | Frames that the control would refuse: those that break a rule of the frames, and arcs that are none. The radii of
 -- an arc may differ by 2 pulses.
-refused :: Machine -> [Stroke] -> [Frame] -> [Finding]
-refused machine strokes frames =
+refused :: Machine -> V3 -> [Frame] -> [Finding]
+refused machine begin frames =
   [Refused (ByRule broken) | broken <- Frame.invariants machine frames]
-    <> [Refused (UnequalRadii (number s) (minus b a)) | s <- strokes, Just (a, b) <- [Control.radii machine s], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
+    <> [Refused (UnequalRadii (number s) (minus b a)) | s <- Control.run begin frames, Just (a, b) <- [Control.radii machine s], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
     <> [Refused (NoSweep n) | (n, f) <- zip [1 ..] frames, Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f, Round _ <- [Frame.motion f]]
   where
     mostApart = times 2 (Machine.pulse machine)
@@ -30,9 +31,14 @@ refused machine strokes frames =
 wrongCommands :: Program -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
-    | (n, (wanted, found)) <- zip [1 ..] (together (map (Frame.orders . Frame.frame) (Frame.planned program)) (map Frame.orders frames)),
+    | (n, wanted, found) <- differing 1 (map (Frame.orders . Frame.frame) (Frame.planned program)) (map Frame.orders frames),
       name <- nub (map fst (wanted <> found)),
       lookup name wanted /= lookup name found
   ]
   where
-    together own read' = take (max (length own) (length read')) (zip (own <> repeat []) (read' <> repeat []))
+    differing :: Int -> [[(OrderName, Int)]] -> [[(OrderName, Int)]] -> [(Int, [(OrderName, Int)], [(OrderName, Int)])]
+    differing n own read' = case (own, read') of
+      (a : as, b : bs) | a == b -> differing (n + 1) as bs
+      (a : as, b : bs) -> (n, a, b) : differing (n + 1) as bs
+      (_, []) -> zipWith (\k a -> (k, a, [])) [n ..] own
+      ([], _) -> zipWith (\k b -> (k, [], b)) [n ..] read'

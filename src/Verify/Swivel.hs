@@ -29,8 +29,8 @@ import Path.FromPart qualified as Path (leadingSide)
 import Path.Path (Path)
 import Path.Path qualified as Path
 import Path.Swivel qualified as Swivel
-import Verify.Passage (Trace (..))
-import Verify.Passage qualified as Passage
+import Verify.Trace (Trace (..), heights, line)
+import Verify.Trace qualified as Trace
 
 -- | The strokes of a tape, those along the contours of a blade at the heights of their passes.
 levelled :: Machine -> Path -> [Trace] -> [Trace]
@@ -61,14 +61,14 @@ blade milling Path.Pass {Path.reach, Path.atHeight} =
 
 onLevel :: Machine -> Blade -> Trace -> Trace
 onLevel machine b t
-  | and [fits (Segment.at k (line t)) (plus low (times k (minus high low))) | k <- 0 : looked] = t {heights = (level b, level b)}
+  | and [fits (Segment.at k (line t)) (plus low (times k (minus high low))) | k <- 0 : looked] = t {fromHeight = level b, toHeight = level b}
   | otherwise = t
   where
     (low, high) = heights t
     -- An arc stays at its height, whatever the contour asks for between its ends.
     looked = case line t of
       Straight _ _ -> [1]
-      Arc {} -> Passage.places t
+      Arc {} -> Trace.places t
     -- What the tool touches is nearest to it.
     fits p z = case [h | (d, i, s) <- beside p, d <= plus (nearest p) (times 2 off), Just h <- [axisAt b i s p]] of
       [] -> False

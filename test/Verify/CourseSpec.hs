@@ -65,7 +65,7 @@ pair = oneof [(,) <$> segment <*> segment, alongside]
 beside :: Double -> [Segment] -> Gen Segment
 beside r others = do
   s <- elements others
-  shaken <- elements [0, 1e-4, 1e-2]
+  shaken <- elements [0, 1e-4, 1e-2, 5e-2]
   let moved p = (\x y -> Vec.shift (Vec.vec (shaken * x) (shaken * y)) p) <$> choose (-1, 1) <*> choose (-1, 1)
   from <- elements [0, 0, 0.2]
   to <- elements [1, 1, 0.7]

@@ -30,6 +30,6 @@ spec =
               others = Others {index = Nearest.index Box.ofSegment arcs, lines = (:| []), counts = const True, reach = Mm r, allowance = Mm 0.03}
               beyond p = minimum [d | a <- arcs, let { Mm d = Distance.toPoint p a }] - r
               sampled = maximum [beyond (Segment.at (k / 400) stroke) | k <- [0 .. 400]]
-           in classify (sampled > 0.01) "beyond" $ case Cover.furthest others (Mm 0.01) stroke of
+           in classify (sampled > 0.01) "beyond" $ case Cover.furthest others Nothing (Mm 0.01) stroke of
                 Nothing -> counterexample (show sampled) (sampled <= 0.01 + 3e-6)
                 Just Beyond {most = Mm most, place} -> counterexample (show (most, sampled, beyond place)) (most >= sampled - 3e-6 && abs (beyond place - most) <= 1e-5)

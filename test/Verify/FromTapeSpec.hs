@@ -52,6 +52,15 @@ spec = do
       `shouldBe` []
   it "two lobes that are never cut, although the path closes, are an excess" $
     findings (proofOf shortcut) `shouldSatisfy` any isExcess
+  it "half of a circle that is never cut is an excess, also where the cutter runs on the circle itself (catches a way taken for all of the circle on which it lies)" $
+    case Compile.analyse [] (Compile.alone "p.part" "part p\ntool mill(diameter 10 mm)\nfeed 60\ntolerance 0.02\nfrom (30, 0)\ncontour c closed { ccw circle((0, 0), 20) }\nmill c on { }\n") of
+      r
+        | Just a <- Result.settled r,
+          Just program <- Result.output (FromPath.quantise iso6983 (path a)) ->
+          let fs = map Frame.frame (Frame.planned program)
+              halves = [n | (n, f) <- zip [0 ..] fs, Frame.centre f /= 0]
+           in [any isExcess (findings (Verify.prove iso6983 (path a) program (take n fs <> drop (n + 1) fs))) | n <- halves] `shouldBe` [True, True]
+        | otherwise -> expectationFailure (show (Result.errors r))
   it "the contour walked backwards is not the one of the program" $
     findings (proofOf backwards) `shouldSatisfy` any isNotFollowed
   it "a command that the program does not give is found, also when the frames cannot be compared one by one" $
@@ -118,6 +127,9 @@ spec = do
 
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
+
+iso6983 :: Machine
+iso6983 = Machines.named "iso6983"
 
 proofOf :: [Frame] -> Proof
 proofOf = Verify.prove lkp01f (path Flange.analysis) Flange.program

@@ -1,0 +1,99 @@
+-- | What the cutter's centre does in a stroke, or in one of several parts of it, as a few bare numbers: there are as many as frames
+-- on the tape. All else is made from them where it is looked at.
+module Verify.Trace
+  ( Trace (..),
+    tracesOf,
+    heights,
+    line,
+    ways,
+    courses,
+    bridges,
+    box,
+    isSame,
+    isUpright,
+    places,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Control.Compensation (Moved)
+import Control.Compensation qualified as Compensation
+import Control.Walk qualified as Control
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Box (Box)
+import Geometry.Box qualified as Box
+import Geometry.Segment (Segment (..))
+import Machine.Machine (Machine)
+import Verify.Course (Course)
+import Verify.Course qualified as Course
+
+-- | In the plane a trace is without length when it goes straight up or down.
+data Trace = Trace
+  { -- | of the stroke's frame
+    number :: Int,
+    -- | which part of the stroke, from 0
+    part :: Int,
+    trail :: Course,
+    -- | the heights at its beginning and at its end
+    fromHeight :: Mm,
+    toHeight :: Mm
+  }
+
+-- | What the cutter's centre does in a stroke on a machine. If there are several parts, it rises in the last one.
+tracesOf :: Machine -> Moved -> [Trace]
+tracesOf machine m = go 0 (NonEmpty.toList (Compensation.legs m))
+  where
+    s = Compensation.stroke m
+    (from, to) = Control.height machine s
+    go n legs = case legs of
+      [] -> []
+      [leg] -> [trace n leg to]
+      leg : more -> trace n leg from : go (n + 1) more
+    trace n leg end = Trace {number = Control.number s, part = n, trail = Course.ofSegment leg, fromHeight = from, toHeight = end}
+
+-- | At its beginning and at its end.
+heights :: Trace -> (Mm, Mm)
+heights t = (fromHeight t, toHeight t)
+
+line :: Trace -> Segment
+line = Course.segment . trail
+
+-- | The ways between which the control goes there.
+ways :: Trace -> NonEmpty Segment
+ways = Control.between . line
+
+-- | The same as bare numbers …
+courses :: Trace -> [Course]
+courses t
+  | Course.isLine (trail t) = [trail t]
+  | otherwise = map Course.ofSegment (NonEmpty.toList (ways t))
+
+-- | … and the ways across from one to another.
+bridges :: Trace -> [Course]
+bridges t
+  | Course.isLine (trail t) = []
+  | otherwise = map Course.ofSegment (Control.across (ways t))
+
+-- | All of the ways lie in it.
+box :: Trace -> Box
+box t = case ways t of
+  only :| [] -> Box.ofSegment only
+  first :| others -> foldl Box.union (Box.ofSegment first) (map Box.ofSegment others)
+
+-- | Whether two are the same part of the same stroke.
+isSame :: Trace -> Trace -> Bool
+isSame a b = number a == number b && part a == part b
+
+-- | Whether a stroke goes straight up or down. A full circle ends where it begins, too.
+isUpright :: Trace -> Bool
+isUpright t = case line t of
+  Straight a b -> a == b
+  Arc {} -> False
+
+-- | The places of a stroke at which it is looked at, as shares of its length, the last one its end: two of a straight one, and so many of
+-- an arc that a contour that is followed does not turn by more than an eighth of a half turn from one to the next, nor is a quarter of a closed one passed.
+places :: Trace -> [Double]
+places t = case line t of
+  Straight _ _ -> [0.5, 1]
+  Arc {sweep = Rad s} -> let n = max 4 (ceiling (abs s / (pi / 8))) :: Int in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
