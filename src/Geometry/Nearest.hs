@@ -11,8 +11,10 @@ module Geometry.Nearest
 where
 
 import Base.Quantity (Mm (..), minus)
+import Control.Monad (forM_)
+import Control.Monad.Primitive (PrimMonad, PrimState)
 import Data.List (foldl')
-import Data.Primitive.PrimArray (PrimArray)
+import Data.Primitive.PrimArray (MutablePrimArray, PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
@@ -33,7 +35,10 @@ index :: (a -> Box) -> [a] -> Nearest a
 index box list = Nearest {things, levels = reverse (grow lowest)}
   where
     things = Vector.fromList list
-    lowest = PrimArray.primArrayFromListN (4 * Vector.length things) (concatMap ((\(Box l b r t) -> [l, b, r, t]) . box) list)
+    lowest = PrimArray.runPrimArray $ do
+      numbers <- PrimArray.newPrimArray (4 * Vector.length things)
+      Vector.iforM_ things (\i a -> put numbers i (box a))
+      pure numbers
     grow level
       | count level <= 1 = [level]
       | otherwise = level : grow (above level)
@@ -44,12 +49,23 @@ count level = PrimArray.sizeofPrimArray level `quot` 4
 
 -- | The boxes about those of a level.
 above :: PrimArray Double -> PrimArray Double
-above level = PrimArray.generatePrimArray (4 * ((count level + fan - 1) `quot` fan)) side
+above level = PrimArray.runPrimArray $ do
+  let higher = (count level + fan - 1) `quot` fan
+  numbers <- PrimArray.newPrimArray (4 * higher)
+  forM_ [0 .. higher - 1] (\i -> put numbers i (about (fan * i + 1) (min (count level) (fan * (i + 1))) (boxAt level (fan * i))))
+  pure numbers
   where
-    side k = let (i, j) = k `quotRem` 4 in bound j [PrimArray.indexPrimArray level (4 * c + j) | c <- [fan * i .. min (count level) (fan * (i + 1)) - 1]]
-    bound j vs = case vs of
-      v : more -> foldl' (if j < 2 then min else max) v more
-      [] -> 0
+    about k end b
+      | k >= end = b
+      | otherwise = about (k + 1) end (Box.union b (boxAt level k))
+
+put :: PrimMonad m => MutablePrimArray (PrimState m) Double -> Int -> Box -> m ()
+put numbers i (Box l b r t) = do
+  PrimArray.writePrimArray numbers (4 * i) l
+  PrimArray.writePrimArray numbers (4 * i + 1) b
+  PrimArray.writePrimArray numbers (4 * i + 2) r
+  PrimArray.writePrimArray numbers (4 * i + 3) t
+{-# INLINE put #-}
 
 boxAt :: PrimArray Double -> Int -> Box
 boxAt level i = Box (at 0) (at 1) (at 2) (at 3)
@@ -66,15 +82,15 @@ within (Box l b r t) = select (\(Box l' b' r' t') -> l' <= r && l <= r' && b' <=
 select :: (Box -> Bool) -> Nearest a -> [a]
 select holds n = case levels n of
   [] -> []
-  top : below -> go top below 0 (count top) []
+  top : below -> go top below 0 (count top - 1) []
   where
-    -- Those of a level from one up to another, before the rest.
-    go level below i end rest
-      | i >= end = rest
+    -- Those of a level from one down to another, before the rest: nothing is put off.
+    go level below begin i rest
+      | i < begin = rest
       | holds (boxAt level i) = case below of
-        [] -> Vector.unsafeIndex (things n) i : go level below (i + 1) end rest
-        next : lower -> go next lower (fan * i) (min (count next) (fan * (i + 1))) (go level below (i + 1) end rest)
-      | otherwise = go level below (i + 1) end rest
+        [] -> go level below begin (i - 1) (Vector.unsafeIndex (things n) i : rest)
+        next : lower -> go level below begin (i - 1) (go next lower (fan * i) (min (count next) (fan * (i + 1)) - 1) rest)
+      | otherwise = go level below begin (i - 1) rest
 {-# INLINE select #-}
 
 -- | The thing nearest to a point; of several the first. Its distance is that of its box or more, but for 'Tolerance.coincident':
