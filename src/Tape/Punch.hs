@@ -10,17 +10,14 @@ module Tape.Punch
 where
 
 import Base.Lattice (V3)
+import Control.Monad.ST (runST)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
-import Data.ByteString.Builder qualified as Builder
-import Data.ByteString.Builder.Prim qualified as Prim
-import Data.ByteString.Builder.Prim.Internal qualified as Prim (boundedPrim)
-import Data.ByteString.Lazy qualified as LazyByteString
-import Data.ByteString.Short (ShortByteString)
 import Data.ByteString.Short qualified as Short
+import Data.ByteString.Short.Internal (ShortByteString (SBS))
+import Data.Primitive.PrimArray (PrimArray (PrimArray))
+import Data.Primitive.PrimArray qualified as Primitive
 import Data.Text qualified as Text
-import Foreign.Ptr (plusPtr)
-import Foreign.Storable (poke)
 import Frame.Frame (Frame)
 import Machine.Machine (Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
@@ -42,20 +39,29 @@ import Prelude hiding (read)
 
 -- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
 write :: Machine -> V3 -> [Frame] -> Tape
-write machine start frames = Tape (LazyByteString.toStrict (Builder.toLazyByteString (holesOf (opened plan) <> go (State.first (State.rising frames) start) frames)))
+write machine start frames = Tape (ByteString.concat [holesOf (opened plan), punched plan (State.first (State.rising frames) start) frames, holesOf (closed plan)])
   where
     plan = Plan.fromMachine machine
-    holesOf = foldMap (Builder.word8 . holes)
-    -- The same before every frame with an even number.
-    shifted = holesOf (shift plan 2)
-    between = holesOf (Plan.blanks Gap (gap (Machine.medium machine)))
-    -- The rows of a frame go straight into the buffer.
-    punched state f = Prim.primBounded (Prim.boundedPrim most (const (Plan.foldRows put plan state f))) ()
-    most = Plan.mostRows plan
-    put at h _ _ = plusPtr at 1 <$ poke at h
-    go state todo = case todo of
-      [] -> holesOf (closed plan)
-      f : more -> (if even (State.ordinal state) then shifted else mempty) <> punched state f <> between <> go (Plan.after plan state f) more
+    holesOf = ByteString.pack . map holes
+
+-- | The rows of frames with what stands between them, each put straight to its place in a buffer that grows.
+punched :: Plan -> State -> [Frame] -> ByteString
+punched plan state frames = case runST (Primitive.newPrimArray most >>= go 0 state frames) of
+  PrimArray filled -> Short.fromShort (SBS filled)
+  where
+    medium = Machine.medium (Plan.machine plan)
+    most = evenShift medium + Plan.mostRows plan + gap medium
+    go used now todo buffer = case todo of
+      [] -> Primitive.resizeMutablePrimArray buffer used >>= Primitive.unsafeFreezePrimArray
+      f : more -> do
+        size <- Primitive.getSizeofMutablePrimArray buffer
+        roomy <- if used + most <= size then pure buffer else Primitive.resizeMutablePrimArray buffer (2 * size + most)
+        let put at h _ _ = (at + 1) <$ Primitive.writePrimArray roomy at h
+            blanks at n = (at + n) <$ Primitive.setPrimArray roomy at n 0
+        begin <- blanks used (shiftRows medium (State.ordinal now))
+        end <- Plan.foldRows put plan now f begin
+        next <- blanks end (gap medium)
+        go next (Plan.after plan now f) more roomy
 
 -- | The rows of the same tape, each with what it means.
 rows :: Machine -> V3 -> [Frame] -> [Row]
