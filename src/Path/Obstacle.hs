@@ -6,11 +6,15 @@ module Path.Obstacle
   )
 where
 
-import Base.Quantity (Mm (..), minus)
+import Base.Quantity (Mm (..), Rad (..), minus)
 import Base.Region (Region)
 import Geometry.Offset (Cause (..), Obstacle (..))
 import Geometry.Offset qualified as Offset
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec qualified as Vec
 import Part.Part (Element)
+import Part.Part qualified as Part
 import Path.Error (Error (ConcaveRadius), Stay (..), Tool (leaves))
 import Path.Error qualified as Error
 
@@ -26,9 +30,21 @@ stay :: Tool -> [Element] -> Offset.Rest -> Stay
 stay tool elements rest = case cause (Offset.stop rest) of
   InnerCorner i j p -> InCorner (elements !! i) (elements !! j) p
   Concave i old -> InHollow (elements !! i) old largest'
-  Collision i j _ -> Between (elements !! i) (elements !! j) (Offset.middle rest) largest'
+  Collision i j _ -> case joints i j of
+    -- The arcs of a curve behind a corner, or before one: no cutter comes into it, though a smaller one comes further.
+    [(a, b)] | isCorner a b -> InCorner a b (Segment.start (Part.segment b))
+    _ -> Between (elements !! i) (elements !! j) (Offset.middle rest) largest'
   where
     largest' = fitting tool (largest (Offset.stop rest))
+    count = length elements
+    joints i j = [(elements !! k, elements !! l) | k <- takeWhile (/= j) (take count (iterate next i)), let l = next k, not (Part.continues (elements !! l))]
+    next k = (k + 1) `mod` count
+    -- Towards the cutter.
+    isCorner a b =
+      let along = Segment.endDirection (Part.segment a)
+          Rad turned = Vec.turn along (Segment.startDirection (Part.segment b))
+          Rad smooth = Tolerance.smoothAngle
+       in turned * signum (Vec.cross along (Vec.to (Segment.end (Part.segment a)) (Offset.middle rest))) > smooth
 
 -- | The cutter that fits is smaller than what fits by the allowance.
 fitting :: Tool -> Maybe Mm -> Maybe Mm
