@@ -4,7 +4,6 @@ module Base.Decimal
     short,
     exact,
     amount,
-    mostDigits,
     whole,
     mm,
   )

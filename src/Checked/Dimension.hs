@@ -11,7 +11,6 @@ module Checked.Dimension
     times,
     power,
     unknowns,
-    exponent,
     Step (..),
     solve,
     substitute,

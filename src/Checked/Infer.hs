@@ -24,7 +24,6 @@ module Checked.Infer
     freshDimension,
     monomorphic,
     known,
-    knownDimension,
     decidedAs,
     settledPlaces,
 

@@ -11,7 +11,6 @@ module Cli.Output
     resultBytes,
     readBytes,
     writeFileWhole,
-    ioProblem,
   )
 where
 

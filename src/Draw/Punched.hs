@@ -3,7 +3,6 @@
 module Draw.Punched
   ( Range (..),
     picture,
-    pictureLines,
   )
 where
 

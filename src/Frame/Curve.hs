@@ -4,7 +4,6 @@ module Frame.Curve
   ( Part (..),
     ways,
     arcs,
-    allowance,
     remainder,
   )
 where

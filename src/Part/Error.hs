@@ -8,7 +8,6 @@ module Part.Error
     joined',
     Joined (..),
     toReport,
-    describe,
   )
 where
 

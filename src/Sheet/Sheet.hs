@@ -20,7 +20,6 @@ module Sheet.Sheet
     surfaced,
     rapidFeed,
     mostArrays,
-    firstAddress,
     generalWords,
     address,
   )

@@ -3,8 +3,6 @@
 module Sheet.ToSurface
   ( program,
     text,
-    partName,
-    partTitle,
   )
 where
 

@@ -1,7 +1,6 @@
 -- | Trees without places, for those who ask whether two texts mean the same.
 module Surface.Bare
   ( statements,
-    expr,
   )
 where
 

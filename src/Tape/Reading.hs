@@ -8,7 +8,6 @@ module Tape.Reading
   ( Fault (..),
     readFrame,
     expect,
-    difference,
   )
 where
 

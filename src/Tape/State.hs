@@ -8,7 +8,6 @@ module Tape.State
     along,
     number,
     zeroCommands,
-    hasFeed,
     after,
   )
 where
