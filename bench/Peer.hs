@@ -46,14 +46,15 @@ offset peer file distance runs batches = (>>= read') <$> command 300 (start peer
             (ts@(_ : _), [area], [long], [[loops], [open], [vertices]], [memory]) -> Right Outcome {times = ts, area, long, loops, open, vertices, memory}
             _ -> Left ("what it printed is not understood: " <> Text.take 200 out)
 
--- | What a command prints, unless it fails or takes longer than so many seconds.
+-- | What a command prints, unless it takes longer than so many seconds or fails. Of what it then says the first line tells why; the
+-- next ones name places.
 command :: Int -> [String] -> IO (Either Text Text)
 command seconds wanted = do
   (status, out, err) <- readProcessWithExitCode "timeout" (show seconds : wanted) ""
   pure $ case status of
     ExitSuccess -> Right (Text.pack out)
     ExitFailure 124 -> Left ("longer than " <> Text.pack (show seconds) <> " s")
-    ExitFailure n -> Left (Text.unwords (Text.words (Text.unlines (take 2 (Text.lines (Text.pack (err <> out)))))) <> " (status " <> Text.pack (show n) <> ")")
+    ExitFailure n -> Left (Text.unwords (concatMap Text.words (take 1 (Text.lines (Text.pack (err <> out))))) <> " (status " <> Text.pack (show n) <> ")")
 
 -- | The median.
 middle :: [Double] -> Double
