@@ -70,14 +70,14 @@ start = Session {phase = Waiting, documents = Map.empty}
 newtype Milliseconds = Milliseconds Int
   deriving stock (Eq, Ord, Show)
 
--- | What happens to a session.
+-- | What comes from the editor, or with time.
 data Event
   = Received Incoming
   | -- | a deadline has passed
     Due
   deriving stock (Eq, Show)
 
--- | What a session does.
+-- | What is answered, or the end of the conversation.
 data Effect = Send Outgoing | Stop Ending
   deriving stock (Eq, Show)
 
