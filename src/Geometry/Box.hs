@@ -14,7 +14,6 @@ module Geometry.Box
     within,
     select,
     pairs,
-    closest,
   )
 where
 
@@ -120,29 +119,6 @@ pairs i = inside i []
       (Node p a a', Node q b b') -> if meets p q then across a b (across a b' (across a' b (across a' b' rest))) else rest
       (Empty, _) -> rest
       (_, Empty) -> rest
-
--- | The thing nearest to a point, by a distance that is no less than that of its box; of several the first.
-closest :: (a -> Mm) -> Point -> Index a -> Maybe (Mm, a)
-closest distanceTo p = go (Mm (1 / 0))
-  where
-    -- Among those no further than a bound.
-    go bound i = case i of
-      Empty -> Nothing
-      Leaf box a -> let d = distanceTo a in if fromBox box <= bound && d <= bound then Just (d, a) else Nothing
-      Node box a b
-        | fromBox box > bound -> Nothing
-        | away a <= away b -> let found = go bound a in first found (go (narrower bound found) b)
-        | otherwise -> let found = go bound b in first (go (narrower bound found) a) found
-    narrower bound found = maybe bound fst found
-    first one other = case (one, other) of
-      (Just (d, _), Just (e, _)) -> if d <= e then one else other
-      (Nothing, _) -> other
-      (_, Nothing) -> one
-    away i = case i of
-      Empty -> Mm 0
-      Leaf box _ -> fromBox box
-      Node box _ _ -> fromBox box
-    fromBox = distance p
 
 -- | The distance of a point from a box, none inside.
 distance :: Point -> Box -> Mm

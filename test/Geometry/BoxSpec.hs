@@ -3,25 +3,15 @@ module Geometry.BoxSpec (spec) where
 
 import Base.Quantity (Mm (..))
 import Data.Bifunctor (bimap)
-import Data.List (minimumBy, sort)
-import Data.Ord (comparing)
+import Data.List (sort)
 import Generate.Run qualified as Curve
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
-import Geometry.Vec qualified as Vec
 import Test.Hspec
 import Test.QuickCheck
 
 spec :: Spec
 spec = describe "an index" $ do
-  it "gives the nearest of its things, of several the first (catches a box that seems further off than what is in it)" $
-    property $
-      forAll ((,,) <$> curve <*> choose (-150, 150) <*> choose (-150, 150)) $ \(ss, x, y) ->
-        let p = Vec.point x y
-            numbered = zip [0 :: Int ..] ss
-            away (_, s) = Distance.toPoint p s
-            nearest = minimumBy (comparing away) numbered
-         in Box.closest away p (Box.index (Box.ofSegment . snd) numbered) === Just (away nearest, nearest)
   it "leaves out only what is further off than asked (catches a bound above the distance)" $
     property $
       forAll ((,,) <$> curve <*> curve <*> choose (0, 30)) $ \(ss, others, d) ->

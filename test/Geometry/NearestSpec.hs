@@ -4,8 +4,10 @@ module Geometry.NearestSpec (spec) where
 import Base.Quantity (Mm (..), plus)
 import Data.List (minimumBy)
 import Data.Ord (comparing)
+import Generate.Run qualified as Curve
 import Geometry.Box (Box (..))
 import Geometry.Box qualified as Box
+import Geometry.Distance qualified as Distance
 import Geometry.Nearest qualified as Nearest
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -27,6 +29,14 @@ spec = do
               [] -> Nothing
               _ -> let t = minimumBy (comparing distanceTo) things in Just (distanceTo t, fst t)
          in found === wanted
+  it "gives the nearest of its things, of several the first (catches a box that seems further off than what is in it)" $
+    property $
+      forAll ((,,) <$> oneof [Curve.open, Curve.closed] <*> choose (-150, 150) <*> choose (-150, 150)) $ \(ss, x, y) ->
+        let p = Vec.point x y
+            numbered = zip [0 :: Int ..] ss
+            away (_, s) = Distance.toPoint p s
+            nearest = minimumBy (comparing away) numbered
+         in Nearest.closest away p (Nearest.index (Box.ofSegment . snd) numbered) === Just (away nearest, nearest)
   it "finds it though distances are rounded otherwise than those of boxes (catches a thing that is passed over because its box seems further away than it)" $
     property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) -> forAll (vectorOf (length things) (choose (-1e-9, 0))) $ \slips ->
