@@ -4,6 +4,7 @@ module Contours
     name,
     contour,
     sizes,
+    small,
     distances,
   )
 where
@@ -47,6 +48,13 @@ sizes family = case family of
   ChamferedComb -> [1200, 12000, 120000, 999996]
   FixedStar -> [1000, 10000, 100000]
   _ -> [1000, 10000, 100000, 1000000]
+
+-- | A small one of each kind.
+small :: Family -> Int
+small family = case family of
+  Moore -> 4 ^ (4 :: Int)
+  ChamferedComb -> 120
+  _ -> 100
 
 -- | The offsets in mm, outwards when positive.
 distances :: Family -> [Double]

@@ -1,8 +1,9 @@
 {-# OPTIONS_GHC -fno-full-laziness #-}
 
--- | @kernel FILE D RUNS BATCHES@: the offset of one closed contour by D mm, outwards when it is counter-clockwise, RUNS times in each
+-- | @kernel SMALL FILE D RUNS BATCHES@: the offset of one closed contour by D mm, outwards when it is counter-clockwise, RUNS times in each
 -- batch. Prints for every batch the nanoseconds of processor time of one run, then what came out of the last one and how far the
--- first one raised the peak of memory. The peers in bench/peers take the same arguments and print the same lines.
+-- first one raised the peak of memory. Before that the contour of SMALL is offset once, so that the code is in memory by then. The peers in
+-- bench/peers take the same arguments and print the same lines.
 module Main (main) where
 
 import Base.Quantity (Mm (..))
@@ -24,11 +25,12 @@ main :: IO ()
 main = do
   arguments <- getArgs
   case arguments of
-    [file, d, r, b] | Just distance <- readMaybe d, Just runs <- readMaybe r, Just batches <- readMaybe b -> measure file distance runs batches
-    _ -> die "kernel FILE D RUNS BATCHES"
+    [small, file, d, r, b] | Just distance <- readMaybe d, Just runs <- readMaybe r, Just batches <- readMaybe b -> measure small file distance runs batches
+    _ -> die "kernel SMALL FILE D RUNS BATCHES"
 
-measure :: FilePath -> Double -> Int -> Int -> IO ()
-measure file distance runs batches = do
+measure :: FilePath -> FilePath -> Double -> Int -> Int -> IO ()
+measure small file distance runs batches = do
+  _ <- ContourFile.read small >>= once distance
   source <- ContourFile.read file
   performGC
   writeFile "/proc/self/clear_refs" "5"

@@ -50,24 +50,28 @@ compared folder most peers = do
 
 ofContour :: FilePath -> Peers -> Family -> Int -> IO [Case]
 ofContour folder peers family segments = do
-  let file = folder </> Text.unpack (Contours.name family) <> "_" <> show segments <> ".bin"
-  ContourFile.write file (Contours.contour family segments)
+  small <- written (Contours.small family)
+  file <- written segments
   forM (Contours.distances family) $ \distance -> do
     Text.putStr (Contours.name family <> " " <> signed distance <> ", " <> Decimal.whole segments <> " segments:")
-    exact <- Peer.interleaved rounds file distance runs batches (ours peers : keepers peers)
-    chorded <- if bearable then Peer.interleaved (if small then 3 else 1) file distance (if small then 3 else 1) 1 (map ($ coarse) (chorders peers)) else pure []
-    finer <- if middling then Peer.interleaved 1 file distance 1 0 (map ($ fine) (chorders peers)) else pure []
+    exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
+    chorded <- if bearable then Peer.interleaved (if few then 3 else 1) small file distance (if few then 3 else 1) 1 (map ($ coarse) (chorders peers)) else pure []
+    finer <- if middling then Peer.interleaved 1 small file distance 1 0 (map ($ fine) (chorders peers)) else pure []
     Text.putStrLn (Text.concat ["  " <> either (const "fails") (Table.number . perSegment segments) o | o <- exact <> chorded])
     hFlush stdout
     pure Case {family, segments, distance, exact, chorded, finer}
   where
-    small = segments <= 2000
+    written n = do
+      let file = folder </> Text.unpack (Contours.name family) <> "_" <> show n <> ".bin"
+      ContourFile.write file (Contours.contour family n)
+      pure file
+    few = segments <= 2000
     middling = segments > 2000 && segments <= 20000
     last' = segments > 200000 || (family == FixedStar && segments > 20000)
     -- The chorders would need minutes here.
     bearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
-      | small = (5, 20, 5)
+      | few = (5, 20, 5)
       | middling = (3, 2, 3)
       | last' = (1, 1, 1)
       | otherwise = (3, 1, 2)
@@ -112,14 +116,13 @@ timesOf peers cases =
       _ -> Nothing
     growth (a, b) = Decimal.fixed 2 (Table.exponent a b)
 
--- | Of each family the largest contour that all keepers, and the largest that the chorders were given.
+-- | The memory that every contour took.
 memoryOf :: Peers -> [Case] -> Text
 memoryOf peers cases =
   Table.table
     (["input", "segments"] <> map Peer.title (ours peers : keepers peers) <> map (Peer.title . ($ coarse)) (chorders peers))
     [ [label c, Decimal.whole (segments c)] <> [cell (bytes c) (Just o) | o <- exact c] <> [cell (bytes c) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
-      | c <- cases,
-        segments c >= 50000
+      | c <- cases
     ]
   where
     bytes c o = Table.number (max 0 (memory o) / fromIntegral (segments c))

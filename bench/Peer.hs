@@ -18,7 +18,7 @@ import System.Exit (ExitCode (..))
 import System.Process (readProcessWithExitCode)
 import Text.Read (readMaybe)
 
--- | Its name; the words that start it, before the file, the distance, and how often.
+-- | Its name; the words that start it, before the files, the distance, and how often.
 data Peer = Peer {title :: Text, start :: [String]}
 
 -- | What came out: nanoseconds of each batch; mm², mm; loops, open pieces, vertices; bytes.
@@ -26,19 +26,19 @@ data Outcome = Outcome {times :: [Double], area :: Double, long :: Double, loops
   deriving stock (Eq, Show)
 
 -- | Every program once in each of so many rounds; each begins anew, so that none profits from the one before. A program
--- that fails once is not asked again.
-interleaved :: Int -> FilePath -> Double -> Int -> Int -> [Peer] -> IO [Either Text Outcome]
-interleaved rounds file distance runs batches peers = foldM once (map (const (Right Nothing)) peers) [1 .. rounds] <&> map (>>= maybe (Left "not run") Right)
+-- that fails once is not asked again. The first file is the small contour that each begins with, the second the one that counts.
+interleaved :: Int -> FilePath -> FilePath -> Double -> Int -> Int -> [Peer] -> IO [Either Text Outcome]
+interleaved rounds small file distance runs batches peers = foldM once (map (const (Right Nothing)) peers) [1 .. rounds] <&> map (>>= maybe (Left "not run") Right)
   where
     once found _ = traverse further (zip peers found)
     further (peer, before) = case before of
       Left why -> pure (Left why)
       Right earlier -> do
-        new <- offset peer file distance runs batches
+        new <- offset peer small file distance runs batches
         pure (fmap (\o -> Just o {times = maybe [] times earlier <> times o}) new)
 
-offset :: Peer -> FilePath -> Double -> Int -> Int -> IO (Either Text Outcome)
-offset peer file distance runs batches = (>>= read') <$> command 300 (start peer <> [file, show distance, show runs, show batches])
+offset :: Peer -> FilePath -> FilePath -> Double -> Int -> Int -> IO (Either Text Outcome)
+offset peer small file distance runs batches = (>>= read') <$> command 300 (start peer <> [small, file, show distance, show runs, show batches])
   where
     read' out =
       let found key = [v | line <- Text.lines out, [k, w] <- [Text.words line], k == key, Just v <- [readMaybe (Text.unpack w)]]

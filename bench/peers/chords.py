@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Offsets by libraries that know chords only: GEOS (through shapely) and Clipper2 (through pyclipr).
 
-    chords.py LIBRARY SAGITTA FILE D RUNS BATCHES
+    chords.py LIBRARY SAGITTA SMALL FILE D RUNS BATCHES
 
 FILE holds little-endian doubles, x y bulge for each vertex of one closed contour. Arcs, of the contour and of the offset,
 become chords that leave them by SAGITTA mm at most; that is done before the clock starts. Prints for every batch the
 nanoseconds of processor time of one run, then what came out of the last one and how far the first one raised the peak
-of memory. LIBRARY is geos or clipper2; `chords.py versions` prints what is installed.
+of memory. Before that the contour of SMALL is offset once, so that the code is in memory by then. LIBRARY is geos or clipper2; `chords.py versions` prints what is installed.
 """
 import math
 import sys
@@ -100,10 +100,15 @@ def versions():
 def main():
     if sys.argv[1:] == ["versions"]:
         return versions()
-    library, sagitta, file, distance, runs, batches = sys.argv[1:]
+    library, sagitta, small, file, distance, runs, batches = sys.argv[1:]
     library, sagitta, distance = {"geos": geos, "clipper2": clipper2}[library], float(sagitta), float(distance)
-    points = chorded(np.fromfile(file, dtype="<f8").reshape(-1, 3), sagitta)
-    offset, measures = library(points, distance, sagitta)
+
+    def task(file):
+        return library(chorded(np.fromfile(file, dtype="<f8").reshape(-1, 3), sagitta), distance, sagitta)
+
+    warm, _ = task(small)
+    warm()
+    offset, measures = task(file)
 
     before = forget_peak()
     begin = time.process_time_ns()

@@ -9,11 +9,10 @@ module Geometry.Offset.Clip
   )
 where
 
-import Control.Monad (foldM, forM_)
+import Control.Monad (foldM, forM_, unless)
 import Control.Monad.ST (ST, runST)
 import Data.Int (Int32)
 import Data.Primitive.PrimArray
-import Data.Word (Word8)
 import Geometry.Offset.Boxes (Boxes)
 import Geometry.Offset.Chain (Chain)
 import Geometry.Offset.Chain qualified as Chain
@@ -174,10 +173,9 @@ gather wanted c xs begins order lefts known = do
   starts <- newPrimArray (total + Chain.walks c + 1)
   position <- newPrimArray (max 1 total)
   forM' total $ \q -> writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
-  walkOf <- newPrimArray (max 1 total)
-  forM_ [0 .. Chain.walks c - 1] $ \w -> forM' (rangeEnd w - rangeBegin w) $ \q -> writePrimArray walkOf (rangeBegin w + q) (fromIntegral w :: Int32)
-  visited <- newPrimArray (max 1 total)
-  setPrimArray visited 0 (max 1 total) (0 :: Word8)
+  -- Of one walk all is on that.
+  walkOf <- newPrimArray (if single then 0 else max 1 total)
+  unless single $ forM_ [0 .. Chain.walks c - 1] $ \w -> forM' (rangeEnd w - rangeBegin w) $ \q -> writePrimArray walkOf (rangeBegin w + q) (fromIntegral w :: Int32)
   let emit !k !x !y !b !s = do
         writePrimArray ox k x
         writePrimArray oy k y
@@ -194,8 +192,8 @@ gather wanted c xs begins order lefts known = do
         | otherwise = pure (l, made)
       -- From occurrence q on along the walk, and over to the partner at the end.
       follow !q0 !q !l = do
-        writePrimArray visited q 1
-        w <- fromIntegral <$> readPrimArray walkOf q
+        writePrimArray lefts q passed
+        w <- if single then pure 0 else fromIntegral <$> readPrimArray walkOf q
         let next = if q + 1 == rangeEnd w then rangeBegin w else q + 1
             o = fromIntegral (indexPrimArray order q) :: Int
             o' = fromIntegral (indexPrimArray order next) :: Int
@@ -216,16 +214,14 @@ gather wanted c xs begins order lefts known = do
               pure (k + 1)
         partner <- fromIntegral <$> readPrimArray position (if even o' then o' + 1 else o' - 1)
         v <- readPrimArray lefts partner
-        seen <- readPrimArray visited partner
         if partner == q0
           then pure (Just l')
-          else if seen /= 0 || fromIntegral v /= wanted then pure Nothing else follow q0 partner l'
+          else if fromIntegral v /= wanted then pure Nothing else follow q0 partner l'
       loops !q !l !made
         | q >= total = pure (Just (l, made))
         | otherwise = do
           v <- readPrimArray lefts q
-          seen <- readPrimArray visited q
-          if fromIntegral v /= wanted || seen /= 0
+          if fromIntegral v /= wanted
             then loops (q + 1) l made
             else do
               writePrimArray starts made l
@@ -244,6 +240,9 @@ gather wanted c xs begins order lefts known = do
       shrinkMutablePrimArray starts (made + 1)
       Just <$> (Loops <$> unsafeFreezePrimArray starts <*> unsafeFreezePrimArray ox <*> unsafeFreezePrimArray oy <*> unsafeFreezePrimArray ob <*> unsafeFreezePrimArray os)
   where
+    single = Chain.walks c == 1
+    -- What is on the left of a slice that was walked; no number of a free place.
+    passed = minBound :: Int32
     rangeBegin w = fromIntegral (indexPrimArray begins (Chain.first c w)) :: Int
     rangeEnd w = fromIntegral (indexPrimArray begins (Chain.behind c w)) :: Int
     segmentOf o = fromIntegral (indexPrimArray (Crossings.segments xs) o) `quot` 2 :: Int

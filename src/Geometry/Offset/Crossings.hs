@@ -45,7 +45,7 @@ find !tolerance !c !bs = runST $ do
   let unclear = writePrimArray state 1 1
       record !i !s !j !t !x !y !turn = do
         k <- readPrimArray state 0
-        grow (sizeofPrimArray (Chain.xs c) `quot` 16) rs ss k
+        grow (sizeofPrimArray (Chain.xs c) `quot` 2) rs ss k
         r <- readMutVar rs
         writePrimArray r (4 * k) x
         writePrimArray r (4 * k + 1) y
@@ -76,7 +76,7 @@ proper tolerance c bs = runST $ do
   Boxes.pairs bs ((== Nothing) <$> readMutVar found) (Meet.meet tolerance c visitor)
   readMutVar found
 
--- | Room for one more: none at first, then for so many, and then always four times as much. Room that is not used costs no
+-- | Room for one more: none at first, then for so many, and then always twice as much. Room that is not used costs no
 -- memory, but what was copied does.
 grow :: Int -> MutVar s (MutablePrimArray s Double) -> MutVar s (MutablePrimArray s Int32) -> Int -> ST s ()
 grow some rs ss k = do
