@@ -14,8 +14,11 @@ module Frame.Run
 where
 
 import Base.Quantity (Mm (..), Rad (..), times)
+import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Data.Tuple (swap)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -47,12 +50,14 @@ chordEnds most bounds run
     final = NonEmpty.last run
     pieces = [Piece (Path.segment m) 0 (a, b) | m <- NonEmpty.toList run, let (Mm a, Mm b) = Path.heights m, Segment.length (Path.segment m) > Mm 0]
     (widest, walk)
-      | left bounds /= right bounds && counted (between 1) < counted (upon 1) = (between 1, between)
-      | otherwise = (upon 1, upon)
+      | n <- counted (fst quick), n > 2, n <= min few most, bendsBack pieces, counted (fst thorough) < n = thorough
+      | otherwise = quick
+    quick = fewest (walks AtEnds bounds pieces id)
+    thorough = fewest (walks Anywhere bounds pieces id <> walks Anywhere (mirrored bounds) (turned pieces) back)
+    back places = drop 1 (reverse places) <> [Place (Segment.end (Path.segment final)) (let Mm z = snd (Path.heights final) in z) []]
+    fewest = minimumBy (comparing (counted . fst))
     count = counted widest
     counted = length . take (most + 1)
-    between tightness = chords (limitsOf bounds tightness) pieces
-    upon tightness = chords (limitsOf bounds tightness) {aside = 0} pieces
     evened = evenest evenings (1 - 1 / fromIntegral count) 1 widest
     -- The tightest limits that need no more chords make the last one as long as the others.
     evenest :: Int -> Double -> Double -> [Place] -> [Place]
@@ -64,9 +69,45 @@ chordEnds most bounds run
         middle = (low + high) / 2
         tighter = walk middle
 
+-- | Of no more chords than so many, one less makes a difference: where a run bends to both sides they are looked for
+-- thoroughly, and from its end as well.
+few :: Int
+few = 16
+
+-- | Whether a run bends to both sides. On one that does not, no chords are fewer than those that reach furthest.
+bendsBack :: [Piece] -> Bool
+bendsBack pieces = any (> 0) sweeps && any (< 0) sweeps
+  where
+    sweeps = [s | Piece {segment = Arc {sweep = Rad s}} <- pieces]
+
+-- | The chords of pieces by how tight the limits are, first with those at which they are widest: upon the run, and beside
+-- it where that may help.
+walks :: Search -> Bounds -> [Piece] -> ([Place] -> [Place]) -> [([Place], Double -> [Place])]
+walks search bounds pieces onto = [(walk 1, walk) | walk <- upon : [between | left bounds /= right bounds]]
+  where
+    between tightness = onto (chords (limits tightness) pieces)
+    upon tightness = onto (chords (limits tightness) {aside = 0} pieces)
+    limits tightness = (limitsOf bounds tightness) {search}
+
+-- | The bounds of a run walked the other way.
+mirrored :: Bounds -> Bounds
+mirrored bounds = bounds {left = right bounds, right = left bounds}
+
+-- | Whole pieces walked the other way.
+turned :: [Piece] -> [Piece]
+turned pieces = reverse [Piece (Segment.reverse (segment p)) 0 (swap (heights p)) | p <- pieces]
+
 -- | How often the limits are halved.
 evenings :: Int
 evenings = 5
+
+-- | Where in a piece the end of a chord is looked for.
+data Search
+  = -- | at the end of the piece, or behind a beginning that a chord reaches
+    AtEnds
+  | -- | also where a chord reaches neither
+    Anywhere
+  deriving stock (Eq)
 
 -- | Bounds in mm, and how far the run may turn within a chord, in radians.
 data Limits = Limits
@@ -76,13 +117,14 @@ data Limits = Limits
     aside :: Double,
     rising :: Double,
     turning :: Double,
-    least :: Double
+    least :: Double,
+    search :: Search
   }
 
 -- | The chords of an arc turn by so much of what they might when its sagitta is the square of that share.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
-  Limits {leftOf = share (left bounds), rightOf = share (right bounds), aside = (share (left bounds) - share (right bounds)) / 2, rising = share (rise bounds), turning = tightness * pi / 2, least}
+  Limits {leftOf = share (left bounds), rightOf = share (right bounds), aside = (share (left bounds) - share (right bounds)) / 2, rising = share (rise bounds), turning = tightness * pi / 2, least, search = AtEnds}
   where
     Mm least = shortest bounds
     -- Less than one point from the chord is on it.
@@ -140,9 +182,13 @@ data Sight = Sight
     mostHeading :: Double,
     -- | the way so far in mm
     gone :: Double,
-    -- | whether a chord to this place stays within the limits
-    fits :: Bool
+    -- | on which side of them the direction of a chord to this place is, and its rise; both within, it fits
+    missed :: (Ordering, Ordering)
   }
+
+-- | Whether a chord to the place stays within the limits.
+fits :: Sight -> Bool
+fits sight = missed sight == (EQ, EQ)
 
 -- | Where the longest chord from a place ends. A place behind one that no chord reaches may be reached again, as long
 -- as there is any direction left.
@@ -153,7 +199,7 @@ furthest limits begin = case rest begin of
     Just (way, p) | way >= least limits -> p
     _ -> onward limits (least limits) begin
   where
-    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, fits = True}
+    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, missed = (EQ, EQ)}
     reached eye best before pieces = case pieces of
       [] -> best
       piece : more
@@ -163,11 +209,12 @@ furthest limits begin = case rest begin of
           t = turnsAt limits before piece
           seen u = see limits eye before piece u (meeting limits piece u pieces)
           after = seen t
-          better
-            | fits after = found t
-            | fits before && share > from piece = found share
-            | otherwise = best
-          share = lastFit (fits . seen) (from piece) t
+          better = maybe best found $ case search limits of
+            AtEnds
+              | fits after -> Just t
+              | fits before, share <- lastWhere (fits . seen) (from piece) t, share > from piece -> Just share
+              | otherwise -> Nothing
+            Anywhere -> lastFit seen ((t, after) : [(u, seen u) | u <- standstills limits eye piece t] <> [(from piece, before)])
           found u = Just (gone before + lengthBetween (from piece) u piece, placeOn limits piece u pieces)
     isClosed sight = lowest sight > highest sight || flattest sight > steepest sight
 
@@ -181,16 +228,43 @@ onward limits way at = case rest at of
     where
       left' = lengthBetween (from piece) 1 piece
 
--- | The last fraction that fits between one that does and one that does not.
-lastFit :: (Double -> Bool) -> Double -> Double -> Double
-lastFit fit = go (40 :: Int)
+-- | The last fraction at which a chord fits. Given are fractions from the last one back to one that does not count, with
+-- what is seen there; between two of them the direction of the chord turns one way only.
+lastFit :: (Double -> Sight) -> [(Double, Sight)] -> Maybe Double
+lastFit seen marks = case marks of
+  (high, atHigh) : earlier@((low, atLow) : _)
+    | fits atHigh -> Just high
+    | share : _ <- filter (\u -> u > low && fits (seen u)) crossings -> Just share
+    | otherwise -> lastFit seen earlier
+    where
+      crossings =
+        [lastWhere (\u -> missed (seen u) /= missed atHigh) low high | missed atLow /= missed atHigh]
+          <> [lastWhere (fits . seen) low high | fits atLow]
+  _ -> Nothing
+
+-- | The last fraction of which something holds, between one of which it does and one of which it does not.
+lastWhere :: (Double -> Bool) -> Double -> Double -> Double
+lastWhere holds = go (40 :: Int)
   where
     go tries low high
       | tries <= 0 = low
-      | fit middle = go (tries - 1) middle high
+      | holds middle = go (tries - 1) middle high
       | otherwise = go (tries - 1) low middle
       where
         middle = (low + high) / 2
+
+-- | The fractions up to one at which the direction of a chord to a piece turns back: where the piece heads away from the
+-- eye or towards it. The last one first.
+standstills :: Limits -> Eye -> Piece -> Double -> [Double]
+standstills limits eye piece t = case segment piece of
+  Straight _ _ -> []
+  Arc {start, centre, sweep = Rad s} ->
+    let Mm r = Segment.radius centre start
+        away = Vec.to centre (standing eye)
+        -- Chords meet on a circle about the same centre.
+        ratio = (r + signum s * aside limits) / Vec.norm away
+        turnings = [u | abs ratio < 1, a <- [acos ratio, -(acos ratio)], let u = Segment.fraction (segment piece) (Vec.shift (Vec.rotate (Rad a) away) centre), u > from piece, u < t]
+     in sortOn negate turnings
 
 -- | The way on a piece from one fraction to another in mm.
 lengthBetween :: Double -> Double -> Piece -> Double
@@ -220,7 +294,7 @@ see limits eye before piece t goal =
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
       gone = way,
-      fits = Vec.norm chord > 0 && low <= along && along <= high && flat <= climb && climb <= steep
+      missed = if Vec.norm chord > 0 && way > 0 then (beside low high along, beside flat steep climb) else (LT, LT)
     }
   where
     way = gone before + lengthBetween (from piece) t piece
@@ -237,6 +311,10 @@ see limits eye before piece t goal =
     after = case segment piece of
       Straight _ _ -> heading before
       Arc {sweep = Rad s} -> heading before + s * (t - from piece)
+    beside a b x
+      | x < a = LT
+      | x > b = GT
+      | otherwise = EQ
     -- The direction in which a circle walked in a sense bulges by so much: its tangent there is that direction.
     touched :: Double -> Double -> [Double]
     touched sense y = case segment piece of

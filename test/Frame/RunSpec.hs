@@ -139,7 +139,11 @@ stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
         | u >= t - 1e-9 && u <= 1 && off <= beside b + 1e-7 && (u < 1 || off <= 1e-12) -> ([(s, t, u)], (s, u) : more)
         | otherwise -> let (passed, behind) = upTo q more in ((s, t, 1) : passed, behind)
         where
-          u = if Vec.distance q (Segment.end s) <= Mm 1e-12 then 1 else Segment.fraction s q
+          u
+            | Vec.distance q (Segment.end s) <= Mm 1e-12 = 1
+            -- A foot a hair before the beginning of an arc is told as one a turn behind it.
+            | Arc {sweep = Rad a} <- s, 2 * pi - Segment.fraction s q * abs a <= 1e-9 = 0
+            | otherwise = Segment.fraction s q
           Mm off = Vec.distance q (Segment.at u s)
 
 -- | By how much some point of a chain is further from its chord than it may be, at most.
