@@ -144,7 +144,7 @@ alone m a = any (<= 0.98 * grain) (offAbout 3 m a)
     Mm grain = Machine.pulse m
 
 -- | How far frames about lattice points are off in mm, so many pulses from the centre of an arc at most, that stay well within a pulse
--- with the radius of either end.
+-- with the radius of either end and turn by what the arc turns, as far as one frame may.
 offAbout :: Double -> Machine -> Segment -> [Double]
 offAbout most m a =
   [ offEither a c w
@@ -153,7 +153,8 @@ offAbout most m a =
       let c = on (Vec.shift (Vec.vec (di * grain) (dj * grain)) (Segment.centre a)),
       let w = Segment.arc (if sweep a > Rad 0 then CounterClockwise else Clockwise) c (on (start a)) (on (end a)),
       maximum (map (offCircle a) [turned c w, other c w]) <= 0.98 * grain,
-      abs (away c (end w) - away c (start w)) <= 2 * grain
+      abs (away c (end w) - away c (start w)) <= 2 * grain,
+      let (Rad s, Rad exact) = (sweep w, sweep a) in abs (s - exact) <= 4 * grain / away (Segment.centre a) (start a)
   ]
   where
     Mm grain = Machine.pulse m
