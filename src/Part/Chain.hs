@@ -29,6 +29,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Circle (Circle), Line (Line))
 import Geometry.Shape qualified as Shape
+import Geometry.Tangle qualified as Tangle
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -112,7 +113,7 @@ attempt region ends walks = do
     (Open, _) -> open walks
   elements <- maybe (Left nothingLeft) Right (NonEmpty.nonEmpty (filter long chosen))
   let contour = Contour.chained segment (\s e -> e {segment = s}) ends elements
-  case Contour.selfCrossing (Contour.Contour ends (fmap segment contour)) of
+  case Tangle.selfCrossing (Contour.Contour ends (fmap segment contour)) of
     Just (i, j, p) -> Left (CrossesItself region (origin (contour NonEmpty.!! i)) (origin (contour NonEmpty.!! j)) p (any hasFillet walks))
     Nothing -> Right contour
   where

@@ -17,6 +17,7 @@ import Geometry.Outline (Outline)
 import Geometry.Outline qualified as Outline
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tangle qualified as Tangle
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -62,7 +63,7 @@ subject = do
     outlined gen = do
       c <- gen
       case Outlines.outlines c of
-        o : _ | Just ss <- NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (Outline.segments (straightened o))), whole <- Contour (Outline.ends o) ss, Nothing <- Contour.selfCrossing whole -> pure whole
+        o : _ | Just ss <- NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (Outline.segments (straightened o))), whole <- Contour (Outline.ends o) ss, Nothing <- Tangle.selfCrossing whole -> pure whole
         _ -> outlined gen
 
 -- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.

@@ -1,0 +1,89 @@
+-- | Where a contour crosses or touches itself.
+module Geometry.Tangle
+  ( selfCrossing,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), times)
+import Control.Monad (when)
+import Control.Monad.ST (runST)
+import Data.List (minimumBy)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
+import Data.STRef (modifySTRef', newSTRef, readSTRef)
+import Data.Vector qualified as Vector
+import Geometry.Box qualified as Box
+import Geometry.Contour (Contour (..), Ends (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Offset.Boxes qualified as Boxes
+import Geometry.Offset.Chain qualified as Chain
+import Geometry.Outline qualified as Outline
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
+selfCrossing :: Contour -> Maybe (Int, Int, Point)
+selfCrossing contour@(Contour ends ss) = case concatMap found (beside <> closeBy contour) of
+  [] -> Nothing
+  ps -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) ps)
+  where
+    whole = Vector.fromList (NonEmpty.toList ss)
+    count = Vector.length whole
+    -- Neighbours, which are joined.
+    beside = [(i, i + 1) | i <- [0 .. count - 2]] <> [(0, count - 1) | ends == Closed, count > 2]
+    found (i, j)
+      | j == i + 1 && straightOn s other || closes && straightOn other s = []
+      | not (Box.meets (Box.ofSegment s) (Box.ofSegment other)) = []
+      | otherwise = [(i, j, p) | p <- if null shared then Distance.crossings s other else retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)]
+      where
+        s = whole Vector.! i
+        other = whole Vector.! j
+        closes = j /= i + 1 && ends == Closed && i == 0 && j == count - 1
+        -- Where the two are joined: behind the first, or where the contour closes.
+        shared = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
+
+-- | Segments of a contour that are no neighbours and lie so near to one another that they may touch, by number.
+closeBy :: Contour -> [(Int, Int)]
+closeBy contour@(Contour ends _)
+  | Chain.walks chain == 0 = []
+  | otherwise = runST $ do
+    pairs <- newSTRef []
+    Boxes.pairs boxes (pure True) $ \a b -> do
+      let (i, j) = (number a, number b)
+      when (i >= 0 && j > i + 1 && j < count && not (ends == Closed && i == 0 && j == count - 1)) $ modifySTRef' pairs ((i, j) :)
+    readSTRef pairs
+  where
+    (outline, numbers) = Outline.fromContour contour
+    pieces = sizeofPrimArray numbers
+    count = indexPrimArray numbers (pieces - 1) + 1
+    chain = Chain.fromOutlines 0 [outline]
+    Mm margin = times 2 Tolerance.coincident
+    boxes = Boxes.boxes margin chain
+    -- A chain always closes; what closes an open contour is no segment of it.
+    number k = let i = fromIntegral (indexPrimArray (Chain.sources chain) k) in if i < pieces then indexPrimArray numbers i else -1
+
+-- | Whether of two neighbours that hardly turn the one lies in a cone behind their joint and the other before it.
+straightOn :: Segment -> Segment -> Bool
+straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, setting) in abs (Vec.cross u v) <= tan 0.1 * Vec.dot u v)
+  where
+    -- Directions, not of length 1.
+    arriving = case a of
+      Straight p q -> Vec.to p q
+      Arc {end, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre end))
+    setting = case b of
+      Straight p q -> Vec.to p q
+      Arc {start, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre start))
+    hardlyTurns s = case s of
+      Straight _ _ -> True
+      Arc {sweep = Rad t} -> abs t <= 1
+
+-- | A neighbour that runs back along the way it came meets it at its middle.
+retraced :: Segment -> Segment -> [Point]
+retraced s other = [middle | Distance.toPoint middle longer <= Tolerance.coincident]
+  where
+    (shorter, longer) = if Segment.length s <= Segment.length other then (s, other) else (other, s)
+    middle = Segment.at 0.5 shorter
