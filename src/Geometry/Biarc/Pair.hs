@@ -27,7 +27,7 @@ data Pair = Pair
     bend1 :: Double,
     -- | the tangent of a quarter of what it turns by
     bulge1 :: Double,
-    joint :: Pose,
+    joint :: {-# UNPACK #-} Pose,
     bend2 :: Double,
     bulge2 :: Double
   }
@@ -108,7 +108,7 @@ ratio sinA cosA sinB cosB
 {-# NOINLINE ratio #-}
 
 -- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it turns by.
-data Frame = Frame {origin :: Pose, bend :: Double, limit :: Pose, cosine :: Double, sine :: Double}
+data Frame = Frame {origin :: {-# UNPACK #-} Pose, bend :: Double, limit :: {-# UNPACK #-} Pose, cosine :: Double, sine :: Double}
 
 -- | From its beginning, its curvature in 1/mm and its end.
 frame :: Pose -> Double -> Pose -> Frame

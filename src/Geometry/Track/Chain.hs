@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
 -- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
 --
@@ -177,9 +178,8 @@ apart chain most first u from final v to pair
     -- The chain's own direction.
     begin = advanced (curvature chain first) (beginning chain first) (u - station chain first)
     unknown = Off (1 / 0) (1 / 0)
-    one = frame from (bend1 pair) (if single pair then to else joint pair)
-    two = frame (joint pair) (bend2 pair) to
-    -- Most of what is too far off is so at one of a few places.
+    !one = frame from (bend1 pair) (if single pair then to else joint pair)
+    !two = frame (joint pair) (bend2 pair) to
     -- Most of what is too far off is so at one of a few places.
     strays = final - first >= 4 && (stray 1 || stray 2 || stray 3)
     stray k = let p = beginning chain (first + k * (final - first) `quot` 4) in abs (level (if single pair || beyond one p < 0 then one else two) p) > most

@@ -1,3 +1,6 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
+
 -- | Biarcs along cubic spans, with a bound of their distance in closed form.
 --
 -- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the curvature k is where
@@ -99,8 +102,8 @@ apart xs ys most first u from _ v to pair
   where
     start = Reached first (u - fromIntegral first) 0
     unknown = Off (1 / 0) (1 / 0)
-    one = frame from (bend1 pair) (if single pair then to else joint pair)
-    two = frame (joint pair) (bend2 pair) to
+    !one = frame from (bend1 pair) (if single pair then to else joint pair)
+    !two = frame (joint pair) (bend2 pair) to
 
 -- | A place on the curve, its span and the span's own parameter, and the distance up to there.
 data Reached = Reached Int Double Double

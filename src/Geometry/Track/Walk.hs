@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The walk along a stretch of a curve without corners in biarcs that go as far as they may: what all curves share whose
 -- deviation from a biarc is known in closed form.
 module Geometry.Track.Walk
@@ -49,11 +51,11 @@ data Spans = Spans
 along :: Vertices s -> Double -> Stretch -> Spans -> ST s ()
 along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pose, off, other, patient} = go inSpan begin (pose inSpan begin) first 0
   where
-    go i u from step bending
+    go !i !u !from !step !bending
       | u >= final = pure ()
       | otherwise = search tries i u from (Last step bending) Held {reach = u, chords = 1} (1 / 0) 1 (if final - u <= 1.5 * step then final else u + step)
     -- Between the biarc that held and reached furthest (u when none has) and the nearest parameter that was missed.
-    search left i u from before held missed r v
+    search !left !i !u !from before !held !missed !r !v
       | v <= u || left <= 0 = settled i u from before held
       | d <= aim =
         if v >= final || d >= enough * aim || missed - v <= narrow * (v - u)
@@ -86,7 +88,7 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
           | v > u -> mapM_ written (NonEmpty.toList segments) >> (let j = seek i v in go j v (pose j v) (v - u) 0)
           | otherwise -> pure ()
     -- Where the curvature does not change evenly, longer biarcs can hold where shorter ones do not.
-    longer i u from before j v to pair step
+    longer !i !u !from before !j !v !to !pair !step
       | not patient || v >= final || single pair || abs (rate - lastRate before) <= even' * abs rate = taken j from v to pair step rate
       | otherwise = beyond 0
       where
@@ -107,7 +109,7 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
               where
                 pair' = Pair.joined (case tried of 0 -> 1; 1 -> 0.7; 2 -> 1.4; 3 -> 0.5; 4 -> 2; 5 -> 0.35; _ -> 2.8) from at
                 Off d1 d2 = off aim i u from l w at pair'
-    taken j from v to pair step rate = do
+    taken !j !from !v !to !pair !step !rate = do
       Vertices.push vertices (px from) (py from) (bulge1 pair)
       if single pair then pure () else Vertices.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
       go j v to step rate
