@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | From the path to the frames of a machine: arcs where it walks them, else chords within the tolerance; positions in
 -- whole pulses; moves split to fit their fields; feeds, braking and commands as the machine takes them.
 module Frame.FromPath
@@ -9,12 +11,11 @@ module Frame.FromPath
 where
 
 import Base.Lattice (V3 (..))
-import Base.Quantity (Feed (..), Mm (..), Pulses (..), plus)
+import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
-import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrd)
-import Data.List (mapAccumL, minimumBy, scanl')
+import Data.List (foldl', mapAccumL, minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -28,20 +29,19 @@ import Frame.Chord qualified as Chord
 import Frame.Curve qualified as Curve
 import Frame.Error (Error (..), Warning (..))
 import Frame.Feed qualified as Feed
-import Frame.Frame (Frame (..), Motion (Round, Straightway), Planned (Planned, frame), Program (Program), Role (..))
+import Frame.Frame (Frame (..), Motion (Round, Straightway), Planned (Planned), Program (Program), Role (..))
 import Frame.Frame qualified as Frame
-import Frame.Order (Waiting (..))
+import Frame.FrameCheck qualified as FrameCheck
+import Frame.Order (Told, Waiting (..))
 import Frame.Order qualified as Order
 import Frame.Pulses qualified as Pulses
 import Frame.Task (Drive (..), Task (..))
 import Frame.Task qualified as Task
-import Geometry.Box qualified as Box
+import Frame.TaskCheck qualified as TaskCheck
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Arcs (..), Axis (..), FeedCode (..), FeedMeasure (..), Machine)
+import Machine.Machine (Arcs (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..), Spot (..))
 import Part.Part qualified as Part
@@ -49,41 +49,32 @@ import Path.FromPart qualified as Path
 import Path.Path (Move (..), Path)
 import Path.Path qualified as Path
 
--- | A frame with the feed that the program asks there, if it is the program that does.
-data Made = Made {planned :: Planned, asked :: Maybe (Located Feed)}
-
 -- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an increment is
 -- the difference of two of them, so rounding never adds up. What keeps the frames from being made at all, or from being few
--- enough, is looked for first.
+-- enough, is looked for before they are made.
 quantise :: Machine -> Path -> Result Warning Error Program
 quantise machine path = case nubOrd (early <> late) of
   [] -> Result warnings [] (Just (Program begin frames))
   problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
   where
-    tasks = Braking.applied machine (Task.tasksOf machine path)
-    moves = [t | t@Run {} <- tasks]
-    commands = [told | Order _ told <- tasks]
     Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
-    made = framesOf machine fromRegion begin tasks
-    frames = map planned made
-    warnings = nubOrd (startWarning <> feedWarnings machine made <> take 1 (mapMaybe heightWarning moves) <> byHand)
+    looks = Looks {machine, early = TaskCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}
+    made = ended looks (foldl' (next looks) (nothingFrom fromRegion begin) (Braking.applied machine (Task.tasksOf machine path)))
+    frames = reverse (latest made)
+    commands = reverse (told made)
+    warnings = nubOrd (startWarning <> FrameCheck.warnings (seen made) <> TaskCheck.unsure (looked made) <> byHand)
     startWarning =
-      let at = Frame.position machine begin
-       in [StartRounded fromRegion fromPoint at | not (Vec.near at fromPoint)]
-    heightWarning task = listToMaybe [HeightUnsure (origin m) | Machine.capacity machine Z > 0, Z `notElem` Machine.driven machine, m <- NonEmpty.toList (run task), uncurry (/=) (heights m)]
+      let at' = Frame.position machine begin
+       in [StartRounded fromRegion fromPoint at' | not (Vec.near at' fromPoint)]
     byHand = concatMap Order.warnings commands
-    boundless = mapMaybe (reachProblem fromRegion fromPoint) moves <> tooLong machine moves
-    early = mapMaybe (toleranceProblem machine) (Path.blocks path) <> mapMaybe (feedProblem machine) moves <> boundless <> concatMap Order.errors commands <> tooManyContours machine path
+    boundless = TaskCheck.boundless (looked made)
+    early = mapMaybe (toleranceProblem machine) (Path.blocks path) <> TaskCheck.feedless (looked made) <> boundless <> concatMap Order.errors commands <> tooManyContours machine path
     late
-      | null boundless = case drop mostFrames made of
-        p : _ -> [TooManyFrames (Frame.origin (planned p)) mostFrames]
-        [] -> frequencyProblems machine made <> placeProblems machine begin frames
+      | null boundless = case drop TaskCheck.mostFrames frames of
+        p : _ -> [TooManyFrames (Frame.origin p) TaskCheck.mostFrames]
+        [] -> FrameCheck.errors (seen made)
       | otherwise = []
-
--- | More frames than this are 38 km of tape.
-mostFrames :: Int
-mostFrames = 1000000
 
 -- What stands against it ---------------------------------------------------------------------------
 
@@ -101,87 +92,6 @@ toleranceProblem machine block = case block of
       where
         allowed = uncurry max (Part.deepest (Part.tolerance job))
 
--- | A feed along the path that no code gives, whatever the frames.
-feedProblem :: Machine -> Task -> Maybe Error
-feedProblem machine task = case (Machine.feedMeasure (Machine.feeds machine), task) of
-  (AlongPath, Run {drive = Asked, run}) | At (Located region (Feed v)) <- pace (NonEmpty.head run) -> case Machine.choose machine v of
-    Machine.NoSuchFeed low high -> Just (FeedMissing region (Feed v) (Feed low) (Feed high))
-    Machine.Given _ _ -> Nothing
-  _ -> Nothing
-
--- | Feeds for which the axis that leads in a frame finds no code; one for each feed of the program.
-frequencyProblems :: Machine -> [Made] -> [Error]
-frequencyProblems machine made = case Machine.feedMeasure (Machine.feeds machine) of
-  AlongPath -> []
-  LeadingAxis -> Map.elems (Map.fromListWith (\_ first -> first) [((region, v), e) | Made {planned, asked = Just (Located region v)} <- made, Just e <- [problem region v (frame planned)]])
-  where
-    problem region v f = case Feed.codeFor machine v f way of
-      Machine.Given _ _ -> Nothing
-      Machine.NoSuchFeed low high -> Just (FrequencyMissing region v (Feed.valueFor machine v f way) (low, Feed.alongAxis machine low) (high, Feed.alongAxis machine high))
-      where
-        way = Feed.wayOf machine f
-
--- | A feed obtained that differs from the one asked by more than this share is worth a warning.
-feedSlack :: Double
-feedSlack = 0.1
-
--- | One warning for each feed of the program that some frame does not meet, with all that its frames obtain.
-feedWarnings :: Machine -> [Made] -> [Warning]
-feedWarnings machine frames = [FeedDiffers region (Feed v) (Feed low) (Feed high) | ((region, Feed v), Range low high) <- Map.toList (ranges Map.empty frames), max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v]
-  where
-    ranges found todo = case todo of
-      [] -> found
-      Made {asked = Nothing} : rest -> ranges found rest
-      Made {asked = Just (Located region v)} : _ -> along found region v nothing Nothing todo
-    -- Neighbours mostly ask the same; along the path the same code gives the same.
-    along found region v range code todo = case todo of
-      Made {planned, asked = Just (Located region' v')} : rest
-        | region' == region && v' == v ->
-          let f = frame planned
-           in if alongPath && code == Just (speed f) then along found region v range code rest else along found region v (reaching range (obtained v f)) (Just (speed f)) rest
-      _ -> ranges (if range == nothing then found else Map.insertWith reaching (region, v) range found) todo
-    alongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath
-    -- A feed that there is not is no matter of a warning.
-    obtained v f =
-      let way = Feed.wayOf machine f
-       in case (Feed.codeFor machine v f way, Feed.given machine f way) of
-            (Machine.Given _ _, Just (Feed g)) -> Range g g
-            _ -> nothing
-
--- | From the lowest to the highest feed in mm/min.
-data Range = Range Double Double
-  deriving stock (Eq)
-
-nothing :: Range
-nothing = Range (1 / 0) (-(1 / 0))
-
-reaching :: Range -> Range -> Range
-reaching (Range a b) (Range c d) = Range (min a c) (max b d)
-
-reachProblem :: Region -> Point -> Task -> Maybe Error
-reachProblem fromRegion fromPoint task = case task of
-  Order _ _ -> Nothing
-  Run {run} -> listToMaybe (mapMaybe reachOf (NonEmpty.toList run))
-  where
-    reachOf m =
-      let Box.Box l b r t = Box.ofSegment (segment m)
-       in beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> beyond fromRegion fromPoint
-    beyond region p = if max (abs (Vec.x p)) (abs (Vec.y p)) <= limit then Nothing else Just (OutOfReach region p Tolerance.reach)
-    Mm limit = Tolerance.reach
-
--- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
--- are no more than the moves.
-tooLong :: Machine -> [Task] -> [Error]
-tooLong machine = go 0
-  where
-    go :: Int -> [Task] -> [Error]
-    go n moves = case moves of
-      [] -> []
-      t : rest -> let now = n + count t in if now > mostFrames then [TooManyFrames (origin (NonEmpty.head (run t))) mostFrames] else go now rest
-    count task = case Machine.arcs machine of
-      Arcs {} | Pulses.isLevel machine (run task) -> 1
-      _ -> Chord.frameCount mostFrames machine (Chord.rounding machine (allowed task)) (run task)
-
 -- | Machined contours, each counted once for all of its passes.
 tooManyContours :: Machine -> Path -> [Error]
 tooManyContours machine path = case Machine.mostContours (Machine.limits machine) of
@@ -196,58 +106,65 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
       Path.Holing _ _ -> Nothing
       Path.Commanding _ -> Nothing
 
--- | Moves along axes that there are not, and positions that do not fit their fields; of each the first.
-placeProblems :: Machine -> V3 -> [Planned] -> [Error]
-placeProblems machine begin frames = take 1 missing <> take 1 beyond
-  where
-    missing = [NoSuchAxis (Frame.origin p) axis | not (null lacking), p <- frames, axis <- lacking, Pulses.component axis (increment (frame p)) /= 0]
-    lacking = [axis | (axis, most) <- capacities, most == 0]
-    beyond = case Machine.measure (Machine.layout machine) of
-      Machine.Increments -> []
-      Machine.Positions -> [BeyondField (Frame.origin p) axis (mm axis n) (mm axis most) | (p, at) <- zip frames (drop 1 places), (axis, most) <- fields, let n = Pulses.component axis at, abs n > most]
-    places = scanl' (\at p -> at + increment (frame p)) begin frames
-    fields = filter ((> 0) . snd) capacities
-    capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
-    mm axis (Pulses n) = let Mm grain = Machine.pulseOf machine axis in Mm (fromIntegral n * grain)
-
 -- The frames --------------------------------------------------------------------------------------
 
--- | The frames of all tasks from a position. Commands stand in the frame of the next move, where they find room; behind
--- the last move in a frame of their own, and then what always ends a program.
-framesOf :: Machine -> Region -> V3 -> [Task] -> [Made]
-framesOf machine fromRegion = go Nothing fromRegion
-  where
-    go waiting here at tasks = case tasks of
-      [] -> maybe [] (pure . alone) waiting <> ending here
-      Order place told : rest ->
-        let (now, waiting') = Order.add machine place (Order.numbers told) waiting
-         in map alone now <> go waiting' place at rest
-      task@Run {} : rest ->
-        let mine = runFrames machine at task
-            final = NonEmpty.last (run task)
-            finish = Pulses.rounded machine (Segment.end (segment final), snd (heights final))
-         in case (waiting, mine) of
-              (Just w, first : more) -> ordered (given w) first : more <> go Nothing (origin final) finish rest
-              _ -> mine <> go waiting (origin final) finish rest
-    ordered orders m = let p = planned m in m {planned = p {frame = (frame p) {orders = orders}}}
-    alone w = commanding (place w) (given w)
-    commanding region orders = Made (Planned (Frame.still orders) Commanding region (Mm 0)) Nothing
-    ending here = [commanding here orders | orders <- Order.atTheEnd machine]
+-- | What is the same for all tasks and frames.
+data Looks = Looks {machine :: Machine, early :: TaskCheck.Look, late :: FrameCheck.Look}
 
--- | The frames of one run from where the last one ended.
-runFrames :: Machine -> V3 -> Task -> [Made]
-runFrames machine begin task = case task of
-  Order _ _ -> []
-  Run {role, tool, drive, run = m :| _} ->
-    let asked = case (drive, pace m) of
-          (Asked, At feed) -> Just feed
-          _ -> Nothing
-        go at steps = case steps of
-          [] -> []
-          s : rest -> case frameOf machine drive (pace m) at s of
-            Just f -> Made (Planned f role (origin m) tool) asked : go (stop s) rest
-            Nothing -> go (stop s) rest
-     in go begin (stepsOf machine begin task)
+-- | What has been made of the tasks so far. Each task is taken once, so that none is kept.
+data Making = Making
+  { -- | where the cutter stands, and the place in the program that brought it there
+    at :: V3,
+    here :: Region,
+    -- | commands that no frame holds yet
+    waiting :: Maybe Waiting,
+    -- | frames and commands, the latest first
+    latest :: [Planned],
+    told :: [Told],
+    looked :: TaskCheck.Seen,
+    seen :: FrameCheck.Seen
+  }
+
+nothingFrom :: Region -> V3 -> Making
+nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [], looked = TaskCheck.nothing, seen = FrameCheck.nothing}
+
+-- | Make the frames of the next task. Commands stand in the frame of the next move, where they find room. Once the frames
+-- cannot be made or are too many there are no more of them.
+next :: Looks -> Making -> Task -> Making
+next looks@Looks {machine, early} made task = case task of
+  Order place said ->
+    let (now, waiting') = Order.add machine place (Order.numbers said) (waiting made)
+     in (foldl' (commanding looks) made now) {waiting = waiting', here = place, told = said : told made}
+  Run {run}
+    | TaskCheck.isBounded looked' ->
+      let final = NonEmpty.last run
+          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine (at made) task)
+       in walked {at = Pulses.rounded machine (Segment.end (segment final), snd (heights final)), here = origin final}
+    | otherwise -> made {looked = looked'}
+  where
+    looked' = TaskCheck.see early task (looked made)
+
+-- | Behind the last move commands stand in a frame of their own, and then comes what always ends a program.
+ended :: Looks -> Making -> Making
+ended looks@Looks {machine} made = foldl' (commanding looks) (maybe made (commanding looks made) (waiting made)) [Waiting {place = here made, given} | given <- Order.atTheEnd machine]
+
+-- | A frame that only commands.
+commanding :: Looks -> Making -> Waiting -> Making
+commanding looks made Waiting {place, given} = put looks Rapid (at made) (Planned (Frame.still given) Commanding place (Mm 0)) made
+
+-- | The frame of a step of a task, if it moves anything, with the commands that wait.
+stepped :: Looks -> Task -> Making -> Step -> Making
+stepped looks@Looks {machine} task made s = case task of
+  Order _ _ -> made
+  Run {role, tool, drive, run = m :| _} -> case frameOf machine drive (pace m) (at made) s of
+    Nothing -> made {at = stop s}
+    Just f ->
+      let f' = maybe f (\w -> f {orders = given w}) (waiting made)
+       in put looks (if drive == Asked then pace m else Part.Rapid) (stop s) (Planned f' role (origin m) tool) made {waiting = Nothing}
+
+-- | A frame behind the others: how fast the program asks it to be, where it ends.
+put :: Looks -> Pace -> V3 -> Planned -> Making -> Making
+put Looks {late} asked stop !p made = made {at = stop, latest = p : latest made, seen = FrameCheck.see late asked stop p (seen made)}
 
 -- | The frame of a step; none for one that moves nothing.
 frameOf :: Machine -> Drive -> Pace -> V3 -> Step -> Maybe Frame
@@ -302,4 +219,4 @@ chordStops machine allowed begin run = concat (zipWith (Pulses.split machine) (b
   where
     m = NonEmpty.head run
     first = (Segment.start (segment m), fst (heights m))
-    points = Chord.ends mostFrames machine allowed run
+    points = Chord.ends TaskCheck.mostFrames machine allowed run

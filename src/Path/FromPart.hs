@@ -81,7 +81,7 @@ collect number tool at operations = case operations of
   [] -> ([], [])
   o : rest -> case blocksOf number tool at o of
     Left e -> first (e :) (collect next tool' at rest)
-    Right bs -> (bs <>) <$> collect next tool' (foldl Way.after at (concatMap Path.moves bs)) rest
+    Right bs -> (bs <>) <$> collect next tool' (Way.arriving at (concatMap Path.moves bs)) rest
     where
       next = case o of
         Mill _ -> number + 1
@@ -115,7 +115,7 @@ blocksOf number tool at operation = case operation of
           one before' (n, pieces) = do
             (spot', done') <- before'
             b <- passOf number job (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
-            Right (foldl Way.after spot' (Path.moves b), b : done')
+            Right (Way.arriving spot' (Path.moves b), b : done')
       foldl one (Right (spot, done)) (zip [1 :: Int ..] (NonEmpty.toList found))
 
 -- Machining a contour
@@ -128,18 +128,18 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
   swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
       origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
-      cut = let (p, h) :| rest = NonEmpty.zip pieces swivels in move False h p :| following p rest
-      following previous rest = case rest of
-        [] -> []
-        (piece, h) : more -> let m = move (goesOn previous piece) h piece in m `seq` (m : following piece more)
-      -- Most pieces lie at one height.
+      -- Most pieces lie at one height, and share it.
       level' = (plus z (Mm 0), plus z (Mm 0))
-      raised (a, b) = if a == Mm 0 && b == Mm 0 then level' else (plus z a, plus z b)
+      raised = maybe (NonEmpty.repeat level') (fmap (\(a, b) -> (plus z a, plus z b))) swivels
+      cut = move False (NonEmpty.head raised) (NonEmpty.head pieces) :| following pieces (NonEmpty.tail raised)
+      following (previous :| rest) hs = case (rest, hs) of
+        (piece : more, h : higher) -> let m = move (goesOn previous piece) h piece in m `seq` (m : following (piece :| more) higher)
+        _ -> []
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
       -- A feed of its own holds on the element, not round its corners; nor does it slow down there.
-      move continues h piece =
+      move continues heights piece =
         let e = origins Vector.! numberOf piece
             own = case Offset.origin piece of
               Offset.Along _ -> Part.ownFeed (Part.finish e)
@@ -147,7 +147,7 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
             slows = case Offset.origin piece of
               Offset.Along _ -> Part.slow (Part.finish e)
               Offset.Around _ -> False
-         in Move (Offset.segment piece) (raised h) (maybe pace Part.At own) slows (Part.origin e) continues
+         in Move (Offset.segment piece) heights (maybe pace Part.At own) slows (Part.origin e) continues
       -- Behind an arc in which the cutter stands still there may be a corner.
       goesOn previous piece = case (Offset.origin previous, Offset.origin piece) of
         (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
@@ -163,7 +163,7 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
       begin = maybe entry (Segment.start . Path.segment) (listToMaybe leadIn)
       finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
       -- The axis of a blade stands higher or lower.
-      (inZ, outZ) = (plus z (fst (NonEmpty.head swivels)), plus z (snd (NonEmpty.last swivels)))
+      (inZ, outZ) = if null swivels then level' else (fst (NonEmpty.head raised), snd (NonEmpty.last raised))
       level h m = m {Path.heights = (h, h)}
       visit = Visit {Way.word = keyword region, Way.milling, Way.isFirst, Way.isLast, Way.from = at}
       (before, behind') = case (Part.levels milling, Part.clearance milling) of
@@ -326,10 +326,12 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       Holing (Located _ d) ms -> map hole (concatMap (intrusion (Part.drillRadius d) Nothing) ms)
       Cutting {job = Located at milling, pass, approach, cut, retract} ->
         concatMap (intrusion (radius milling) Nothing) (approach <> retract)
-          <> take 1 (concatMap (map (another (keyword at)) . intrusion (radius milling) (Just (number pass))) (NonEmpty.toList cut))
+          <> take 1 (concatMap (map (another (keyword at)) . intrusion (radius milling) (Just (number pass))) (if isAlone (number pass) then [] else NonEmpty.toList cut))
       Clearing {pocket = Located at p, approach, cleared, retract} ->
         let tool = radius (Part.wall p)
          in concatMap (intrusion tool Nothing) (approach <> retract) <> take 1 (concatMap (map (another (Way.keyword 6 at)) . intrusion tool Nothing) (NonEmpty.toList cleared))
+    -- Where nothing else is machined the cuts along a contour meet nothing else.
+    isAlone own = all (\(n, _, _) -> n == own) jobs
     -- A cut along another contour is no way that could be chosen otherwise.
     another word e = case e of
       CutsPart milled _ element deep _ p -> MillsAnother word milled element deep p

@@ -121,7 +121,11 @@ passNumbers = scanl (\n b -> if isPass b then n + 1 else n) 0
 
 -- | Moves in order, those together that go along one curve: each but the first continues the one before.
 runs :: [Move] -> [NonEmpty Move]
-runs = NonEmpty.groupBy (\_ m -> continues m)
+runs ms = case ms of
+  [] -> []
+  -- Most moves are alone.
+  m : rest@(following : _) | not (continues following) -> (m :| []) : runs rest
+  m : rest -> let (along, others) = span continues rest in (m :| along) : runs others
 
 -- | Whether a run goes along a curve that is replaced by arcs, rather than along one line or arc.
 isCurve :: NonEmpty Move -> Bool

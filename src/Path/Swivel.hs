@@ -25,15 +25,15 @@ import Part.Part qualified as Part
 import Path.Error (Error (..))
 
 -- | For every piece of an equidistant by how much the axis stands above its middle position, at the beginning and at
--- the end of the piece; in mm.
-axis :: Region -> Milling -> Maybe Side -> NonEmpty Piece -> Either Error (NonEmpty (Mm, Mm))
+-- the end of the piece; in mm. Nothing for a tool that does not swivel.
+axis :: Region -> Milling -> Maybe Side -> NonEmpty Piece -> Either Error (Maybe (NonEmpty (Mm, Mm)))
 axis region milling side pieces = case Part.gear milling of
-  Nothing -> Right (fmap (const (Mm 0, Mm 0)) pieces)
+  Nothing -> Right Nothing
   Just gear -> do
     leans <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
     sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
     smooth region elements leans pieces
-    Right (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles leans pieces))
+    Right (Just (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles leans pieces)))
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
     signOf s = case s of

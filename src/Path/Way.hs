@@ -6,6 +6,7 @@ module Path.Way
     ways,
     rise,
     after,
+    arriving,
     keyword,
   )
 where
@@ -77,6 +78,13 @@ ways at stops = case stops of
 -- | Where a move ends.
 after :: Spot -> Move -> Spot
 after _ m = Spot (Segment.end (Path.segment m)) (snd (Path.heights m))
+
+-- | Where moves from a place end.
+arriving :: Spot -> [Move] -> Spot
+arriving from ms = case ms of
+  [] -> from
+  [m] -> after from m
+  _ : more -> arriving from more
 
 -- | The first word of a statement, of so many letters.
 keyword :: Int -> Region -> Region

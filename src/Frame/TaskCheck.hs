@@ -1,0 +1,154 @@
+{-# LANGUAGE BangPatterns #-}
+
+-- | What stands against tasks before their frames are made, and what is to be told of them: they are looked at one by one, in
+-- order.
+module Frame.TaskCheck
+  ( Look,
+    lookFrom,
+    Seen,
+    nothing,
+    see,
+    isBounded,
+    feedless,
+    boundless,
+    unsure,
+    mostFrames,
+  )
+where
+
+import Base.Quantity (Feed (..), Mm (..))
+import Base.Region (Located (..), Region)
+import Control.Applicative ((<|>))
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
+import Frame.Chord qualified as Chord
+import Frame.Error (Error (..), Warning (..))
+import Frame.Pulses qualified as Pulses
+import Frame.Task (Drive (..), Task (..))
+import Geometry.Box qualified as Box
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Pace (..))
+import Path.Path (Move (..))
+
+-- | More frames than this are 38 km of tape.
+mostFrames :: Int
+mostFrames = 1000000
+
+-- | What is the same for all tasks.
+data Look = Look
+  { machine :: Machine,
+    -- | whether the feed of a frame does not depend on where it goes
+    isAlongPath :: Bool,
+    -- | whether heights stand on the tape, but nothing is known to move there
+    areHeightsUnsure :: Bool,
+    -- | the beginning of the path, if it lies too far away
+    tooFar :: Maybe Error
+  }
+
+-- | On a machine, from a point and the place in the program that names it.
+lookFrom :: Machine -> Region -> Point -> Look
+lookFrom machine fromRegion fromPoint =
+  Look
+    { machine,
+      isAlongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath,
+      areHeightsUnsure = Machine.capacity machine Z > 0 && Z `notElem` Machine.driven machine,
+      tooFar = beyond fromRegion fromPoint
+    }
+
+-- | What the tasks so far have shown, the latest first.
+data Seen = Seen
+  { -- | the pace that was looked at last
+    lastPace :: Pace,
+    -- | feeds along the path that no code gives, whatever the frames
+    noCode :: [Error],
+    -- | places that are too far away, at most one of a run
+    distant :: [Error],
+    -- | as many frames as can be counted without making them
+    count :: Int,
+    -- | where they become too many
+    overlong :: Maybe Error,
+    -- | the first move that changes the height unsurely
+    rising :: Maybe Warning
+  }
+
+nothing :: Seen
+nothing = Seen {lastPace = Rapid, noCode = [], distant = [], count = 0, overlong = Nothing, rising = Nothing}
+
+-- | Whether the frames of all tasks so far can be made, and are not too many.
+isBounded :: Seen -> Bool
+isBounded seen = null (distant seen) && null (overlong seen)
+
+feedless :: Seen -> [Error]
+feedless = reverse . noCode
+
+boundless :: Seen -> [Error]
+boundless seen = reverse (distant seen) <> maybeToList (overlong seen)
+
+unsure :: Seen -> [Warning]
+unsure = maybeToList . rising
+
+-- | Look at the next task.
+see :: Look -> Task -> Seen -> Seen
+see look task before = case task of
+  Order _ _ -> before
+  Run {} -> counted look task (reached look (run task) (risen look (run task) (fed look task before)))
+
+fed :: Look -> Task -> Seen -> Seen
+fed look task before = case (drive task, asked) of
+  (Asked, At (Located region (Feed v)))
+    | isAlongPath look && asked /= lastPace before -> case Machine.choose (machine look) v of
+      Machine.NoSuchFeed low high -> before {lastPace = asked, noCode = FeedMissing region (Feed v) (Feed low) (Feed high) : noCode before}
+      Machine.Given _ _ -> before {lastPace = asked}
+  _ -> before
+  where
+    asked = pace (NonEmpty.head (run task))
+
+risen :: Look -> NonEmpty Move -> Seen -> Seen
+risen look moves before
+  | areHeightsUnsure look, Nothing <- rising before = before {rising = listToMaybe [HeightUnsure (origin m) | m <- NonEmpty.toList moves, uncurry (/=) (heights m)]}
+  | otherwise = before
+
+reached :: Look -> NonEmpty Move -> Seen -> Seen
+reached look moves before
+  | null (tooFar look) && all (isNear . segment) moves = before
+  | otherwise = maybe before (\e -> before {distant = e : distant before}) (listToMaybe (mapMaybe problem (NonEmpty.toList moves)))
+  where
+    problem m =
+      let Box.Box l b r t = Box.ofSegment (segment m)
+       in beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> tooFar look
+
+-- | Whether a segment is surely within reach; of an arc its whole circle is looked at.
+isNear :: Segment -> Bool
+isNear s = case s of
+  Straight a b -> isWithin 0 a && isWithin 0 b
+  Arc {start = from, centre} -> let Mm r = Segment.radius centre from in isWithin r centre
+
+-- | Whether a point is no further from the middle than the reach less so many mm, along both axes.
+isWithin :: Double -> Point -> Bool
+isWithin less p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - less
+  where
+    Mm limit = Tolerance.reach
+
+beyond :: Region -> Point -> Maybe Error
+beyond region p = if isWithin 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
+
+-- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
+-- are no more than the moves.
+counted :: Look -> Task -> Seen -> Seen
+counted look task before = case overlong before of
+  Just _ -> before
+  Nothing
+    | now > mostFrames -> before {overlong = Just (TooManyFrames (origin (NonEmpty.head (run task))) mostFrames)}
+    | otherwise -> before {count = now}
+  where
+    !now =
+      count before + case Machine.arcs (machine look) of
+        Arcs {} | Pulses.isLevel (machine look) (run task) -> 1
+        _ -> Chord.frameCount mostFrames (machine look) (Chord.rounding (machine look) (allowed task)) (run task)
