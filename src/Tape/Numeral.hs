@@ -32,6 +32,8 @@ data Numeral = Numeral
     -- | the row behind it
     next :: Int,
     value :: Int,
+    -- | how many digits it has
+    places :: Int,
     bits :: [(OrderName, Int)],
     brakes :: Bool,
     -- | what its symbols add to
@@ -54,6 +56,7 @@ numeral plan c f rows begin = do
           { start = begin,
             next = at ds,
             value = if negative ds then negate (amount ds) else amount ds,
+            places = at ds - behind - (if decimals f > 0 then 1 else 0),
             bits = told ds,
             brakes = slow ds,
             total = count ds

@@ -16,6 +16,7 @@ module Tape.Plan
     frameMarks,
     foldRows,
     mostRows,
+    digitCount,
     blanks,
     constant,
     after,
@@ -60,7 +61,9 @@ data Plan = Plan
     -- | whether a feed that is said holds on
     keepsFeed :: Bool,
     -- | whether frames have a check digit
-    isChecked :: Bool
+    isChecked :: Bool,
+    -- | whether a number and how many digits it has are all that can differ in a word
+    isPlain :: Bool
   }
 
 data Step
@@ -85,10 +88,12 @@ fromMachine machine =
       commands = nub (concatMap commandsOf ws),
       motions = listToMaybe [(w, codes) | w <- ws, Motion codes <- [content w]],
       keepsFeed = or [presence w == WhenChanged | w <- ws, content w == FeedWord],
-      isChecked = not (null [() | Checked _ <- steps])
+      isChecked,
+      isPlain = not isChecked && all (plainForm . form) ws
     }
   where
     steps = map step (NonEmpty.toList (Machine.items (Machine.layout machine)))
+    isChecked = not (null [() | Checked _ <- steps])
     between = text (Machine.separator (Machine.layout machine))
     symbols = Symbol.fromMachine machine
     ws = Machine.wordsOf machine
@@ -98,6 +103,17 @@ fromMachine machine =
       AWord w -> let cs = text (address w) in Worded w cs (between <> cs)
       CheckDigit m -> Checked m
     commandsOf w = [(o, State.zeroCommands w) | Command o <- [content w]] <> [(o, False) | OrderBit o _ <- service (form w)]
+
+-- | Whether a number of this form says nothing but itself.
+plainForm :: NumberForm -> Bool
+plainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f)
+  where
+    isPlainSign s = case s of
+      Unsigned -> True
+      ServiceSign -> False
+      MinusSign -> True
+      EitherSign -> True
+      Priority {} -> False
 
 -- | A row and what it is for.
 data Mark = Mark {holes :: Word8, weight :: Int, sense :: Sense}
@@ -183,8 +199,24 @@ foldBare mark total p state frame = go False (steps p)
         | otherwise -> single (InWord (content w) n (SignSymbol '+')) (plus p) before
       Priority leadForth leadBack forth back -> lead w n (if leads p frame (content w) then (if n < 0 then leadBack else leadForth) else (if n < 0 then back else forth)) before
     lead w n d = figure (InWord (content w) n (Lead d)) (d `mod` 10)
-    numeral w n = let f = form w; places = digitCount f (abs n) in figures (InWord (content w) n) n (decimals f) (places - 1) (service f) (lowest places (abs n))
+    numeral w n = case service f of
+      [] -> plainFigures use (decimals f) (places - 1) left
+      services -> figures use n (decimals f) (places - 1) services left
+      where
+        f = form w
+        use = InWord (content w) n
+        places = digitCount f (abs n)
+        left = lowest places (abs n)
+    pointAt use pointed k before = if k == pointed - 1 then single (use Point) (point p) before else pure before
     -- The digits of what is left from a place on.
+    plainFigures use pointed k !left !before
+      | k < 0 = pure before
+      | otherwise = do
+        let d = left `quot` power k
+        ready <- pointAt use pointed k before
+        behind <- figure (use (Digit d k NoHole False)) d ready
+        plainFigures use pointed (k - 1) (left - d * power k) behind
+    -- The same with a service track.
     figures use n pointed k !services !left !before
       | k < 0 = pure before
       | otherwise = do
@@ -194,7 +226,7 @@ foldBare mark total p state frame = go False (steps p)
               now : _ -> now
             hole = punched frame n s
             !holes = if hole then Symbol.serviceDigit (symbols p) d else Symbol.digit (symbols p) d
-        ready <- if k == pointed - 1 then single (use Point) (point p) before else pure before
+        ready <- pointAt use pointed k before
         behind <- mark ready holes (Symbol.digitWeight (symbols p) d) (use (Digit d k s hole))
         figures use n pointed (k - 1) (drop 1 services) (left - d * power k) behind
 {-# INLINE foldBare #-}

@@ -136,11 +136,13 @@ data Source = Source
     -- | those that are passed over
     skipped :: ByteString,
     -- | the medium, as far as blank rows are kept
-    grid :: Medium
+    grid :: Medium,
+    -- | the symbols behind the last frame
+    ending :: [Symbol]
   }
 
 sourceOf :: Plan -> ByteString -> Source
-sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped, grid}
+sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped, grid, ending = symbolsOf plan (closing medium)}
   where
     medium = Machine.medium (Plan.machine plan)
     skipped = case spare medium of
@@ -210,11 +212,13 @@ framesFrom source = go []
 
 -- | The row behind blank ones.
 blankRows :: Source -> Reason -> Int -> Int -> Either Fault Int
-blankRows source why n at = case ByteString.findIndex (/= 0) stretch of
-  Just k -> Left (Fault (at + k) Nothing why)
-  Nothing
-    | ByteString.length stretch < n -> Left (Fault (ByteString.length (kept source) - 1) Nothing CutOff)
-    | otherwise -> Right (at + n)
+blankRows source why n at
+  | n <= 0 = Right at
+  | otherwise = case ByteString.findIndex (/= 0) stretch of
+    Just k -> Left (Fault (at + k) Nothing why)
+    Nothing
+      | ByteString.length stretch < n -> Left (Fault (ByteString.length (kept source) - 1) Nothing CutOff)
+      | otherwise -> Right (at + n)
   where
     stretch = ByteString.take n (ByteString.drop at (kept source))
 
@@ -248,7 +252,7 @@ tailAt source at = case Reading.expect (plan source) (line source) first cs of
   Right behind | ByteString.all (== 0) (ByteString.drop behind (kept source)) -> Just (ByteString.length (kept source) - behind)
   _ -> Nothing
   where
-    cs = symbolsOf (plan source) (closing (grid source))
+    cs = ending source
     first = case spare (grid source) of
       Counted -> at
       Skipped -> if null cs then at else blankFrom source at

@@ -35,18 +35,59 @@ import Tape.State qualified as State
 import Tape.Symbol (Symbol)
 import Tape.Symbol qualified as Symbol
 
--- | What the words of a frame say, each with the row of its number.
+-- | What the words of a frame say; no two of them say the same.
 data Reading = Reading
-  { found :: [Said],
+  { frameNumber :: Maybe Said,
+    motionCode :: Maybe Said,
+    alongX :: Maybe Said,
+    alongY :: Maybe Said,
+    alongZ :: Maybe Said,
+    centreX :: Maybe Said,
+    centreY :: Maybe Said,
+    feedCode :: Maybe Said,
+    -- | the words of commands, and a centre's third
+    others :: [(Content, Said)],
     commands :: [(Machine.OrderName, Int)],
     braked :: Bool,
-    -- | what the symbols add to so far
+    -- | what the symbols add to, if frames have a check digit
     total :: Int,
     -- | the row of the check digit, and of what the sum has to be a multiple
     check :: Maybe (Int, Int)
   }
 
-data Said = Said {word :: Content, at :: Int, number :: Int}
+-- | The row of a number, the number, and how many digits it has.
+data Said = Said {at :: Int, number :: Int, places :: Int}
+
+nothing :: Reading
+nothing = Reading Nothing Nothing Nothing Nothing Nothing Nothing Nothing Nothing [] [] False 0 Nothing
+
+-- | The word that was read.
+saidOf :: Reading -> Content -> Maybe Said
+saidOf reading c = case c of
+  FrameNumber -> frameNumber reading
+  Motion _ -> motionCode reading
+  Along X -> alongX reading
+  Along Y -> alongY reading
+  Along Z -> alongZ reading
+  Centre X -> centreX reading
+  Centre Y -> centreY reading
+  Centre Z -> lookup c (others reading)
+  FeedWord -> feedCode reading
+  Command _ -> lookup c (others reading)
+
+-- | With another word.
+saying :: Content -> Said -> Reading -> Reading
+saying c s reading = case c of
+  FrameNumber -> reading {frameNumber = Just s}
+  Motion _ -> reading {motionCode = Just s}
+  Along X -> reading {alongX = Just s}
+  Along Y -> reading {alongY = Just s}
+  Along Z -> reading {alongZ = Just s}
+  Centre X -> reading {centreX = Just s}
+  Centre Y -> reading {centreY = Just s}
+  Centre Z -> reading {others = (c, s) : others reading}
+  FeedWord -> reading {feedCode = Just s}
+  Command o -> reading {others = (c, s) : others reading, commands = (o, number s) : commands reading}
 
 -- | The frame that begins at a row, and the row behind it.
 readFrame :: Plan -> State -> ShortByteString -> Int -> Either Fault (Frame, Int)
@@ -57,39 +98,41 @@ readFrame plan state rows begin = do
     _ -> Right ()
   f <- frameOf plan state begin reading
   lawful plan begin reading f
-  if not (isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
+  if not (isSpelled plan state reading f || isWritten plan state rows begin end f) then written plan rows begin end (Plan.frameMarks plan state f) else Right ()
   Right (f, end)
 
 -- | The words of a frame in order.
 readSteps :: Plan -> ShortByteString -> Int -> Either Fault (Reading, Int)
-readSteps plan rows = go False (Plan.steps plan) (Reading [] [] False 0 Nothing)
+readSteps plan rows = go False (Plan.steps plan) nothing
   where
     go behindWord todo !now !k = case todo of
       [] -> Right (now, k)
-      Fixed cs : more -> do
-        next <- expect plan rows k cs
-        go False more (now {total = total now + weights cs}) next
+      Fixed cs : more
+        | next >= 0 -> go False more (counting cs now) next
+        | otherwise -> Left (mismatch plan Nothing rows k cs)
+        where
+          next = behind rows k cs
       Checked modulus : more -> do
         d <- Numeral.digit plan Nothing rows k
         go False more (now {total = total now + Symbol.digitWeight (Plan.symbols plan) d, check = Just (k, modulus)}) (k + 1)
       Worded w cs joined : more
         | stands -> do
           n <- Numeral.numeral plan (content w) (form w) rows begin
-          go True more (store w n now {total = total now + weights prefix}) (Numeral.next n)
+          go True more (store w n (counting prefix now)) (Numeral.next n)
         | presence w == Always -> Left (mismatch plan (Just (content w)) rows k prefix)
         | otherwise -> go behindWord more now k
         where
           prefix = if behindWord then joined else cs
           begin = behind rows k prefix
           stands = begin >= 0 && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows begin)
-    weights = foldl' (\n c -> n + Symbol.weight c) 0
-    store w n now =
-      now
-        { found = Said (content w) (Numeral.start n) (Numeral.value n) : found now,
-          commands = [(o, Numeral.value n) | Command o <- [content w]] <> Numeral.bits n <> commands now,
-          braked = braked now || Numeral.brakes n,
-          total = total now + Numeral.total n
-        }
+    counting cs now
+      | Plan.isChecked plan = now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
+      | otherwise = now
+    store w n now = beside n (saying (content w) Said {at = Numeral.start n, number = Numeral.value n, places = Numeral.places n} now)
+    -- What the service track says beside a number, and what its digits add.
+    beside n now
+      | null (Numeral.bits n) && not (Numeral.brakes n) && not (Plan.isChecked plan) = now
+      | otherwise = now {commands = Numeral.bits n <> commands now, braked = braked now || Numeral.brakes n, total = total now + Numeral.total n}
 
 -- | The row behind symbols that stand here; below 0 where they do not.
 behind :: ShortByteString -> Int -> [Symbol] -> Int
@@ -123,10 +166,6 @@ insteadOf plan w s = case Numeral.blemish plan w of
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | The word that was read.
-saidOf :: Reading -> Content -> Maybe Said
-saidOf reading c = find ((== c) . word) (found reading)
-
 -- | A fault of a word, or of the frame as a whole.
 faultOf :: Int -> Reading -> Content -> Reason -> Fault
 faultOf begin reading c why = case saidOf reading c of
@@ -136,9 +175,9 @@ faultOf begin reading c why = case saidOf reading c of
 -- | The frame that the words make.
 frameOf :: Plan -> State -> Int -> Reading -> Either Fault Frame
 frameOf plan state begin reading = do
-  mapM_ (numbered plan state) (saidOf reading FrameNumber)
-  let moved = V3 (distance X) (distance Y) (distance Z)
-      V3 i j _ = State.signs axes * V3 (spoken (Centre X)) (spoken (Centre Y)) 0
+  mapM_ (numbered plan state) (frameNumber reading)
+  let moved = V3 (distance X (alongX reading)) (distance Y (alongY reading)) (distance Z (alongZ reading))
+      V3 i j _ = State.signs axes * V3 (spoken (centreX reading)) (spoken (centreY reading)) 0
   m <- motionOf plan begin reading moved
   code <- speedOf plan state begin reading m
   pure
@@ -152,8 +191,8 @@ frameOf plan state begin reading = do
       }
   where
     axes = Plan.axes plan
-    spoken c = maybe 0 (Pulses . number) (saidOf reading c)
-    distance a = case saidOf reading (Along a) of
+    spoken = maybe 0 (Pulses . number)
+    distance a said = case said of
       Nothing -> 0
       Just s ->
         let n = State.along a (State.signs axes) * Pulses (number s)
@@ -173,7 +212,7 @@ numbered plan state s = case find ((== FrameNumber) . content) (Plan.ws plan) of
 motionOf :: Plan -> Int -> Reading -> V3 -> Either Fault Motion
 motionOf plan begin reading moved = case Plan.motions plan of
   Nothing -> Right (if moved == 0 then Still else Straightway)
-  Just (w, codes) -> case saidOf reading (content w) of
+  Just (w, codes) -> case motionCode reading of
     Nothing
       | moved == 0 -> Right Still
       | otherwise -> Left (Fault begin Nothing MoveWithoutMotion)
@@ -190,7 +229,7 @@ motionOf plan begin reading moved = case Plan.motions plan of
     turned a b = if State.mirrored (Plan.axes plan) then b else a
 
 speedOf :: Plan -> State -> Int -> Reading -> Motion -> Either Fault Int
-speedOf plan state begin reading m = case (saidOf reading FeedWord, m) of
+speedOf plan state begin reading m = case (feedCode reading, m) of
   (Nothing, Still) -> Right 0
   (Nothing, Rapid) -> Right 0
   (Nothing, _) -> case feed state of
@@ -225,6 +264,16 @@ lawful plan begin reading f
 
 motionWord :: Plan -> Maybe Content
 motionWord plan = fmap (content . fst) (Plan.motions plan)
+
+-- | Whether each word stands where it would be written for a frame, with its number in as many digits: then the rows are those that
+-- would be written, where a word has nothing else that could differ.
+isSpelled :: Plan -> State -> Reading -> Frame -> Bool
+isSpelled plan state reading f = Plan.isPlain plan && all isAsWritten (Plan.ws plan)
+  where
+    isAsWritten w = case (State.number (Plan.axes plan) state f w, saidOf reading (content w)) of
+      (Nothing, Nothing) -> True
+      (Just n, Just s) -> n == number s && places s == Plan.digitCount (form w) (abs n)
+      _ -> False
 
 -- | Whether the rows of a frame are those that would be written for it.
 isWritten :: Plan -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
