@@ -189,10 +189,10 @@ moving punched = if null (Frame.planned (program punched)) then Result.failed (C
 
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withProgram reporter (file options) (targets options) $ \loaded -> do
-  let laid = analyse loaded `Result.thenSound` \a@Analysis {path = way} -> (way,) <$> chosen loaded (targets options) a
-  Progress.during ("working on " <> name loaded) (computed laid)
-  -- The program as it was read is not kept while its tape is made: a large one takes more room than the tape.
+  -- The program as it was read is not kept while its path is laid and its tape made: a large one takes more room than both.
   let !rest = loaded {texts = Compile.withoutSurface (texts loaded)}
+      laid = analyse loaded `Result.thenSound` \a@Analysis {path = way} -> (way,) <$> chosen rest (targets options) a
+  Progress.during ("working on " <> name rest) (computed laid)
   settle reporter rest (laid `Result.thenSound` \(way, ms) -> traverse (proven (unproven options) way) ms) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (ownFiles (file options) rest) (map fst places)

@@ -99,13 +99,15 @@ blocksOf number tool at operation = case operation of
   Pocket job -> Clearing.blocks number at job
   Mill (Located region given) -> do
     possible region given
-    milling <- oriented region given
+    milling <- asWalked <$> oriented region given
     let job = Located region milling
         passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [standing milling] else Part.levels milling]
     if null (Part.levels milling) && standing milling > Mm 0
       then Left (CutsAir (keyword region) (standing milling))
       else reverse . snd <$> foldl (next job (length passes)) (Right (at, [])) (zip [1 ..] passes)
   where
+    -- How the contour was written is not asked any more; it is much to keep.
+    asWalked milling = milling {contour = (contour milling) {Part.legs = []}}
     -- Without depth the cutter stays at the height to which it was brought last.
     standing milling = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     next job count before (k, (allowance, z)) = do
