@@ -211,8 +211,8 @@ along (Located region milling) allowance = do
   where
     outline = Part.outline (contour milling)
     r = plus (radius milling) allowance
-    finishes = Vector.fromList (map Part.finish (NonEmpty.toList (elements (contour milling))))
-    style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (finishes Vector.! i)}
+    numbered = Vector.fromList (NonEmpty.toList (elements (contour milling)))
+    style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (Part.finish (numbered Vector.! i))}
     refusal = Obstacle.refusal region (Remaining.toolOf milling allowance) (NonEmpty.toList (elements (contour milling)))
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
