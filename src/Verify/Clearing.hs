@@ -55,7 +55,7 @@ import Verify.Passage qualified as Passage
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
 import Verify.Proof qualified
 import Verify.Reachable qualified as Reachable
-import Verify.Trace (Trace (number), box, bridges, courses, heights, line)
+import Verify.Trace (Trace (number), box, courses, heights, line)
 import Verify.Trace qualified as Trace
 
 -- | A pocket, and its passes in the order of the tape.
@@ -88,7 +88,7 @@ pocketOf found@((_, Located statement job, _, _) :| _) = Pocket {statement, mill
     side = fromMaybe LeftOf (fromRight Nothing (Path.leadingSide milling))
     contours = map (NonEmpty.toList . Part.elements) (Part.contour milling : Part.islands job)
     elements = Vector.fromList (concat contours)
-    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.before = 0, Passage.long = 0, Passage.course = Course.ofSegment (Part.segment e)} | e <- Vector.toList elements]
+    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.rank = i, Passage.before = 0, Passage.long = 0, Passage.course = Course.ofSegment (Part.segment e)} | (i, e) <- Vector.toList (Vector.indexed elements)]
     about = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
     away = plus (plus (Part.radius milling) (NonEmpty.last (Part.allowances milling))) margin
     rim = [(elements Vector.! i, s) | (i, s) <- Reachable.rim side away (Nearest.index Box.ofSegment (map Part.segment (Vector.toList elements))) (map (map Part.segment) contours)]
@@ -129,7 +129,7 @@ examine machine flat toolOf traces nearby isOwn pocket isFirst pass = (passage, 
     belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
     spared t = let d = if isOwn t then reach pass else toolOf t in Spared {upTo = d, most = d, required = \_ _ -> d}
     gouges = mapMaybe (\t -> Deviation.gougeOf (spared t) (walls pocket) t) looked
-    deepest = foldl' (\best t -> if Deviation.mayExceed (spared t) best (courses t <> bridges t) (Nearest.within (Box.inflate (upTo (spared t)) (box t)) (walls pocket)) then maybe best (deeper best) (Deviation.gougeOf (spared t) (walls pocket) t) else best) Nothing looked
+    deepest = foldl' (\best t -> if Deviation.mayExceed (spared t) best t (courses t) (Nearest.within (Box.inflate (upTo (spared t)) (box t)) (walls pocket)) then maybe best (deeper best) (Deviation.gougeOf (spared t) (walls pocket) t) else best) Nothing looked
     deeper best w = case best of
       Just b | amount b >= amount w -> best
       _ -> Just w

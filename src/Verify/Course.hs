@@ -9,8 +9,12 @@ module Verify.Course
     spot,
     isLine,
     distance,
+    box,
+    uneven,
+    isFurther,
     apart,
     furthest,
+    furthestFrom,
     isCovered,
     range,
     isLeftOf,
@@ -24,6 +28,8 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Data.List (foldl', sort)
+import Geometry.Box (Box (Box))
+import Geometry.Box qualified as Box
 import Geometry.Segment (Segment (..))
 import Geometry.Vec qualified as Vec
 
@@ -77,6 +83,30 @@ distance course px py = case course of
   Bow ax ay bx by cx cy r _
     | inSector course px py -> abs (hypotenuse (px - cx) (py - cy) - r)
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
+
+-- | A box about it, as 'Box.ofSegment' has it.
+box :: Course -> Box
+box course = case course of
+  Line ax ay bx by -> Box (min ax bx) (min ay by) (max ax bx) (max ay by)
+  Bow ax ay bx by cx cy r s
+    | abs s < pi -> Box.inflate (Mm (2 * r * sin (s / 4) ^ (2 :: Int))) (Box (min ax bx) (min ay by) (max ax bx) (max ay by))
+    | otherwise -> Box (cx - r) (cy - r) (cx + r) (cy + r)
+
+-- | By how much the radii of an arc differ at its ends.
+uneven :: Course -> Double
+uneven course = case course of
+  Line {} -> 0
+  Bow _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
+
+-- | Whether no point of the first course is surely so near to the second: no point of one that does not turn by more than a half turn lies further from
+-- the middle of its ends than they do.
+isFurther :: Double -> Course -> Course -> Bool
+isFurther least e t = case e of
+  Line ax ay bx by -> away ax ay bx by
+  Bow ax ay bx by _ _ _ s -> abs s <= pi && away ax ay bx by
+  where
+    away ax ay bx by = distance t ((ax + bx) / 2) ((ay + by) / 2) > least + hypotenuse (bx - ax) (by - ay) / 2 + unsure
+{-# INLINE isFurther #-}
 
 hypotenuse :: Double -> Double -> Double
 hypotenuse a b = sqrt (a * a + b * b)
@@ -171,6 +201,16 @@ furthest e t = min (beside e t) (min (fromPoint e tx ty) (fromPoint e ux uy))
     (tx, ty, ux, uy) = case t of
       Line ax ay bx by -> (ax, ay, bx, by)
       Bow ax ay bx by _ _ _ _ -> (ax, ay, bx, by)
+
+-- | No point of a course is further than this from any of some others; 'never' where an end of it is further from one of them than so much.
+furthestFrom :: Double -> Course -> [Course] -> Double
+furthestFrom most e ts
+  | all endsNear ts = foldl' (\far t -> max far (furthest e t)) 0 ts
+  | otherwise = never
+  where
+    endsNear t = case e of
+      Line ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
+      Bow ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
 -- | Whether no point of the first course is further from the second than so much. Mostly its beginning tells that it is.
 isWithin :: Double -> Course -> Course -> Bool

@@ -12,6 +12,8 @@ module Verify.Deviation
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
+import Control.Monad (forM_, when)
+import Control.Monad.ST (runST)
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrd)
 import Data.IntSet qualified as IntSet
@@ -20,6 +22,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Ord (comparing)
+import Data.Primitive.PrimArray (PrimArray)
+import Data.Primitive.PrimArray qualified as PrimArray
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Nearest (Nearest)
@@ -37,7 +41,7 @@ import Part.Part qualified as Part
 import Verify.Course (Course)
 import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
-import Verify.Passage (Edge (course, element), Job (..))
+import Verify.Passage (Edge (course, element, rank), Job (..))
 import Verify.Passage qualified as Passage
 import Verify.Pointed qualified as Pointed
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
@@ -45,6 +49,7 @@ import Verify.Proof qualified
 import Verify.Reachable qualified as Reachable
 import Verify.Trace (Trace (number, part), box, bridges, courses, fromHeight, heights, isUpright, line, toHeight, trail, ways)
 import Verify.Trace qualified as Trace
+import Prelude hiding (lines)
 
 -- | A pass and what was found of it.
 data Pass = Pass {job :: Job, passNumber :: Int, level :: Mm, found :: Passage.Found}
@@ -62,10 +67,10 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     allowance' = max inside outside
     upon = isNothing (side job)
     (milled, within) = case found of
-      Passage.Followed arrival along _ -> (if mayStay then atHeight traces else arrival <> along, along)
-      Passage.Lost _ along _ -> (atHeight traces, along)
-      Passage.NeverBegun -> (atHeight traces, [])
-    atHeight = filter (\t -> flat || isAt machine level t)
+      Passage.Followed _ along -> (if mayStay then atHeight else Passage.stretch found, along)
+      Passage.Lost _ along -> (atHeight, along)
+      Passage.NeverBegun -> (atHeight, [])
+    atHeight = if flat then traces else filter (isAt machine level) traces
     ownNumbers = IntSet.fromDistinctAscList (ascending (map number within))
     -- Its own strokes stay away from the contour by what they leave; all others have to spare the contour.
     looked = if upon then [] else filter belowTop (if isFirst then nearby (Box.inflate (outreach job) contourBox) else within)
@@ -77,16 +82,16 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     gouges = mapMaybe (\t -> gougeOf (spared t) (edges job) t) looked <> pierced
     -- No distance tells when a tool without a radius crosses the contour; nor, then, that it leaves nothing.
     pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) (edges job) mayGouge t]]
-    Seen {cut, strays, wrongly} = lookAlong job spared mayLeave looked within
+    (Seen {cut, strays, wrongly}, covered) = lookAlong job spared mayLeave looked within
     deepest = foldl' deeper cut pierced
-    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} milledIndex (concatMap (touchable (plus (reach job) more)) es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
+    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (concatMap (touchable (plus (reach job) more)) es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     -- What the cutter cannot touch may stay, where that is allowed.
     touchable distance e = case (Part.rest (milling job), side job) of
       (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance elementSegments (Part.segment (element e))]
       _ -> [e]
     elementSegments = Nearest.index Box.ofSegment (map (Part.segment . element) (Nearest.toList (edges job)))
     mayStay = Part.rest (milling job) == Part.Allowed
-    milledIndex = Nearest.index box (filter (\t -> flat || isAt machine level t) milled)
+    milledIndex = Nearest.index box milled
     strayed = reverse strays
     most' = listToMaybe (sortOn (negated . amount) (missed <> strayed))
     passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most', allowedGouge = mayGouge, allowedExcess = mayLeave}
@@ -126,33 +131,50 @@ data Spared = Spared {upTo :: Mm, most :: Mm, required :: Element -> Point -> Mm
 data Seen = Seen {cut :: Maybe Witness, strays :: [Witness], wrongly :: Maybe Finding}
 
 -- | Look along the strokes that have to spare a contour and those that have to follow it, both in the order of the tape. Each
--- asks once for the elements around it.
-lookAlong :: Job -> (Trace -> Spared) -> Mm -> [Trace] -> [Trace] -> Seen
-lookAlong job spared mayLeave = go (Seen Nothing [] Nothing)
+-- asks once for the elements around it. With what is seen comes for each element, by its number, how far its furthest point is at most from one of the strokes that
+-- follow the contour and lie beside it on the right side, as far as that is easily told.
+lookAlong :: Job -> (Trace -> Spared) -> Mm -> [Trace] -> [Trace] -> (Seen, PrimArray Double)
+lookAlong job spared mayLeave looked0 within0 = runST $ do
+  ranges <- PrimArray.newPrimArray (length (Nearest.toList (edges job)))
+  PrimArray.setPrimArray ranges 0 (PrimArray.sizeofMutablePrimArray ranges) (1 / 0)
+  let go seen looked within = case (looked, within) of
+        (t : ts, w : ws) -> case comparing (\a -> (number a, part a)) t w of
+          EQ -> both seen (view t) >>= \seen' -> go seen' ts ws
+          LT -> go (spares (view t) seen) ts within
+          GT -> follows seen (view w) >>= \seen' -> go seen' looked ws
+        (t : ts, []) -> go (spares (view t) seen) ts []
+        ([], w : ws) -> follows seen (view w) >>= \seen' -> go seen' [] ws
+        ([], []) -> pure seen
+      both seen v = follows (spares v seen) v
+      follows seen v = do
+        forM_ (close v) (noted v)
+        pure $! followed v seen
+      noted View {lines = ls} e = do
+        known <- PrimArray.readPrimArray ranges (rank e)
+        let far = Course.furthestFrom reaches (course e) ls
+        when (far < known && all (isSurelyOn job (course e)) ls) (PrimArray.writePrimArray ranges (rank e) far)
+  seen <- go (Seen Nothing [] Nothing) looked0 within0
+  frozen <- PrimArray.unsafeFreezePrimArray ranges
+  pure (seen, frozen)
   where
-    go seen looked within = case (looked, within) of
-      (t : ts, w : ws) -> case comparing (\a -> (number a, part a)) t w of
-        EQ -> let near = around t in go (followed near t (spares near t seen)) ts ws
-        LT -> go (spares (around t) t seen) ts within
-        GT -> go (followed (around w) w seen) looked ws
-      (t : ts, []) -> go (spares (around t) t seen) ts []
-      ([], w : ws) -> go (followed (around w) w seen) [] ws
-      ([], []) -> seen
-    around t = Nearest.within (Box.inflate reaches (box t)) (edges job)
-    reaches = plus (outreach job) (allowance job)
-    spares near t seen = seen {cut = cutBy (spared t) near t (cut seen)}
-    cutBy s near t best
-      | mayExceed s best (courses t <> bridges t) (if upTo s <= reaches then near else Nearest.within (Box.inflate (upTo s) (box t)) (edges job)) = maybe best (deeper best) (gougeOf s (edges job) t)
+    view t = View {trace = t, close = Passage.closeTo job t, lines = courses t}
+    Mm reaches = Passage.reaches job
+    spares v@View {trace = t} seen = seen {cut = cutBy (spared t) v (cut seen)}
+    cutBy s View {trace = t, close, lines} best
+      | mayExceed s best t lines (if upTo s <= Mm reaches then close else Nearest.within (Box.inflate (upTo s) (box t)) (edges job)) = maybe best (deeper best) (gougeOf s (edges job) t)
       | otherwise = best
-    followed near t seen
+    followed v@View {trace = t} seen
       | isUpright t = seen
       | otherwise =
         seen
-          { strays = maybe (strays seen) (: strays seen) (strayOf job {reach = outreach job, allowance = mayLeave} near t),
+          { strays = maybe (strays seen) (: strays seen) (strayOf job {reach = outreach job, allowance = mayLeave} v),
             wrongly = case wrongly seen of
-              Nothing -> wrongSide job near t
+              Nothing -> wrongSide job v
               found -> found
           }
+
+-- | A stroke with the elements that it may touch and its courses.
+data View = View {trace :: Trace, close :: [Edge], lines :: [Course]}
 
 -- | The deeper one of two cuts, the first one if they are equally deep.
 deeper :: Maybe Witness -> Witness -> Maybe Witness
@@ -161,10 +183,11 @@ deeper best w = case best of
   _ -> Just w
 
 -- | Whether a stroke of some courses may cut deeper than the deepest so far into elements around it, by what can be told without
--- comparing exactly.
-mayExceed :: Spared -> Maybe Witness -> [Course] -> [Edge] -> Bool
-mayExceed spared best lines' = any (\e -> any (\c -> Course.apart c (course e) < least) lines')
+-- comparing exactly. The courses of an arc differ by as much as its radii.
+mayExceed :: Spared -> Maybe Witness -> Trace -> [Course] -> [Edge] -> Bool
+mayExceed spared best t lines' = any (\e -> Course.apart (trail t) (course e) < least + off && (off <= 0 || any (\c -> Course.apart c (course e) < least) (lines' <> bridges t)))
   where
+    off = Course.uneven (trail t)
     least = let Mm d = most spared in d - maybe 0 (\w -> let Mm a = amount w in a) best + Course.unsure
 
 -- | How deep a stroke cuts into the contour, if it does: how much nearer it comes to an element than it may.
@@ -196,9 +219,9 @@ leftAt es e p
     joined = [other | other <- map element (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) es), Distance.toPoint foot (Part.segment other) <= Tolerance.coincident]
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
--- or more than is allowed.
-uncut :: Job -> Nearest Trace -> [Edge] -> [Witness]
-uncut job index = go (Mm 0)
+-- or more than is allowed. By its number it is known how far its furthest point is at most from one of the strokes.
+uncut :: Job -> PrimArray Double -> Nearest Trace -> [Edge] -> [Witness]
+uncut job known index = go (Mm 0)
   where
     go least es = case es of
       [] -> []
@@ -212,19 +235,22 @@ uncut job index = go (Mm 0)
              in Witness {amount = left', frame = number nearest, Verify.Proof.element = Part.origin (element e), place = p} : go next rest
     surely least e =
       let far@(Mm d) = plus (reach job) least
-       in Course.isCovered d courses (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index) (course e)
+       in PrimArray.indexPrimArray known (rank e) <= d - 2 * Course.unsure || Course.isCovered d courses (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index) (course e)
     -- No other stroke is nearer than what is looked at.
     range e =
       let far@(Mm d) = plus (reach job) (allowance job)
           near = filter (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index)
           (low, high) = Course.range (map courses near) (course e)
        in Cover.Range {Cover.atLeast = Mm (min d low), Cover.atMost = Mm high}
-    counts e t = all (surelyOn (course e)) (courses t) || all (onLeadingSide job (Part.segment (element e))) (ways t)
-    surelyOn e c = case side job of
-      Nothing -> True
-      Just Offset.LeftOf -> Course.isLeftOf c e
-      Just Offset.RightOf -> Course.isRightOf c e
+    counts e t = all (isSurelyOn job (course e)) (courses t) || all (onLeadingSide job (Part.segment (element e))) (ways t)
     others e = Cover.Others {Cover.index, Cover.lines = ways, Cover.counts = all (onLeadingSide job (Part.segment e)) . ways, Cover.reach = reach job, Cover.allowance = allowance job}
+
+-- | Whether all of a course surely lies on the side of an element on which the cutter has to stand.
+isSurelyOn :: Job -> Course -> Course -> Bool
+isSurelyOn job e c = case side job of
+  Nothing -> True
+  Just Offset.LeftOf -> Course.isLeftOf c e
+  Just Offset.RightOf -> Course.isRightOf c e
 
 -- | Whether a stroke runs on the side of an element on which the cutter has to stand: another one would reach
 -- the element through the part. One that is on the element itself, to the allowance, does not.
@@ -240,9 +266,9 @@ onLeadingSide job element t = case side job of
       Arc {start, centre, sweep = Rad s} -> (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
 -- | How far a stroke strays from the contour, if it is more than is allowed; the elements around it.
-strayOf :: Job -> [Edge] -> Trace -> Maybe Witness
-strayOf job near t
-  | all (Course.isCovered d (pure . course) (const True) near) (courses t) = Nothing
+strayOf :: Job -> View -> Maybe Witness
+strayOf job View {trace = t, close, lines}
+  | all (Course.isCovered d (pure . course) (const True) close) lines = Nothing
   | otherwise = case mapMaybe beyond (NonEmpty.toList (ways t)) of
     [] -> Nothing
     ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
@@ -257,8 +283,8 @@ strayOf job near t
 
 -- | A stroke that lies beside one of the elements around it on the wrong side: a straight one by its middle, an arc by places close
 -- to one another.
-wrongSide :: Job -> [Edge] -> Trace -> Maybe Finding
-wrongSide job near t = case side job of
+wrongSide :: Job -> View -> Maybe Finding
+wrongSide job View {trace = t, close} = case side job of
   Nothing -> Nothing
   Just keeps -> listToMaybe (mapMaybe (\p -> if mayBe keeps p then beside keeps p else Nothing) looked)
   where
@@ -268,9 +294,13 @@ wrongSide job near t = case side job of
       where
         (x, y) = (Vec.x p, Vec.y p)
         Mm a = allowance job
-        least = foldl' (\d e -> min d (Course.distance (course e) x y)) (1 / 0) near
+        Mm far = Passage.reaches job
+        leastOf = foldl' (\d e -> min d (Course.distance (course e) x y)) (1 / 0)
+        -- Where one is close, no other one is nearer.
+        (near, least) = let l = leastOf close in if l + Course.unsure <= far then (close, l) else (around, leastOf around)
         wrong e = not (case keeps of Offset.LeftOf -> Course.isLeftOf (Course.spot x y) (course e); Offset.RightOf -> Course.isRightOf (Course.spot x y) (course e))
-    beside keeps p = case closestOf [(Distance.toPoint p s, e) | e <- near, let s = Part.segment (element e)] of
+    around = Passage.besideOf job t
+    beside keeps p = case closestOf [(Distance.toPoint p s, e) | e <- around, let s = Part.segment (element e)] of
       Just (d, nearest)
         | d > allowance job && Segment.spans (Part.segment nearest) p && sideOf p (Part.segment nearest) /= keeps ->
           Just (WrongSide (number t) (Part.origin nearest))

@@ -25,7 +25,7 @@ import Data.IntSet qualified as IntSet
 import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isJust, listToMaybe)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Frame.Frame (Frame (..), Program)
@@ -71,11 +71,11 @@ prove machine path program frames = case centres frames of
 -- | The same of the traces on the tape and of the program's own, and what the control refuses.
 compared :: Machine -> Path -> Program -> [Frame] -> Vector Double -> [Trace] -> [Trace] -> [Compensation.Unkept] -> Proof
 compared machine path program frames tools traces ownTraces unkept =
-  Proof count (passages <> emptied) closure largest firstDifference (sortOn order findings)
+  Proof (count run) (passages <> emptied) closure (largest run) firstDifference (sortOn order findings)
   where
     begin = Frame.start program
-    count = length frames
-    sameCount = length (Frame.planned program) == count
+    run = sumOf begin frames
+    sameCount = Vector.length tools == count run
     flat = Path.isFlat path
     located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
     toolOf = if sameCount then toolAt tools . number else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
@@ -88,41 +88,37 @@ compared machine path program frames tools traces ownTraces unkept =
     (emptied, foundIn) = unzip [Clearing.examine machine flat toolOf traces nearby (isOwn pass) p isFirst pass | p <- pockets, (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Clearing.passes p))]
     -- On a foreign tape, the strokes in each pass of a pocket.
     inPockets = [(p, pass, [t | t <- traces, flat || Deviation.isAt machine (Clearing.level pass) t, Clearing.holds p (Segment.at 0.5 (line t))]) | p <- pockets, pass <- NonEmpty.toList (Clearing.passes p)]
-    clearedIn = [(p, (number t, number (last' t ts))) | (p, _, t : ts) <- inPockets]
-    last' t ts = fromMaybe t (listToMaybe (reverse ts))
-    -- The strokes that may touch what lies in a box, in the order of the tape. An index pays where they are asked for often.
-    nearby about = let box' = Box.inflate largestTool about in if often then Nearest.within box' strokesByPlace else filter (Box.meets box' . box) traces
+    clearedIn = [(p, (number t, number (fromMaybe t (lastOf ts)))) | (p, _, t : ts) <- inPockets]
+    -- The strokes that may touch what lies in a box, in the order of the tape, or more. An index pays where they are asked for often.
+    nearby about = if often then Nearest.within (Box.inflate largestTool about) strokesByPlace else traces
     often = not (null (drop 1 (filter id (firsts located) <> map (const True) pockets)))
     strokesByPlace = Nearest.index box traces
     largestTool = foldl' (\most t -> max most (toolOf t)) (Mm 0) traces
     (passages, found) = unzip (zipWith (\isFirst l -> Deviation.examine machine flat toolOf isFirst traces nearby l) (firsts located) located)
-    closure = foldl' (\at f -> at + increment f) begin frames - Frame.end program
+    closure = endsAt run - Frame.end program
     findings =
       concat found
         <> concat foundIn
         <> [NotInOrder (Clearing.statement p) | not flat, p <- pockets, not (Clearing.isInOrder machine p (if sameCount then filter (ownTo p) traces else traces))]
-        <> take 1 [OffPlane n | flat, n <- rising 0 (zip [1 ..] frames)]
+        <> [OffPlane n | flat, Just n <- [firstRisen run]]
         <> missingHoles machine path traces
         <> take 1 [CutsElsewhere n p | not flat, isJust firstDifference, (n, p) <- strangers machine path ownTraces traces]
-        <> (if sameCount then Feeds.asPlanned program frames else concatMap foreignFeeds located <> concatMap foreignPocket inPockets)
+        <> (if sameCount then unlessSame (Feeds.asPlanned program frames) else concatMap foreignFeeds located <> concatMap foreignPocket inPockets)
         <> Feeds.tooFast machine begin frames
-        <> Rules.wrongCommands program frames
+        <> unlessSame (Rules.wrongCommands program frames)
         <> Rules.refused machine begin frames
         <> map (Refused . NotKept) unkept
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found <> concat foundIn))]
     foreignFeeds pass = case Deviation.found pass of
-      Passage.Followed _ along _ -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
-      Passage.Lost _ along _ -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
+      Passage.Followed _ along -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
+      Passage.Lost _ along -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
       Passage.NeverBegun -> []
     foreignPocket (p, pass, ts) = Feeds.alongAt machine (Part.feed (Clearing.milling p)) [] (strokesOf [t | t <- ts, not (Trace.isUpright t), not (any (isAlong (line t)) (Clearing.aside pass))])
     -- Few tapes are asked for them: they are run once more.
     strokesOf ts = let numbers = IntSet.fromList (map number ts) in filter (\s -> IntSet.member (Control.number s) numbers) (Control.run begin frames)
     isAlong s way = all (\q -> Distance.toPoint q way <= times 2 (Machine.pulse machine)) [Segment.start s, Segment.end s]
-    -- The frames behind which the cutter is above or below its first height.
-    rising z numbered = case numbered of
-      [] -> []
-      (n, f) : more -> let V3 _ _ d = increment f; z' = z + d in [n | z' /= 0] <> rising z' more
-    largest = foldl' (\(V3 a b c) (V3 x y z) -> V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) 0 (map increment frames)
+    -- The frames of the program itself have its feeds and its commands.
+    unlessSame = if isJust firstDifference then id else const []
     -- A path that has left the band does not end where it should either.
     leaves finding = case finding of
       Gouge {} -> True
@@ -158,6 +154,18 @@ compared machine path program frames tools traces ownTraces unkept =
       Refused refusal -> (Proof.refusedFrame refusal, 8)
       NotClosed _ -> (maxBound, 9)
 
+-- | What frames come to: how many there are, where they end, the largest increment of each axis, whatever its sign, and the first of them behind which the
+-- cutter is above or below its first height.
+data Sum = Sum {count :: Int, endsAt :: V3, largest :: V3, firstRisen :: Maybe Int}
+
+sumOf :: V3 -> [Frame] -> Sum
+sumOf begin@(V3 _ _ z0) = foldl' with (Sum 0 begin 0 Nothing)
+  where
+    with (Sum n at (V3 a b c) risen) f = Sum (n + 1) at' (V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) (if isJust risen || z' == z0 then risen else Just (n + 1))
+      where
+        V3 x y z = increment f
+        at'@(V3 _ _ z') = at + increment f
+
 -- | The number of the first frame that is not the program's own.
 differenceFrom :: Int -> [Frame.Planned] -> [Frame] -> Maybe Int
 differenceFrom n own frames = case (own, frames) of
@@ -178,22 +186,19 @@ follow machine flat lastFrame begin traces blocks = go begin traces (zip (Path.p
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
             job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine), edges = Passage.edgesOf milling}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
-            found = Passage.find job (if standsThere then Just (fst at) else Nothing) (filter (\t -> flat || Deviation.isAt machine atHeight t) rest)
-            behind = case reverse (stretch found) of
-              final : _ -> drop 1 (dropWhile (not . Trace.isSame final) rest)
-              [] -> rest
-            next = case reverse (stretch found) of
-              final : _ -> (Segment.end (line final), snd (heights final))
-              [] -> at
+            found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then rest else filter (Deviation.isAt machine atHeight) rest)
+            final = lastOf (Passage.stretch found)
+            behind = maybe rest (\t -> drop 1 (dropWhile (not . Trace.isSame t) rest)) final
+            next = maybe at standing final
          in Pass {job, passNumber = n, level = atHeight, found} : go next behind more
       -- What a pocket asks is no way along a contour.
-      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at (\t -> (Segment.end (line t), snd (heights t))) (listToMaybe (reverse done))) rest' more
+      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at standing (lastOf done)) rest' more
       _ : more -> go at rest more
       [] -> []
-    stretch found = case found of
-      Passage.Followed arrival along _ -> arrival <> along
-      Passage.Lost arrival along _ -> arrival <> along
-      Passage.NeverBegun -> []
+    standing t = (Segment.end (line t), snd (heights t))
+
+lastOf :: [a] -> Maybe a
+lastOf = foldl' (\_ a -> Just a) Nothing
 
 -- | Where the cutter's centre arrives beside the end of a contour beside which the control keeps it. A control may take the last corner of a
 -- closed one for none, and the direction in which it leaves a larger one is as exact as the pulses of a short move.
@@ -235,7 +240,7 @@ toolAt tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 supposedTool :: [(Int, Int, Mm)] -> [Pass] -> Trace -> Mm
 supposedTool pockets passes = \t -> radiusAt (number t)
   where
-    spans = [(number begin, number end, Part.radius (milling (job p))) | p <- passes, let { s = strokesOf (found p) }, begin : _ <- [s], end : _ <- [reverse s]] <> pockets
+    spans = [(number begin, number end, Part.radius (milling (job p))) | p <- passes, let { s = Passage.stretch (found p) }, begin : _ <- [s], Just end <- [lastOf s]] <> pockets
     radiusAt n = case ([r | (_, e, r) <- reverse spans, e < n], [r | (b, _, r) <- spans, b > n], [r | (b, e, r) <- spans, b <= n, n <= e]) of
       (_, _, r : _) -> r
       (r : _, q : _, []) -> min r q
@@ -243,10 +248,6 @@ supposedTool pockets passes = \t -> radiusAt (number t)
       ([], q : _, []) -> q
       -- No pass is found: of all cutters the smallest.
       ([], [], []) -> minimum (maybe (Mm 0 :| []) (fmap (Part.radius . milling . job)) (NonEmpty.nonEmpty passes))
-    strokesOf f = case f of
-      Passage.Followed arrival along _ -> arrival <> along
-      Passage.Lost arrival along _ -> arrival <> along
-      Passage.NeverBegun -> []
 
 -- | Holes of the part at which no stroke goes straight down to their bottom.
 missingHoles :: Machine -> Path -> [Trace] -> [Finding]

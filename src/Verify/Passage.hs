@@ -3,9 +3,13 @@
 module Verify.Passage
   ( Job (..),
     Found (..),
+    stretch,
     elementsOf,
     Edge (..),
     edgesOf,
+    reaches,
+    closeTo,
+    besideOf,
     find,
     measurable,
   )
@@ -50,25 +54,32 @@ data Job = Job
     edges :: Nearest Edge
   }
 
--- | An element with its place along the contour and its length in mm, and as bare numbers.
-data Edge = Edge {element :: Element, before :: Double, long :: Double, course :: Course}
+-- | An element with its number from 0, its place along the contour and its length in mm, and as bare numbers.
+data Edge = Edge {element :: Element, rank :: Int, before :: Double, long :: Double, course :: Course}
 
 -- | The elements of a contour by their places.
 edgesOf :: Milling -> Nearest Edge
-edgesOf job = Nearest.index (Box.ofSegment . Part.segment . element) (zipWith edge (scanl (+) 0 lengths) (zip elements lengths))
+edgesOf job = Nearest.index (Course.box . course) (go 0 0 (NonEmpty.toList (Part.elements (Part.contour job))))
   where
-    elements = NonEmpty.toList (Part.elements (Part.contour job))
-    lengths = [l | e <- elements, let Mm l = Segment.length (Part.segment e)]
-    edge before (element, long) = Edge {element, before, long, course = Course.ofSegment (Part.segment element)}
+    go rank before elements = case elements of
+      [] -> []
+      element : more -> let Mm long = Segment.length (Part.segment element) in Edge {element, rank, before, long, course = Course.ofSegment (Part.segment element)} : go (rank + 1) (before + long) more
 
 -- | The strokes of one contour.
 data Found
-  = -- | the stroke that reaches the beginning, those along the contour, those behind it
-    Followed [Trace] [Trace] [Trace]
+  = -- | the stroke that reaches the beginning, those along the contour
+    Followed [Trace] [Trace]
   | -- | the beginning is reached, but the contour is not followed to its end: as above, as far as the next
     -- arrival at the end
-    Lost [Trace] [Trace] [Trace]
+    Lost [Trace] [Trace]
   | NeverBegun
+
+-- | All of them.
+stretch :: Found -> [Trace]
+stretch found = case found of
+  Followed arrival along -> arrival <> along
+  Lost arrival along -> arrival <> along
+  NeverBegun -> []
 
 elementsOf :: Job -> [Element]
 elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
@@ -79,15 +90,15 @@ find :: Job -> Maybe Point -> [Trace] -> Found
 find job at traces = case if fits blurs then mapMaybe followed starts else [] of
   found : _ -> found
   [] -> case filter (staysBeside . snd) starts <> starts of
-    (arrival, rest) : _ -> let (along, behind) = untilExit job rest in Lost arrival along behind
+    (arrival, rest) : _ -> Lost arrival (untilExit job rest)
     [] -> NeverBegun
   where
     blurs = blursOf job
     ruler = measure job blurs
-    followed (arrival, rest) = uncurry (Followed arrival) <$> follows job ruler rest
+    followed (arrival, rest) = (\n -> Followed arrival (take n rest)) <$> follows job ruler rest
     starts = begun Nothing traces
     -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
-    staysBeside rest = let (along, _) = untilExit job rest in not (null along) && all (\t -> all (\k -> beside job (Segment.at k (line t))) (final t)) along
+    staysBeside rest = let along = untilExit job rest in not (null along) && all (\t -> all (\k -> beside job (Segment.at k (line t))) (final t)) along
     -- A straight stroke may cut across.
     final t = case line t of
       Straight _ _ -> [1]
@@ -116,13 +127,12 @@ staysNear job p t = endsNear job p t && not (isWhole (line t))
       Straight _ _ -> False
       Arc {start, end} -> start == end
 
--- | The strokes up to the next arrival at the end, and the rest.
-untilExit :: Job -> [Trace] -> ([Trace], [Trace])
-untilExit job traces = (leaving <> along <> arrival, behind)
+-- | The strokes up to the next arrival at the end.
+untilExit :: Job -> [Trace] -> [Trace]
+untilExit job traces = leaving <> along <> takeWhile (endsNear job (exit job)) back
   where
     (leaving, away) = span (\t -> staysNear job (entry job) t && isNear job (entry job) (Segment.at 0.5 (line t))) traces
     (along, back) = break (endsNear job (exit job)) away
-    (arrival, behind) = span (endsNear job (exit job)) back
 
 -- | A contour as a ruler: its length, and how far back a step of the cutter may seem to go by rounding alone.
 data Ruler = Ruler {whole :: Double, slack :: Double, closed :: Bool}
@@ -195,18 +205,19 @@ closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed
 measure :: Job -> Blurs -> Ruler
 measure job blurs = Ruler {whole = foldl' (\l e -> l + long e) 0 (Nearest.toList (edges job)), slack = furthestBack blurs, closed = closedOf job}
 
--- | The strokes that follow the contour to its end, and the rest; none when they stray from it, turn back on
+-- | How many of the strokes follow the contour to its end; none when they stray from it, turn back on
 -- it, or end before.
-follows :: Job -> Ruler -> [Trace] -> Maybe ([Trace], [Trace])
-follows job ruler = go [] 0 0 (entry job)
+follows :: Job -> Ruler -> [Trace] -> Maybe Int
+follows job ruler = go 0 0 0 (entry job)
   where
-    go done gone mark at traces
+    go :: Int -> Double -> Double -> Point -> [Trace] -> Maybe Int
+    go count gone mark at traces
       | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler =
-        let (standing, behind) = span (staysNear job (exit job)) traces in Just (reverse done <> standing, behind)
+        Just (count + length (takeWhile (staysNear job (exit job)) traces))
       | otherwise = case traces of
         [] -> Nothing
-        t : rest -> case foldM (step (Nearest.within (Box.inflate (reaches job) (Trace.box t)) (edges job))) (Along gone mark) [Segment.at k (line t) | k <- Trace.places t] of
-          Just (Along gone' mark') -> go (t : done) gone' mark' (Segment.end (line t)) rest
+        t : rest -> case foldM (step (closeTo job t)) (Along gone mark) [Segment.at k (line t) | k <- Trace.places t] of
+          Just (Along gone' mark') -> go (count + 1) gone' mark' (Segment.end (line t)) rest
           Nothing -> Nothing
     -- How far on the furthest place is that the cutter touches.
     ahead mark p = maximum (0 : map (difference mark) (touched job (around job p) p))
@@ -231,6 +242,16 @@ reaches job = plus (outreach job) (allowance job)
 -- | The elements around a point that a cutter with its centre there may touch.
 around :: Job -> Point -> [Edge]
 around job p = Nearest.within (Box.inflate (reaches job) (Box.ofPoints p [])) (edges job)
+
+-- | The elements that a cutter may touch as its centre goes along a stroke.
+closeTo :: Job -> Trace -> [Edge]
+closeTo job t = filter (\e -> not (Course.isFurther (far + Course.uneven (Trace.trail t)) (course e) (Trace.trail t))) (besideOf job t)
+  where
+    Mm far = reaches job
+
+-- | The same, and some around it.
+besideOf :: Job -> Trace -> [Edge]
+besideOf job t = Nearest.within (Box.inflate (reaches job) (Trace.box t)) (edges job)
 
 -- | The places along the contour that the cutter with its centre at a point touches, among elements with all that lie
 -- within its reach. What it touches is nearest to it; beside an arc the nearer of its ends counts.

@@ -20,11 +20,18 @@ import Verify.Proof (Finding (..), Refusal (..))
 -- | Frames that the control would refuse: those that break a rule of the frames, and arcs that are none. The radii of
 -- an arc may differ by 2 pulses.
 refused :: Machine -> V3 -> [Frame] -> [Finding]
-refused machine begin frames =
-  [Refused (ByRule broken) | broken <- Frame.invariants machine frames]
-    <> [Refused (UnequalRadii (number s) (minus b a)) | s <- Control.run begin frames, Just (a, b) <- [Control.radii machine s], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
-    <> [Refused (NoSweep n) | (n, f) <- zip [1 ..] frames, Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f, Round _ <- [Frame.motion f]]
+refused machine = go 1
   where
+    go :: Int -> V3 -> [Frame] -> [Finding]
+    go n at frames = case frames of
+      [] -> []
+      f : more -> case inFrame n at f of
+        [] -> go (n + 1) (at + Frame.increment f) more
+        why -> map Refused why <> go (n + 1) (at + Frame.increment f) more
+    inFrame n at f =
+      map ByRule (Frame.broken machine n f)
+        <> [UnequalRadii n (minus b a) | Just (a, b) <- [Control.radii machine (Stroke {number = n, from = at, to = at + Frame.increment f, frame = f})], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
+        <> [NoSweep n | Round _ <- [Frame.motion f], Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f]
     mostApart = times 2 (Machine.pulse machine)
 
 -- | Frames with other commands than the program's own frame in the same place.

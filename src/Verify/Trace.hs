@@ -77,9 +77,10 @@ bridges t
 
 -- | All of the ways lie in it.
 box :: Trace -> Box
-box t = case ways t of
-  only :| [] -> Box.ofSegment only
-  first :| others -> foldl Box.union (Box.ofSegment first) (map Box.ofSegment others)
+box t = case Course.uneven (trail t) of
+  0 -> Course.box (trail t)
+  -- The ends of a way lie beside those of the stroke, and its bow is higher by no more.
+  off -> Box.inflate (Mm (2 * off)) (Course.box (trail t))
 
 -- | Whether two are the same part of the same stroke.
 isSame :: Trace -> Trace -> Bool
