@@ -1,3 +1,6 @@
+{-# LANGUAGE PatternSynonyms #-}
+{-# LANGUAGE ViewPatterns #-}
+
 -- | Places in a source text.
 --
 -- Inside the compiler a place is an offset in characters (code points). The texts of a
@@ -5,7 +8,7 @@
 -- well. This module is the only one that turns offsets into lines and columns; both
 -- count from 1, and a column counts characters.
 module Base.Region
-  ( Region (..),
+  ( Region (Region, start, end),
     Located (..),
     Source,
     Position (..),
@@ -23,18 +26,40 @@ module Base.Region
 where
 
 import Base.Search qualified as Search
+import Data.Bits (shiftL, shiftR, (.&.), (.|.))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Boxed
 import Data.Vector.Unboxed qualified as Vector
 import Prelude hiding (length, span)
 
--- | A stretch of the source: offsets of its first character and of the one behind its last.
-data Region = Region {start :: Int, end :: Int}
-  deriving stock (Eq, Ord, Show)
+-- | A stretch of the source. There is one for every word of a program, so it takes one word of memory: the upper half is
+-- the offset of its beginning, the lower half that of its end. Texts have fewer than 2³² characters.
+newtype Region = Halves Word
+  deriving newtype (Eq, Ord)
+
+-- | A stretch by the offsets of its first character and of the one behind its last, neither of which is below zero.
+pattern Region :: Int -> Int -> Region
+pattern Region {start, end} <-
+  (offsets -> (start, end))
+  where
+    Region begin finish = Halves (fromIntegral begin `shiftL` half .|. fromIntegral finish)
+
+{-# COMPLETE Region #-}
+
+instance Show Region where
+  showsPrec depth (Region a b) = showParen (depth > 10) (showString "Region {start = " . shows a . showString ", end = " . shows b . showString "}")
+
+offsets :: Region -> (Int, Int)
+offsets (Halves both) = (fromIntegral (both `shiftR` half), fromIntegral (both .&. (1 `shiftL` half - 1)))
+{-# INLINE offsets #-}
+
+-- | The bits of one offset.
+half :: Int
+half = 32
 
 -- | A thing and where it stands.
-data Located a = Located {region :: {-# UNPACK #-} Region, value :: a}
+data Located a = Located {region :: Region, value :: a}
   deriving stock (Eq, Show)
 
 instance Functor Located where

@@ -184,20 +184,20 @@ data Expr_
   = Number Double
   | Variable Name
   | -- | a function of the program
-    Apply Name (NonEmpty Expr)
+    Apply Name {-# UNPACK #-} (NonEmpty Expr)
   | Builtin Builtin [Argument]
-  | Negate Expr
+  | Negate {-# UNPACK #-} Expr
   | Not Expr
-  | Binary Operator Expr Expr
+  | Binary Operator {-# UNPACK #-} Expr {-# UNPACK #-} Expr
   | Range Expr Expr (Maybe Expr)
   | If Expr Expr Expr
-  | Pair Expr Expr
+  | Pair {-# UNPACK #-} Expr {-# UNPACK #-} Expr
   | Triple Expr Expr Expr
   | List [Expr]
   | Each Expr Name Expr
   deriving stock (Eq, Show)
 
-data Argument = Given Expr | Chosen Choice Expr | Ranked Rank
+data Argument = Given {-# UNPACK #-} Expr | Chosen Choice Expr | Ranked Rank
   deriving stock (Eq, Show)
 
 -- | What the language brings along.
@@ -271,7 +271,7 @@ type Item = Located Item_
 -- | What stands in the braces of a contour.
 data Item_
   = -- | a circle in its sense, a line, a point or a contour, what is asked on it, and the link behind it
-    Element (Maybe Walk) Expr [Modifier] (Maybe Link)
+    Element (Maybe Walk) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | For Name Expr [Item]
   | Choose Expr [Item] [Item]
   deriving stock (Eq, Show)
@@ -287,8 +287,8 @@ data Link_
   = Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | Fillet Expr
-  | Chamfer Expr
+  | Fillet {-# UNPACK #-} Expr
+  | Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
 data Stop = Stop {point :: Expr, pace :: Pace}

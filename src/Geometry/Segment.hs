@@ -28,8 +28,8 @@ import Prelude hiding (length, reverse)
 -- at most a full turn; both its ends lie on the circle about its centre. The ends are kept as
 -- points so that neighbours share them exactly.
 data Segment
-  = Straight {start :: Point, end :: Point}
-  | Arc {start :: Point, end :: Point, centre :: Point, sweep :: Rad}
+  = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
+  | Arc {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point, centre :: {-# UNPACK #-} Point, sweep :: Rad}
   deriving stock (Eq, Show)
 
 -- | The arc about a centre from one point to another in a sense; less than a full turn.

@@ -16,7 +16,7 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
 -- | The straight line through two different points, directed from the first to the second.
-data Line = Line {from :: Point, to :: Point}
+data Line = Line {from :: {-# UNPACK #-} Point, to :: {-# UNPACK #-} Point}
   deriving stock (Eq, Show)
 
 -- | The direction of a line, of length 1.
@@ -40,7 +40,7 @@ parallelAt (Mm h) l = Line (Vec.shift offset (from l)) (Vec.shift offset (to l))
     offset = Vec.scale h (Vec.left (direction l))
 
 -- | A circle; its radius is positive.
-data Circle = Circle {centre :: Point, radius :: Mm}
+data Circle = Circle {centre :: {-# UNPACK #-} Point, radius :: Mm}
   deriving stock (Eq, Show)
 
 -- | The sense in which an arc is walked.

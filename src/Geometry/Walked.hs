@@ -21,12 +21,12 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
 data Walked
-  = OnLine Line
-  | OnCircle Turn Circle
+  = OnLine {-# UNPACK #-} Line
+  | OnCircle Turn {-# UNPACK #-} Circle
   | -- | a curve, as far as it goes
     OnCurve Polyarc
   | -- | a corner that the contour passes through
-    AtPoint Point
+    AtPoint {-# UNPACK #-} Point
   deriving stock (Eq, Show)
 
 -- | The line or the circle of a segment, walked its way.

@@ -5,7 +5,7 @@ module Machine.Parser
   )
 where
 
-import Base.Region (Located (..), Region (..))
+import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
 import Data.Char (digitToInt)
 import Data.Text (Text)
@@ -108,7 +108,7 @@ formulaOf ts = case ts of
   _ -> (Nothing, [], ts)
   where
     used rest behind = case behind of
-      t : _ -> takeWhile ((< start (region t)) . start . region) rest
+      t : _ -> takeWhile ((< Region.start (region t)) . Region.start . region) rest
       [] -> rest
 
 type Reader a = [Token] -> Either Error (a, [Token])

@@ -40,7 +40,7 @@ data Link
   deriving stock (Eq, Show)
 
 -- | Where the walk leaves one element and enters the next, and what lies between.
-data Joint = Joint {leave :: Point, enter :: Point, inserted :: Maybe Segment}
+data Joint = Joint {leave :: {-# UNPACK #-} Point, enter :: {-# UNPACK #-} Point, inserted :: Maybe Segment}
   deriving stock (Eq, Show)
 
 -- | A joint at one point.

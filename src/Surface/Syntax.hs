@@ -163,16 +163,16 @@ data Expr_
   = Literal {-# UNPACK #-} Numeral (Maybe Unit)
   | Variable Name
   | -- | the name and its arguments
-    Call (Located Name) (NonEmpty Argument)
-  | Negate Expr
+    Call {-# UNPACK #-} (Located Name) {-# UNPACK #-} (NonEmpty Argument)
+  | Negate {-# UNPACK #-} Expr
   | Not Expr
-  | Binary Operator Expr Expr
+  | Binary Operator {-# UNPACK #-} Expr {-# UNPACK #-} Expr
   | -- | @a..b@ and @a..b by s@
     Range Expr Expr (Maybe Expr)
   | -- | @if c then a else b@
     If Expr Expr Expr
   | -- | @(x, y)@: a point or a vector
-    Pair Expr Expr
+    Pair {-# UNPACK #-} Expr {-# UNPACK #-} Expr
   | -- | @(x, y, z)@: a point in space
     Triple Expr Expr Expr
   | List [Expr]
@@ -185,7 +185,7 @@ data Operator = Add | Subtract | Multiply | Divide | Less | AtMost | Greater | A
 
 -- | An argument of a call. The words choose among the answers that geometry has.
 data Argument
-  = Given Expr
+  = Given {-# UNPACK #-} Expr
   | -- | @near p@, @left l@, @inside c@ …
     Chosen (Located Choice) Expr
   | -- | @first@ and @last@
@@ -216,7 +216,7 @@ data Line_
   = -- | @x y mu deg H@: the columns, with the unit of their bare numbers
     Header (NonEmpty Heading)
   | -- | a value for each column
-    Entries (NonEmpty Expr)
+    Entries {-# UNPACK #-} (NonEmpty Expr)
   | -- | a line that could not be read
     BrokenLine
   deriving stock (Eq, Show)
@@ -247,7 +247,7 @@ type Item = Located Item_
 -- | What stands in the braces of a contour.
 data Item_
   = -- | a walked element, what is asked on it, and the link to the one after it
-    Element (Maybe (Located Walk)) Expr [Modifier] (Maybe Link)
+    Element (Maybe (Located Walk)) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | -- | @for a in list { … }@
     For (Located Name) Expr [Item]
   | -- | @if c { … } else { … }@
@@ -281,8 +281,8 @@ data Link_
   | Smooth
   | Tangent
   | -- | the radius; positive is walked clockwise, negative counter-clockwise
-    Fillet Expr
-  | Chamfer Expr
+    Fillet {-# UNPACK #-} Expr
+  | Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
 -- | Where the cutter stands.

@@ -16,7 +16,7 @@ import Data.Text qualified as Text
 
 -- | A token, where it stands, and what stands before it.
 data Token = Token
-  { place :: {-# UNPACK #-} Region,
+  { place :: Region,
     shape :: Token_,
     -- | it is the first on its line
     newLine :: Bool,

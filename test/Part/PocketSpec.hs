@@ -2,7 +2,7 @@
 module Part.PocketSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Base.Region (Located (..), Region (..))
+import Base.Region (Located (..), Region (Region))
 import Base.Result (Result (..))
 import Compile qualified
 import Data.List.NonEmpty (NonEmpty (..))
