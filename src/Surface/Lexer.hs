@@ -7,6 +7,7 @@ module Surface.Lexer
   )
 where
 
+import Base.Decimal (Leading (..))
 import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region (..))
 import Data.Char (isAlpha, isAlphaNum, isAsciiLower, isAsciiUpper, isDigit, isSpace)
@@ -54,7 +55,7 @@ data Piece = Piece {ts :: [Token], cs :: [Located Text], stopped :: Before, left
 
 -- | Read so many tokens.
 piece :: Int -> [Token] -> [Located Text] -> Before -> Text -> Piece
-piece count ts cs before rest = case Text.uncons rest of
+piece !count ts cs before rest = case Text.uncons rest of
   Just (c, after)
     | count <= 0 -> Piece {ts, cs, stopped = before, left = rest}
     | isLineEnd c -> piece count ts cs Before {at = at before + 1, fresh = True, touching = False, machine = False} after
@@ -65,11 +66,12 @@ piece count ts cs before rest = case Text.uncons rest of
           !remark = Located region comment
        in piece count ts (remark : cs) before {at = end region, touching = False} more
     | otherwise ->
-      let (shape, size) = if machine before then machineName rest else token c rest
-          region = Region (at before) (at before + size)
-          next = Before {at = end region, fresh = False, touching = True, machine = fresh before && shape == Word "machine"}
-          !found = Token {place = region, shape, newLine = fresh before, attached = touching before}
-       in piece (count - 1) (found : ts) cs next (Text.drop size rest)
+      case if machine before then machineName rest else token c after rest of
+        First shape size more ->
+          let region = Region (at before) (at before + size)
+              next = Before {at = end region, fresh = False, touching = True, machine = fresh before && shape == Word "machine"}
+              found = Token {place = region, shape, newLine = fresh before, attached = touching before}
+           in found `seq` piece (count - 1) (found : ts) cs next more
   Nothing -> Piece {ts, cs, stopped = before, left = rest}
 
 -- | Whether a text begins with a character for which something holds.
@@ -77,71 +79,73 @@ begins :: (Char -> Bool) -> Text -> Bool
 begins holds rest = maybe False (holds . fst) (Text.uncons rest)
 {-# INLINE begins #-}
 
--- | The token at the beginning of a text, and its length.
-token :: Char -> Text -> (Token_, Int)
-token c rest
+-- | The token that a text begins with, its length, and the text behind it.
+data First = First Token_ Int {-# UNPACK #-} Text
+
+-- | The first token of a text, by its first character and what stands behind this.
+token :: Char -> Text -> Text -> First
+token c !after !rest
   | isDigit c = numeral rest
-  | isWordStart c = let word = Text.takeWhile isWordPart rest in (Word word, Text.length word)
-  | c == '"' = quoted rest
+  | isWordStart c = let (word, more) = Text.span isWordPart rest in First (Word word) (Text.length word) more
   | otherwise = case c of
-    '(' -> (Symbol "(", 1)
-    ')' -> (Symbol ")", 1)
-    ',' -> (Symbol ",", 1)
-    '-' -> (Symbol "-", 1)
+    '(' -> sign "("
+    ')' -> sign ")"
+    ',' -> sign ","
+    '-' -> sign "-"
+    '"' -> quoted rest
     _
-      | Text.take 2 rest `elem` ["..", "<=", ">=", "!="] -> (Symbol (Text.take 2 rest), 2)
-      | c `elem` ("{}[]=+*/<>" :: String) -> (Symbol (Text.singleton c), 1)
-      | otherwise -> (Stray c, 1)
+      | c `elem` (".<>!" :: String), two `elem` ["..", "<=", ">=", "!="] -> First (Symbol two) 2 (Text.drop 1 after)
+      | c `elem` ("{}[]=+*/<>" :: String) -> sign (Text.singleton c)
+      | otherwise -> First (Stray c) 1 after
+  where
+    sign s = First (Symbol s) 1 after
+    two = Text.take 2 rest
 
 -- | The name of a machine: letters, digits, @.@ and @-@; a quoted text is the name of a description file.
-machineName :: Text -> (Token_, Int)
+machineName :: Text -> First
 machineName rest
   | "\"" `Text.isPrefixOf` rest = quoted rest
-  | Text.null name = maybe (Stray ' ', 1) (\(c, _) -> token c rest) (Text.uncons rest)
-  | otherwise = (Word name, Text.length name)
+  | Text.null name = maybe (First (Stray ' ') 1 rest) (\(c, after) -> token c after rest) (Text.uncons rest)
+  | otherwise = First (Word name) (Text.length name) (Text.drop (Text.length name) rest)
   where
     name = fst (Text.breakOn "--" (Text.takeWhile (\c -> isAlphaNum c || c == '.' || c == '-') rest))
 
 -- | A text in quotation marks, on one line.
-quoted :: Text -> (Token_, Int)
+quoted :: Text -> First
 quoted rest = case Text.uncons after of
-  Just ('"', _) -> (Text inside, Text.length inside + 2)
-  _ -> (OpenText, Text.length inside + 1)
+  Just ('"', more) -> First (Text inside) (Text.length inside + 2) more
+  _ -> First OpenText (Text.length inside + 1) after
   where
     (inside, after) = Text.break (\c -> c == '"' || isLineEnd c) (Text.drop 1 rest)
 
 -- | A number with the unit that may stand behind it on its line.
-numeral :: Text -> (Token_, Int)
-numeral rest
-  | junk = (BadNumber written, Text.length written)
-  | otherwise = case Decimal.amount digits of
-    Just value -> case unit of
-      Just (u, gap, length') -> (Number (Numeral digits value) (Just u), size + gap + length')
-      Nothing -> (Number (Numeral digits value) Nothing, size)
-    Nothing -> (BadNumber written, Text.length written)
+numeral :: Text -> First
+numeral rest = case Decimal.leading rest of
+  Leading {size, worth, behind} -> case (worth, unitBehind behind) of
+    (Just x, unit) | not (junk (Text.take size rest) behind unit) -> case unit of
+      Just (Behind u before length') -> First (Number (Numeral (Text.take size rest) x) (Just u)) (size + before + length') (Text.drop (before + length') behind)
+      Nothing -> First (Number (Numeral (Text.take size rest) x) Nothing) size behind
+    _ -> let (written, more) = Text.span (\c -> isWordPart c || c == '.') rest in First (BadNumber written) (Text.length written) more
   where
-    (whole, afterWhole) = Text.span isDigit rest
-    wholeSize = Text.length whole
-    size = case Text.uncons afterWhole of
-      Just ('.', more) | begins isDigit more -> wholeSize + 1 + Text.length (Text.takeWhile isDigit more)
-      _ -> wholeSize
-    digits = Text.take size rest
-    after = Text.drop size rest
-    unit = unitBehind after
     -- Letters or a further decimal point that touch the number and are no unit.
-    extraPoint = size > wholeSize && begins (== '.') after && ".." /= Text.take 2 after
-    junk = extraPoint || begins isWordPart after && maybe True (\(_, gap, _) -> gap > 0) unit
-    written = Text.takeWhile (\c -> isWordPart c || c == '.') rest
+    junk digits behind unit = case Text.uncons behind of
+      Just ('.', more) -> Text.any (== '.') digits && not (begins (== '.') more)
+      Just (c, _) -> isWordPart c && maybe True (\(Behind _ gap _) -> gap > 0) unit
+      Nothing -> False
 
--- | A unit at most some spaces away: the unit, the spaces before it, its length.
-unitBehind :: Text -> Maybe (Unit, Int, Int)
-unitBehind rest
-  | begins isWordStart word = found <$> find fits longestFirst
-  | otherwise = Nothing
+-- | A unit behind a number, the spaces before it, its length.
+data Behind = Behind Unit Int Int
+
+-- | A unit at most some spaces away.
+unitBehind :: Text -> Maybe Behind
+unitBehind = go 0
   where
-    (gap, word) = Text.span isBlankInLine rest
-    fits (_, name, _) = maybe False (not . begins isWordPart) (Text.stripPrefix name word)
-    found (unit, _, size) = (unit, Text.length gap, size)
+    go gap text = case Text.uncons text of
+      Just (c, more)
+        | isBlankInLine c -> go (gap + 1) more
+        | isWordStart c -> (\(unit, _, size) -> Behind unit gap size) <$> find (fits text) longestFirst
+      _ -> Nothing
+    fits word (_, name, _) = maybe False (not . begins isWordPart) (Text.stripPrefix name word)
 
 -- | The units with their names and the lengths of these.
 longestFirst :: [(Unit, Text, Int)]
