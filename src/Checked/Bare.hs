@@ -25,13 +25,14 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
--- | A number as it is written where a quantity is needed whose dimension is known, without a detour by unknowns; a
--- unit has to be one of it.
+-- | A number as it is written where a quantity is needed whose dimension is known, or a pair of such, without a detour by
+-- unknowns; a unit has to be one of it.
 number :: Type -> Surface.Expr -> Maybe Checked.Expr
 number wanted (Located at e) = case (e, wanted) of
   (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d) | Dimension.isKnown d -> Just (Located at (Checked.Number (x * Dimension.defaultUnit d)))
   (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d) | (Type.Quantity own, factor) <- unitType unit, own == d -> Just (Located at (Checked.Number (x * factor)))
   (Surface.Negate inner, Type.Quantity _) -> Located at . Checked.Negate <$> number wanted inner
+  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d, Just x' <- number Type.len x, Just y' <- number Type.len y -> Just (Located at (Checked.Pair x' y'))
   _ -> Nothing
 
 -- | A bare number beside something that has a dimension is a plain number: twice an angle is an angle. So is

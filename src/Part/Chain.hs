@@ -12,7 +12,7 @@ module Part.Chain
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, total)
-import Base.Region (Region)
+import Base.Region (Located (..), Region)
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -20,6 +20,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, listToMaybe, mapMaybe)
+import Data.Maybe qualified as Maybe
 import Data.Ord (comparing)
 import Geometry.Contour (Ends (..))
 import Geometry.Contour qualified as Contour
@@ -59,15 +60,14 @@ data Walk = Walk
 
 -- | The elements of a contour that stands at a region, or all that is wrong with it.
 solve :: Region -> Ends -> NonEmpty Walk -> Either (NonEmpty Fact) (NonEmpty Element)
-solve region ends walks = case (nonMeeting, attempt region ends walks) of
-  (f : rest, _) -> Left (fmap (withLargest region ends walks) (f :| rest))
-  ([], Left f) -> Left (withLargest region ends walks f :| [])
-  ([], Right elements) -> Right elements
+solve region ends walks = case attempt region ends walks of
+  Right elements -> Right elements
+  Left found -> Left (fmap (withLargest region ends walks) (Maybe.fromMaybe (found :| []) (NonEmpty.nonEmpty nonMeeting)))
   where
     -- Links that fail whatever the others do; in a repetition, and there and back between two elements, one of
     -- them is enough.
     pairOf (at, f) = case Error.joined' f of
-      Just (Joined _ (a, _) (b, _)) -> (min a b, max a b)
+      Just (Joined _ (Located a _) (Located b _)) -> (min a b, max a b)
       Nothing -> (at, at)
     nonMeeting = case walks of
       _ :| [] -> []
@@ -186,7 +186,7 @@ closed walks = do
 jointsOf :: Walk -> Walk -> Either Fact (Joined, NonEmpty Joint)
 jointsOf a b = (joined,) <$> Joint.candidates joined (catMaybes [stops a, begins b]) (maybe (Meet Nothing) snd (link a))
   where
-    joined = Joined (linkPlace a b) (place a, shape a) (place b, shape b)
+    joined = Joined (linkPlace a b) (Located (place a) (shape a)) (Located (place b) (shape b))
 
 -- | Where the link between two neighbours stands.
 linkPlace :: Walk -> Walk -> Region

@@ -14,7 +14,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), degrees, times)
-import Base.Region (Region)
+import Base.Region (Located (..), Region)
 import Data.List (nub)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
@@ -36,7 +36,7 @@ data Error = Error {fact :: Fact, calls :: [Region]}
   deriving stock (Eq, Show)
 
 -- | Two neighbours in a contour, and the link between them.
-data Joined = Joined {link :: Region, before :: (Region, Walked), after :: (Region, Walked)}
+data Joined = Joined {link :: Region, before :: {-# UNPACK #-} (Located Walked), after :: {-# UNPACK #-} (Located Walked)}
   deriving stock (Eq, Show)
 
 -- | One of several answers.
@@ -510,7 +510,7 @@ otherSign j r = case (fits Clockwise, fits CounterClockwise) of
   (True, True) -> Nothing
   (False, False) -> Nothing
   where
-    fits turn = not (null (Fillet.between r turn (snd (before j)) (snd (after j))))
+    fits turn = not (null (Fillet.between r turn (value (before j)) (value (after j))))
 
 at :: Region -> Code -> Text -> Report
 at region code = report Report.Error code (InSource region)
@@ -518,18 +518,18 @@ at region code = report Report.Error code (InSource region)
 joined :: Code -> Joined -> Text -> Report
 joined code j title =
   (at (link j) code title)
-    { others = [Label r (describe w) | (r, w) <- [before j, after j], r /= link j]
+    { others = [Label r (describe w) | Located r w <- [before j, after j], r /= link j]
     }
 
-isCurve :: (Region, Walked) -> Bool
-isCurve (_, walked) = case walked of
+isCurve :: Located Walked -> Bool
+isCurve (Located _ walked) = case walked of
   OnCurve _ -> True
   OnLine _ -> False
   OnCircle _ _ -> False
   AtPoint _ -> False
 
 things :: Joined -> Text
-things j = describe (snd (before j)) <> " and " <> describe (snd (after j))
+things j = describe (value (before j)) <> " and " <> describe (value (after j))
 
 -- | An element in words.
 describe :: Walked -> Text

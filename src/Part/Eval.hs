@@ -7,6 +7,7 @@ module Part.Eval
     mistakes,
     absent,
     gather,
+    collect,
     spend,
     mostSteps,
     inCall,
@@ -79,6 +80,25 @@ gather evals = do
       Found left' a -> Found left' (Right a)
       Failed left' errors -> Found left' (Left errors)
 {-# INLINEABLE gather #-}
+
+-- | What is found for each of some things, one behind the other, with the mistakes of all of them.
+collect :: (a -> Eval [b]) -> [a] -> Eval [b]
+collect find things = Eval (among [] things)
+  where
+    among found rest left = case rest of
+      [] -> Found left (reverse found)
+      a : more ->
+        let Eval e = find a
+         in case e left of
+              Found left' bs -> among (foldl (flip (:)) found bs) more left'
+              Failed left' errors -> without [errors] more left'
+    without errors rest left = case rest of
+      [] -> Failed left (concat (reverse errors))
+      a : more ->
+        let Eval e = find a
+         in case e left of
+              Found left' _ -> without errors more left'
+              Failed left' new -> without (new : errors) more left'
 
 -- | Take steps. When there are none left, that is reported once; below zero it is reported already.
 spend :: Region -> Int -> Eval ()

@@ -8,6 +8,7 @@ module Part.Joint
 where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
+import Base.Region (Located (..))
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
@@ -59,7 +60,7 @@ candidates j own link = case link of
   Chamfer d -> (:| []) <$> chamfer j own d
 
 shapes :: Joined -> (Walked, Walked)
-shapes j = (snd (before j), snd (after j))
+shapes j = (value (before j), value (after j))
 
 -- | The intersection. Of several the one nearest to the point given; without one, the one that is an
 -- end of a neighbour.
@@ -215,7 +216,7 @@ chamfer j own (Mm d) = case shapes j of
     Right (Joint p q (Just (Straight p q)))
   where
     -- A curve has to be as long as the chamfer takes from it.
-    reaches (region, shape) s p = case shape of
+    reaches (Located region shape) s p = case shape of
       OnCurve c
         | not (Polyarc.isClosed c), t < -tolerance -> Left (Overrun region shape (Mm (-t)) [link j] Nothing)
         | not (Polyarc.isClosed c), t > l + tolerance -> Left (Overrun region shape (Mm (t - l)) [link j] Nothing)

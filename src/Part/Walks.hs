@@ -48,7 +48,7 @@ import Part.Value qualified as Value
 -- | The contour of a name.
 contour :: Environment -> Located Name -> Checked.Closure -> [Item] -> Eval Contour
 contour env name closure items = do
-  walks <- concat <$> Eval.gather (map (item env) items)
+  walks <- Eval.collect (item env) items
   case NonEmpty.nonEmpty walks of
     Nothing -> Eval.mistake (EmptyContour (region name) (value name))
     Just some -> case Chain.solve (region name) ends some of
@@ -64,10 +64,10 @@ item :: Environment -> Item -> Eval [Chain.Walk]
 item env (Located _ i) = case i of
   For name list body -> do
     vs <- Value.items <$> Value.evaluate env list
-    concat . concat <$> Eval.gather (map (\v -> Eval.gather (map (item (Value.bind name v env)) body)) vs)
+    Eval.collect (\v -> Eval.collect (item (Value.bind name v env)) body) vs
   Choose condition body others -> do
     v <- Value.evaluate env condition
-    concat <$> Eval.gather (map (item env) (if Value.isTrue v then body else others))
+    Eval.collect (item env) (if Value.isTrue v then body else others)
   Element walk e modifiers link -> do
     v <- Value.evaluate env e
     finish <- foldl (\before m -> before >>= modified env m) (pure plainFinish) modifiers

@@ -11,11 +11,13 @@ module Surface.Combinator
   ( Parser,
     Grammar (..),
     Memory (..),
+    Taken (..),
     Problem (..),
     run,
 
     -- * Tokens
     symbol,
+    isSymbol,
     keyword,
     name,
     usedName,
@@ -31,6 +33,7 @@ module Surface.Combinator
     statementBlock,
     sepBy1,
     nested,
+    deepest,
 
     -- * Recovery
     recovering,
@@ -56,7 +59,7 @@ import Surface.Error (Error, Found (..))
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
 import Surface.Stream (Input (..))
-import Surface.Syntax (Statement, Statement_ (..))
+import Surface.Syntax (Expr, Statement, Statement_ (..))
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
 import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
@@ -91,6 +94,9 @@ data Problem
 -- rest is not read.
 data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int, within :: Int, gaveUp :: Bool}
 
+-- | What is made of some tokens, no more than two brackets deep; how many they are, and those behind them.
+data Taken a = Taken a Int [Token]
+
 -- | What the grammar is written in.
 class MonadParsec Problem Input p => Grammar p where
   -- | A token that the function accepts; the label names what was expected.
@@ -104,6 +110,10 @@ class MonadParsec Problem Input p => Grammar p where
 
   -- | What is left to read.
   upcoming :: p [Token]
+
+  -- | What a function makes of the next tokens, if it knows them all, or else the other way, which would make the same of
+  -- them. The reader that tells what is wrong goes this way always.
+  atOnce :: ([Token] -> Maybe (Taken Expr)) -> p Expr -> p Expr
 
   -- | Whether the next token is a word, so that what begins with a keyword may follow. The reader that tells what is wrong says
   -- so in any case: it names the keywords that were expected.
@@ -126,6 +136,7 @@ instance Grammar (ParsecT Problem Input (State Memory)) where
   several = Parsec.many
   blaming blame p = Parsec.observing p >>= either blame pure
   upcoming = (\(Input ts) -> ts) <$> Parsec.getInput
+  atOnce _ p = p
   wordAhead = pure True
   memory = lift get
   remember f = lift (modify' f)

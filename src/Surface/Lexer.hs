@@ -48,7 +48,7 @@ remarks found before rest = case piece pieceSize [] found before rest of
 
 -- | So many tokens are read at once.
 pieceSize :: Int
-pieceSize = 4096
+pieceSize = 512
 
 -- | Some tokens and comments, the last ones first, and what is left of the text.
 data Piece = Piece {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}

@@ -335,9 +335,14 @@ operated first = do
     _ -> pure first
   where
     mayOperate t = case shape t of
-      Symbol s -> Text.any (`elem` ("+-*/<>=!." :: String)) s
+      Symbol s -> Text.any isOperating s
       Word word -> word == "and" || word == "or"
       _ -> False
+    isOperating c = case c of
+      '(' -> False
+      ')' -> False
+      ',' -> False
+      _ -> c `elem` ("+-*/<>=!." :: String)
 
 -- | @if c then a else b@
 conditional :: Parser Expr
@@ -463,9 +468,28 @@ touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy touches)))
 touches :: Token -> Bool
 touches t = attached t && shape t == Symbol "("
 
+-- | Two numbers in brackets, as most points are written.
+plainPair :: [Token] -> Maybe (Taken Expr)
+plainPair tokens = case tokens of
+  opening : inside
+    | isSymbol "(" opening,
+      Just (Taken x n (comma : behind)) <- plainNumber inside,
+      isSymbol "," comma,
+      Just (Taken y m (closing : rest)) <- plainNumber behind,
+      isSymbol ")" closing ->
+      Just (Taken (Located (span (place opening) (place closing)) (Pair x y)) (n + m + 3) rest)
+  _ -> Nothing
+
+-- | A number, or a number behind a minus.
+plainNumber :: [Token] -> Maybe (Taken Expr)
+plainNumber tokens = case tokens of
+  Token {shape = Number x unit, place} : rest -> Just (Taken (Located place (Literal x unit)) 1 rest)
+  minus : Token {shape = Number x unit, place = at} : rest | isSymbol "-" minus -> Just (Taken (Located (span (place minus) at) (Negate (Located at (Literal x unit)))) 2 rest)
+  _ -> Nothing
+
 -- | @(a)@ is a, @(a, b)@ a point or a vector, @(a, b, c)@ a point in space.
 pairOrGroup :: Parser Expr
-pairOrGroup = do
+pairOrGroup = atOnce plainPair $ do
   Located region es <- located (parens (expr `sepBy1` ","))
   case NonEmpty.toList es of
     [a] -> pure a

@@ -14,7 +14,7 @@ where
 import Base.Region qualified as Region
 import Control.Applicative (Alternative (..))
 import Control.Monad (MonadPlus)
-import Surface.Combinator (Grammar (..), Memory (..), Problem)
+import Surface.Combinator (Grammar (..), Memory (..), Problem, Taken (..), deepest)
 import Surface.Stream (Input (..))
 import Surface.Token (Token)
 import Surface.Token qualified as Token
@@ -116,6 +116,11 @@ instance Grammar Quick where
   {-# INLINE blaming #-}
   upcoming = Quick (\s ok _ -> ok (left s) s)
   {-# INLINE upcoming #-}
+  atOnce whole (Quick p) = Quick $ \s ok no -> case whole (left s) of
+    Just (Taken a count rest)
+      | count <= room s && open s < deepest - 2 -> ok a s {left = rest, room = room s - count, ended = Region.end (Region.region a)}
+    _ -> p s ok no
+  {-# INLINE atOnce #-}
   wordAhead = Quick (\s ok _ -> ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s)
   {-# INLINE wordAhead #-}
   memory = Quick (\s ok _ -> ok (memoryOf s) s)
