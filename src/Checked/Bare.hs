@@ -29,11 +29,14 @@ import Surface.Token (Numeral (..))
 -- unknowns; a unit has to be one of it.
 number :: Type -> Surface.Expr -> Maybe Checked.Expr
 number wanted (Located at e) = case (e, wanted) of
-  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d) | Dimension.isKnown d -> Just (Located at (Checked.Number (x * Dimension.defaultUnit d)))
-  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d) | (Type.Quantity own, factor) <- unitType unit, own == d -> Just (Located at (Checked.Number (x * factor)))
-  (Surface.Negate inner, Type.Quantity _) -> Located at . Checked.Negate <$> number wanted inner
-  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d, Just x' <- number Type.len x, Just y' <- number Type.len y -> Just (Located at (Checked.Pair x' y'))
+  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d) | Dimension.isKnown d -> here (Checked.Number (x * Dimension.defaultUnit d))
+  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d) | (Type.Quantity own, factor) <- unitType unit, own == d -> here (Checked.Number (x * factor))
+  (Surface.Negate inner, Type.Quantity _) | Just inner' <- number wanted inner -> here (Checked.Negate inner')
+  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d, Just x' <- number Type.len x, Just y' <- number Type.len y -> here (Checked.Pair x' y')
   _ -> Nothing
+  where
+    -- At once: put off, it would hold what it is made of.
+    here found = Just $! Located at found
 
 -- | A bare number beside something that has a dimension is a plain number: twice an angle is an angle. So is
 -- one that divides. Beside a plain number it may be anything: @20 * k@ can be a length, @4 * 4@ an area.
@@ -73,14 +76,21 @@ call expect (Located at e) = case e of
         Just _ -> pure Nothing
         Nothing -> do
           Infer.mention place Nothing text (Infer.Said (Builtin.meaning builtin))
-          es' <- zipWithM expect (map Builtin.type' (parameters form)) es
-          pure (Just Call {answer = Builtin.result form, overloaded = Builtin.isOverloaded builtin, checked = \sol -> Located at (Checked.Builtin builtin (solved sol (map (Checked.Given .) es')))})
+          let types = map Builtin.type' (parameters form)
+              whole = Located at . Checked.Builtin builtin
+          checked <- case zipWithM plain types es of
+            Just arguments' -> let found = whole arguments' in found `seq` pure (const found)
+            Nothing -> (\es' sol -> whole (solved sol (map (Checked.Given .) es'))) <$> zipWithM expect types es
+          pure (Just Call {answer = Builtin.result form, overloaded = Builtin.isOverloaded builtin, checked})
   _ -> pure Nothing
   where
     given a = case a of
       Surface.Given x -> Just x
       Surface.Chosen _ _ -> Nothing
       Surface.Ranked _ -> Nothing
+    plain wanted x = case number wanted x of
+      Just x' -> Just $! Checked.Given x'
+      Nothing -> Nothing
 
 -- | What is plain to see of an expression: it is a quantity, of this dimension if that is plain too, or a pair.
 data Kind = Quantity (Maybe Dimension) | Pair

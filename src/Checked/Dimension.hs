@@ -129,4 +129,6 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
 
 -- | The size of a bare number of a dimension: lengths in mm, times in minutes, angles in degrees.
 defaultUnit :: Dimension -> Double
-defaultUnit d = (pi / 180) ^^ exponent Angle d
+defaultUnit d = case exponent Angle d of
+  0 -> 1
+  n -> (pi / 180) ^^ n

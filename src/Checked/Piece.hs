@@ -17,6 +17,7 @@ import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Infer (Infer, Solution)
 import Checked.Infer qualified as Infer
+import Checked.Later (Later, solved)
 import Checked.Syntax (Columns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
@@ -50,7 +51,7 @@ table checker name written = case written of
       ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
         \sol ->
           let sizes = [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
-           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (map (fmap (inOrder order) . filled sol sizes) rows')
+           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (solved sol (map (filled (arranged order columns) sizes) rows'))
       )
     where
       twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
@@ -66,15 +67,15 @@ table checker name written = case written of
     firstOf xs = case xs of
       [] -> Nothing
       x : _ -> Just x
-    inOrder order es = if order == [0 .. length es - 1] then es else [es !! i | i <- order]
+    arranged order columns = if order == [0 .. length columns - 1] then id else \es -> [es !! i | i <- order]
 
--- | The cells of a row, with the sizes of the bare numbers of their columns.
-filled :: Solution -> [Double] -> Located [Cell] -> Located [Checked.Expr]
-filled sol sizes = fmap (zipWith expression sizes)
+-- | The cells of a row, brought into order, with the sizes of the bare numbers of their columns.
+filled :: ([Checked.Expr] -> [Checked.Expr]) -> [Double] -> Located [Cell] -> Later (Located [Checked.Expr])
+filled arranged sizes (Located region cells) sol = Located region (arranged (solved sol (zipWith expression sizes cells)))
   where
     expression s c = case c of
-      Bare at x -> Located at (Checked.Number (x * s))
-      Written later -> later sol
+      Bare at x -> const (Located at (Checked.Number (x * s)))
+      Written later -> later
 
 -- | The lengths x and y; what the others are is said by their unit, or by their use.
 column :: Surface.Heading -> Infer Column
@@ -106,7 +107,7 @@ data Cell = Bare Region Double | Written (Solution -> Checked.Expr)
 
 cell :: Checker -> Column -> Surface.Expr -> Infer Cell
 cell checker c e = case bare e of
-  Just x -> pure (Bare (region e) x)
+  Just x -> pure $! Bare (region e) x
   Nothing -> Written <$> expect checker (kind c) e
   where
     bare (Located _ written) = case written of

@@ -44,7 +44,7 @@ data Table = Table {rows :: Vector Row, columns :: [(Name, Vector Double)]}
   deriving stock (Eq, Show)
 
 -- | A point, and where its row stands.
-data Row = Row {written :: Region, point :: Point}
+data Row = Row {written :: Region, point :: {-# UNPACK #-} Point}
   deriving stock (Eq, Show)
 
 -- | A curve as it is defined, exactly; the columns of its table; the pieces that were chosen for it, if they were; and the chain of arcs

@@ -38,15 +38,23 @@ import Part.Value qualified as Value
 -- | The rows of a table.
 table :: Environment -> Columns -> Eval Table
 table env (Columns names written) = do
-  values <- Eval.gather (map row written)
-  let points = [Row r (Vec.point x y) | (Located r _, x : y : _) <- zip written values]
-      column k = Vector.fromList (map (!! (k + 2)) values)
-  pure Table {rows = Vector.fromList points, columns = [(n, column k) | (k, (n, _)) <- zip [0 ..] names]}
+  found <- Eval.collect row written
+  let column k = Vector.fromList [others !! k | Values _ others <- found]
+  pure Table {rows = Vector.fromList [r | Values r _ <- found], columns = [(n, column k) | (k, (n, _)) <- zip [0 ..] names]}
   where
     row (Located at cells) = do
-      vs <- traverse (fmap Value.number . Value.evaluate env) cells
+      vs <- traverse cell cells
       mapM_ (Data.within at) (take 2 vs)
-      pure vs
+      case vs of
+        x : y : others -> let values = Values (Row at (Vec.point x y)) others in values `seq` pure [values]
+        _ -> pure []
+    -- Most are numbers as they are written.
+    cell e = case e of
+      Located at (Number x) -> x <$ Eval.spend at 1
+      _ -> Value.number <$> Value.evaluate env e
+
+-- | The point of a row, and its other values.
+data Values = Values Row [Double]
 
 -- | A curve recalculated by ciphers, one after the other, and joggled, to one side of the walk.
 piece :: Environment -> Curve -> [Cipher] -> Located Side -> [Joggle] -> Eval Curve
