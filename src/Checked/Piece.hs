@@ -71,11 +71,11 @@ table checker name written = case written of
 
 -- | The cells of a row, brought into order, with the sizes of the bare numbers of their columns.
 filled :: ([Checked.Expr] -> [Checked.Expr]) -> [Double] -> Located [Cell] -> Later (Located [Checked.Expr])
-filled arranged sizes (Located region cells) sol = Located region (arranged (solved sol (zipWith expression sizes cells)))
+filled arranged sizes (Located region cells) sol = let found = zipWith expression sizes cells in foldr seq (Located region (arranged found)) found
   where
     expression s c = case c of
-      Bare at x -> const (Located at (Checked.Number (x * s)))
-      Written later -> later
+      Bare at x -> Located at (Checked.Number (x * s))
+      Written later -> later sol
 
 -- | The lengths x and y; what the others are is said by their unit, or by their use.
 column :: Surface.Heading -> Infer Column

@@ -167,12 +167,12 @@ closed :: NonEmpty Walk -> Either Fact [Element]
 closed walks = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
   closing <- jointsOf (NonEmpty.last walks) first
-  let attempts = [(c, shortest list (enter c) (inserted c) [c] joints) | c <- NonEmpty.toList (snd closing)]
+  let attempts = [(c, shortest list (enter c) (inserted c) [c] joints) | c <- NonEmpty.toList closing]
       routes = [(c, r) | (c, Right r) <- attempts]
   case sortOn (cost . snd) routes of
     [] -> Left (minimumBy (comparing gravity) [f | (_, Left f) <- attempts])
     (c, route) : others -> case [o | (o, r) <- others, cost r <= plus (cost route) Tolerance.sameLength] of
-      o : _ | Just fact <- tie (fst closing) [c, o] -> Left fact
+      o : _ | Just fact <- tie (joinedBetween (NonEmpty.last walks) first) [c, o] -> Left fact
       _ -> elementsOf list (enter c) (inserted c) <$> decided route
   where
     list = NonEmpty.toList walks
@@ -183,10 +183,12 @@ closed walks = do
       _ -> Mm 0
 
 -- | The places where two neighbours can be joined.
-jointsOf :: Walk -> Walk -> Either Fact (Joined, NonEmpty Joint)
-jointsOf a b = (joined,) <$> Joint.candidates joined (catMaybes [stops a, begins b]) (maybe (Meet Nothing) snd (link a))
-  where
-    joined = Joined (linkPlace a b) (Located (place a) (shape a)) (Located (place b) (shape b))
+jointsOf :: Walk -> Walk -> Either Fact (NonEmpty Joint)
+jointsOf a b = Joint.candidates (joinedBetween a b) (catMaybes [stops a, begins b]) (maybe (Meet Nothing) snd (link a))
+
+-- | Two neighbours and the link between them, for a report.
+joinedBetween :: Walk -> Walk -> Joined
+joinedBetween a b = Joined (linkPlace a b) (Located (place a) (shape a)) (Located (place b) (shape b))
 
 -- | Where the link between two neighbours stands.
 linkPlace :: Walk -> Walk -> Region
@@ -198,36 +200,33 @@ data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe Fact}
 
 -- | The shortest way from a point on the first element through all links; the last link is given
 -- by its candidates.
-shortest :: [Walk] -> Point -> Maybe Segment -> [Joint] -> [(Joined, NonEmpty Joint)] -> Either Fact Route
-shortest walks begin before final joints = go walks [(begin, Route (Mm 0) [] Nothing)] (map Just joints <> [Nothing])
+shortest :: [Walk] -> Point -> Maybe Segment -> [Joint] -> [NonEmpty Joint] -> Either Fact Route
+shortest walks begin before final joints = go walks [(begin, Route (Mm 0) [] Nothing)] (map NonEmpty.toList joints <> [final])
   where
     go ws states layers = case (ws, layers) of
       (w : rest, layer : more) -> do
-        next <- advance w states layer
+        next <- advance w (listToMaybe rest) states layer
         go rest next more
       _ -> Right (minimumBy (comparing cost) (map snd states))
     -- Most links join their neighbours in one place.
-    advance w [state] layer
-      | [joint] <- maybe final (NonEmpty.toList . snd) layer = case extend before w state joint of
-        Left by -> Left (overrun w by layer)
-        Right route -> Right [(enter joint, route)]
-    advance w states layer = do
-      let candidates = maybe final (NonEmpty.toList . snd) layer
-          ways joint = [extend before w state joint | state <- states]
+    advance w next [state] [joint] = case extend before w state joint of
+      Left by -> Left (overrun w by next)
+      Right route -> Right [(enter joint, route)]
+    advance w next states candidates = do
+      let ways joint = [extend before w state joint | state <- states]
           reached = [(joint, sortOn cost [r | Right r <- ways joint]) | joint <- candidates]
       case [(joint, best, others) | (joint, best : others) <- reached] of
-        [] -> Left (overrun w (minimum [by | joint <- candidates, Left by <- ways joint]) layer)
+        [] -> Left (overrun w (minimum [by | joint <- candidates, Left by <- ways joint]) next)
         fine -> Right [(enter joint, weighed best others) | (joint, best, others) <- fine]
     -- Of two ways of one length to the same joint either will do, but not without asking.
     weighed best others = case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
       o : _
-        | Just (j, a, b) <- firstDifference (reverse (taken best)) (reverse (taken o)) (map fst joints),
+        | Just (j, a, b) <- firstDifference (reverse (taken best)) (reverse (taken o)) (zipWith joinedBetween walks (drop 1 walks)),
           Just fact <- tie j [a, b] ->
           best {ambiguous = Just fact}
       _ -> best
-    overrun w by layer = Overrun (place w) (shape w) by (catMaybes [fst <$> link w, jointRegion <$> layer] <> linkBefore w) Nothing
+    overrun w by next = Overrun (place w) (shape w) by (catMaybes [fst <$> link w, linkPlace w <$> next] <> linkBefore w) Nothing
     linkBefore w = [at | (a, b) <- zip walks (drop 1 walks <> take 1 walks), place b == place w, Just (at, _) <- [link a]]
-    jointRegion (j, _) = Error.link j
 
 -- | A way without another of the same length.
 decided :: Route -> Either Fact Route

@@ -95,7 +95,7 @@ walksOf at walk v finish link = case (v, walk) of
   (CircleValue c, Just Checked.Clockwise) -> one (OnCircle Clockwise c) Nothing Nothing
   (CircleValue c, Just Checked.CounterClockwise) -> one (OnCircle CounterClockwise c) Nothing Nothing
   (LineValue l@(Line p q), Nothing) -> one (OnLine l) (Just p) (Just q)
-  (Spatial _, Nothing) -> let p = Value.point v in one (AtPoint p) (Just p) (Just p)
+  (Spatial _, Nothing) -> let p = Value.point v; end = Just p in one (AtPoint p) end end
   (CurveValue c, Nothing) -> one (OnCurve (Curve.laid c)) (listToMaybe (Curve.ends c)) (listToMaybe (drop 1 (Curve.ends c)))
   (ContourValue c, Nothing) -> case ends c of
     Closed -> Eval.mistake (ClosedElement at (value (contourName c)))
