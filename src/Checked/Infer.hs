@@ -97,10 +97,11 @@ data Decision = TypeAt Region Type | DimensionAt Region Dimension
 
 -- | Run a check from the beginning: the errors in order, the solution, the output, and the names of the text.
 run :: Infer a -> ([Error], Solution, a, [Mention])
-run infer = (reverse (found memory), resolveDimension (decisions memory), a, map said (mentioned memory))
+run infer = case runState infer start of
+  (a, memory) -> (reverse (found memory), resolveDimension (decisions memory), a, map (said memory) (mentioned memory))
   where
-    said (place', definition, word, meaning') = Mention place' definition word (inWords meaning')
-    inWords meaning' = case meaning' of
+    said memory (place', definition, word, meaning') = Mention place' definition word (inWords memory meaning')
+    inWords memory meaning' = case meaning' of
       Valued t -> Type.describe (resolve memory t)
       Callable names scheme ->
         "a function of ("
@@ -108,7 +109,6 @@ run infer = (reverse (found memory), resolveDimension (decisions memory), a, map
           <> ") giving "
           <> Type.describe (resolve memory (result scheme))
       Said text -> text
-    (a, memory) = runState infer start
     start =
       Memory
         { next = 0,
