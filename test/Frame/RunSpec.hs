@@ -52,6 +52,10 @@ spec = do
                 ==> counterexample (show (n, fewest))
                 $ classify (fewest >= 4) "four and more" $
                   fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
+    it "end within an arc of which they reach neither end (catches a search at the ends of the arcs only)" $
+      length (chordsOf (evenly 0.038) (Curve.bent [(3.2041, -0.0001), (2.7333, -0.0125), (8.0266, 0.0057), (5.6682, -0.0206), (5.5173, -0.025)])) `shouldBe` 4
+    it "are looked for from the end as well (catches a first chord that takes what the second would need)" $
+      length (chordsOf (evenly 0.583) (Curve.bent [(7.3199, -0.0012), (14.8941, 0.0141), (4.135, -0.0058), (17.0171, -0.0102), (13.8977, 0.0066), (14.9307, 0.0049)])) `shouldBe` 2
     it "of an arc cut into many are as many as those of the arc, one more or less (catches a chord for each)" $
       property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.005, 0.02, 0.1]) $ \(a, k, y) ->
@@ -97,6 +101,7 @@ spec = do
            in (runsOf Part.Climb === map reverse (runsOf Part.Conventional)) .&&. map length (runsOf Part.Climb) === [2]
   where
     chain = oneof [Curve.open, Curve.closed]
+    evenly y = Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.001}
     arc = do
       r <- (10 **) <$> choose (0, 2)
       s <- choose (0.3, 2 * pi)

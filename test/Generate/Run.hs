@@ -2,6 +2,7 @@
 -- closed ones with waves, and lines and arcs cut into many.
 module Generate.Run
   ( open,
+    bent,
     closed,
     wave,
     oval,
@@ -51,6 +52,14 @@ open = do
         let turned = max (-6) (min 6 (bend' * l))
             s = arcFrom p heading turned l
         (s :) <$> go (count - 1) reach (Segment.end s) (heading + turned) bend'
+
+-- | Arcs and lines of such lengths and curvatures, each setting out as the one before arrives.
+bent :: [(Double, Double)] -> [Segment]
+bent = go (Vec.point 0 0) 0
+  where
+    go p heading parts = case parts of
+      [] -> []
+      (l, bend) : more -> let s = arcFrom p heading (bend * l) l in s : go (Segment.end s) (heading + bend * l) more
 
 -- | An arc or a line from a point in a direction that turns by an angle on a length.
 arcFrom :: Point -> Double -> Double -> Double -> Segment
