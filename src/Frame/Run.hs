@@ -182,13 +182,17 @@ data Sight = Sight
     mostHeading :: Double,
     -- | the way so far in mm
     gone :: Double,
-    -- | on which side of them the direction of a chord to this place is, and its rise; both within, it fits
-    missed :: (Ordering, Ordering)
+    -- | how a chord to this place misses them
+    missed :: Missed
   }
+
+-- | On which side of what is allowed the direction of a chord is, and its rise; 'EQ' is within.
+data Missed = Missed Ordering Ordering
+  deriving stock (Eq)
 
 -- | Whether a chord to the place stays within the limits.
 fits :: Sight -> Bool
-fits sight = missed sight == (EQ, EQ)
+fits sight = missed sight == Missed EQ EQ
 
 -- | Where the longest chord from a place ends. A place behind one that no chord reaches may be reached again, as long
 -- as there is any direction left.
@@ -199,7 +203,7 @@ furthest limits begin = case rest begin of
     Just (way, p) | way >= least limits -> p
     _ -> onward limits (least limits) begin
   where
-    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, missed = (EQ, EQ)}
+    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, missed = Missed EQ EQ}
     reached eye best before pieces = case pieces of
       [] -> best
       piece : more
@@ -294,7 +298,7 @@ see limits eye before piece t goal =
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
       gone = way,
-      missed = if Vec.norm chord > 0 && way > 0 then (beside low high along, beside flat steep climb) else (LT, LT)
+      missed = if Vec.norm chord > 0 && way > 0 then Missed (beside low high along) (beside flat steep climb) else Missed LT LT
     }
   where
     way = gone before + lengthBetween (from piece) t piece
