@@ -119,7 +119,9 @@ uncovered reach others segment = gaps 0 (sort (concatMap covered others))
       ]
       where
         marks = sort (0 : 1 : filter (\t -> t > 0 && t < 1) (map (Segment.fraction segment) boundary))
-        boundary = concatMap (common segment) (neighbourhood reach other)
+        boundary = ends <> concatMap (common segment) (neighbourhood reach other)
+        -- A circle about an end bounds nothing when it is a point.
+        ends = [p | reach <= Mm 0, p <- [Segment.start other, Segment.end other]]
 
 -- | The curves that bound the points within a distance of a segment, possibly with more.
 neighbourhood :: Mm -> Segment -> [Segment]

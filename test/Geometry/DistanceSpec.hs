@@ -39,6 +39,19 @@ spec = do
                 | k <- [0 .. 200 :: Int],
                   let t = fromIntegral k / 200
               ]
+  it "uncovered: of a circle, at no distance, all that a stroke on it leaves free (catches ends that bound nothing)" $
+    property $
+      forAll ((,,,) <$> point <*> choose (1, 40) <*> choose (0, 3) <*> choose (0.1, 3)) $ \(c, r, from, turned) ->
+        let at a = Vec.shift (Vec.polar (Mm r) (Rad a)) c
+            circle = Arc {start = at 0, end = at 0, centre = c, sweep = Rad (2 * pi)}
+            stroke = Arc {start = at from, end = at (from + turned), centre = c, sweep = Rad turned}
+            gaps = Distance.uncovered (Mm 0) [stroke] circle
+         in conjoin
+              [ counterexample (show (a, gaps)) (any (\(t, u) -> t * 2 * pi < a && a < u * 2 * pi) gaps)
+                | k <- [1 .. 99 :: Int],
+                  let a = from + turned + (2 * pi - turned) * fromIntegral k / 100,
+                  a < 2 * pi
+              ]
 
 point :: Gen Point
 point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
