@@ -26,7 +26,7 @@ import Prelude hiding (length, reverse)
 
 -- | A straight line or an arc between two points. An arc's sweep is positive counter-clockwise and
 -- at most a full turn; both its ends lie on the circle about its centre. The ends are kept as
--- points so that neighbours share them exactly.
+-- points so that neighbours have exactly the same.
 data Segment
   = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
   | Arc {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point, centre :: {-# UNPACK #-} Point, sweep :: Rad}

@@ -12,7 +12,7 @@ import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.Bifunctor (first)
 import Data.Function (on)
-import Data.List (groupBy, minimumBy, nubBy, sortOn)
+import Data.List (foldl', groupBy, minimumBy, nubBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -321,7 +321,12 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       Cutting {job = Located _ milling, pass} | value (side milling) /= On -> Just (number pass, milling, [contour milling])
       Clearing {pocket = Located _ p, pass} -> Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
       _ -> Nothing
-    index = Box.index (Box.around . snd) [((n, milling), Box.index (Box.ofSegment . Part.segment) (concatMap (NonEmpty.toList . elements) walls)) | (n, milling, walls) <- jobs]
+    index = Box.index (Box.around . snd) [((n, milling), Box.index boxOf (grouped (concatMap (NonEmpty.toList . elements) walls))) | (n, milling, walls) <- jobs]
+    -- A box for each element would take more memory than the elements, and few are asked for.
+    grouped es = case es of
+      [] -> []
+      e : rest -> let (some, more) = splitAt 15 rest in (e :| some) : grouped more
+    boxOf (e :| es) = foldl' (\box other -> Box.union box (Box.ofSegment (Part.segment other))) (Box.ofSegment (Part.segment e)) es
     inBlock b = case b of
       Commanding _ -> []
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
@@ -353,7 +358,9 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
         | let reach = Box.inflate tool (Box.ofSegment (Path.segment m)),
           ((n, milling), walls) <- Box.within reach index,
           Just n /= own,
-          element <- Box.within reach walls,
+          group <- Box.within reach walls,
+          element <- NonEmpty.toList group,
+          Box.meets reach (Box.ofSegment (Part.segment element)),
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
           plus d (plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance) < tool
       ]
