@@ -169,7 +169,8 @@ truest task begin finish s turn cs = case whole of
   first : others | Just found <- foldl' better (tried (foldl' nearer first others)) whole -> Just (way (result found))
   _ -> best (mapMaybe (attempt task begin finish s turn) cs)
   where
-    whole = [Candidate {rank, node = c, seeming = offInMiddle task s turn c (flat begin) (flat finish)} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep c]
+    whole = [Candidate {rank, node = c, seeming = seemingOf c} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep c]
+    seemingOf = offInMiddle task s turn (flat begin) (flat finish)
     inOneStep c = case Machine.arcs (machine task) of
       NoArcs -> False
       Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
@@ -195,18 +196,24 @@ data Candidate = Candidate {rank :: Int, node :: V2, seeming :: Double}
 data Tried = Tried {number :: Int, result :: Attempt}
 
 -- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
--- the chord between the directions of the ends.
+-- the chord between the directions of the ends. The ends come first: many points are tried between the same ones.
 offInMiddle :: Task -> Segment -> Turn -> V2 -> V2 -> V2 -> Double
-offInMiddle task exact turn c begin finish = case exact of
-  Straight _ _ -> 0
+offInMiddle task exact turn begin finish = case exact of
+  Straight _ _ -> const 0
   Arc {start, centre} ->
-    let m = point task c
-        a = Vec.to m (point task begin)
-        b = Vec.to m (point task finish)
-        chord = Vec.unit (Vec.add (Vec.scale (-1 / Vec.norm a) a) (Vec.scale (1 / Vec.norm b) b))
-        outwards' = Vec.scale (-(Shape.sense turn)) (Vec.left chord)
-        off' radius = let Mm far = Vec.distance centre (Vec.shift (Vec.scale radius outwards') m); Mm r = Segment.radius centre start in abs (far - r)
-     in max (off' (Vec.norm a)) (off' ((Vec.norm a + Vec.norm b) / 2))
+    let a = point task begin
+        b = point task finish
+        Mm r = Segment.radius centre start
+     in \c ->
+          let m = point task c
+              toA = Vec.to m a
+              toB = Vec.to m b
+              first = Vec.norm toA
+              final = Vec.norm toB
+              chord = Vec.unit (Vec.add (Vec.scale (-1 / first) toA) (Vec.scale (1 / final) toB))
+              outwards' = Vec.scale (-(Shape.sense turn)) (Vec.left chord)
+              off' radius = let Mm far = Vec.distance centre (Vec.shift (Vec.scale radius outwards') m) in abs (far - r)
+           in max (off' first) (off' ((first + final) / 2))
 
 -- | The arc about a lattice point, if the machine can walk it and it is true enough.
 attempt :: Task -> V3 -> V3 -> Segment -> Turn -> V2 -> Maybe Attempt
