@@ -77,9 +77,9 @@ walk left task begin s = case s of
   Arc {sweep}
     | isFlat (machine task) s && goesStraight task s (flat begin : map (flat . stop) straight) -> straight
     | left <= 0 || not (holds task begin s) -> map alone (chorded task begin s)
-    | otherwise -> case truest task begin finish s (sense sweep) (centres task begin finish s) of
-      Just found -> found
-      Nothing ->
+    | otherwise -> case mapMaybe (truest task begin finish s (sense sweep)) [centres task begin finish s, outer task begin finish s (sense sweep)] of
+      found : _ -> found
+      [] ->
         let (front, back) = Segment.cutAt 0.5 s
             middle = place task (Segment.end front)
          in walk (left - 1) task begin front <> walk (left - 1) task middle back
@@ -138,7 +138,7 @@ centres task begin finish s = case s of
   where
     middle c = flat (place task c)
     around c = map (c +) offsets
-    isBeside (V2 i j) (V2 k l) = abs (i - k) <= neighbours && abs (j - l) <= neighbours
+    isBeside = isWithin neighbours
     a = point task (flat begin)
     b = point task (flat finish)
     -- Equally far from both ends.
@@ -149,7 +149,43 @@ neighbours :: Pulses
 neighbours = 2
 
 offsets :: [V2]
-offsets = [V2 di dj | di <- [-neighbours .. neighbours], dj <- [-neighbours .. neighbours]]
+offsets = square neighbours
+
+-- | What is so many pulses from zero at most, in a column or a row.
+square :: Pulses -> [V2]
+square most = [V2 di dj | di <- [-most .. most], dj <- [-most .. most]]
+
+-- | Whether two lattice points are no further apart, in a column or a row.
+isWithin :: Pulses -> V2 -> V2 -> Bool
+isWithin most (V2 i j) (V2 k l) = abs (i - k) <= most && abs (j - l) <= most
+
+-- | The lattice points to try where none of those near the true centre does and the whole arc can be one step: those about which
+-- its middle is near enough. About a centre that is off by n towards the middle of an arc that turns by 2h, and by t across, the middle
+-- is off by @(1 − cos h)·n + sin h·t@ and the end by @2·sin h·t@, besides the rounding of the beginning. So @(1 − cos h)·n@ is no more
+-- than 3/2 of the room and that rounding.
+outer :: Task -> V3 -> V3 -> Segment -> Turn -> [V2]
+outer task begin finish s turn = case s of
+  Straight _ _ -> []
+  Arc {centre, sweep = Rad a}
+    | begin == finish -> []
+    | otherwise ->
+      let first = flat (place task centre)
+          Mm most = roundly (room task)
+          Mm grain = Machine.pulse (machine task)
+          reach = ceiling (min 1000 (1.5 * (most / grain + sqrt 0.5) / (1 - cos (min pi (abs a / 2)))))
+          offAbout = offInMiddle task s turn (flat begin) (flat finish)
+       in [c | c <- map (first +) (square (min remotest (Pulses reach))), not (isWithin neighbours first c), inOneStep task turn begin finish c, offAbout c <= most]
+
+-- | No centre is looked for further away, in pulses: an arc that turns so little that it could be there lets so many beside one
+-- another do that one of them is near.
+remotest :: Pulses
+remotest = 8
+
+-- | Whether the whole arc about a lattice point can be one step.
+inOneStep :: Task -> Turn -> V3 -> V3 -> V2 -> Bool
+inOneStep task turn begin finish c = case Machine.arcs (machine task) of
+  NoArcs -> False
+  Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
 
 -- | Steps that have been tried, and how far they deviate.
 data Attempt = Attempt {way :: [Step], off :: Double}
@@ -169,11 +205,8 @@ truest task begin finish s turn cs = case whole of
   first : others | Just found <- foldl' better (tried (foldl' nearer first others)) whole -> Just (way (result found))
   _ -> best (mapMaybe (attempt task begin finish s turn) cs)
   where
-    whole = [Candidate {rank, node = c, seeming = seemingOf c} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep c]
+    whole = [Candidate {rank, node = c, seeming = seemingOf c} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep task turn begin finish c]
     seemingOf = offInMiddle task s turn (flat begin) (flat finish)
-    inOneStep c = case Machine.arcs (machine task) of
-      NoArcs -> False
-      Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
     nearer x y = if seeming y < seeming x then y else x
     tried x = Tried (rank x) <$> attempt task begin finish s turn (node x)
     better so x = case so of
