@@ -22,6 +22,7 @@ import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
+import Frame.Chord (Allowed)
 import Frame.Chord qualified as Chord
 import Frame.Error (Error (..), Warning (..))
 import Frame.Pulses qualified as Pulses
@@ -98,17 +99,17 @@ unsure = maybeToList . rising
 see :: Look -> Task -> Seen -> Seen
 see look task before = case task of
   Order _ _ -> before
-  Run {} -> counted look task (reached look (run task) (risen look (run task) (fed look task before)))
+  Run {drive, allowed, run} -> counted look allowed run (reached look run (risen look run (fed look drive run before)))
 
-fed :: Look -> Task -> Seen -> Seen
-fed look task before = case (drive task, asked) of
+fed :: Look -> Drive -> NonEmpty Move -> Seen -> Seen
+fed look drive moves before = case (drive, asked) of
   (Asked, At (Located region (Feed v)))
     | isAlongPath look && asked /= lastPace before -> case Machine.choose (machine look) v of
       Machine.NoSuchFeed low high -> before {lastPace = asked, noCode = FeedMissing region (Feed v) (Feed low) (Feed high) : noCode before}
       Machine.Given _ _ -> before {lastPace = asked}
   _ -> before
   where
-    asked = pace (NonEmpty.head (run task))
+    asked = pace (NonEmpty.head moves)
 
 risen :: Look -> NonEmpty Move -> Seen -> Seen
 risen look moves before
@@ -141,14 +142,14 @@ beyond region p = if isWithin 0 p then Nothing else Just (OutOfReach region p To
 
 -- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
 -- are no more than the moves.
-counted :: Look -> Task -> Seen -> Seen
-counted look task before = case overlong before of
+counted :: Look -> Allowed -> NonEmpty Move -> Seen -> Seen
+counted look allowed moves before = case overlong before of
   Just _ -> before
   Nothing
-    | now > mostFrames -> before {overlong = Just (TooManyFrames (origin (NonEmpty.head (run task))) mostFrames)}
+    | now > mostFrames -> before {overlong = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
     | otherwise -> before {count = now}
   where
     !now =
       count before + case Machine.arcs (machine look) of
-        Arcs {} | Pulses.isLevel (machine look) (run task) -> 1
-        _ -> Chord.frameCount mostFrames (machine look) (Chord.rounding (machine look) (allowed task)) (run task)
+        Arcs {} | Pulses.isLevel (machine look) moves -> 1
+        _ -> Chord.frameCount mostFrames (machine look) (Chord.rounding (machine look) allowed) moves
