@@ -11,6 +11,7 @@ module Geometry.Contour
 where
 
 import Base.Quantity (Mm (..), Rad (..), total)
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment (..))
@@ -62,7 +63,7 @@ chained get set ends (first :| rest) = case rest of
 
 -- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
 signedArea :: Contour -> Double
-signedArea (Contour _ ss@(first :| _)) = sum (fmap part ss)
+signedArea (Contour _ ss@(first :| _)) = foldl' (\area s -> area + part s) 0 ss
   where
     origin = Segment.start first
     part segment = triangle segment + sector segment

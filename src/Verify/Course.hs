@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Lines and arcs as bare numbers in mm, and what can be said of two of them at once.
 --
 -- The proof is about whole strokes and whole elements. Of nearly all of them a few products tell that they are far enough
@@ -69,7 +71,7 @@ isLine course = case course of
 
 -- | From a point.
 distance :: Course -> Double -> Double -> Double
-distance course px py = case course of
+distance course !px !py = case course of
   Line ax ay bx by ->
     let ux = bx - ax
         uy = by - ay
@@ -124,7 +126,7 @@ bearing ax ay bx by cx cy s px py k = k (sense * ((ax - cx) * vy - (ay - cy) * v
 
 -- | Whether a point lies in the sector of an arc.
 inSector :: Course -> Double -> Double -> Bool
-inSector course px py = case course of
+inSector course !px !py = case course of
   Line {} -> False
   Bow ax ay bx by cx cy _ s ->
     bearing ax ay bx by cx cy s px py $ \behind before along ->
@@ -196,11 +198,9 @@ cross a b = case (a, b) of
 -- | No point of the first course is further than this from the second. That is exact where the one runs beside the
 -- other, or about one of its ends.
 furthest :: Course -> Course -> Double
-furthest e t = min (beside e t) (min (fromPoint e tx ty) (fromPoint e ux uy))
+furthest e t = min (beside e t) (case t of Line ax ay bx by -> fromEnds ax ay bx by; Bow ax ay bx by _ _ _ _ -> fromEnds ax ay bx by)
   where
-    (tx, ty, ux, uy) = case t of
-      Line ax ay bx by -> (ax, ay, bx, by)
-      Bow ax ay bx by _ _ _ _ -> (ax, ay, bx, by)
+    fromEnds ax ay bx by = min (fromPoint e ax ay) (fromPoint e bx by)
 
 -- | No point of a course is further than this from any of some others; 'never' where an end of it is further from one of them than so much.
 furthestFrom :: Double -> Course -> [Course] -> Double
@@ -214,8 +214,11 @@ furthestFrom most e ts
 
 -- | Whether no point of the first course is further from the second than so much. Mostly its beginning tells that it is.
 isWithin :: Double -> Course -> Course -> Bool
-isWithin most e t = atBegin && furthest e t <= most
+isWithin most e t = atBegin && (beside e t <= most || fromEnds)
   where
+    fromEnds = case t of
+      Line ax ay bx by -> fromPoint e ax ay <= most || fromPoint e bx by <= most
+      Bow ax ay bx by _ _ _ _ -> fromPoint e ax ay <= most || fromPoint e bx by <= most
     atBegin = case e of
       Line ax ay _ _ -> distance t ax ay <= most
       Bow ax ay _ _ _ _ _ _ -> distance t ax ay <= most
@@ -281,6 +284,7 @@ aside high past near r
   | r <= 0 = sqrt (high * high + past * past)
   | near > 100 * past = sqrt (high * high + past * past * 1.001 * r / near)
   | otherwise = never
+{-# INLINE aside #-}
 
 -- | Beyond the end of one course by no more than this another one follows, in mm.
 overlap :: Double
@@ -288,7 +292,7 @@ overlap = 0.1
 
 -- | How far a point lies beside the sector of an arc of at most half a turn, or of a whole turn; 'never' far away.
 pastArc :: Course -> Double -> Double -> Double
-pastArc t px py = case t of
+pastArc t !px !py = case t of
   Line {} -> never
   Bow ax ay bx by cx cy r s
     | isWhole s -> 0
@@ -301,9 +305,10 @@ isWhole s = abs s >= 2 * pi
 
 -- | The point at a share of the length.
 at :: Course -> Double -> (Double, Double)
-at e t = case e of
+at e !t = case e of
   Line ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
   Bow ax ay _ _ cx cy _ s -> let c = cos (t * s); n = sin (t * s); vx = ax - cx; vy = ay - cy in (cx + c * vx - n * vy, cy + n * vx + c * vy)
+{-# INLINE at #-}
 
 -- | Whether every point of a course surely has one of some others within a distance, all courses of that other; whether it
 -- counts is asked last.
@@ -384,7 +389,7 @@ finish t = case t of
 
 -- | Where the foot of a point lies on a course, as a share of its length; of an arc in its sense from its beginning on.
 foot :: Course -> Double -> Double -> Double
-foot e x y = case e of
+foot e !x !y = case e of
   Line ax ay bx by -> shareOf ax ay bx by x y
   Bow ax ay _ _ cx cy _ s ->
     let vx = ax - cx
@@ -431,13 +436,13 @@ ranges cx cy t = case t of
 
 -- | Whether the foot of a point may fall on a course rather than before or behind it.
 spansAbout :: Course -> Double -> Double -> Bool
-spansAbout e px py = case e of
+spansAbout e !px !py = case e of
   Line ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
   Bow _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure
 
 -- | Where the foot of a point lies on a course, as a share of its length; of one before or behind it the nearer end.
 footOn :: Course -> Double -> Double -> Double
-footOn e px py = case e of
+footOn e !px !py = case e of
   Line ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
   Bow ax ay bx by _ _ _ _
     | inSector e px py -> max 0 (min 1 (foot e px py))

@@ -120,7 +120,9 @@ ascending ns = case ns of
 
 -- | Elements by what is left on them besides what the pass leaves.
 byAllowance :: [Edge] -> [(Mm, [Edge])]
-byAllowance es = [(more, [e | e <- es, left' e == more]) | more <- nubOrd (map left' es)]
+byAllowance es = case es of
+  e : others | all ((== left' e) . left') others -> [(left' e, es)]
+  _ -> [(more, [e | e <- es, left' e == more]) | more <- nubOrd (map left' es)]
   where
     left' = Part.allowance . Part.finish . element
 

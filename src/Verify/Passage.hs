@@ -22,6 +22,8 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
+import Data.Vector.Unboxed (Vector, (!))
+import Data.Vector.Unboxed qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Nearest (Nearest)
 import Geometry.Nearest qualified as Nearest
@@ -158,7 +160,7 @@ blursOf job = foldl' with (Blurs 0 True) (runsOf job)
 runsOf :: Job -> [NonEmpty Segment]
 runsOf job = map (fmap Part.segment) $ case NonEmpty.groupBy (\_ e -> Part.continues e) (elementsOf job) of
   first : more
-    | final : between <- reverse more, closedOf job, Part.continues (NonEmpty.head first) -> reverse ((final <> first) : between)
+    | closedOf job, Part.continues (NonEmpty.head first), final : between <- reverse more -> reverse ((final <> first) : between)
   runs -> runs
 
 -- | How far along a run the place of touch may seem to go back by rounding alone: along a curve the most of it that is
@@ -166,24 +168,27 @@ runsOf job = map (fmap Part.segment) $ case NonEmpty.groupBy (\_ e -> Part.conti
 blurAlong :: Job -> NonEmpty Segment -> Mm
 blurAlong job run = case run of
   s :| [] -> Mm (blur job s)
-  _ -> Mm (max (longest steps) (longest (reverse steps)))
+  _ -> Mm (max (longest id) (longest Vector.reverse))
   where
-    steps = [(l * 2 * a / blur job s, l) | s <- NonEmpty.toList run, let Mm l = Segment.length s]
+    lengths = Vector.fromList [l | s <- NonEmpty.toList run, let Mm l = Segment.length s]
+    moved = Vector.zipWith (\l b -> l * 2 * a / b) lengths (Vector.fromList (map (blur job) (NonEmpty.toList run)))
     Mm a = allowance job
-    longest ps = widest (2 * a) (zip (scanl (+) 0 (map fst ps)) (scanl (+) 0 (map snd ps)))
+    longest change = widest (2 * a) (Vector.scanl' (+) 0 (change moved)) (Vector.scanl' (+) 0 (change lengths))
 
--- | The largest growth of the second number while the first one, which rises too, grows by so much from any of the
--- pairs; between the pairs both grow evenly.
-widest :: Double -> [(Double, Double)] -> Double
-widest window marks = maximum (0 : go marks (zip marks (drop 1 marks)))
+-- | The largest growth of the second of two numbers along a walk while the first one, which rises too, grows by so much from any of
+-- the places; between the places both grow evenly.
+widest :: Double -> Vector Double -> Vector Double -> Double
+widest window firsts seconds = go 0 0 0
   where
-    final = maximum (0 : map snd marks)
-    go starts steps = case starts of
-      [] -> []
-      (m, l) : more -> let left' = dropWhile (\(_, (end, _)) -> end <= m + window) steps in grown m left' - l : go more left'
-    grown m steps = case steps of
-      [] -> final
-      ((m0, l0), (m1, l1)) : _ -> l0 + (l1 - l0) * (m + window - m0) / (m1 - m0)
+    count = Vector.length firsts
+    go :: Double -> Int -> Int -> Double
+    go most from step
+      | from >= count = most
+      | step + 1 < count && firsts ! (step + 1) <= firsts ! from + window = go most from (step + 1)
+      | otherwise = go (max most (grown from step - seconds ! from)) (from + 1) step
+    grown from step
+      | step + 1 >= count = Vector.last seconds
+      | otherwise = seconds ! step + (seconds ! (step + 1) - seconds ! step) * (firsts ! from + window - firsts ! step) / (firsts ! (step + 1) - firsts ! step)
 
 -- | How far along an element the place of touch may seem to go back by rounding alone.
 blur :: Job -> Segment -> Double
