@@ -63,9 +63,15 @@ data Edge = Edge {element :: Element, rank :: Int, before :: Double, long :: Dou
 edgesOf :: Milling -> Nearest Edge
 edgesOf job = Nearest.index (Course.box . course) (go 0 0 (NonEmpty.toList (Part.elements (Part.contour job))))
   where
+    -- Each is made at once: nothing waits for the length of those before it.
+    go :: Int -> Double -> [Element] -> [Edge]
     go rank before elements = case elements of
       [] -> []
-      element : more -> let Mm long = Segment.length (Part.segment element) in Edge {element, rank, before, long, course = Course.ofSegment (Part.segment element)} : go (rank + 1) (before + long) more
+      element : more ->
+        let Mm long = Segment.length (Part.segment element)
+            behind = before + long
+            edge = Edge {element, rank, before, long, course = Course.ofSegment (Part.segment element)}
+         in edge `seq` behind `seq` (edge : go (rank + 1) behind more)
 
 -- | The strokes of one contour.
 data Found

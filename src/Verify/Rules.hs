@@ -31,7 +31,7 @@ refused machine = go 1
     inFrame n at f =
       map ByRule (Frame.broken machine n f)
         <> [UnequalRadii n (minus b a) | Just (a, b) <- [Control.radii machine (Stroke {number = n, from = at, to = at + Frame.increment f, frame = f})], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
-        <> [NoSweep n | Round _ <- [Frame.motion f], Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f]
+        <> [NoSweep n | Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f, Round _ <- [Frame.motion f]]
     mostApart = times 2 (Machine.pulse machine)
 
 -- | Frames with other commands than the program's own frame in the same place.

@@ -48,8 +48,8 @@ tracesOf machine m = go 0 (NonEmpty.toList (Compensation.legs m))
     (from, to) = Control.height machine s
     go n legs = case legs of
       [] -> []
-      [leg] -> [trace n leg to]
-      leg : more -> trace n leg from : go (n + 1) more
+      [leg] -> let t = trace n leg to in t `seq` [t]
+      leg : more -> let t = trace n leg from in t `seq` (t : go (n + 1) more)
     trace n leg end = Trace {number = Control.number s, part = n, trail = Course.ofSegment leg, fromHeight = from, toHeight = end}
 
 -- | At its beginning and at its end.
