@@ -8,6 +8,7 @@
 module Control.Compensation
   ( Moved (..),
     run,
+    runWith,
     Unkept (..),
   )
 where
@@ -74,13 +75,17 @@ data Tag = Plain | First Keep | Later | Exit
 -- | Run frames from a position. Where the tape does not say the cutter's diameter, its radius by the number of the frame is
 -- asked.
 run :: Machine -> (Int -> Mm) -> V3 -> [Frame] -> ([Moved], [Unkept])
-run machine toolAt begin frames = case Machine.compensation (Machine.orders machine) of
+run = runWith (:)
+
+-- | The same, with what is made of each stroke before what is made of those behind it.
+runWith :: (Moved -> [a] -> [a]) -> Machine -> (Int -> Mm) -> V3 -> [Frame] -> ([a], [Unkept])
+runWith before machine toolAt begin frames = case Machine.compensation (Machine.orders machine) of
   Just c
     | any (switchesOn c) frames ->
       let ((final, _), told) = mapAccumL (told' c) (Off, strokes) (zip [1 ..] frames)
           (moved, problems) = unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
-       in (moved, concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final])
-  _ -> ([Moved s (Walk.segment machine s :| []) | s <- strokes], [])
+       in (foldr before [] moved, concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final])
+  _ -> (Walk.runWith (\s -> before (Moved s (Walk.segment machine s :| []))) begin frames, [])
   where
     switchesOn c f = any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
     strokes = Walk.run begin frames

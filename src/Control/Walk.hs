@@ -8,6 +8,7 @@
 module Control.Walk
   ( Stroke (..),
     run,
+    runWith,
     isRound,
     endsAbreast,
     segment,
@@ -37,12 +38,16 @@ data Stroke = Stroke {number :: Int, from :: V3, to :: V3, frame :: Frame}
 
 -- | Run frames from a position. A frame that only commands makes no stroke; a full circle makes one.
 run :: V3 -> [Frame] -> [Stroke]
-run = go 1
+run = runWith (:)
+
+-- | The same, with what is made of each stroke before what is made of those behind it. There is no list of the strokes themselves.
+runWith :: (Stroke -> [a] -> [a]) -> V3 -> [Frame] -> [a]
+runWith before = go 1
   where
     go n at frames = case frames of
       [] -> []
       f : more
-        | increment f /= 0 || isRound f -> let next = at + increment f in Stroke {number = n, from = at, to = next, frame = f} : go (n + 1) next more
+        | increment f /= 0 || isRound f -> let next = at + increment f; s = Stroke {number = n, from = at, to = next, frame = f} in s `seq` before s (go (n + 1) next more)
         | otherwise -> go (n + 1) at more
 
 -- | Whether a frame goes about a centre. About its own beginning or its own end there is no arc.

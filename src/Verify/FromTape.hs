@@ -61,12 +61,12 @@ import Verify.Trace qualified as Trace
 -- tell where the tape has to begin and end and which feeds belong where.
 prove :: Machine -> Path -> Program -> [Frame] -> Proof
 prove machine path program frames = case centres frames of
-  -- No one holds on to the strokes: their traces are much less.
-  (moved, unkept) -> compared machine path program frames tools (traced moved) (traced (fst (centres (map Frame.frame (Frame.planned program))))) unkept
+  -- There is no list of the strokes: their traces are much less.
+  (traces, unkept) -> compared machine path program frames tools (levelled traces) (levelled (fst (centres (map Frame.frame (Frame.planned program))))) unkept
   where
     tools = ownTools program
-    centres = Compensation.run machine (toolAt tools) (Frame.start program)
-    traced moved = Swivel.levelled machine path (concatMap (Trace.tracesOf machine) moved)
+    centres = Compensation.runWith (Trace.tracesOf machine) machine (toolAt tools) (Frame.start program)
+    levelled = Swivel.levelled machine path
 
 -- | The same of the traces on the tape and of the program's own, and what the control refuses.
 compared :: Machine -> Path -> Program -> [Frame] -> Vector Double -> [Trace] -> [Trace] -> [Compensation.Unkept] -> Proof

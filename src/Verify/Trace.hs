@@ -40,16 +40,15 @@ data Trace = Trace
     toHeight :: Mm
   }
 
--- | What the cutter's centre does in a stroke on a machine. If there are several parts, it rises in the last one.
-tracesOf :: Machine -> Moved -> [Trace]
-tracesOf machine m = go 0 (NonEmpty.toList (Compensation.legs m))
+-- | What the cutter's centre does in a stroke on a machine, before what it does in those behind it. If there are several parts, it rises in the last one.
+tracesOf :: Machine -> Moved -> [Trace] -> [Trace]
+tracesOf machine m behind = go 0 (Compensation.legs m)
   where
     s = Compensation.stroke m
     (from, to) = Control.height machine s
-    go n legs = case legs of
-      [] -> []
-      [leg] -> let t = trace n leg to in t `seq` [t]
-      leg : more -> let t = trace n leg from in t `seq` (t : go (n + 1) more)
+    go n (leg :| legs) = case legs of
+      [] -> let t = trace n leg to in t `seq` (t : behind)
+      next : more -> let t = trace n leg from in t `seq` (t : go (n + 1) (next :| more))
     trace n leg end = Trace {number = Control.number s, part = n, trail = Course.ofSegment leg, fromHeight = from, toHeight = end}
 
 -- | At its beginning and at its end.
