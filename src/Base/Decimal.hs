@@ -61,7 +61,7 @@ data Leading = Leading {size :: Int, worth :: Maybe Double, behind :: {-# UNPACK
 leading :: Text -> Leading
 leading text = case digits 0 text of
   Digits front count behind -> case Text.uncons behind of
-    Just ('.', more) | Digits n places further <- digits front more, places > 0 -> Leading (count + 1 + places) (fraction n places (count + 1 + places)) further
+    Just ('.', more) | count > 0, Digits n places further <- digits front more, places > 0 -> Leading (count + 1 + places) (fraction n places (count + 1 + places)) further
     _ -> Leading count (if count <= fewDigits then Just (fromIntegral front) else longer (Text.take count text) "") behind
   where
     fraction n places size
