@@ -50,7 +50,7 @@ spec = do
           cover 25 (hollow c) "hollow" (cover 25 (any isCorner (pieces c)) "corner" (cover 25 (side c == LeftOf) "left" True))
     it "length, with sharp corners (catches a corner arc of another radius or sweep)" $
       property $
-        forAll Generate.closedCase lengthLaw
+        forAll Generate.closedCase $ \c -> not (cutOff c) ==> lengthLaw c
   describe "obstacles" $ do
     it "the largest cutter that fits does fit, and one a little larger does not (catches a search that stops early)" $
       property $
@@ -121,6 +121,12 @@ sameWalk :: [Segment] -> [Segment] -> Property
 sameWalk as bs = length as === length bs .&&. conjoin [counterexample (show a) (any (alike a) bs) | a <- as]
   where
     alike a b = apart (Segment.start a) (Segment.start b) < 1e-6 && apart (Segment.end a) (Segment.end b) < 1e-6 && apart (Segment.at 0.5 a) (Segment.at 0.5 b) < 1e-6
+
+-- | Whether a corner turns slightly towards the cutter: the path is cut off there.
+cutOff :: Case -> Bool
+cutOff c = or [turned * (if side c == LeftOf then 1 else -1) > 1e-6 | (a, b) <- zip ss (drop 1 ss <> take 1 ss), let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)]
+  where
+    ss = NonEmpty.toList (segments (contour c))
 
 lengthLaw :: Case -> Property
 lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * pi * r)) < 1e-6)
