@@ -1,7 +1,7 @@
 //! offset SMALL FILE D RUNS BATCHES: the offset of one closed contour by D mm (outwards when it is counter-clockwise), RUNS times
 //! in each batch. FILE holds little-endian doubles, x y bulge for each vertex. Prints for every batch the nanoseconds of
 //! processor time of one run, then what came out of the last one and how far the first one raised the peak of memory. Before
-//! that the contour of SMALL is offset once, so that the code is in memory by then.
+//! that the contour of SMALL is offset a hundred times, so that the code, and what memory it keeps, are there by then.
 
 use cavalier::{contour, forget_peak, measures, memory, processor};
 use cavalier_contours::polyline::PlineSource;
@@ -16,7 +16,10 @@ fn main() -> std::io::Result<()> {
     let distance: f64 = distance.parse().expect("a distance in mm");
     let runs: u64 = runs.parse().expect("a number of runs");
     let batches: u64 = batches.parse().expect("a number of batches");
-    black_box(contour(small)?.parallel_offset(-distance));
+    let begin = contour(small)?;
+    for _ in 0..100 {
+        black_box(begin.parallel_offset(-distance));
+    }
     let source = contour(file)?;
 
     // A positive distance leads to the left there.
