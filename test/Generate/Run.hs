@@ -57,7 +57,7 @@ open = do
 bent :: [(Double, Double)] -> [Segment]
 bent = go (Vec.point 0 0) 0
   where
-    go p heading parts = case parts of
+    go p heading wanted = case wanted of
       [] -> []
       (l, bend) : more -> let s = arcFrom p heading (bend * l) l in s : go (Segment.end s) (heading + bend * l) more
 
