@@ -46,6 +46,7 @@ import Path.Path (Path)
 import Path.Path qualified as Path
 import System.Directory (findExecutable)
 import System.Exit (ExitCode (..))
+import System.IO.Temp (withSystemTempDirectory)
 import System.Process (readProcessWithExitCode)
 
 -- | Whether the interpreter is there.
@@ -64,10 +65,11 @@ data Canonical
     Rounding Double Turn Point Place
   deriving stock (Eq, Show)
 
--- | Run a file. What the interpreter says against it, and calls that are not understood here, are reasons.
+-- | Run a file. What the interpreter says against it, and calls that are not understood here, are reasons. It keeps its table of
+-- tools in the home folder, where another one that runs may break it off: so each has a home of its own.
 canonical :: FilePath -> IO (Either Text [Canonical])
-canonical file = do
-  (status, out, err) <- readProcessWithExitCode "rs274" ["-g", file] ""
+canonical file = withSystemTempDirectory "partc-rs274" $ \home -> do
+  (status, out, err) <- readProcessWithExitCode "env" ["HOME=" <> home, "rs274", "-g", file] ""
   -- It tells that it is at work, there where it complains.
   let complaint = Text.strip (Text.unlines (filter (/= "executing") (Text.lines (Text.pack err))))
   pure $ case status of
