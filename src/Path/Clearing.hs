@@ -8,7 +8,7 @@ import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Control.Monad (when)
 import Data.Foldable (for_, toList)
-import Data.List (find, foldl')
+import Data.List (find)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -61,7 +61,7 @@ blocks number at (Located region given) = do
           numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
       (approach, cleared, retract) <- passOf visit (fst <$> depth) z legs
       let b = Clearing {pocket = Located region pocket, pass = numbered, approach, cleared, retract, rests = if left == NonEmpty.last allowances then rests else []}
-      Right (foldl' Way.after spot (Path.moves b), b : done)
+      Right (Way.arriving spot (Path.moves b), b : done)
 
 -- | Where the cutter is when it goes down, if that is said.
 lastApproach :: Milling -> Maybe Point

@@ -5,7 +5,6 @@ module Path.Way
     flat,
     ways,
     rise,
-    after,
     arriving,
     keyword,
   )
@@ -30,7 +29,7 @@ data Visit = Visit {word :: Region, milling :: Milling, isFirst :: Bool, isLast 
 -- | The ways before and behind a pass without depth, which keep the height at which the cutter stands: where the pass begins, where it
 -- ends, the heights at both and that of the pass.
 flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish = (before <> ways (foldl after from before) [Part.Stop (Located word begin) (Just inZ) pace], behind <> if null behind then [Move (Straight finish finish) (outZ, z) pace False word False | outZ /= z] else [])
+flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish = (before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace], behind <> if null behind then [Move (Straight finish finish) (outZ, z) pace False word False | outZ /= z] else [])
   where
     pace = Part.At (feed milling)
     before = if isFirst || isOpen then ways from (Part.approach milling) else []
@@ -49,16 +48,16 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
     pace = Part.At (feed milling)
     up = rise from clear word
     stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
-    over = ways (foldl after from up) (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
-    above = foldl after (foldl after from up) over
+    over = ways (arriving from up) (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
+    above = arriving (arriving from up) over
     down = [Move (Straight (plane above) (plane above)) (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False word False | height above /= inZ]
     (beside, further) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
     leave = ways (Spot finish outZ) beside
-    out = foldl after (Spot finish outZ) leave
+    out = arriving (Spot finish outZ) leave
     lift = rise out clear word
-    rest = if isLast then ways (foldl after out lift) [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
+    rest = if isLast then ways (arriving out lift) [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
     lastOf xs = take 1 (reverse xs)
 
 -- | Straight up to a height, if the cutter stands below it.
@@ -75,15 +74,11 @@ ways at stops = case stops of
     where
       z = fromMaybe (height at) level
 
--- | Where a move ends.
-after :: Spot -> Move -> Spot
-after _ m = Spot (Segment.end (Path.segment m)) (snd (Path.heights m))
-
 -- | Where moves from a place end.
 arriving :: Spot -> [Move] -> Spot
 arriving from ms = case ms of
   [] -> from
-  [m] -> after from m
+  [m] -> Spot (Segment.end (Path.segment m)) (snd (Path.heights m))
   _ : more -> arriving from more
 
 -- | The first word of a statement, of so many letters.

@@ -232,7 +232,7 @@ follows job ruler = go 0 0 0 (entry job)
           Nothing -> Nothing
     -- How far on the furthest place is that the cutter touches.
     ahead mark p = maximum (0 : map (difference mark) (touched job (around job p) p))
-    -- Of several Trace.places that the cutter touches at once the one that it reaches by the smallest step.
+    -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
     step near (Along gone mark) p
       | isInfinite delta = Nothing
       | otherwise = Just (Along (gone + delta) (mark + delta))
