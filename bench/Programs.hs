@@ -25,6 +25,8 @@ data Kind
     Wavy
   | -- | the noisy table in a file of comma-separated values
     WavyFile
+  | -- | closed arcs through the rows of such a file, 19 mm apart, with noise of 2 mm: each arc needs a frame of its own
+    ArcsFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 name :: Kind -> Text
@@ -35,6 +37,7 @@ name kind = case kind of
   Rows -> "smooth rows"
   Wavy -> "noisy rows"
   WavyFile -> "noisy rows, csv"
+  ArcsFile -> "arcs, csv"
 
 -- | The text of a program, and the files beside it.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
@@ -47,9 +50,11 @@ written kind n = case kind of
   Statements -> Written (statements n) []
   Rows -> inline 0
   Wavy -> inline 0.1
-  WavyFile -> Written (splined n "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 0.1))]
+  WavyFile -> filed "closed_spline" 1 0.1
+  ArcsFile -> filed "closed_arcs" 6 2
   where
-    inline noise = Written (splined n (Text.unlines (["table t {", "x y"] <> rows " " n noise <> ["}"]))) []
+    inline noise = Written (curved "closed_spline" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
+    filed through scale noise = Written (curved through (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]
 
 -- | Elements around a circle, so far apart that half of what lies between them is given.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text
@@ -61,25 +66,23 @@ ring half n element =
   where
     r = half / sin (pi / fromIntegral n)
 
--- | A closed spline through a table.
-splined :: Int -> Text -> Text
-splined n table =
+-- | A closed curve of a kind through a table, so large.
+curved :: Text -> Double -> Text -> Text
+curved through r table =
   header "wave" 6 (0.7 * r + 40)
     <> table
-    <> "curve skin = closed_spline(t)\ncontour c closed { skin }\nmill c outside { start near ("
+    <> ("curve skin = " <> through <> "(t)\ncontour c closed { skin }\nmill c outside { start near (")
     <> coordinate r
     <> ", 0) }\n"
-  where
-    r = fromIntegral n :: Double
 
--- | Rows of x and y around a wave of five crests.
-rows :: Text -> Int -> Double -> [Text]
-rows separator n noise = map row [0 .. n - 1]
+-- | Rows of x and y around a wave of five crests, so many times 3 mm apart.
+rows :: Text -> Int -> Double -> Double -> [Text]
+rows separator n scale noise = map row [0 .. n - 1]
   where
-    r = fromIntegral n :: Double
+    count = fromIntegral n :: Double
     row k =
-      let a = 2 * pi * fromIntegral k / r
-          d = 0.5 * r * (1 + 0.1 * sin (5 * a)) + noise * (2 * Noise.uniform 7 (fromIntegral k) - 1)
+      let a = 2 * pi * fromIntegral k / count
+          d = 0.5 * scale * count * (1 + 0.1 * sin (5 * a)) + noise * (2 * Noise.uniform 7 (fromIntegral k) - 1)
        in coordinate (d * cos a) <> separator <> coordinate (d * sin a)
 
 header :: Text -> Int -> Double -> Text

@@ -57,7 +57,7 @@ explained begin text = case drop mostTokens tokens of
 
 -- | A program may have so many words and signs.
 mostTokens :: Int
-mostTokens = 3000000
+mostTokens = 6000000
 
 -- | Read one expression, which is the whole text; its offsets count from 0.
 parseExpr :: Text -> Result w Error Expr
