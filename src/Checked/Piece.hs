@@ -18,13 +18,15 @@ import Checked.Error (Error (..))
 import Checked.Infer (Infer, Solution)
 import Checked.Infer qualified as Infer
 import Checked.Later (Later, solved)
-import Checked.Syntax (Columns (..))
+import Checked.Syntax (Cells, Columns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
 import Control.Monad (when, zipWithM)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe, isNothing)
+import Data.Primitive.PrimArray (PrimArray)
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit (..))
@@ -51,7 +53,7 @@ table checker name written = case written of
       ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
         \sol ->
           let sizes = [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
-           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (solved sol (map (filled (arranged order columns) sizes) rows'))
+           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (solved sol (map (filled order (PrimArray.primArrayFromList sizes)) rows'))
       )
     where
       twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
@@ -67,11 +69,12 @@ table checker name written = case written of
     firstOf xs = case xs of
       [] -> Nothing
       x : _ -> Just x
-    arranged order columns = if order == [0 .. length columns - 1] then id else \es -> [es !! i | i <- order]
 
 -- | The cells of a row, brought into order, with the sizes of the bare numbers of their columns.
-filled :: ([Checked.Expr] -> [Checked.Expr]) -> [Double] -> Located [Cell] -> Later (Located [Checked.Expr])
-filled arranged sizes (Located region cells) sol = let found = zipWith expression sizes cells in foldr seq (Located region (arranged found)) found
+filled :: [Int] -> PrimArray Double -> Row -> Later Cells
+filled order sizes found sol = case found of
+  Numbers at xs -> Checked.Numbers at (PrimArray.primArrayFromListN (PrimArray.sizeofPrimArray xs) [PrimArray.indexPrimArray xs i * PrimArray.indexPrimArray sizes i | i <- order])
+  Cells at cells -> let es = zipWith expression (PrimArray.primArrayToList sizes) cells in foldr seq (Checked.Written at [es !! i | i <- order]) es
   where
     expression s c = case c of
       Bare at x -> Located at (Checked.Number (x * s))
@@ -91,16 +94,27 @@ column (Surface.Heading name unit) = case (unit, value name) of
       Infer.monomorphic d
       pure (Column name (Type.Quantity d) Nothing)
 
+-- | A row: bare numbers for all columns, or its cells.
+data Row = Numbers Region (PrimArray Double) | Cells Region [Cell]
+
 -- | The cells of a row, which has its number from 1.
-row :: Checker -> [Column] -> (Int, Surface.Line) -> Infer (Maybe (Located [Cell]))
+row :: Checker -> [Column] -> (Int, Surface.Line) -> Infer (Maybe Row)
 row checker columns (number, Located at line) = case line of
   Surface.Header _ -> Nothing <$ Infer.mistake (HeadingsAgain at)
   Surface.BrokenLine -> Nothing <$ Infer.taint
+  Surface.Numbers xs
+    | PrimArray.sizeofPrimArray xs /= length columns -> wrongLength (PrimArray.sizeofPrimArray xs)
+    | otherwise -> pure (Just (Numbers at xs))
   Surface.Entries cells
-    | length cells /= length columns -> Nothing <$ Infer.mistake (RowLength at number (length columns) (length cells))
+    | length cells /= length columns -> wrongLength (length cells)
     | otherwise -> do
       cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
-      pure (Just (Located at cells'))
+      pure $! Just $! maybe (Cells at cells') (Numbers at . PrimArray.primArrayFromList) (traverse bare cells')
+  where
+    wrongLength count = Nothing <$ Infer.mistake (RowLength at number (length columns) count)
+    bare c = case c of
+      Bare _ x -> Just x
+      Written _ -> Nothing
 
 -- | What stands in a cell: a bare number, which has the unit of its column, or something else.
 data Cell = Bare Region Double | Written (Solution -> Checked.Expr)

@@ -8,6 +8,7 @@ module Checked.Syntax
     Cutter,
     Cutter_ (..),
     Columns (..),
+    Cells (..),
     Cipher,
     Cipher_ (..),
     Joggle,
@@ -50,6 +51,7 @@ import Base.Name (Name)
 import Base.Region (Located, Region)
 import Checked.Dimension (Dimension)
 import Data.List.NonEmpty (NonEmpty)
+import Data.Primitive.PrimArray (PrimArray)
 import Data.Text (Text)
 import Surface.Syntax (Choice (..), Closure (..), Compensation (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Side (..), Switch (..), Walk (..))
 
@@ -103,7 +105,11 @@ data Statement_
   deriving stock (Eq, Show)
 
 -- | The columns of a table besides x and y with their dimensions, and its rows: x, y, and the others in order.
-data Columns = Columns [(Name, Dimension)] [Located [Expr]]
+data Columns = Columns [(Name, Dimension)] [Cells]
+  deriving stock (Eq, Show)
+
+-- | A row of a table: bare numbers, which most have, or anything else.
+data Cells = Numbers Region {-# UNPACK #-} (PrimArray Double) | Written Region [Expr]
   deriving stock (Eq, Show)
 
 type Cipher = Located Cipher_

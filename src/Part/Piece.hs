@@ -11,11 +11,12 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region)
-import Checked.Syntax (Cipher, Cipher_ (..), Columns (..), Expr, Expr_ (..), Joggle, Joggle_ (..), Side (..))
+import Checked.Syntax (Cells (..), Cipher, Cipher_ (..), Columns (..), Expr, Expr_ (..), Joggle, Joggle_ (..), Side (..))
 import Checked.Syntax qualified as Checked
 import Control.Monad (foldM, when)
 import Data.Foldable (find)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Curve (Distance, Growth (..))
@@ -42,16 +43,14 @@ table env (Columns names written) = do
   let column k = Vector.fromList [others !! k | Values _ others <- found]
   pure Table {rows = Vector.fromList [r | Values r _ <- found], columns = [(n, column k) | (k, (n, _)) <- zip [0 ..] names]}
   where
-    row (Located at cells) = do
-      vs <- traverse cell cells
+    row written' = case written' of
+      Numbers at xs -> Eval.spend at (PrimArray.sizeofPrimArray xs) *> placed at (PrimArray.primArrayToList xs)
+      Written at cells -> traverse (fmap Value.number . Value.evaluate env) cells >>= placed at
+    placed at vs = do
       mapM_ (Data.within at) (take 2 vs)
       case vs of
         x : y : others -> let values = Values (Row at (Vec.point x y)) others in values `seq` pure [values]
         _ -> pure []
-    -- Most are numbers as they are written.
-    cell e = case e of
-      Located at (Number x) -> x <$ Eval.spend at 1
-      _ -> Value.number <$> Value.evaluate env e
 
 -- | The point of a row, and its other values.
 data Values = Values Row [Double]

@@ -60,6 +60,7 @@ line :: Line_ -> Line_
 line l = case l of
   Header columns -> Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)
   Entries es -> Entries (fmap expr es)
+  Numbers xs -> Numbers xs
   BrokenLine -> BrokenLine
 
 cipher :: Cipher_ -> Cipher_

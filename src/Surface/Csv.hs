@@ -8,6 +8,7 @@ module Surface.Csv
   )
 where
 
+import Base.Decimal (Leading (..))
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
@@ -16,6 +17,7 @@ import Data.Either (partitionEithers)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
@@ -34,6 +36,7 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
         columns = case value first of
           Header hs -> Just (length hs)
           Entries _ -> Nothing
+          Numbers _ -> Nothing
           BrokenLine -> Nothing
         Rows _ wrongs others = foldl' (further separator columns) (Rows 1 [] []) rest
      in (wrong <> reverse wrongs, first : reverse others)
@@ -48,20 +51,19 @@ further separator columns (Rows k wrongs others) line = case columns >>= \n -> p
 
 -- | A row of so many numbers without spaces, signs other than minus, and exponents, as most are.
 plain :: Char -> Int -> Located Text -> Maybe Line
-plain separator columns (Located at line) = case cells (start at) (Text.split (== separator) line) of
-  Just (e : es) | length es == columns - 1 -> Just (Located at (Entries (e :| es)))
-  _ -> Nothing
+plain separator columns (Located at line) = Located at . Numbers . PrimArray.primArrayFromListN columns <$> cells columns line
   where
-    cells from parts = case parts of
-      [] -> Just []
-      part : more -> do
-        let size = Text.length part
-            place = Region from (from + size)
-        cell <- case Text.uncons part of
-          Just ('-', digits) -> Located place . Negate <$> literal (Region (from + 1) (from + size)) digits
-          _ -> literal place part
-        (cell :) <$> cells (from + size + 1) more
-    literal place digits = (\x -> Located place (Literal (Numeral digits x) Nothing)) <$> Decimal.amount digits
+    cells :: Int -> Text -> Maybe [Double]
+    cells wanted text = case Text.uncons text of
+      Just ('-', digits) -> number wanted negate digits
+      _ -> number wanted id text
+    number :: Int -> (Double -> Double) -> Text -> Maybe [Double]
+    number wanted signed text = case Decimal.leading text of
+      Leading {size, worth = Just x, behind} | size > 0 -> case Text.uncons behind of
+        Nothing | wanted == 1 -> Just [signed x]
+        Just (c, more) | c == separator && wanted > 1 -> (signed x :) <$> cells (wanted - 1) more
+        _ -> Nothing
+      _ -> Nothing
 
 -- | The lines with their places, without a mark of the byte order.
 linesOf :: Int -> Text -> [Located Text]

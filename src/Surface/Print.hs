@@ -7,6 +7,7 @@ module Surface.Print
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (Located))
 import Base.Region qualified as Region
@@ -14,6 +15,7 @@ import Data.Char (isDigit)
 import Data.List (transpose)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Doc (Doc (..), Piece)
@@ -131,11 +133,13 @@ table commented indent ls = map row written
     cellsOf l = case l of
       Header columns -> [name <> maybe "" ((" " <>) . unitName) unit | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns]
       Entries es -> map cell (NonEmpty.toList es)
+      Numbers xs -> map Decimal.exact (PrimArray.primArrayToList xs)
       BrokenLine -> []
     readable l = case l of
       BrokenLine -> False
       Header _ -> True
       Entries _ -> True
+      Numbers _ -> True
     cell e = case Region.value e of
       Literal _ _ -> text (PrintExpr.value commented e)
       Negate (Located _ (Literal _ _)) -> text (PrintExpr.value commented e)
