@@ -89,6 +89,7 @@ toReport err = case err of
     (at region "E0101" ("found " <> shown found <> expectation expected))
       { label = "here",
         hints = case found of
+          FoundToken (Symbol "=") | "‘closed’" `elem` expected -> ["A contour has no such sign: contour name closed { … }"]
           FoundToken token | not (isWord expected) -> meant token expected <> advice token neighbours
           FoundToken token -> meant token expected
           FoundEnd -> []
