@@ -43,6 +43,7 @@ module Geometry.Curve
     Side (..),
 
     -- * Looking at them
+    chain,
     cubics,
     domain,
     spans,
@@ -167,6 +168,12 @@ joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   where
     needed = times 2 (ramp joggle)
     there = minus (lengthTo curve ends) (lengthTo curve begins)
+
+-- | The arcs and lines of a curve that consists of them, some of them arcs, and is not shifted. Of neighbours, one ends where the next begins.
+chain :: Curve -> Maybe (NonEmpty Segment)
+chain curve = case curve of
+  Plain b -> Base.asSegments b
+  Shifted {} -> Nothing
 
 -- | Spans in x and y that stay so near to a curve, and how near; see 'Cubics.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)

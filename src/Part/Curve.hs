@@ -35,6 +35,7 @@ import Geometry.Similarity (Similarity)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Track (Track (..))
 import Geometry.Track qualified as Track
+import Geometry.Track.Chain qualified as Chain
 import Geometry.Track.Cubic qualified as Cubic
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -65,11 +66,12 @@ data Fitting = Fitting {pieces :: NonEmpty Piece.Piece, misses :: [Fit.Deviation
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> Curve
 curve fields fitting exact = Curve {exact, fields, fitting, laid = arcsAlong Tolerance.curve exact}
 
--- | Arcs and lines that stay within a distance of a curve.
+-- | Arcs and lines that stay within a distance of a curve; its own where it has no others and no kinks between its corners.
 arcsAlong :: Mm -> Exact.Curve -> Polyarc
-arcsAlong tolerance exact = case Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact of
-  Just (off, xs, ys) -> Polyarc.fromOutline (Cubic.approximate (minus tolerance off) xs ys)
-  Nothing -> Polyarc.fromSegments (sconcat (Track.approximate tolerance (track exact)))
+arcsAlong tolerance exact = case (Exact.chain exact, Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact) of
+  (Just segments, _) -> Polyarc.fromSegments (Chain.smoothed tolerance segments)
+  (Nothing, Just (off, xs, ys)) -> Polyarc.fromOutline (Cubic.approximate (minus tolerance off) xs ys)
+  (Nothing, Nothing) -> Polyarc.fromSegments (sconcat (Track.approximate tolerance (track exact)))
 
 -- | A curve without a table.
 plain :: Exact.Curve -> Curve

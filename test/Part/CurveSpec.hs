@@ -11,6 +11,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Generate.Curve qualified as Curves
+import Geometry.Biarc qualified as Biarc
+import Geometry.Contour qualified as Contour
 import Geometry.Curve (Curve, Distance (..), Ends (..), Growth (..), Side (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Distance qualified as Distance
@@ -55,6 +57,17 @@ spec = do
                 ]
             (a, b) -> counterexample (show (a, b)) False
   describe "a contour" $ do
+    it "of arcs runs along the very arcs, there and back and turned (catches a chain of arcs that others stand for)" $
+      property $
+        forAll ((,,) <$> course <*> motion <*> shares) $ \(points, (s, _, (begin, rest)), ts) ->
+          let text = "part p\ncurve a = arcs([" <> Text.intercalate ", " (map point points) <> "])\n"
+              own = maybe [] (NonEmpty.toList . Biarc.through Contour.Open) (NonEmpty.nonEmpty points)
+              on segments p = minimum [d | g <- segments, let { Mm d = Distance.toPoint p g }] `atMost` 1e-8
+           in conjoin
+                [ elementsOf (text <> "contour k open { " <> what <> " }\n") `soundly` \found ->
+                    conjoin [on found (moved (Segment.at t g)) | g <- own, t <- ts] .&&. near (sum (map lengthOf own)) (sum (map lengthOf found))
+                  | (what, moved) <- [("a", id), ("reversed(a)", id), (begin <> "a" <> rest, Similarity.point s)]
+                ]
     it "of two curves that cross runs along both, from crossing to crossing (catches a curve walked beyond its crossing, or its other part)" $
       property $
         forAll crossing $ \(upper, lower) ->

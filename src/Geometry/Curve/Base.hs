@@ -6,6 +6,7 @@ module Geometry.Curve.Base
   ( Base (..),
     Course (..),
     spans,
+    asSegments,
     Method (..),
     Ends (..),
     Row (..),
@@ -141,6 +142,20 @@ spans :: Base -> Vector Span
 spans base = case course base of
   Cubical xs ys -> Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
+
+-- | The arcs and lines of a base, some of them arcs, if it has no other spans. Of neighbours, one ends where the next begins; spans join to a
+-- point.
+asSegments :: Base -> Maybe (NonEmpty Segment)
+asSegments base = case course base of
+  Cubical _ _ -> Nothing
+  Mixed parts -> traverse Span.segment (Vector.toList parts) >>= NonEmpty.nonEmpty . linked Nothing
+  where
+    linked before ss = case ss of
+      [] -> []
+      s : rest -> let s' = maybe s (`from` s) before in s' : linked (Just (Segment.end s')) rest
+    from p s
+      | Segment.start s == p = s
+      | otherwise = s {Segment.start = p}
 
 -- | Cubics where all spans are.
 coursed :: Vector Span -> Course

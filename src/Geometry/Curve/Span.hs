@@ -5,6 +5,7 @@ module Geometry.Curve.Span
     ofPiece,
     ofSegment,
     ends,
+    segment,
     isPoint,
     jet,
     reversed,
@@ -63,6 +64,13 @@ ends :: Span -> (Point, Point)
 ends s = case s of
   Polynomial x y -> let place t = Vec.point (Spline.value x t) (Spline.value y t) in (place 0, place 1)
   Round g -> (Segment.start g, Segment.end g)
+
+-- | The span as a line or an arc, if it is one.
+segment :: Span -> Maybe Segment
+segment s = case s of
+  Polynomial (Cubic _ _ 0 0) (Cubic _ _ 0 0) -> let (p, q) = ends s in Just (Straight p q)
+  Polynomial _ _ -> Nothing
+  Round g -> Just g
 
 -- | Whether a span that was given as a piece has no length. A full circle ends where it begins and has one.
 isPoint :: Span -> Bool

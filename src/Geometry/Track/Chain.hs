@@ -12,6 +12,7 @@
 -- beginning to the end, so that every point of the arc is as near to the chain.
 module Geometry.Track.Chain
   ( approximate,
+    smoothed,
   )
 where
 
@@ -26,8 +27,10 @@ import Data.Vector.Unboxed qualified as Unboxed
 import Data.Vector.Unboxed.Mutable qualified as Mutable
 import Geometry.Biarc.Pair (Frame (..), Pair (..), Pose (..), forwards, frame)
 import Geometry.Outline (Outline)
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Track (Side (..), Track (Track))
 import Geometry.Track qualified as Track
@@ -69,6 +72,35 @@ approximate (Mm tolerance) segments = runST $ do
     aim = tolerance * (1 - Tolerance.roundingShare)
     -- Of a stretch that goes on to the end of a piece no more than is needed is looked at.
     sharp to u = let i = min (to - 1) (Search.lastBelow n u (stations chain)) in Track.further (Mm tolerance) (trackOf chain i (min to (i + 64))) (station chain (min to (i + 64))) u
+
+-- | A chain that turns at corners only and stays within a distance of another one: the other itself, neighbours on one circle as one arc;
+-- but for stretches between corners with kinks, for which others stand as 'approximate' gives them.
+smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
+smoothed tolerance (first :| others) = gathered (first :| []) first False others
+  where
+    gathered before@(b :| earlier) s kinked rest = case rest of
+      [] -> settled kinked before
+      next : more
+        | jump > Tolerance.kink -> settled kinked before <> gathered (next :| []) next False more
+        | jump > Tolerance.smoothAngle -> gathered (NonEmpty.cons next before) next True more
+        | otherwise -> gathered (maybe (NonEmpty.cons next before) (:| earlier) (together b next)) next kinked more
+        where
+          jump = let Rad a = Vec.turn (Segment.endDirection s) (Segment.startDirection next) in Rad (abs a)
+    settled kinked before
+      | kinked = Polyarc.segments (Polyarc.fromOutline (approximate tolerance (NonEmpty.reverse before)))
+      | otherwise = NonEmpty.reverse before
+
+-- | An arc and the next one as one arc of half a turn at most, if the circle of the first is that of the next as far as doubles tell.
+together :: Segment -> Segment -> Maybe Segment
+together s next = case (s, next) of
+  (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})
+    | signum a == signum b && abs (a + b) <= pi && all (onCircle centre (Segment.radius centre start)) [Segment.at 0.5 next, end] && Rad (abs (bend both)) <= Tolerance.oneArc -> Just both
+    where
+      both = Segment.arc (if a > 0 then CounterClockwise else Clockwise) centre start end
+  _ -> Nothing
+  where
+    onCircle c (Mm r) p = let Mm d = Vec.distance c p in Mm (abs (d - r)) <= Tolerance.arcLength
+    bend both = let Rad t = Vec.turn (Segment.endDirection next) (Segment.endDirection both) in t
 
 chainOf :: NonEmpty Segment -> Chain
 chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.create (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (numbers array) 0 list)}

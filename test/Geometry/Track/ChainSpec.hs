@@ -37,6 +37,12 @@ spec =
     it "not many more than in general (catches a bound that is far too large)" $
       property $
         forAll tracked fewLaw
+    it "smoothed, a chain is near itself and turns at its corners only (catches a kink that is left, an arc beyond a corner)" $
+      property $
+        forAll tracked smoothedLaw
+    it "smoothed, a chain without kinks keeps all of its ends that are not within an arc (catches a chain that is put anew)" $
+      property $
+        forAll (tracked `suchThat` smoothAlready) keptLaw
     it "the generator reaches corners, and arcs that stand for many or for a part of one" $
       checkCoverage $
         forAll tracked $ \t@(Tracked _ _ pieces) ->
@@ -104,6 +110,34 @@ arcsLaw t@(Tracked _ tolerance pieces) = near (tolerance + 1e-9) (arcsOf t) (toL
 near :: Double -> [Segment] -> [Segment] -> Property
 near tolerance ss others = forAll (vectorOf 60 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
   conjoin [counterexample (show (p, d)) (d <= tolerance) | (k, f) <- picks, let p = Segment.at f (ss !! k), let d = minimum (map (away p) others)]
+
+smoothedLaw :: Tracked -> Property
+smoothedLaw t@(Tracked _ tolerance pieces) =
+  conjoin
+    [ near (tolerance + 1e-9) found (toList pieces),
+      near (tolerance + 1e-9) (toList pieces) found,
+      counterexample (show found) (property (and (zipWith (\a b -> Segment.end a == Segment.start b) found (drop 1 found)))),
+      counterexample (show (turnsOf found)) (all (\k -> k <= 1e-6 || k > 1e-3) (turnsOf found)),
+      cornersOf found === cornersOf (toList pieces)
+    ]
+  where
+    found = smoothedOf t
+
+keptLaw :: Tracked -> Property
+keptLaw t@(Tracked _ _ pieces) = conjoin [counterexample (show s) (any (begins s) pieces && Segment.end s `elem` map Segment.end (toList pieces)) | s <- smoothedOf t]
+  where
+    -- Of an arc that stands for several, the first one begins it and is of its circle.
+    begins s p = Segment.start p == Segment.start s && centreOf p == centreOf s
+    centreOf s = case s of
+      Arc {centre} -> Just centre
+      Straight _ _ -> Nothing
+
+smoothedOf :: Tracked -> [Segment]
+smoothedOf (Tracked _ tolerance pieces) = toList (Chain.smoothed (Mm tolerance) pieces)
+
+-- | Whether a chain has no kinks but corners.
+smoothAlready :: Tracked -> Bool
+smoothAlready (Tracked _ _ pieces) = all (\k -> k <= 1e-7 || k > 1e-3) (turnsOf (toList pieces))
 
 -- | Whether a kink that is no corner takes from half to all of the tolerance by itself. An arc across it then has hardly a
 -- choice where to lie, and whether one is found that is near for certain is a matter of luck.
