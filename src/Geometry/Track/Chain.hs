@@ -57,7 +57,7 @@ approximate (Mm tolerance) segments = runST $ do
             vertices
             aim
             Stretch {inSpan = from, begin = station chain from, final, step = final - station chain from}
-            Spans {seek = seekFrom chain to, pose = poseWithin chain from to, Walk.off = apart chain, guess = \_ _ before -> Guess before 1, other = sharp to, patient = True}
+            Spans {seek = seekFrom chain to, pose = poseWithin chain from to, Walk.off = apart chain, guess = \_ _ before -> Guess before 1, other = sharp to, hopeless = astray chain, patient = True}
           stretches to
       endOf k
         | k >= n || cornered chain k = k
@@ -198,9 +198,12 @@ poseWithin chain from to i u
 -- | How far a biarc is from the chain between two places, given the pieces of both; of what is further than a limit only that it is so.
 apart :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off
 apart chain most first u from final v to pair
-  | strays = unknown
-  | single pair = if forwards one then let Reached _ _ _ d = onward chain most v to True one start in Off d d else unknown
-  | forwards one && forwards two = case onward chain most v to False one start of
+  -- Most of what is too far off is so at one of a few places.
+  | final - first >= 4 && (stray 1 || stray 2 || stray 3) = unknown
+  | single pair = let one = frame from (bend1 pair) to in if forwards one then let Reached _ _ _ d = onward chain most v to True one start in Off d d else unknown
+  | one <- frame from (bend1 pair) (joint pair),
+    two <- frame (joint pair) (bend2 pair) to,
+    forwards one && forwards two = case onward chain most v to False one start of
     Reached i s p d1 | d1 <= most -> case onward chain most v to True two (Reached i s p 0) of
       Reached _ _ _ d2 -> Off d1 d2
     _ -> unknown
@@ -210,42 +213,84 @@ apart chain most first u from final v to pair
     -- The chain's own direction.
     begin = advanced (curvature chain first) (beginning chain first) (u - station chain first)
     unknown = Off (1 / 0) (1 / 0)
-    !one = frame from (bend1 pair) (if single pair then to else joint pair)
-    !two = frame (joint pair) (bend2 pair) to
-    -- Most of what is too far off is so at one of a few places.
-    strays = final - first >= 4 && (stray 1 || stray 2 || stray 3)
-    stray k = let p = beginning chain (first + k * (final - first) `quot` 4) in abs (level (if single pair || beyond one p < 0 then one else two) p) > most
+    stray k
+      | single pair || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair) < 0 = abs (above (bend1 pair) from p) > most
+      | otherwise = abs (above (bend2 pair) (joint pair) p) > most
+      where
+        !p = beginning chain (first + k * (final - first) `quot` 4)
+
+-- | Whether a place between two others, given with their pieces and poses, is further than a distance from any biarc between these: all of
+-- them lie between two circles through both places, one with the direction at the first and one with that at the final.
+astray :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
+astray chain most first _ from final _ to = max (abs bendA) (abs bendB) * most < slack / 2 && go 1
+  where
+    cx = px to - px from
+    cy = py to - py from
+    square = cx * cx + cy * cy
+    !bendA = 2 * (cy * dx from - cx * dy from) / square
+    !bendB = 2 * (cx * dy to - cy * dx to) / square
+    far = (1 + slack) * most
+    n = min places (final - first)
+    go :: Int -> Bool
+    go k
+      | k >= n = False
+      | otherwise = isOutside (above bendA from p) (above bendB to p) || go (k + 1)
+      where
+        !p = beginning chain (first + k * (final - first) `quot` n)
+    isOutside a b = a > far && b > far || a < -far && b < -far
+
+-- | At so many places it is looked whether a stretch is too far away.
+places :: Int
+places = 8
+
+-- | F differs from the distance by less than half of this share.
+slack :: Double
+slack = 0.05
 
 -- | A piece, a place on the chain and the pose there, and the distance up to there.
 data Reached = Reached Int Double Pose Double
 
 -- | Past one arc: to the normal at its end or, on the last one, to a place with its pose.
 onward :: Chain -> Double -> Double -> Pose -> Bool -> Frame -> Reached -> Reached
-onward !chain !most !v !to !final !f (Reached i0 u0 (Pose x0 y0 dx0 dy0) d0) = go i0 u0 x0 y0 dx0 dy0 d0
+onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) = go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
   where
-    -- The pose in bare numbers: there are many.
-    go !i !u !px0 !py0 !ux0 !uy0 !d
-      | d > most = Reached i u p d
-      | whole && final = Reached i v to (past p to)
-      | whole && beyond f to < 0 = Reached i v to (1 / 0)
-      | whole = across to
-      | final || beyond f next < 0 = let Pose x y ux uy = beginning chain (i + 1) in go (i + 1) w x y ux uy (past p next)
-      | otherwise = across next
+    -- The pose in bare numbers, and F there, and the greatest so far: there are many.
+    go !i !u !x !y !hx !hy !here !most'
+      | end >= v = lastly i u (Pose x y hx hy) (worse d0 (distant f most'))
+      | otherwise = case beginning chain (i + 1) of
+        Pose nx ny kx ky
+          | not final && beyond f arriving >= 0 -> across i u end p arriving (worse d0 (distant f most'))
+          | not (ahead f p && ahead f arriving) -> Reached (i + 1) end arriving (1 / 0)
+          -- Seldom can there be more between them.
+          | abs here + 1.5 * abs m * (end - u) > greater, e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u), e > greater -> onto e
+          | otherwise -> onto greater
+          where
+            p = Pose x y hx hy
+            (ex, ey) = ending chain i
+            arriving = Pose nx ny ex ey
+            !there = level f arriving
+            !m = slope f p
+            !greater = if abs there > most' then abs there else most'
+            onto !now
+              | now > most' && distant f now > most = Reached (i + 1) end arriving (1 / 0)
+              | otherwise = go (i + 1) end nx ny kx ky there now
       where
-        !p = Pose px0 py0 ux0 uy0
         !end = station chain (i + 1)
-        !whole = end >= v
-        !w = if whole then v else end
-        !k = curvature chain i
-        next = let (ex, ey) = ending chain i in (beginning chain (i + 1)) {dx = ex, dy = ey}
-        past a b = worse d (beside f a b (w - u))
-        -- To the normal at the arc's end, before the end of the piece.
-        across q = let s = crossing q; c = advanced k p s in Reached i (u + s) c (worse d (beside f p c s))
-        crossing q =
-          let from = beyond f p
-              newton s = let c = advanced k p s in held (s - beyond f c / (dx c * dx (limit f) + dy c * dy (limit f)))
-              held s = if s > 0 then if s < w - u then s else w - u else 0
-           in newton (held ((u - w) * from / (beyond f q - from)))
+    -- In the piece that holds the place.
+    lastly !i !u !p !d
+      | final = Reached i v to (worse d (beside f p to (v - u)))
+      | beyond f to < 0 = Reached i v to (1 / 0)
+      | otherwise = across i u v p to d
+    {-# NOINLINE lastly #-}
+    -- To the normal at the arc's end, before the end of the piece.
+    across !i !u !w !p !q !d = Reached i (u + s) c (worse d (beside f p c s))
+      where
+        s = newton (held ((u - w) * from / (beyond f q - from)))
+        c = advanced (curvature chain i) p s
+        from = beyond f p
+        newton a = let b = advanced (curvature chain i) p a in held (a - beyond f b / (dx b * dx (limit f) + dy b * dy (limit f)))
+        held a = if a > 0 then if a < w - u then a else w - u else 0
+    {-# NOINLINE across #-}
     worse d e = if e <= d then d else e
 
 -- | How far a place is beyond the normal at an arc's end.
@@ -255,36 +300,53 @@ beyond f p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (
 
 -- | F of an arc's circle at a place.
 level :: Frame -> Pose -> Double
-level f p = uy * dx (origin f) - ux * dy (origin f) - 0.5 * bend f * (ux * ux + uy * uy)
-  where
-    ux = px p - px (origin f)
-    uy = py p - py (origin f)
+level f = above (bend f) (origin f)
 {-# INLINE level #-}
+
+-- | F of the circle of a curvature that begins with a pose.
+above :: Double -> Pose -> Pose -> Double
+above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
+  where
+    ux = px p - px from
+    uy = py p - py from
+{-# INLINE above #-}
 
 -- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite where it may not go forwards.
 beside :: Frame -> Pose -> Pose -> Double -> Double
 beside f p q l
-  | vx p > 0 && vx q > 0 && vx p * cosine f + vy p * sine f > 0 && vx q * cosine f + vy q * sine f > 0 && k * d < 0.2 = d * (1 + k * d)
+  | ahead f p && ahead f q = distant f (greater (extreme from (slope f p) (slope f q) (dx p * dy q - dy p * dx q) l) (greater (abs from) (abs to)))
   | otherwise = 1 / 0
   where
-    tx = dx (origin f)
-    ty = dy (origin f)
-    k = abs (bend f)
-    vx a = dx a * tx + dy a * ty
-    vy a = dy a * tx - dx a * ty
-    slope a = vy a - bend f * ((px a - px (origin f)) * dx a + (py a - py (origin f)) * dy a)
     from = level f p
     to = level f q
-    m = slope p
-    n = slope q
-    -- What the piece turns by; by its square the extremum is not quite a parabola's.
-    turned = dx p * dy q - dy p * dx q
-    extreme
-      | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * turned * turned))
-      | otherwise = 0
-    d = greater extreme (greater (abs from) (abs to))
     greater a b = if a > b then a else b
-{-# INLINE beside #-}
+
+-- | The distance that F comes to at most; infinite where it is not known.
+distant :: Frame -> Double -> Double
+distant f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
+  where
+    k = abs (bend f)
+{-# INLINE distant #-}
+
+-- | Whether a pose goes forwards as seen from both ends of an arc.
+ahead :: Frame -> Pose -> Bool
+ahead f p = along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
+  where
+    along = dx p * dx (origin f) + dy p * dy (origin f)
+{-# INLINE ahead #-}
+
+-- | How fast F changes along a pose.
+slope :: Frame -> Pose -> Double
+slope f p = (dy p * dx (origin f) - dx p * dy (origin f)) - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
+{-# INLINE slope #-}
+
+-- | What F comes to between two places a length apart: given it at the first, its slopes at both, and the sine of what the piece turns by; by
+-- its square the extremum is not quite a parabola's. 0 where there is none, and never more than @|F| + 3/2·|slope|·length@.
+extreme :: Double -> Double -> Double -> Double -> Double -> Double
+extreme from m n turned l
+  | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * turned * turned))
+  | otherwise = 0
+{-# INLINE extreme #-}
 
 -- | Some of the pieces, from one to before another, as a track by the chain's length.
 trackOf :: Chain -> Int -> Int -> Track

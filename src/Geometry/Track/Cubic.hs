@@ -43,7 +43,7 @@ approximate (Mm tolerance) xs ys = runST $ do
             vertices
             aim
             Stretch {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
-            Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, Walk.off = apart xs ys, guess = guessed xs ys aim to, other = sharp to, patient = False}
+            Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, Walk.off = apart xs ys, guess = guessed xs ys aim to, other = sharp to, hopeless = \_ _ _ _ _ _ _ -> False, patient = False}
           stretches to
       endOf k
         | k >= n || cornered xs ys k = k

@@ -48,6 +48,8 @@ data Spans = Spans
     guess :: Int -> Double -> Double -> Guess,
     -- | a biarc from a pose by other means, with a step to try
     other :: Double -> (Point, Vec) -> Double -> Further,
+    -- | whether no biarc between two parameters, each given with its span and pose, stays within a distance
+    hopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
     -- | whether longer biarcs with other ratios are looked for where the curvature does not change evenly: fewer by a tenth,
     -- where there are few
     patient :: Bool
@@ -56,7 +58,7 @@ data Spans = Spans
 -- | The biarcs along a stretch, each as far as it stays within a distance. The vertices up to the last but one are
 -- written; the last one begins what follows.
 along :: Vertices s -> Double -> Stretch -> Spans -> ST s ()
-along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pose, off, guess, other, patient} = go inSpan begin (pose inSpan begin) first 0
+along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pose, off, guess, other, hopeless, patient} = go inSpan begin (pose inSpan begin) first 0
   where
     go !i !u !from !step !bending
       | u >= final = pure ()
@@ -105,6 +107,7 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
         beyond k
           | k >= 5 = taken j from v to pair step rate
           | w >= final = beyond (k + 1 :: Int)
+          | hopeless aim i u from l w at = beyond (k + 1)
           | otherwise = divided 0
           where
             w = u + (v - u) * (case k of 0 -> 2.2; 1 -> 1.8; 2 -> 1.5; 3 -> 1.25; _ -> 1.1)
