@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Arcs in whole pulses.
 --
 -- The ends of an arc are rounded as absolute positions. About them and a centre that is a lattice point the control
@@ -16,7 +18,7 @@ module Frame.Arc
 where
 
 import Base.Lattice (V2 (..), V3 (..), flat)
-import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus, times)
+import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus)
 import Data.List (foldl')
 import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
@@ -54,18 +56,22 @@ data Task = Task
     -- | how it is walked in chords, from a position
     chorded :: V3 -> Segment -> [V3],
     height :: Mm,
-    -- | the ways of one pulse in mm
+    -- | the ways of one pulse in mm: along the axes, and the coarser one of them
     grainX :: Double,
-    grainY :: Double
+    grainY :: Double,
+    grain :: Double,
+    -- | the largest number of pulses in the field of a centre
+    furthestCentre :: Pulses
   }
 
 -- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
 -- chords.
 steps :: Machine -> Room -> (V3 -> Segment -> [V3]) -> Mm -> V3 -> Segment -> [Step]
-steps machine room chorded height = walk deepest Task {machine, room, chorded, height, grainX, grainY}
+steps machine room chorded height = walk deepest Task {machine, room, chorded, height, grainX, grainY, grain, furthestCentre = Machine.centreCapacity machine}
   where
     Mm grainX = Machine.pulseOf machine X
     Mm grainY = Machine.pulseOf machine Y
+    Mm grain = Machine.pulse machine
 
 -- | How often an arc is halved before it goes as chords.
 deepest :: Int
@@ -75,7 +81,7 @@ walk :: Int -> Task -> V3 -> Segment -> [Step]
 walk left task begin s = case s of
   Straight _ _ -> straight
   Arc {sweep}
-    | isFlat (machine task) s && goesStraight task s (flat begin : map (flat . stop) straight) -> straight
+    | isFlat task s && goesStraight task s (flat begin : map (flat . stop) straight) -> straight
     | left <= 0 || not (holds task begin s) -> map alone (chorded task begin s)
     | otherwise -> case mapMaybe (truest task begin finish s (sense sweep)) [centres task begin finish s, outer task begin finish s (sense sweep)] of
       found : _ -> found
@@ -93,8 +99,8 @@ place :: Task -> Point -> V3
 place task p = Pulses.rounded (machine task) (p, height task)
 
 -- | Whether an arc deviates from its chord by less than half a pulse.
-isFlat :: Machine -> Segment -> Bool
-isFlat machine s = Segment.bulge s < times 0.5 (Machine.pulse machine)
+isFlat :: Task -> Segment -> Bool
+isFlat task s = Segment.bulge s < Mm (0.5 * grain task)
 
 -- | Whether straight steps from a position to the next ones stay as near to an arc as they have to: half a pulse of sagitta
 -- and the rounding of the ends add to more than a pulse.
@@ -122,11 +128,10 @@ goesStraight task exact stops = case exact of
 holds :: Task -> V3 -> Segment -> Bool
 holds task (V3 x y _) s = case s of
   Straight _ _ -> True
-  Arc {start, centre} -> all (< Machine.centreCapacity (machine task)) [abs (i - x), abs (j - y), ceiling (r / grain)]
+  Arc {start, centre} -> abs (i - x) < furthestCentre task && abs (j - y) < furthestCentre task && Pulses (ceiling (r / min (grainX task) (grainY task))) < furthestCentre task
     where
       V3 i j _ = place task centre
       Mm r = Segment.radius centre start
-      Mm grain = minimum [Machine.pulseOf (machine task) axis | axis <- [X, Y]]
 
 -- | The lattice points to try as centres.
 centres :: Task -> V3 -> V3 -> Segment -> [V2]
@@ -171,8 +176,7 @@ outer task begin finish s turn = case s of
     | otherwise ->
       let first = flat (place task centre)
           Mm most = roundly (room task)
-          Mm grain = Machine.pulse (machine task)
-          reach = ceiling (min 1000 (1.5 * (most / grain + sqrt 0.5) / (1 - cos (min pi (abs a / 2)))))
+          reach = ceiling (min 1000 (1.5 * (most / grain task + sqrt 0.5) / (1 - cos (min pi (abs a / 2)))))
           offAbout = offInMiddle task s turn (flat begin) (flat finish)
        in [c | c <- map (first +) (square (min remotest (Pulses reach))), not (isWithin neighbours first c), inOneStep task turn begin finish c, offAbout c <= most]
 
@@ -201,32 +205,97 @@ best attempts = case attempts of
 -- | The best about any of some lattice points. Where the whole arc can be one step, each of them has to be truer than the best so
 -- far, beginning with the one that seems least off; of two that are as true the first one is taken.
 truest :: Task -> V3 -> V3 -> Segment -> Turn -> [V2] -> Maybe [Step]
-truest task begin finish s turn cs = case whole of
-  first : others | Just found <- foldl' better (tried (foldl' nearer first others)) whole -> Just (way (result found))
-  _ -> best (mapMaybe (attempt task begin finish s turn) cs)
+truest task begin finish s turn cs
+  | begin /= finish, Just ends <- endsOf task s (flat begin) (flat finish), Likeliest number c <- likeliest ends, Just found <- among ends (tried number c) = Just (way (result found))
+  | otherwise = best (mapMaybe (attempt task begin finish s turn) cs)
   where
-    whole = [Candidate {rank, node = c, seeming = seemingOf c} | begin /= finish, (rank, c) <- zip [0 ..] cs, inOneStep task turn begin finish c]
-    seemingOf = offInMiddle task s turn (flat begin) (flat finish)
-    nearer x y = if seeming y < seeming x then y else x
-    tried x = Tried (rank x) <$> attempt task begin finish s turn (node x)
-    better so x = case so of
-      Nothing -> tried x
+    isWhole = inOneStep task turn begin finish
+    tried number c = Tried number <$> attempt task begin finish s turn c
+    likeliest ends = go 0 None (1 / 0) cs
+      where
+        go !rank so !least todo = case todo of
+          [] -> so
+          c : more
+            | isWhole c, d <- seemingOff ends c, d < least || isNone so -> go (rank + 1) (Likeliest rank c) d more
+            | otherwise -> go (rank + 1) so least more
+    isNone so = case so of
+      None -> True
+      Likeliest _ _ -> False
+    among ends = go 0 cs
+      where
+        go !rank todo so = case todo of
+          [] -> so
+          c : more -> go (rank + 1) more (if isWhole c then better ends so rank c else so)
+    better ends so rank c = case so of
+      Nothing -> tried rank c
       Just b
-        | Mm (seeming x - off (result b)) <= Tolerance.coincident, isTruer (number b) (off (result b)) x, Just a <- tried x -> Just a
+        | isTruer ends (number b) (off (result b)) rank c, Just a <- tried rank c -> Just a
         | otherwise -> so
-    isTruer before most x = case legOf task s turn (node x) (flat begin, flat finish) of
-      Nothing -> False
-      Just leg -> let isLess o = o < most || o == most && rank x < before in all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
+    isTruer ends before most rank c = not (seemingOff ends c - unsureOff ends c > most) && isLess (offAtBegin ends c) && isTrueAll
+      where
+        isLess o = o < most || o == most && rank < before
+        isTrueAll = case legOf task s turn c (flat begin, flat finish) of
+          Nothing -> False
+          Just leg -> all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
 
--- | Shares of a sweep, those first at which an arc is most likely to be off.
+-- | Shares of a sweep behind its beginning, those first at which an arc is most likely to be off.
 samples :: [Double]
-samples = [0, 1, 4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
+samples = [1, 4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
--- | A lattice point by its place among the others, and how far the middle of the arc about it is off, in mm.
-data Candidate = Candidate {rank :: Int, node :: V2, seeming :: Double}
+-- | A lattice point by its place among the others.
+data Likeliest = None | Likeliest Int V2
 
 -- | What has been tried, and its place.
 data Tried = Tried {number :: Int, result :: Attempt}
+
+-- | An arc's rounded ends and its exact circle, in bare numbers: the ways of one pulse, the beginning, the centre, the radius; how far off the
+-- beginning is; and by how much the directions from the centre to its middle and to its end differ from that to its beginning.
+data Ends = Ends {pulseX :: Double, pulseY :: Double, beginX :: Double, beginY :: Double, centreX :: Double, centreY :: Double, circle :: Double, firstOff :: Double, halfX :: Double, halfY :: Double, wholeX :: Double, wholeY :: Double}
+
+endsOf :: Task -> Segment -> V2 -> V2 -> Maybe Ends
+endsOf task exact begin finish = case exact of
+  Straight _ _ -> Nothing
+  Arc {start, centre, sweep = Rad angle} ->
+    let a = point task begin
+        from = Vec.unit (Vec.to centre a)
+        half = Vec.add (Vec.rotate (Rad (angle / 2)) from) (Vec.negate from)
+        whole = Vec.add (Vec.unit (Vec.to centre (point task finish))) (Vec.negate from)
+        Mm circle = Segment.radius centre start
+        Mm far = Vec.distance centre a
+     in Just Ends {pulseX = grainX task, pulseY = grainY task, beginX = Vec.x a, beginY = Vec.y a, centreX = Vec.x centre, centreY = Vec.y centre, circle, firstOff = far - circle, halfX = Vec.dot (Vec.vec 1 0) half, halfY = Vec.dot (Vec.vec 0 1) half, wholeX = Vec.dot (Vec.vec 1 0) whole, wholeY = Vec.dot (Vec.vec 0 1) whole}
+
+-- | About how far off an arc about a lattice point is at its middle or its end with the radius of its beginning, in mm. About a centre
+-- that is off by a vector v it is off by @o + v·(u − u₀)@ where the true radius has the direction u, if it is off by o at its beginning,
+-- where that has the direction u₀; what is left out goes with the square of v.
+seemingOff :: Ends -> V2 -> Double
+seemingOff Ends {pulseX, pulseY, centreX, centreY, firstOff, halfX, halfY, wholeX, wholeY} (V2 (Pulses i) (Pulses j)) = if half > whole then half else whole
+  where
+    x = fromIntegral i * pulseX - centreX
+    y = fromIntegral j * pulseY - centreY
+    half = abs (firstOff + x * halfX + y * halfY)
+    whole = abs (firstOff + x * wholeX + y * wholeY)
+{-# INLINE seemingOff #-}
+
+-- | By how much less an arc about a lattice point may be off than it seems, in mm.
+unsureOff :: Ends -> V2 -> Double
+unsureOff Ends {pulseX, pulseY, centreX, centreY, circle} (V2 (Pulses i) (Pulses j)) = 16 * far * far / circle + rounding'
+  where
+    far = abs (fromIntegral i * pulseX - centreX) + abs (fromIntegral j * pulseY - centreY) + pulseX + pulseY
+{-# INLINE unsureOff #-}
+
+-- | What the rounding of doubles adds at most, in mm.
+rounding' :: Double
+rounding' = 1e-9
+
+-- | How far off the beginning of an arc about a lattice point is, as 'offAt' has it.
+offAtBegin :: Ends -> V2 -> Double
+offAtBegin Ends {pulseX, pulseY, beginX, beginY, centreX, centreY, circle} (V2 (Pulses i) (Pulses j)) = abs (sqrt (x * x + y * y) - circle)
+  where
+    mx = fromIntegral i * pulseX
+    my = fromIntegral j * pulseY
+    x = mx + (beginX - mx) - centreX
+    y = my + (beginY - my) - centreY
+{-# INLINE offAtBegin #-}
 
 -- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
 -- the chord between the directions of the ends. The ends come first: many points are tried between the same ones.
@@ -262,26 +331,25 @@ attempt task begin finish s turn c = case s of
       deviations = map (deviate task s turn c) legs
       deviation = maximum (map evenly deviations)
       near leg d = isStraight leg || Mm (evenly d) <= roundly (room task) && Mm (innermost d) <= inwards (room task) && Mm (outermost d) <= outwards (room task)
-      Mm grain = Machine.pulse (machine task)
       Mm r = Segment.radius centre start
       -- An end moves by a pulse at most, and so does the centre beside it.
-      slack = min (pi / 2) (4 * grain / r)
+      slack = min (pi / 2) (4 * grain task / r)
   where
     wholes = case Machine.arcs (machine task) of
       NoArcs -> False
       Arcs {Machine.fullCircle} -> fullCircle
     V3 _ _ z = finish
     -- A piece that a cut left nearly straight is straight.
-    isStraight leg@(from, to) = isFlat (machine task) (arcOf task turn c leg) && goesStraight task s [from, to]
+    isStraight leg@(from, to) = isFlat task (arcOf task turn c leg) && goesStraight task s [from, to]
     step leg@(from, V2 x y)
       | isStraight leg = Step {stop = V3 x y z, about = Nothing}
       | otherwise = Step {stop = V3 x y z, about = Just (turn, c - from)}
-    sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= Machine.centreCapacity (machine task)) && within (to - from) && level leg
+    sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= furthestCentre task) && within (to - from) && level leg
     within (V2 dx dy) = case Machine.measure (Machine.layout (machine task)) of
       Machine.Positions -> True
       Machine.Increments -> abs dx <= Machine.capacity (machine task) X && abs dy <= Machine.capacity (machine task) Y
     -- The radii at the ends of a frame differ by no more than two pulses.
-    level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to); Mm p = Machine.pulse (machine task) in abs (a - b) <= 2 * p
+    level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to) in abs (a - b) <= 2 * grain task
 
 -- | Where the axes through a lattice point near the centre of a circle cross it, in pulses from there: to the right, to the left,
 -- upwards, downwards.
