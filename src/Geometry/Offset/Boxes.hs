@@ -22,10 +22,10 @@ where
 
 import Control.Monad (when)
 import Control.Monad.ST (ST, runST)
-import Data.Bits (shiftL, shiftR, (.&.), (.|.))
+import Data.Bits (countTrailingZeros, shiftL, shiftR, unsafeShiftL, unsafeShiftR, (.&.), (.|.))
 import Data.Primitive.PrimArray
 import Data.Word (Word8)
-import GHC.Exts (Double (D#), Int (I#), (>=##))
+import GHC.Exts (Double (D#), Int (I#), uncheckedIShiftRL#, (>=##))
 import Geometry.Offset.Chain (Chain)
 import Geometry.Offset.Chain qualified as Chain
 
@@ -61,26 +61,6 @@ segmentBox c i k = k lx ly hx hy
     !hx = most x0 x1 + most 0 ox
     !hy = most y0 y1 + most 0 oy
 {-# INLINE segmentBox #-}
-
--- | The same with a margin, twice as large in all its numbers, and without a branch, from middle and width: good to a few
--- units in the last place, which are much less than the margins of 'pairs'.
-twiceBox :: Double -> Chain -> Int -> (Double -> Double -> Double -> Double -> r) -> r
-twiceBox !m c i k = k (cx - wx) (cy - wy) (cx + wx) (cy + wy)
-  where
-    !x0 = indexPrimArray (Chain.xs c) i
-    !y0 = indexPrimArray (Chain.ys c) i
-    !x1 = indexPrimArray (Chain.xs c) (i + 1)
-    !y1 = indexPrimArray (Chain.ys c) (i + 1)
-    !b = 0.5 * indexPrimArray (Chain.bulges c) i
-    !dx = x1 - x0
-    !dy = y1 - y0
-    !ox = b * dy
-    !oy = b * dx
-    !cx = x0 + x1 + ox
-    !cy = y0 + y1 - oy
-    !wx = abs dx + abs ox + 2 * m
-    !wy = abs dy + abs oy + 2 * m
-{-# INLINE twiceBox #-}
 
 -- | 1 where the first number is no smaller, 0 else, without a branch.
 reaches :: Double -> Double -> Int
@@ -227,27 +207,30 @@ everyWay = 255
 
 -- | Visit every two segments whose boxes overlap and that may meet, the earlier one first, as long as the test allows.
 pairs :: Boxes -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
-pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn visit = do
-  -- Twice the boxes of the segments of some runs, each run in the slot of its number's last digit or in a spare one; and
-  -- the runs.
-  near <- newPrimArray (4 * fan * (fan + 1))
+pairs bs@Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn visit = do
+  -- Of some runs the boxes of the segments, each run in the slot of its number's last digit or in a spare one; and the runs.
+  near <- Near <$> newPrimArray (answer + 1) <*> newPrimArray answer
   held <- newPrimArray (fan + 1)
   setPrimArray held 0 (fan + 1) (-1)
-  let n = sizeofPrimArray (Chain.xs c)
+  let !grid = gridOf bs
       -- What is in a box of a level, and in two different boxes of one.
       within !l !a
         | way (at l + a) /= 0 = pure ()
-        | l == 0 = load (slot a) a >> inRun (fan * a) (begin (slot a)) (begin (slot a) + 4 * fan)
+        | l == 0 = load (slot a) a >> amongThem near (slot a) >> found near >>= visits (fan * a) (fan * slot a) (fan * a) (fan * slot a)
         | otherwise = do
           more <- goesOn
           when more (among (l - 1) a)
       between !l !a !b
         | b == a + 1 && way (at l + a) .&. way (at l + b) /= 0 = pure ()
         | l == 0 = do
-          let own = slot a
-              other = if own == slot b then fan else slot b
-          load own a
-          boxAt sides b (\lx ly hx hy -> acrossRuns (fan * a) (begin own) (begin own + 4 * fan) b other (2 * lx) (2 * ly) (2 * hx) (2 * hy))
+          load (slot a) a
+          boxAt sides b (\lx ly hx hy -> against near (slot a) (least' (stepX grid lx) (stepY grid ly)) (largest' (stepX grid hx) (stepY grid hy)))
+          some <- found near
+          when (some /= 0) $ do
+            let other = if slot a == slot b then fan else slot b
+            load other b
+            overlapping near (slot a) some other
+            found near >>= visits (fan * a) (fan * slot a) (fan * b) (fan * other)
         | otherwise = boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
       -- The boxes of a level that are in one above; those from i to e, and those that are in another one above.
       among !l !a = go (fan * a)
@@ -270,64 +253,198 @@ pairs Boxes {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn
         r' <- readPrimArray held s
         when (r' /= r) $ do
           writePrimArray held s r
-          fill (begin s) (fan * r) (fan * r + fan)
-      fill !k !i !e
-        | i >= e = pure ()
-        | i < n && present c i = twiceBox m c i (put k) >> fill (k + 4) (i + 1) e
-        | otherwise = put k far far (-far) (-far) >> fill (k + 4) (i + 1) e
-      put !k !lx !ly !hx !hy = do
-        writePrimArray near k lx
-        writePrimArray near (k + 1) ly
-        writePrimArray near (k + 2) hx
-        writePrimArray near (k + 3) hy
-      -- The segments of a run among themselves, and those of a run that overlap the box of another one against that one's.
-      inRun !i !k !e
-        | k >= e = pure ()
-        | otherwise = against i k (i + 1) (k + 4) e >> inRun (i + 1) (k + 4) e
-      acrossRuns !i !k !e !b !other !lx !ly !hx !hy
-        | k >= e = pure ()
+          fill bs grid near s r
+      -- Of the segments of two runs, from those on whose boxes are in these places, the ones that a set says.
+      visits !a !p !b !q !set
+        | set == 0 = pure ()
         | otherwise = do
-          hit <- overlapNear k lx ly hx hy
-          when (hit /= 0) $ load other b >> against i k (fan * b) (begin other) (begin other + 4 * fan)
-          acrossRuns (i + 1) (k + 4) e b other lx ly hx hy
-      -- The segment i, whose box is at p, and the segments from j on, whose boxes are from q to e.
-      against !i !p !j !q !e = do
-        lx <- readPrimArray near p
-        ly <- readPrimArray near (p + 1)
-        hx <- readPrimArray near (p + 2)
-        hy <- readPrimArray near (p + 3)
-        let go !k
-              | k >= e = pure ()
-              | otherwise = do
-                hit <- overlapNear k lx ly hx hy
-                when (hit /= 0) $ visit i (j + (k - q) `shiftR` 2)
-                go (k + 4)
-        go q
-      overlapNear !k !lx !ly !hx !hy = do
-        a <- readPrimArray near k
-        b <- readPrimArray near (k + 1)
-        a' <- readPrimArray near (k + 2)
-        b' <- readPrimArray near (k + 3)
-        pure $! overlap a b a' b' lx ly hx hy
-      {-# INLINE overlapNear #-}
+          let !k = countTrailingZeros set
+              !i = k `unsafeShiftR` 3
+              !j = k .&. (fan - 1)
+          sure <- if b + j == a + i + 1 then pure True else surely near (p + i) (q + j)
+          when (sure || exactly m c (a + i) (b + j)) $ visit (a + i) (b + j)
+          visits a p b q (set .&. (set - 1))
   within highest 0
   where
     at l = indexPrimArray begins l
     size l = indexPrimArray counts l
     way k = indexPrimArray ways k
     slot r = r .&. (fan - 1)
-    begin s = 4 * fan * s
 {-# INLINE pairs #-}
 
--- | Whether a box overlaps another one.
-overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
-overlaps a k lx ly hx hy = boxAt a k (\px py qx qy -> overlap px py qx qy lx ly hx hy /= 0)
-{-# INLINE overlaps #-}
+-- | A grid of 2²⁹ steps over the box of everything: half the steps in a mm, and half of what is added to coordinates in steps.
+-- Both coordinates of a corner go into one word. The bits above both of them are set in a largest corner: where a least
+-- corner is taken from it, those stay that belong to coordinates in which it is no larger.
+data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
--- | 1 where two boxes overlap, 0 else, without a branch.
-overlap :: Double -> Double -> Double -> Double -> Double -> Double -> Double -> Double -> Int
-overlap px py qx qy lx ly hx hy = reaches hx px .&. reaches qx lx .&. reaches hy py .&. reaches qy ly
-{-# INLINE overlap #-}
+-- | Coordinates begin so far above 0 that no rounding takes one below it.
+gridOf :: Boxes -> Grid
+gridOf bs = whole bs $ \lx ly hx hy ->
+  let w = most (hx - lx) (hy - ly)
+      steps = if w > 0 then 268435456 / w else 0
+   in Grid {halfSteps = steps, addX = 134217728 - steps * lx, addY = 134217728 - steps * ly}
+
+-- | A coordinate in steps.
+stepX, stepY :: Grid -> Double -> Double
+stepX g x = 2 * (x * halfSteps g + addX g)
+stepY g y = 2 * (y * halfSteps g + addY g)
+{-# INLINE stepX #-}
+{-# INLINE stepY #-}
+
+-- | The corners of a box from its sides in steps, rounded away from its middle.
+least', largest' :: Double -> Double -> Int
+least' x y = truncate x .|. truncate y `unsafeShiftL` 32
+largest' x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsafeShiftL` 32
+{-# INLINE least' #-}
+{-# INLINE largest' #-}
+
+-- | The least and the largest corners of boxes, in slots of eight; behind the least ones a set of them, as bits.
+data Near s = Near (MutablePrimArray s Int) (MutablePrimArray s Int)
+
+-- | The set that was found last, and where it is.
+found :: Near s -> ST s Int
+found (Near lows _) = readPrimArray lows answer
+{-# INLINE found #-}
+
+answer :: Int
+answer = fan * (fan + 1)
+
+-- | Whether two boxes overlap by more than a step of the grid.
+surely :: Near s -> Int -> Int -> ST s Bool
+surely (Near lows highs) !p !q = do
+  low <- readPrimArray lows p
+  high <- readPrimArray highs p
+  hit <- touches lows highs q (low + apart) (high - apart)
+  pure (hit /= 0)
+  where
+    apart = 0x0000000300000003
+{-# INLINE surely #-}
+
+-- | The same of the boxes of two segments to within rounding: twice the boxes, from middle and width, good to a few units in
+-- the last place, which are much less than the margin.
+exactly :: Double -> Chain -> Int -> Int -> Bool
+exactly !m !c !i !j = twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
+  where
+    twice k next =
+      let !x0 = indexPrimArray (Chain.xs c) k
+          !y0 = indexPrimArray (Chain.ys c) k
+          !x1 = indexPrimArray (Chain.xs c) (k + 1)
+          !y1 = indexPrimArray (Chain.ys c) (k + 1)
+          !b = 0.5 * indexPrimArray (Chain.bulges c) k
+          !dx = x1 - x0
+          !dy = y1 - y0
+          !ox = b * dy
+          !oy = b * dx
+          !cx = x0 + x1 + ox
+          !cy = y0 + y1 - oy
+          !wx = abs dx + abs ox + 2 * m
+          !wy = abs dy + abs oy + 2 * m
+       in next (cx - wx) (cy - wy) (cx + wx) (cy + wy)
+    {-# INLINE twice #-}
+{-# NOINLINE exactly #-}
+
+-- | Write the corners of the boxes of a run's segments into a slot. What is no segment overlaps nothing.
+fill :: Boxes -> Grid -> Near s -> Int -> Int -> ST s ()
+fill Boxes {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r = go (fan * s) begin (stepsX begin) (stepsY begin)
+  where
+    !begin = fan * r
+    !e = min (begin + fan) (sizeofPrimArray (Chain.xs c) - 1)
+    !twice = 2 * m * halfSteps
+    stepsX i = indexPrimArray (Chain.xs c) i * halfSteps + addX
+    stepsY i = indexPrimArray (Chain.ys c) i * halfSteps + addY
+    go !k !i !x !y
+      | i >= e = rest k
+      | otherwise = do
+        let !x' = stepsX (i + 1)
+            !y' = stepsY (i + 1)
+            !b = 0.5 * indexPrimArray (Chain.bulges c) i
+            !dx = x' - x
+            !dy = y' - y
+            !ox = b * dy
+            !oy = b * dx
+            !cx = x + x' + ox
+            !cy = y + y' - oy
+            !wx = abs dx + abs ox + twice
+            !wy = abs dy + abs oy + twice
+        if present c i then put k (least' (cx - wx) (cy - wy)) (largest' (cx + wx) (cy + wy)) else none k
+        go (k + 1) (i + 1) x' y'
+    -- A chain ends with no segment.
+    rest !k
+      | k >= fan * s + fan = pure ()
+      | otherwise = none k >> rest (k + 1)
+    none k = put k 0x7fffffff7fffffff (-0x7fffffff80000000)
+    put !k !low !high = do
+      writePrimArray lows k low
+      writePrimArray highs k high
+{-# NOINLINE fill #-}
+
+-- | 1 where the box at a place overlaps one that has these corners, 0 else, without a branch.
+touches :: MutablePrimArray s Int -> MutablePrimArray s Int -> Int -> Int -> Int -> ST s Int
+touches lows highs !k !low !high = do
+  low' <- readPrimArray lows k
+  high' <- readPrimArray highs k
+  let !both = (high - low') .&. (high' - low)
+  pure $! (both `shiftRL` 63) .&. (both `shiftRL` 31)
+{-# INLINE touches #-}
+
+shiftRL :: Int -> Int -> Int
+shiftRL (I# a) (I# k) = I# (uncheckedIShiftRL# a k)
+{-# INLINE shiftRL #-}
+
+-- | Which boxes of a slot overlap a box: a bit for each of them.
+against :: Near s -> Int -> Int -> Int -> ST s ()
+against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
+  where
+    !begin = fan * s
+    go !k !set
+      | k < begin = writePrimArray lows answer set
+      | otherwise = do
+        hit <- touches lows highs k low high
+        go (k - 1) (set + set + hit)
+{-# NOINLINE against #-}
+
+-- | Which two boxes of a slot overlap, as a set of bits: eight times the first one's number and the second one's.
+amongThem :: Near s -> Int -> ST s ()
+amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
+  where
+    -- Few numbers are at hand in the loop, so that all of them stay in the processor: slots begin at multiples of eight.
+    first !k !set = do
+      low <- readPrimArray lows k
+      high <- readPrimArray highs k
+      let second !q !hits
+            | q > k = do
+              hit <- touches lows highs q low high
+              second (q - 1) (hits + hits + hit)
+            | k .&. (fan - 1) == 0 = writePrimArray lows answer (set `unsafeShiftL` fan + hits + hits)
+            | otherwise = first (k - 1) (set `unsafeShiftL` fan + hits `unsafeShiftL` ((k .&. (fan - 1)) + 1))
+      second (k .|. (fan - 1)) 0
+{-# NOINLINE amongThem #-}
+
+-- | The same of two slots, for some of the boxes of the first one.
+overlapping :: Near s -> Int -> Int -> Int -> ST s ()
+overlapping (Near !lows !highs) !s !some !other = first some 0
+  where
+    !begin = fan * other
+    !end = begin + fan - 1
+    first !left !set
+      | left == 0 = writePrimArray lows answer set
+      | otherwise = do
+        let !i = countTrailingZeros left
+            !k = fan * s + i
+        low <- readPrimArray lows k
+        high <- readPrimArray highs k
+        let second !q !hits
+              | q < begin = first (left .&. (left - 1)) (set .|. hits `unsafeShiftL` (fan * i))
+              | otherwise = do
+                hit <- touches lows highs q low high
+                second (q - 1) (hits + hits + hit)
+        second end 0
+{-# NOINLINE overlapping #-}
+
+-- | Whether a box overlaps another one. Without a branch up to the answer.
+overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
+overlaps a k lx ly hx hy = boxAt a k (\px py qx qy -> reaches hx px .&. reaches qx lx .&. reaches hy py .&. reaches qy ly /= 0)
+{-# INLINE overlaps #-}
 
 -- | Gather over the segments whose boxes overlap a box, in order.
 around :: Boxes -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
