@@ -314,7 +314,7 @@ begun shape a b = case shape of
 marked :: Walk -> Mm -> [Segment] -> [Element]
 marked Walk {place, shape, finish, bevel} (Mm from) whole = case whole of
   [] -> []
-  [s] | null bevel -> [Element s place finish False isCurve Nothing]
+  _ | null bevel -> zipWith (\s continues -> Element s place finish continues isCurve Nothing) whole (False : zipWith smoothly whole (drop 1 whole))
   _ -> zipWith3 element ss (False : zipWith smoothly ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
     element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning angles a <*> leaning angles b)
