@@ -20,7 +20,7 @@ where
 import Base.Lattice (V2 (..), V3 (..), flat)
 import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus)
 import Data.List (foldl')
-import Data.Maybe (mapMaybe)
+import Data.Maybe (fromMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Frame.Pulses qualified as Pulses
 import Geometry.Distance qualified as Distance
@@ -231,16 +231,21 @@ truest task begin finish s turn cs
       Just b
         | isTruer ends (number b) (off (result b)) rank c, Just a <- tried rank c -> Just a
         | otherwise -> so
-    isTruer ends before most rank c = not (seemingOff ends c - unsureOff ends c > most) && isLess (offAtBegin ends c) && isTrueAll
+    isTruer ends before most rank c = not isSurelyWorse && isLess (offAtBegin ends c) && isTrueAll
       where
+        isSurelyWorse = seemingOff ends c - unsureOff ends c > most
         isLess o = o < most || o == most && rank < before
         isTrueAll = case legOf task s turn c (flat begin, flat finish) of
           Nothing -> False
-          Just leg -> all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
+          Just leg
+            | isLess (offAt leg 1) -> case atEnds task leg of
+              Just d -> isLess (evenly d)
+              Nothing -> all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
+            | otherwise -> False
 
--- | Shares of a sweep behind its beginning, those first at which an arc is most likely to be off.
+-- | Shares of a sweep between its ends, those first at which an arc is most likely to be off.
 samples :: [Double]
-samples = [1, 4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
+samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
 -- | A lattice point by its place among the others.
 data Likeliest = None | Likeliest Int V2
@@ -430,7 +435,27 @@ data Deviation = Deviation
 
 -- | It is looked at in eighths, and where it is furthest from and nearest to the exact centre.
 deviate :: Task -> Segment -> Turn -> V2 -> (V2, V2) -> Deviation
-deviate task exact turn c ends = maybe (Deviation 0 0 0) deviationOf (legOf task exact turn c ends)
+deviate task exact turn c ends = maybe (Deviation 0 0 0) (\leg -> fromMaybe (deviationOf leg) (atEnds task leg)) (legOf task exact turn c ends)
+
+-- | How far off it is at its ends, if it is not further off between them with the radius of its beginning or going evenly, and stays within
+-- what is allowed however the control goes. Between its ends it is as far off as they are by their shares, but for
+-- @φ²·v/8@ where its centre is off by v and it turns by φ; half as much again is for what goes with the square of v.
+atEnds :: Task -> Leg -> Maybe Deviation
+atEnds task leg
+  | abs (turned leg) < 1 && off' < radiusFirst leg / 8 && crossing 0 * crossing 1 > 0 && abs (evenly a - evenly b) > 8 * more && max (innermost d) (outermost d) + more < min inner outer = Just d
+  | otherwise = Nothing
+  where
+    a = offsAt leg 0
+    b = offsAt leg 1
+    d = further a b
+    asideX = middleX leg - trueX leg
+    asideY = middleY leg - trueY leg
+    off' = abs asideX + abs asideY
+    more = turned leg * turned leg * off' / 4 + rounding'
+    Mm inner = inwards (room task)
+    Mm outer = outwards (room task)
+    -- Where it is furthest from the exact centre or nearest to it, the radius is parallel to what its centre is off by.
+    crossing t = let (c, s) = (cos (t * turned leg), sin (t * turned leg)) in (c * outX leg - s * outY leg) * asideY - (c * outY leg + s * outX leg) * asideX
 
 deviationOf :: Leg -> Deviation
 deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (foldl' (\d t -> further d (offsAt leg t)) (offsAt leg 0) eighths) extremes
@@ -440,7 +465,9 @@ deviationOf leg = foldl' (\d t -> further d (offsAt leg t)) (foldl' (\d t -> fur
     Rad toward = Vec.turn out aside
     share angle = let t = angle * signum (turned leg) in (if t < 0 then t + 2 * pi else t) / abs (turned leg)
     extremes = if Vec.norm aside > 0 then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)] else []
-    further (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
+
+further :: Deviation -> Deviation -> Deviation
+further (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
 
 eighths :: [Double]
 eighths = [k / 8 | k <- [1 .. 8]]
