@@ -121,9 +121,9 @@ reached look moves before
   | null (tooFar look) && all (isNear . segment) moves = before
   | otherwise = maybe before (\e -> before {distant = e : distant before}) (listToMaybe (mapMaybe problem (NonEmpty.toList moves)))
   where
-    problem m =
-      let Box.Box l b r t = Box.ofSegment (segment m)
-       in beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> tooFar look
+    problem m
+      | null (tooFar look) && isNear (segment m) = Nothing
+      | Box.Box l b r t <- Box.ofSegment (segment m) = beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> tooFar look
 
 -- | Whether a segment is surely within reach; of an arc its whole circle is looked at.
 isNear :: Segment -> Bool
