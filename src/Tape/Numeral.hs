@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Numbers on a tape, read.
 module Tape.Numeral
   ( Fault (..),
@@ -133,8 +135,17 @@ figures plan c rows least most ds
 
 -- | The digits up to a row, as far as the service track says what it may beside them.
 sound :: Plan -> ShortByteString -> Int -> Digits -> Digits
-sound plan rows end ds = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
+sound plan rows end ds
+  | null (services ds) = plainly (at ds) (amount ds) (count ds)
+  | otherwise = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
   where
+    plainly !k !n !weight
+      | k < limit,
+        w <- Short.index rows k,
+        Just d <- Symbol.digitAt table w,
+        not (Symbol.holeAt table w) =
+        plainly (k + 1) (10 * n + d) (weight + Symbol.digitWeight table d)
+      | otherwise = ds {at = k, amount = n, count = weight}
     table = Plan.symbols plan
     limit = min end (Short.length rows)
     go k n minus bits brakes weight track

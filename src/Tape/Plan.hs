@@ -6,6 +6,7 @@ module Tape.Plan
   ( -- * The layout, made ready
     Plan (..),
     Step (..),
+    Address (..),
     fromMachine,
 
     -- * Rows with their meaning
@@ -17,15 +18,16 @@ module Tape.Plan
     foldRows,
     mostRows,
     digitCount,
+    isCount,
     blanks,
     constant,
     after,
   )
 where
 
-import Data.Bits (testBit)
+import Data.Bits (testBit, unsafeShiftL, unsafeShiftR, (.&.), (.|.))
 import Data.Functor.Identity (runIdentity)
-import Data.List (nub)
+import Data.List (foldl', nub)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Primitive.PrimArray (PrimArray)
@@ -69,8 +71,11 @@ data Plan = Plan
 data Step
   = Fixed [Symbol]
   | -- | a word, its address, and the same behind another word
-    Worded Word' [Symbol] [Symbol]
+    Worded Word' Address Address
   | Checked Int
+
+-- | The symbols before a number; how many they are, and the row of the last one, by which most addresses are told apart.
+data Address = Spelled {spelled :: [Symbol], extent :: Int, final :: Word8}
 
 fromMachine :: Machine -> Plan
 fromMachine machine =
@@ -100,8 +105,9 @@ fromMachine machine =
     text = map (Symbol.symbol symbols) . Text.unpack
     step item = case item of
       Literal t -> Fixed (text t)
-      AWord w -> let cs = text (address w) in Worded w cs (between <> cs)
+      AWord w -> let cs = text (address w) in Worded w (addressOf cs) (addressOf (between <> cs))
       CheckDigit m -> Checked m
+    addressOf cs = Spelled {spelled = cs, extent = length cs, final = foldl' (\_ c -> Symbol.holes c) 0 cs}
     commandsOf w = [(o, State.zeroCommands w) | Command o <- [content w]] <> [(o, False) | OrderBit o _ <- service (form w)]
 
 -- | Whether a number of this form says nothing but itself.
@@ -177,7 +183,7 @@ foldBare mark total p state frame = go False (steps p)
       [] -> pure before
       Fixed cs : more -> constants Constant cs before >>= go False more
       Checked m : more -> let d = checkDigit p m total in figure (CheckSymbol d) d before >>= go False more
-      Worded w cs _ : more -> case State.number (axes p) state frame w of
+      Worded w Spelled {spelled = cs} _ : more -> case State.number (axes p) state frame w of
         Nothing -> go behindWord more before
         Just n -> do
           separated <- if behindWord then constants Separator (between p) before else pure before
@@ -200,7 +206,9 @@ foldBare mark total p state frame = go False (steps p)
       Priority leadForth leadBack forth back -> lead w n (if leads p frame (content w) then (if n < 0 then leadBack else leadForth) else (if n < 0 then back else forth)) before
     lead w n d = figure (InWord (content w) n (Lead d)) (d `mod` 10)
     numeral w n = case service f of
-      [] -> plainFigures use (decimals f) (places - 1) left
+      []
+        | places <= mostPacked -> packedFigures use (decimals f) (places - 1) (packed left)
+        | otherwise -> plainFigures use (decimals f) (places - 1) left
       services -> figures use n (decimals f) (places - 1) services left
       where
         f = form w
@@ -208,6 +216,14 @@ foldBare mark total p state frame = go False (steps p)
         places = digitCount f (abs n)
         left = lowest places (abs n)
     pointAt use pointed k before = if k == pointed - 1 then single (use Point) (point p) before else pure before
+    -- The digits of a packed number from a place on.
+    packedFigures use pointed k !digits' !before
+      | k < 0 = pure before
+      | otherwise = do
+        let d = (digits' `unsafeShiftR` (4 * k)) .&. 15
+        ready <- pointAt use pointed k before
+        behind <- figure (use (Digit d k NoHole False)) d ready
+        packedFigures use pointed (k - 1) digits' behind
     -- The digits of what is left from a place on.
     plainFigures use pointed k !left !before
       | k < 0 = pure before
@@ -239,7 +255,7 @@ mostRows p = sum (map most (steps p))
       Fixed cs -> length cs
       Checked _ -> 1
       -- A sign and a point.
-      Worded w _ joined -> length joined + 2 + max mostDigits (digits (form w))
+      Worded w _ joined -> extent joined + 2 + max mostDigits (digits (form w))
 
 -- | No number has more digits.
 mostDigits :: Int
@@ -252,6 +268,21 @@ power k = if k < mostDigits then Primitive.indexPrimArray powers k else maxBound
 powers :: PrimArray Int
 powers = Primitive.primArrayFromList (take mostDigits (iterate (10 *) 1))
 
+-- | So many digits of a number fit into one word, four bits each.
+mostPacked :: Int
+mostPacked = 15
+
+-- | The digits of a number of no more than 'mostPacked', the lowest one in the lowest four bits.
+packed :: Int -> Int
+packed n
+  | n < 1000000000 = lower 0 0 n
+  | otherwise = let high = n `quot` 1000000000 in lower 0 0 (n - 1000000000 * high) .|. lower 0 36 high
+  where
+    -- A tenth of a number below 2³² without a division.
+    lower !done !place !m
+      | m == 0 = done
+      | otherwise = let tenth = (m * 0xCCCCCCCD) `unsafeShiftR` 35 in lower (done .|. ((m - 10 * tenth) `unsafeShiftL` place)) (place + 4) tenth
+
 -- | How many digits a number has in a form.
 digitCount :: NumberForm -> Int -> Int
 digitCount f n
@@ -259,6 +290,14 @@ digitCount f n
   | otherwise = go (min (digits f) (if decimals f > 0 then decimals f + 1 else 1))
   where
     go k = if k < mostDigits && power k <= n && n > 0 then go (k + 1) else k
+
+-- | Whether it has so many, given that it has no more of them.
+isCount :: NumberForm -> Int -> Int -> Bool
+isCount f places n
+  | padded f = places == digits f
+  | otherwise = places == least || places > least && n >= power (places - 1)
+  where
+    least = min (digits f) (if decimals f > 0 then decimals f + 1 else 1)
 
 -- | So many of the lowest digits of a number.
 lowest :: Int -> Int -> Int

@@ -28,7 +28,7 @@ import Tape.Damage (Reason (..))
 import Tape.Layout qualified as Layout
 import Tape.Numeral (Fault (..))
 import Tape.Numeral qualified as Numeral
-import Tape.Plan (Mark (..), Piece (..), Plan, Sense (..), Step (..))
+import Tape.Plan (Address (..), Mark (..), Piece (..), Plan, Sense (..), Step (..))
 import Tape.Plan qualified as Plan
 import Tape.State (State (..))
 import Tape.State qualified as State
@@ -105,7 +105,7 @@ readFrame plan state rows begin = do
 readSteps :: Plan -> ShortByteString -> Int -> Either Fault (Reading, Int)
 readSteps plan rows = go False (Plan.steps plan) nothing
   where
-    go behindWord todo !now !k = case todo of
+    go behindWord todo !now !k = case lacking behindWord todo k of
       [] -> Right (now, k)
       Fixed cs : more
         | next >= 0 -> go False more (counting cs now) next
@@ -118,13 +118,17 @@ readSteps plan rows = go False (Plan.steps plan) nothing
       Worded w cs joined : more
         | stands -> do
           n <- Numeral.numeral plan (content w) (form w) rows begin
-          go True more (store w n (counting prefix now)) (Numeral.next n)
-        | presence w == Always -> Left (mismatch plan (Just (content w)) rows k prefix)
-        | otherwise -> go behindWord more now k
+          go True more (store w n (counting (spelled prefix) now)) (Numeral.next n)
+        | otherwise -> Left (mismatch plan (Just (content w)) rows k (spelled prefix))
         where
           prefix = if behindWord then joined else cs
-          begin = behind rows k prefix
-          stands = begin >= 0 && (not (null cs) || presence w == Always || Numeral.begins plan (form w) rows begin)
+          begin = behindAddress rows k prefix
+          stands = isThere w cs begin
+    isThere w cs begin = begin >= 0 && (extent cs > 0 || presence w == Always || Numeral.begins plan (form w) rows begin)
+    -- Behind the words that a frame can do without, as far as they do not stand here.
+    lacking behindWord todo k = case todo of
+      Worded w cs joined : more | presence w /= Always && not (isThere w cs (behindAddress rows k (if behindWord then joined else cs))) -> lacking behindWord more k
+      _ -> todo
     counting cs now
       | Plan.isChecked plan = now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
       | otherwise = now
@@ -139,6 +143,14 @@ behind :: ShortByteString -> Int -> [Symbol] -> Int
 behind rows k cs = case cs of
   [] -> k
   c : more -> if k < Short.length rows && Short.index rows k == Symbol.holes c then behind rows (k + 1) more else -1
+
+-- | The same of an address; its last symbol is looked at first.
+behindAddress :: ShortByteString -> Int -> Address -> Int
+behindAddress rows k Spelled {spelled, extent, final}
+  | extent == 0 = k
+  | k + extent <= Short.length rows && Short.index rows (k + extent - 1) == final = behind rows k spelled
+  | otherwise = -1
+{-# INLINE behindAddress #-}
 
 -- | The row behind symbols that have to stand here.
 expect :: Plan -> ShortByteString -> Int -> [Symbol] -> Either Fault Int
@@ -161,7 +173,7 @@ insteadOf plan w s = case Numeral.blemish plan w of
     _ | w == 0 -> Missing (Symbol.name s)
     Nothing -> if Symbol.holes s == 0 then NotBlank else NoSymbol (Machine.tracks (Machine.medium (Plan.machine plan))) w
     Just c
-      | or [Symbol.name a == c | Worded _ (a : _) _ <- Plan.steps plan] -> WordOutOfPlace c
+      | or [Symbol.name a == c | Worded _ Spelled {spelled = a : _} _ <- Plan.steps plan] -> WordOutOfPlace c
       | otherwise -> Unexpected c (Symbol.name s)
 
 -- The frame ---------------------------------------------------------------------------------------
@@ -272,7 +284,7 @@ isSpelled plan state reading f = Plan.isPlain plan && all isAsWritten (Plan.ws p
   where
     isAsWritten w = case (State.number (Plan.axes plan) state f w, saidOf reading (content w)) of
       (Nothing, Nothing) -> True
-      (Just n, Just s) -> n == number s && places s == Plan.digitCount (form w) (abs n)
+      (Just n, Just s) -> n == number s && Plan.isCount (form w) (places s) (abs n)
       _ -> False
 
 -- | Whether the rows of a frame are those that would be written for it.
