@@ -13,6 +13,8 @@
 module Frame.Arc
   ( Step (..),
     Room (..),
+    Grid,
+    gridOf,
     steps,
   )
 where
@@ -49,13 +51,9 @@ data Room = Room
   }
   deriving stock (Eq, Show)
 
--- | An arc to be walked.
-data Task = Task
+-- | What is the same for all arcs on a machine.
+data Grid = Grid
   { machine :: Machine,
-    room :: Room,
-    -- | how it is walked in chords, from a position
-    chorded :: V3 -> Segment -> [V3],
-    height :: Mm,
     -- | the ways of one pulse in mm: along the axes, and the coarser one of them
     grainX :: Double,
     grainY :: Double,
@@ -64,14 +62,26 @@ data Task = Task
     furthestCentre :: Pulses
   }
 
--- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
--- chords.
-steps :: Machine -> Room -> (V3 -> Segment -> [V3]) -> Mm -> V3 -> Segment -> [Step]
-steps machine room chorded height = walk deepest Task {machine, room, chorded, height, grainX, grainY, grain, furthestCentre = Machine.centreCapacity machine}
+gridOf :: Machine -> Grid
+gridOf machine = Grid {machine, grainX, grainY, grain, furthestCentre = Machine.centreCapacity machine}
   where
     Mm grainX = Machine.pulseOf machine X
     Mm grainY = Machine.pulseOf machine Y
     Mm grain = Machine.pulse machine
+
+-- | An arc to be walked.
+data Task = Task
+  { grid :: Grid,
+    room :: Room,
+    -- | how it is walked in chords, from a position
+    chorded :: V3 -> Segment -> [V3],
+    height :: Mm
+  }
+
+-- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
+-- chords.
+steps :: Grid -> Room -> (V3 -> Segment -> [V3]) -> Mm -> V3 -> Segment -> [Step]
+steps grid room chorded height = walk deepest Task {grid, room, chorded, height}
 
 -- | How often an arc is halved before it goes as chords.
 deepest :: Int
@@ -92,15 +102,15 @@ walk left task begin s = case s of
   where
     finish = place task (Segment.end s)
     alone p = Step {stop = p, about = Nothing}
-    straight = map alone (Pulses.split (machine task) begin ((Segment.start s, height task), (Segment.end s, height task)))
+    straight = map alone (Pulses.split (machine (grid task)) begin ((Segment.start s, height task), (Segment.end s, height task)))
     sense (Rad a) = if a > 0 then CounterClockwise else Clockwise
 
 place :: Task -> Point -> V3
-place task p = Pulses.rounded (machine task) (p, height task)
+place task p = Pulses.rounded (machine (grid task)) (p, height task)
 
 -- | Whether an arc deviates from its chord by less than half a pulse.
 isFlat :: Task -> Segment -> Bool
-isFlat task s = Segment.bulge s < Mm (0.5 * grain task)
+isFlat task s = Segment.bulge s < Mm (0.5 * grain (grid task))
 
 -- | Whether straight steps from a position to the next ones stay as near to an arc as they have to: half a pulse of sagitta
 -- and the rounding of the ends add to more than a pulse.
@@ -128,7 +138,7 @@ goesStraight task exact stops = case exact of
 holds :: Task -> V3 -> Segment -> Bool
 holds task (V3 x y _) s = case s of
   Straight _ _ -> True
-  Arc {start, centre} -> abs (i - x) < furthestCentre task && abs (j - y) < furthestCentre task && Pulses (ceiling (r / min (grainX task) (grainY task))) < furthestCentre task
+  Arc {start, centre} -> abs (i - x) < furthestCentre (grid task) && abs (j - y) < furthestCentre (grid task) && Pulses (ceiling (r / min (grainX (grid task)) (grainY (grid task)))) < furthestCentre (grid task)
     where
       V3 i j _ = place task centre
       Mm r = Segment.radius centre start
@@ -176,7 +186,7 @@ outer task begin finish s turn = case s of
     | otherwise ->
       let first = flat (place task centre)
           Mm most = roundly (room task)
-          reach = ceiling (min 1000 (1.5 * (most / grain task + sqrt 0.5) / (1 - cos (min pi (abs a / 2)))))
+          reach = ceiling (min 1000 (1.5 * (most / grain (grid task) + sqrt 0.5) / (1 - cos (min pi (abs a / 2)))))
           offAbout = offInMiddle task s turn (flat begin) (flat finish)
        in [c | c <- map (first +) (square (min remotest (Pulses reach))), not (isWithin neighbours first c), inOneStep task turn begin finish c, offAbout c <= most]
 
@@ -187,7 +197,7 @@ remotest = 8
 
 -- | Whether the whole arc about a lattice point can be one step.
 inOneStep :: Task -> Turn -> V3 -> V3 -> V2 -> Bool
-inOneStep task turn begin finish c = case Machine.arcs (machine task) of
+inOneStep task turn begin finish c = case Machine.arcs (machine (grid task)) of
   NoArcs -> False
   Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
 
@@ -267,7 +277,7 @@ endsOf task exact begin finish = case exact of
         whole = Vec.add (Vec.unit (Vec.to centre (point task finish))) (Vec.negate from)
         Mm circle = Segment.radius centre start
         Mm far = Vec.distance centre a
-     in Just Ends {pulseX = grainX task, pulseY = grainY task, beginX = Vec.x a, beginY = Vec.y a, centreX = Vec.x centre, centreY = Vec.y centre, circle, firstOff = far - circle, halfX = Vec.dot (Vec.vec 1 0) half, halfY = Vec.dot (Vec.vec 0 1) half, wholeX = Vec.dot (Vec.vec 1 0) whole, wholeY = Vec.dot (Vec.vec 0 1) whole}
+     in Just Ends {pulseX = grainX (grid task), pulseY = grainY (grid task), beginX = Vec.x a, beginY = Vec.y a, centreX = Vec.x centre, centreY = Vec.y centre, circle, firstOff = far - circle, halfX = Vec.dot (Vec.vec 1 0) half, halfY = Vec.dot (Vec.vec 0 1) half, wholeX = Vec.dot (Vec.vec 1 0) whole, wholeY = Vec.dot (Vec.vec 0 1) whole}
 
 -- | About how far off an arc about a lattice point is at its middle or its end with the radius of its beginning, in mm. About a centre
 -- that is off by a vector v it is off by @o + v·(u − u₀)@ where the true radius has the direction u, if it is off by o at its beginning,
@@ -331,16 +341,16 @@ attempt task begin finish s turn c = case s of
     | all sound legs && and (zipWith near legs deviations) && abs (sum (map (swept task turn c) legs) - exact) <= slack -> Just (Attempt (map step legs) deviation)
     | otherwise -> Nothing
     where
-      stops = stopsAbout (machine task) (onAxes task (Segment.radius centre start) centre c) turn c (flat begin) (flat finish)
+      stops = stopsAbout (machine (grid task)) (onAxes task (Segment.radius centre start) centre c) turn c (flat begin) (flat finish)
       legs = zip (flat begin : stops) stops
       deviations = map (deviate task s turn c) legs
       deviation = maximum (map evenly deviations)
       near leg d = isStraight leg || Mm (evenly d) <= roundly (room task) && Mm (innermost d) <= inwards (room task) && Mm (outermost d) <= outwards (room task)
       Mm r = Segment.radius centre start
       -- An end moves by a pulse at most, and so does the centre beside it.
-      slack = min (pi / 2) (4 * grain task / r)
+      slack = min (pi / 2) (4 * grain (grid task) / r)
   where
-    wholes = case Machine.arcs (machine task) of
+    wholes = case Machine.arcs (machine (grid task)) of
       NoArcs -> False
       Arcs {Machine.fullCircle} -> fullCircle
     V3 _ _ z = finish
@@ -349,12 +359,12 @@ attempt task begin finish s turn c = case s of
     step leg@(from, V2 x y)
       | isStraight leg = Step {stop = V3 x y z, about = Nothing}
       | otherwise = Step {stop = V3 x y z, about = Just (turn, c - from)}
-    sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= furthestCentre task) && within (to - from) && level leg
-    within (V2 dx dy) = case Machine.measure (Machine.layout (machine task)) of
+    sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= furthestCentre (grid task)) && within (to - from) && level leg
+    within (V2 dx dy) = case Machine.measure (Machine.layout (machine (grid task))) of
       Machine.Positions -> True
-      Machine.Increments -> abs dx <= Machine.capacity (machine task) X && abs dy <= Machine.capacity (machine task) Y
+      Machine.Increments -> abs dx <= Machine.capacity (machine (grid task)) X && abs dy <= Machine.capacity (machine (grid task)) Y
     -- The radii at the ends of a frame differ by no more than two pulses.
-    level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to) in abs (a - b) <= 2 * grain task
+    level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to) in abs (a - b) <= 2 * grain (grid task)
 
 -- | Where the axes through a lattice point near the centre of a circle cross it, in pulses from there: to the right, to the left,
 -- upwards, downwards.
@@ -367,7 +377,7 @@ onAxes task (Mm r) true c = Crossings {rightwards = crossing X 1 dx dy, leftward
     dx = Vec.dot (Vec.vec 1 0) off
     dy = Vec.dot (Vec.vec 0 1) off
     crossing axis sign along across =
-      let Mm p = Machine.pulseOf (machine task) axis
+      let Mm p = Machine.pulseOf (machine (grid task)) axis
        in Pulses (max 1 (round ((sqrt (max 0 (r * r - across * across)) - sign * along) / p)))
 
 -- | Where the frames of an arc end, given its centre: at its end, and before that, for a control
@@ -407,7 +417,7 @@ nextAxis turn at (V2 x y) = case turn of
 
 -- | A lattice point in mm.
 point :: Task -> V2 -> Point
-point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * grainX task) (fromIntegral y * grainY task)
+point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * grainX (grid task)) (fromIntegral y * grainY (grid task))
 
 -- | One frame's arc about a centre; a full circle where it ends where it begins.
 arcOf :: Task -> Turn -> V2 -> (V2, V2) -> Segment

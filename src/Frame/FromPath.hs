@@ -59,7 +59,7 @@ quantise machine path = case nubOrd (early <> late) of
   where
     Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
-    looks = Looks {machine, early = TaskCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}
+    looks = Looks {machine, grid = Arc.gridOf machine, early = TaskCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}
     made = ended looks (foldl' (next looks) (nothingFrom fromRegion begin) (Braking.applied machine (Task.tasksOf machine path)))
     frames = reverse (latest made)
     commands = reverse (told made)
@@ -109,7 +109,7 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
 -- The frames --------------------------------------------------------------------------------------
 
 -- | What is the same for all tasks and frames.
-data Looks = Looks {machine :: Machine, early :: TaskCheck.Look, late :: FrameCheck.Look}
+data Looks = Looks {machine :: Machine, grid :: Arc.Grid, early :: TaskCheck.Look, late :: FrameCheck.Look}
 
 -- | What has been made of the tasks so far. Each task is taken once, so that none is kept.
 data Making = Making
@@ -131,14 +131,14 @@ nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [
 -- | Make the frames of the next task. Commands stand in the frame of the next move, where they find room. Once the frames
 -- cannot be made or are too many there are no more of them.
 next :: Looks -> Making -> Task -> Making
-next looks@Looks {machine, early} made task = case task of
+next looks@Looks {machine, grid, early} made task = case task of
   Order place said ->
     let (now, waiting') = Order.add machine place (Order.numbers said) (waiting made)
      in (foldl' (commanding looks) made now) {waiting = waiting', here = place, told = said : told made}
   Run {run}
     | TaskCheck.isBounded looked' ->
       let final = NonEmpty.last run
-          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine (at made) task)
+          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine grid (at made) task)
        in walked {at = Pulses.rounded machine (Segment.end (segment final), snd (heights final)), here = origin final}
     | otherwise -> made {looked = looked'}
   where
@@ -184,17 +184,17 @@ frameOf machine drive pace at Step {stop, about} = case about of
       (Asked, At (Located _ v)) -> f {speed = Feed.nearest machine v f}
 
 -- | Where the frames of a run end and how they get there.
-stepsOf :: Machine -> V3 -> Task -> [Step]
-stepsOf machine begin task = case task of
+stepsOf :: Machine -> Arc.Grid -> V3 -> Task -> [Step]
+stepsOf machine grid begin task = case task of
   Order _ _ -> []
   Run {allowed, run} -> case Machine.arcs machine of
-    Arcs {} | Pulses.isLevel machine run -> arcSteps machine begin allowed run
+    Arcs {} | Pulses.isLevel machine run -> arcSteps machine grid begin allowed run
     _ -> [Step {stop, about = Nothing} | stop <- chordStops machine (Chord.rounding machine allowed) begin run]
 
 -- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are off is taken from what
 -- their own steps may be off. Of several ways the one of fewest steps.
-arcSteps :: Machine -> V3 -> Allowed -> NonEmpty Move -> [Step]
-arcSteps machine begin allowed run = case allowed of
+arcSteps :: Machine -> Arc.Grid -> V3 -> Allowed -> NonEmpty Move -> [Step]
+arcSteps machine grid begin allowed run = case allowed of
   Along bounds -> minimumBy (comparing length) (fmap (concat . snd . mapAccumL (partSteps bounds) begin) (Curve.ways machine bounds run))
   _ | Straight a b <- segment m -> map alone (Pulses.split machine begin ((a, level), (b, level)))
   Sagitta y -> steps (Arc.Room pulse (plus pulse y) (plus pulse y)) (Chord.rounding machine allowed) begin (segment m)
@@ -203,7 +203,7 @@ arcSteps machine begin allowed run = case allowed of
     m = NonEmpty.head run
     level = fst (heights m)
     pulse = Machine.pulse machine
-    steps room chordsOff = Arc.steps machine room (\at s -> chordStops machine chordsOff at (m {segment = s} :| [])) level
+    steps room chordsOff = Arc.steps grid room (\at s -> chordStops machine chordsOff at (m {segment = s} :| [])) level
     partSteps bounds at part = case part of
       Curve.Chords ms -> let stops = chordStops machine (Chord.rounding machine allowed) at ms in (fromMaybe at (listToMaybe (reverse stops)), map alone stops)
       Curve.Arcs segments ->
