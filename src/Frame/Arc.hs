@@ -117,19 +117,16 @@ isFlat task s = Segment.bulge s < Mm (0.5 * grain (grid task))
 goesStraight :: Task -> Segment -> [V2] -> Bool
 goesStraight task exact stops = case exact of
   Straight _ _ -> True
-  Arc {start, centre} ->
-    let r = Segment.radius centre start
-        nearest = minimum (map (Distance.toPoint centre) ways)
-        furthest = maximum (map (Vec.distance centre) places)
-        left p = minimum (map (Distance.toPoint p) ways)
-        most = max (inwards (room task)) (outwards (room task))
-        -- An arc that is dropped has nothing beside it. One way is no further from it than the arc from its chord and the chord's
-        -- ends from those of the way.
-        isBeside = case ways of
-          [Straight a b] -> plus (Segment.bulge exact) (max (Vec.distance a start) (Vec.distance b (Segment.end exact))) <= most
-          _ -> False
-     in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task) && (isBeside || all ((<= most) . left) [Segment.at (k / 8) exact | k <- [0 .. 8]])
+  Arc {start, centre}
+    -- One way is no further from it than the arc from its chord and the chord's ends from those of the way.
+    | [a, b] <- places, plus (Segment.bulge exact) (max (Vec.distance a start) (Vec.distance b (Segment.end exact))) <= most -> isWithinRoom (Distance.toPoint centre (Straight a b)) (max (Vec.distance centre a) (Vec.distance centre b))
+    -- An arc that is dropped has nothing beside it.
+    | otherwise -> isWithinRoom (minimum (map (Distance.toPoint centre) ways)) (maximum (map (Vec.distance centre) places)) && all ((<= most) . left) [Segment.at (k / 8) exact | k <- [0 .. 8]]
+    where
+      isWithinRoom nearest furthest = let r = Segment.radius centre start in minus r nearest <= inwards (room task) && minus furthest r <= outwards (room task)
+      left p = minimum (map (Distance.toPoint p) ways)
   where
+    most = max (inwards (room task)) (outwards (room task))
     places = map (point task) stops
     ways = zipWith Straight places (drop 1 places)
 

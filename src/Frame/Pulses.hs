@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Places in whole pulses: every position is rounded by itself, as an absolute position, so rounding never adds up.
 module Frame.Pulses
   ( Place,
@@ -11,7 +13,7 @@ where
 
 import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -36,11 +38,20 @@ heightAt t m
 
 -- | Whether all moves keep one height, in whole pulses.
 isLevel :: Machine -> NonEmpty Move -> Bool
-isLevel machine ms = all (\m -> isFirst (fst (heights m)) && isFirst (snd (heights m))) ms
+isLevel machine ms = isFlat ms || all (\m -> isFirst (fst (heights m)) && isFirst (snd (heights m))) ms
   where
-    first = fst (heights (NonEmpty.head ms))
-    isFirst z = z == first || level z == level first
+    isFirst z = level z == level (fst (heights (NonEmpty.head ms)))
     level z = component Z (rounded machine (Vec.point 0 0, z))
+
+-- | Whether all moves keep one height exactly, as most do.
+isFlat :: NonEmpty Move -> Bool
+isFlat (m :| more) = case heights m of
+  (Mm first, Mm final) -> first == final && go first more
+  where
+    go !z ms = case ms of
+      [] -> True
+      n : others -> case heights n of
+        (Mm a, Mm b) -> a == z && b == z && go z others
 
 -- | The stops of a straight move, given the position where it begins in pulses and its exact ends: equal parts,
 -- each rounded by itself, as few as fit into the fields. Fields of positions hold a move of any length.

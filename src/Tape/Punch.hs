@@ -57,7 +57,9 @@ punched plan state frames = case runST (Primitive.newPrimArray most >>= go 0 sta
         size <- Primitive.getSizeofMutablePrimArray buffer
         roomy <- if used + most <= size then pure buffer else Primitive.resizeMutablePrimArray buffer (2 * size + most)
         let put at h _ _ = (at + 1) <$ Primitive.writePrimArray roomy at h
-            blanks at n = (at + n) <$ Primitive.setPrimArray roomy at n 0
+            blanks at n
+              | n <= 0 = pure at
+              | otherwise = (at + n) <$ Primitive.setPrimArray roomy at n 0
         begin <- blanks used (shiftRows medium (State.ordinal now))
         end <- Plan.foldRows put plan now f begin
         next <- blanks end (gap medium)
