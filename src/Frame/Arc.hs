@@ -254,7 +254,7 @@ truest task begin finish s turn cs
 samples :: [Double]
 samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
--- | A lattice point by its place among the others.
+-- | The lattice point that seems least off so far, by its place among the others.
 data Likeliest = None | Likeliest Int V2
 
 -- | What has been tried, and its place.
@@ -449,7 +449,7 @@ deviate task exact turn c ends = maybe (Deviation 0 0 0) (\leg -> fromMaybe (dev
 -- @φ²·v/8@ where its centre is off by v and it turns by φ; half as much again is for what goes with the square of v.
 atEnds :: Task -> Leg -> Maybe Deviation
 atEnds task leg
-  | abs (turned leg) < 1 && off' < radiusFirst leg / 8 && crossing 0 * crossing 1 > 0 && abs (evenly a - evenly b) > 8 * more && max (innermost d) (outermost d) + more < min inner outer = Just d
+  | abs (turned leg) < 1 && off' < radiusFirst leg / 8 && crossing 0 * crossing 1 > 0 && abs (evenly a - evenly b) > 8 * more && max (innermost d) (outermost d) + more < narrower = Just d
   | otherwise = Nothing
   where
     a = offsAt leg 0
@@ -459,8 +459,7 @@ atEnds task leg
     asideY = middleY leg - trueY leg
     off' = abs asideX + abs asideY
     more = turned leg * turned leg * off' / 4 + rounding'
-    Mm inner = inwards (room task)
-    Mm outer = outwards (room task)
+    Mm narrower = min (inwards (room task)) (outwards (room task))
     -- Where it is furthest from the exact centre or nearest to it, the radius is parallel to what its centre is off by.
     crossing t = let (c, s) = (cos (t * turned leg), sin (t * turned leg)) in (c * outX leg - s * outY leg) * asideY - (c * outY leg + s * outX leg) * asideX
 

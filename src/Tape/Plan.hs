@@ -17,7 +17,6 @@ module Tape.Plan
     frameMarks,
     foldRows,
     mostRows,
-    digitCount,
     isCount,
     blanks,
     constant,
