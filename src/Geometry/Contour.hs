@@ -7,11 +7,11 @@ module Geometry.Contour
     joints,
     chained,
     signedArea,
+    areaOf,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), total)
-import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment (..))
@@ -63,9 +63,16 @@ chained get set ends (first :| rest) = case rest of
 
 -- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
 signedArea :: Contour -> Double
-signedArea (Contour _ ss@(first :| _)) = foldl' (\area s -> area + part s) 0 ss
+signedArea (Contour _ ss) = areaOf id ss
+
+-- | The same of anything with segments.
+areaOf :: (a -> Segment) -> NonEmpty a -> Double
+areaOf get (first :| others) = go 0 first others
   where
-    origin = Segment.start first
+    go area a rest = case rest of
+      [] -> area + part (get a)
+      b : more -> let area' = area + part (get a) in area' `seq` go area' b more
+    origin = Segment.start (get first)
     part segment = triangle segment + sector segment
     triangle s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2
     -- The area between an arc and its chord.
@@ -73,3 +80,4 @@ signedArea (Contour _ ss@(first :| _)) = foldl' (\area s -> area + part s) 0 ss
       Straight _ _ -> 0
       Arc {start, centre, sweep = Rad a} ->
         let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2
+{-# INLINE areaOf #-}

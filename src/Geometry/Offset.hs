@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The equidistant (offset) of a contour of lines and arcs: the path of the centre of a cutter
 -- that rolls along one side of it.
 --
@@ -24,12 +26,14 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Search qualified as Search
+import Control.Monad.ST (runST)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
+import Data.Primitive.PrimArray (PrimArray, indexPrimArray, newPrimArray, unsafeFreezePrimArray, writePrimArray)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour (Contour (..), Ends (..))
@@ -79,39 +83,91 @@ attempt style side radius contour = do
     -- A cutter that just fits has nothing around it: there is no area in which it could stand.
     fits r = r > Mm 0 && Way.reachesAll style side r contour
 
--- | Segments and corners, each for itself.
+-- | Segments and corners, each for itself. Whether there is a way is known first; its pieces come when they are asked for, and
+-- need not all be there at once.
 raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
-raw style side radius contour = case concaves <> [cause | Blocked cause <- corners] <> overlong of
+raw style side radius contour@(Contour ends ss@(first :| others)) = case causes style side radius contour turnings of
   cause : _ -> Left cause
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
-  [] -> Right (maybe (moved 0 (NonEmpty.head (segments contour)) :| []) chained (NonEmpty.nonEmpty real))
+  [] -> Right (maybe (along side (radiusAt style radius 0) 0 first :| []) chained (NonEmpty.nonEmpty (from 0 (frontOf bends) first others)))
   where
-    list = NonEmpty.toList (segments contour)
-    count = length list
-    concaves = [Concave i r | (i, s) <- zip [0 ..] list, Just r <- [tooTight side (radiusAt style radius i) s]]
-    corners = map (corner style side radius count) (Contour.joints contour)
-    moved i = along side (radiusAt style radius i) i
-    ways
-      | isBent = map shortened bent
-      | otherwise = zipWith moved [0 ..] list
-    -- By how much each way is shortened at its end, and at its beginning.
-    backs = [case c of Bent t -> t; Passed _ -> 0; Blocked _ -> 0 | c <- corners]
-    fronts = (if Contour.ends contour == Closed then last (0 : backs) else 0) : backs
-    isBent = any (> 0) backs
-    bent = zip3 fronts (backs <> [0]) (zipWith moved [0 ..] list)
-    overlong =
-      [ InnerCorner a ((a + 1) `mod` count) (Segment.end (segment way))
-        | isBent,
-          (i, (front, back, way)) <- zip [0 ..] bent,
-          front + back > 0 && Mm (front + back) >= Segment.length (segment way),
+    turnings = turningsOf contour
+    bends = Bends {style, side, radius, turnings, whole = NonEmpty.length ss, isClosed = ends == Closed}
+    -- A segment, by how much its way is shortened at its beginning, and what is behind it.
+    from !i !front s rest = real (shortened front back (along side (radiusAt style radius i) i s)) (corner <> next)
+      where
+        back = backOf bends i
+        next = case rest of
+          [] -> []
+          s' : more -> from (i + 1) back s' more
+        corner = case rest of
+          s' : _ -> behind s'
+          [] -> if ends == Closed then behind first else []
+        behind s' = filter long (cornerWay bends i s s')
+    real p rest = if long p then p : rest else rest
+    long p = Segment.length (segment p) > Tolerance.coincident
+    chained = Contour.chained segment (\s p -> p {segment = s}) ends
+
+-- | By how much the walk turns behind each segment, in radians; there is none behind the last one of an open contour.
+turningsOf :: Contour -> PrimArray Double
+turningsOf (Contour ends ss@(first :| _)) = runST $ do
+  let count = NonEmpty.length ss
+  turnings <- newPrimArray count
+  let go !i list = case list of
+        [] -> pure ()
+        [s] -> writePrimArray turnings i (if ends == Closed then between s first else 0)
+        s : rest@(s' : _) -> writePrimArray turnings i (between s s') >> go (i + 1) rest
+  go 0 (NonEmpty.toList ss)
+  unsafeFreezePrimArray turnings
+  where
+    between s s' = let Rad turned = Vec.turn (Segment.endDirection s) (Segment.startDirection s') in turned
+
+-- | What is to be known at every corner: what was asked, the turnings, how many segments there are, and whether there is a
+-- corner behind the last one.
+data Bends = Bends {style :: Style, side :: Side, radius :: Mm, turnings :: PrimArray Double, whole :: Int, isClosed :: Bool}
+
+-- | By how much the way along the first segment is shortened at its beginning, and that along another one at its end.
+frontOf :: Bends -> Double
+frontOf bends = backOf bends (whole bends - 1)
+
+backOf :: Bends -> Int -> Double
+backOf bends i = case cornerOf bends i of
+  Bent t -> t
+  Passed -> 0
+  Blocked -> 0
+
+-- | All that is in the way, the most telling first.
+causes :: Style -> Side -> Mm -> Contour -> PrimArray Double -> [Cause]
+causes style side radius (Contour ends ss) turnings = concaves 0 list <> blocked 0 list <> overlong 0 (frontOf bends) list
+  where
+    list = NonEmpty.toList ss
+    count = NonEmpty.length ss
+    bends = Bends {style, side, radius, turnings, whole = count, isClosed = ends == Closed}
+    concaves !i rest = case rest of
+      [] -> []
+      s : more
+        | Just r <- tooTight side (radiusAt style radius i) s -> Concave i r : concaves (i + 1) more
+        | otherwise -> concaves (i + 1) more
+    blocked !i rest = case rest of
+      [] -> []
+      s : more
+        | Blocked <- cornerOf bends i -> InnerCorner i (following bends i) (Segment.end s) : blocked (i + 1) more
+        | otherwise -> blocked (i + 1) more
+    overlong !i !front rest = case rest of
+      [] -> []
+      s : more
+        | front + back > 0,
+          way <- segment (along side (radiusAt style radius i) i s),
+          Mm (front + back) >= Segment.length way ->
           let a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
-      ]
-    real = filter (\p -> Segment.length (segment p) > Tolerance.coincident) (concat (zipWith (:) ways ([case c of { Passed ps -> ps; Bent _ -> []; Blocked _ -> [] } | c <- corners] <> [[]])))
-    chained = Contour.chained segment (\s p -> p {segment = s}) (Contour.ends contour)
+           in InnerCorner a ((a + 1) `mod` count) (Segment.end way) : overlong (i + 1) back more
+        | otherwise -> overlong (i + 1) back more
+        where
+          back = backOf bends i
 
 -- | A way without so much of it at its beginning and at its end, in mm.
-shortened :: (Double, Double, Piece) -> Piece
-shortened (front, back, way)
+shortened :: Double -> Double -> Piece -> Piece
+shortened front back way
   | front + back <= 0 = way
   | otherwise = way {segment = snd (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) (segment way))))}
   where
@@ -144,33 +200,51 @@ leftward side = case side of
 
 -- | What is behind a segment.
 data Corner
-  = -- | the way round it, if there is one, and from one distance to another
-    Passed [Piece]
+  = -- | a way round it, or none is needed
+    Passed
   | -- | a corner towards the cutter that is too slight to leave more than 'Tolerance.slightRest' standing: by how much the ways
     -- before and behind it are shortened, @r·tan(θ/2)@. Measured curves that are joined smoothly have such ones
     Bent Double
   | -- | a corner into which the cutter does not get
-    Blocked Cause
+    Blocked
 
-corner :: Style -> Side -> Mm -> Int -> (Int, Segment, Segment) -> Corner
-corner style side radius count (number, before, after)
-  | turned * leftward side > smooth && r1 == r2, Just t <- bend r1 = Bent t
-  | abs turned <= smooth || radius <= Mm 0 = Passed [Piece (Around number) (Straight (from r1 before') (from r2 after')) | r1 /= r2]
-  | turned * leftward side > 0 && pi - abs turned > smooth = Blocked (InnerCorner number next vertex)
-  | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 = Passed [Piece (Around number) (Straight (from r1 before') (tip r1)), Piece (Around number) (Straight (tip r1) (from r2 after'))]
-  | r1 == r2 = Passed [Piece (Around number) (round' r1)]
-  | r1 < r2 = Passed [Piece (Around number) (Straight (from r1 before') (from r2 before')), Piece (Around number) (round' r2)]
-  | otherwise = Passed [Piece (Around number) (round' r1), Piece (Around number) (Straight (from r1 after') (from r2 after'))]
+cornerOf :: Bends -> Int -> Corner
+cornerOf bends@Bends {style, side, radius} number
+  | not (isClosed bends) && number + 1 == whole bends = Passed
+  | abs turned <= smooth = Passed
+  | turned * leftward side > 0 && r1 == radiusAt style radius (following bends number), Just t <- bend r1 = Bent t
+  | radius <= Mm 0 = Passed
+  | turned * leftward side > 0 && pi - abs turned > smooth = Blocked
+  | otherwise = Passed
   where
-    next = if number + 1 == count then 0 else number + 1
     r1 = radiusAt style radius number
-    r2 = radiusAt style radius next
+    turned = indexPrimArray (turnings bends) number
+    Rad smooth = Tolerance.smoothAngle
+    bend (Mm r) = let Mm rest = Tolerance.slightRest in if r * (1 / cos (turned / 2) - 1) <= rest then Just (r * tan (abs turned / 2)) else Nothing
+
+-- | The segment behind a corner.
+following :: Bends -> Int -> Int
+following bends number = if number + 1 == whole bends then 0 else number + 1
+
+-- | The way round a corner that is passed, if there is one, and from one distance to another.
+cornerWay :: Bends -> Int -> Segment -> Segment -> [Piece]
+cornerWay bends@Bends {style, side, radius} number before after = case cornerOf bends number of
+  Bent _ -> []
+  Blocked -> []
+  Passed
+    | abs turned <= smooth || radius <= Mm 0 -> [Piece (Around number) (Straight (from r1 before') (from r2 after')) | r1 /= r2]
+    | sharp style && r1 == r2 && abs turned <= 2 * pi / 3 -> [Piece (Around number) (Straight (from r1 before') (tip r1)), Piece (Around number) (Straight (tip r1) (from r2 after'))]
+    | r1 == r2 -> [Piece (Around number) (round' r1)]
+    | r1 < r2 -> [Piece (Around number) (Straight (from r1 before') (from r2 before')), Piece (Around number) (round' r2)]
+    | otherwise -> [Piece (Around number) (round' r1), Piece (Around number) (Straight (from r1 after') (from r2 after'))]
+  where
+    r1 = radiusAt style radius number
+    r2 = radiusAt style radius (following bends number)
     Rad smooth = Tolerance.smoothAngle
     before' = Segment.endDirection before
     after' = Segment.startDirection after
-    Rad turned = Vec.turn before' after'
+    turned = indexPrimArray (turnings bends) number
     vertex = Segment.end before
-    bend (Mm r) = let Mm rest = Tolerance.slightRest in if r * (1 / cos (turned / 2) - 1) <= rest then Just (r * tan (abs turned / 2)) else Nothing
     from (Mm r) direction = Vec.shift (Vec.scale (leftward side * r) (Vec.left direction)) vertex
     -- Where the ways before and behind the corner meet.
     tip (Mm r) = Vec.shift (Vec.scale (r * tan (abs turned / 2)) before') (from (Mm r) before')

@@ -34,9 +34,12 @@ selfCrossing contour@(Contour ends ss) = case concatMap found (beside <> closeBy
     whole = Vector.fromList (NonEmpty.toList ss)
     count = Vector.length whole
     -- Neighbours, which are joined.
-    beside = [(i, i + 1) | i <- [0 .. count - 2]] <> [(0, count - 1) | ends == Closed, count > 2]
+    beside = alongside 0
+    alongside i
+      | i + 1 < count = if straightOn (whole Vector.! i) (whole Vector.! (i + 1)) then alongside (i + 1) else (i, i + 1) : alongside (i + 1)
+      | otherwise = [(0, count - 1) | ends == Closed, count > 2]
     found (i, j)
-      | j == i + 1 && straightOn s other || closes && straightOn other s = []
+      | closes && straightOn other s = []
       | not (Box.meets (Box.ofSegment s) (Box.ofSegment other)) = []
       | otherwise = [(i, j, p) | p <- if null shared then Distance.crossings s other else retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)]
       where

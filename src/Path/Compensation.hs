@@ -123,12 +123,12 @@ uncovered (Mm r) side s = case s of
 
 -- | Behind a closed contour that begins at an outer corner, a little further along its first element: a control goes round a
 -- corner only when something follows.
-onward :: Region -> Milling -> NonEmpty Offset.Piece -> [Move]
-onward keyword milling pieces = case (Part.byControl milling, Offset.origin (NonEmpty.last pieces)) of
+onward :: Region -> Milling -> Offset.Piece -> Offset.Piece -> [Move]
+onward keyword milling firstPiece lastPiece = case (Part.byControl milling, Offset.origin lastPiece) of
   (Just _, Offset.Around _) -> [Move (fst (Segment.cutAt share first)) (Mm 0, Mm 0) (Part.At (Part.feed milling)) False keyword False | l > 0]
   _ -> []
   where
-    first = Offset.segment (NonEmpty.head pieces)
+    first = Offset.segment firstPiece
     Mm l = Segment.length first
     share = min 1 (l / 2) / l
 

@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | From the part to the cutter's path: the equidistant of every contour to be machined, pass by pass, the ways
 -- in and out, holes, and the moves between.
 module Path.FromPart
@@ -104,39 +106,41 @@ blocksOf number tool at operation = case operation of
         passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [standing milling] else Part.levels milling]
     if null (Part.levels milling) && standing milling > Mm 0
       then Left (CutsAir (keyword region) (standing milling))
-      else reverse . snd <$> foldl (next job (length passes)) (Right (at, [])) (zip [1 ..] passes)
+      else do
+        side' <- leadingSide milling
+        reverse . snd <$> foldl (next job side' (length passes)) (Right (at, [])) (zip [1 ..] passes)
   where
     -- How the contour was written is not asked any more; it is much to keep.
     asWalked milling = milling {contour = (contour milling) {Part.legs = []}}
     -- Without depth the cutter stays at the height to which it was brought last.
     standing milling = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
-    next job count before (k, (allowance, z)) = do
+    next job side' count before (k, (allowance, z)) = do
       (spot, done) <- before
-      (found, rests) <- along job allowance
-      let cuts = length found
+      (found, rests) <- along job side' allowance
+      let !cuts = length found
           one before' (n, pieces) = do
             (spot', done') <- before'
-            b <- passOf number job (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
+            b <- passOf number job side' (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
             Right (Way.arriving spot' (Path.moves b), b : done')
       foldl one (Right (spot, done)) (zip [1 :: Int ..] (NonEmpty.toList found))
 
 -- Machining a contour
 
--- | One pass, or one way of it, from where the cutter stands: whether it is the first one and the last one, what it leaves, its
--- height, the way beside the contour, what stays there.
-passOf :: Int -> Located Milling -> Bool -> Bool -> Spot -> Mm -> Mm -> NonEmpty Offset.Piece -> [Offset.Rest] -> Either Error Block
-passOf number job@(Located region milling) isFirst isLast at allowance z pieces rests = do
-  side' <- leadingSide milling
+-- | One pass, or one way of it, from where the cutter stands: its side, whether it is the first one and the last one, what it
+-- leaves, its height, the way beside the contour, what stays there.
+passOf :: Int -> Located Milling -> Maybe Offset.Side -> Bool -> Bool -> Spot -> Mm -> Mm -> NonEmpty Offset.Piece -> [Offset.Rest] -> Either Error Block
+passOf number job@(Located region milling) side' isFirst isLast at allowance z pieces rests = do
   swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
       origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
       -- Most pieces lie at one height, and share it.
       level' = (plus z (Mm 0), plus z (Mm 0))
       raised = maybe (NonEmpty.repeat level') (fmap (\(a, b) -> (plus z a, plus z b))) swivels
-      cut = move False (NonEmpty.head raised) (NonEmpty.head pieces) :| following pieces (NonEmpty.tail raised)
-      following (previous :| rest) hs = case (rest, hs) of
-        (piece : more, h : higher) -> let m = move (goesOn previous piece) h piece in m `seq` (m : following (piece :| more) higher)
-        _ -> []
+      !firstPiece = NonEmpty.head pieces
+      -- The pieces come one after the other, and are not kept.
+      moved !m done previous rest hs = case (rest, hs) of
+        (piece : more, h : higher) -> moved (move (goesOn previous piece) h piece) (m : done) piece more higher
+        _ -> (NonEmpty.reverse (m :| done), previous)
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
@@ -154,11 +158,12 @@ passOf number job@(Located region milling) isFirst isLast at allowance z pieces 
       goesOn previous piece = case (Offset.origin previous, Offset.origin piece) of
         (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
         _ -> False
-      entry = Segment.start (Offset.segment (NonEmpty.head pieces))
-      exit = Segment.end (Offset.segment (NonEmpty.last pieces))
-      leadIn = leading region milling LeadingIn (setOut Segment.startDirection (NonEmpty.head pieces) (NonEmpty.head (elements (contour milling)))) entry
-      leadOut = case leading region milling LeadingOut (setOut Segment.endDirection (NonEmpty.last pieces) (NonEmpty.last (elements (contour milling)))) exit of
-        [] -> Compensation.onward (keyword region) milling pieces
+  (cut, lastPiece) <- Right (moved (move False (NonEmpty.head raised) firstPiece) [] firstPiece (NonEmpty.tail pieces) (NonEmpty.tail raised))
+  let entry = Segment.start (Offset.segment firstPiece)
+      exit = Segment.end (Offset.segment lastPiece)
+      leadIn = leading region milling side' LeadingIn (setOut Segment.startDirection firstPiece (NonEmpty.head (elements (contour milling)))) entry
+      leadOut = case leading region milling side' LeadingOut (setOut Segment.endDirection lastPiece (NonEmpty.last (elements (contour milling)))) exit of
+        [] -> Compensation.onward (keyword region) milling firstPiece lastPiece
         moves -> moves
       -- A cutter that fills a hollow stands still in it; then the contour tells the direction.
       setOut direction piece e = direction (if Segment.length (Offset.segment piece) > Tolerance.coincident then Offset.segment piece else Part.segment e)
@@ -181,8 +186,8 @@ data Leading = LeadingIn | LeadingOut
 
 -- | The way onto the path, or off it, from its end in a direction: straight on, or on a quarter of a circle that
 -- curves away from the material.
-leading :: Region -> Milling -> Leading -> Vec.Vec -> Point -> [Move]
-leading region milling which direction p = case if which == LeadingIn then Part.leadIn milling else Part.leadOut milling of
+leading :: Region -> Milling -> Maybe Offset.Side -> Leading -> Vec.Vec -> Point -> [Move]
+leading region milling side' which direction p = case if which == LeadingIn then Part.leadIn milling else Part.leadOut milling of
   Nothing -> []
   Just (Part.LeadLine, Mm l) -> let q = Vec.shift (Vec.scale (back * l) direction) p in [lead (pair (Straight q p) (Straight p q))]
   Just (Part.LeadArc, Mm r) ->
@@ -194,20 +199,18 @@ leading region milling which direction p = case if which == LeadingIn then Part.
     back = if which == LeadingIn then -1 else 1
     pair onto off = if which == LeadingIn then onto else off
     lead s = Move s (Mm 0, Mm 0) (Part.At (feed milling)) False (keyword region) False
-    free = case leadingSide milling of
-      Right (Just Offset.RightOf) -> -1
+    free = case side' of
+      Just Offset.RightOf -> -1
       _ -> 1 :: Double
 
--- | The cutter's ways along the contour itself, with so much left standing; where material may stay, what stays.
-along :: Located Milling -> Mm -> Either Error (NonEmpty (NonEmpty Offset.Piece), [Offset.Rest])
-along (Located region milling) allowance = do
-  side' <- leadingSide milling
-  case side' of
-    Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
-    Just s -> case (Offset.styled style s r outline, Part.rest milling) of
-      (Right pieces, _) -> Right (pieces :| [], [])
-      (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachable style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
-      (Left o, _) -> Left (refusal o)
+-- | The cutter's ways along the contour itself on a side, with so much left standing; where material may stay, what stays.
+along :: Located Milling -> Maybe Offset.Side -> Mm -> Either Error (NonEmpty (NonEmpty Offset.Piece), [Offset.Rest])
+along (Located region milling) side' allowance = case side' of
+  Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
+  Just s -> case (Offset.styled style s r outline, Part.rest milling) of
+    (Right pieces, _) -> Right (pieces :| [], [])
+    (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachable style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
+    (Left o, _) -> Left (refusal o)
   where
     outline = Part.outline (contour milling)
     r = plus (radius milling) allowance
@@ -238,7 +241,7 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
   (Inside, Part.Open) | Part.work milling == Turned -> Right (Just (if toTheRight then Offset.RightOf else Offset.LeftOf))
   (s, Part.Open) -> Left (SideOfOpen (region (side milling)) s (value name) (region name))
   where
-    counterClockwise = Contour.signedArea (Part.outline (contour milling)) > 0
+    counterClockwise = Contour.areaOf Part.segment (elements (contour milling)) > 0
     toTheRight = Vec.x (Segment.end (Part.segment (NonEmpty.last (elements (contour milling))))) >= Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
     name = Part.contourName (contour milling)
 
