@@ -153,9 +153,12 @@ open walks = do
   case link final of
     Just (at, _) -> Left (LinkAtEnd at (place first))
     Nothing -> Right ()
-  joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
-  route <- decided =<< shortest list begin Nothing [Joint.through end] joints
-  Right (elementsOf list begin Nothing route)
+  case directly list begin Nothing (Joint.through end) of
+    Just elements -> Right elements
+    Nothing -> do
+      joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
+      route <- decided =<< shortest list begin Nothing [Joint.through end] joints
+      Right (elementsOf list begin Nothing route)
   where
     list = NonEmpty.toList walks
     first = NonEmpty.head walks
@@ -164,7 +167,15 @@ open walks = do
 
 -- | A closed contour begins where its last link reaches its first element.
 closed :: NonEmpty Walk -> Either Fact [Element]
-closed walks = do
+closed walks
+  | Right (c :| []) <- jointsOf (NonEmpty.last walks) (NonEmpty.head walks),
+    Just elements <- directly (NonEmpty.toList walks) (enter c) (inserted c) c =
+    Right elements
+  | otherwise = selected walks
+
+-- | The same where some link joins its neighbours in several places, or something is wrong.
+selected :: NonEmpty Walk -> Either Fact [Element]
+selected walks = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
   closing <- jointsOf (NonEmpty.last walks) first
   let attempts = [(c, shortest list (enter c) (inserted c) [c] joints) | c <- NonEmpty.toList closing]
@@ -346,13 +357,44 @@ leaning angles s = case (Map.lookupLE s angles, Map.lookupGE s angles) of
   (Nothing, Just (_, y)) -> Just y
   (Nothing, Nothing) -> Nothing
 
+-- | The elements from a point on the first one to a joint behind the last one, if every link between joins its neighbours in
+-- one place alone and none is walked backwards: then there is nothing to choose. What was walked right before them is given.
+-- Joints are found anew for the elements: that takes less time than to keep all of them.
+directly :: [Walk] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
+directly walks begin before final
+  | sound walks begin = Just (from walks begin before)
+  | otherwise = Nothing
+  where
+    sound ws at = case ws of
+      [] -> True
+      w : rest -> case jointTo w rest of
+        Just joint -> forwards (shape w) at (leave joint) && sound rest (enter joint)
+        Nothing -> False
+    from ws at came = case ws of
+      w : rest | Just joint <- jointTo w rest -> between w at came joint <> from rest (enter joint) (inserted joint)
+      _ -> []
+    jointTo w rest = case rest of
+      [] -> Just final
+      next : _ -> case jointsOf w next of
+        Right (joint :| []) -> Just joint
+        _ -> Nothing
+    -- Along a circle or to a point no way is backwards.
+    forwards w a b = case w of
+      OnCircle _ _ -> True
+      AtPoint _ -> True
+      OnLine _ -> not (walked w Nothing Nothing a b < Mm 0)
+      OnCurve _ -> not (walked w Nothing Nothing a b < Mm 0)
+
+-- | The segments of one element from a point on it to a joint, and what that inserts.
+between :: Walk -> Point -> Maybe Segment -> Joint -> [Element]
+between w@Walk {place, shape, link} at came joint =
+  marked w (begun shape at (leave joint)) (stretch shape came (inserted joint) at (leave joint))
+    <> [Element s (maybe place fst link) plainFinish False False Nothing | Just s <- [inserted joint]]
+
 -- | The segments of a way.
 elementsOf :: [Walk] -> Point -> Maybe Segment -> Route -> [Element]
 elementsOf walks begin before route = go walks begin before (reverse (taken route))
   where
     go ws at came js = case (ws, js) of
-      (w@Walk {place, shape, link} : rest, joint : more) ->
-        marked w (begun shape at (leave joint)) (stretch shape came (inserted joint) at (leave joint))
-          <> [Element s (maybe place fst link) plainFinish False False Nothing | Just s <- [inserted joint]]
-          <> go rest (enter joint) (inserted joint) more
+      (w : rest, joint : more) -> between w at came joint <> go rest (enter joint) (inserted joint) more
       _ -> []

@@ -11,6 +11,7 @@
 module Path.Compensation
   ( Ways (..),
     sent,
+    endsAround,
     onward,
   )
 where
@@ -121,14 +122,19 @@ uncovered (Mm r) side s = case s of
         moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
 
--- | Behind a closed contour that begins at an outer corner, a little further along its first element: a control goes round a
--- corner only when something follows.
-onward :: Region -> Milling -> Offset.Piece -> Offset.Piece -> [Move]
-onward keyword milling firstPiece lastPiece = case (Part.byControl milling, Offset.origin lastPiece) of
-  (Just _, Offset.Around _) -> [Move (fst (Segment.cutAt share first)) (Mm 0, Mm 0) (Part.At (Part.feed milling)) False keyword False | l > 0]
-  _ -> []
+-- | Whether a control keeps the cutter beside a contour that ends at an outer corner.
+endsAround :: Milling -> NonEmpty Offset.Piece -> Bool
+endsAround milling pieces = case Part.byControl milling of
+  Nothing -> False
+  Just _ -> case Offset.origin (NonEmpty.last pieces) of
+    Offset.Around _ -> True
+    Offset.Along _ -> False
+
+-- | Behind such a contour, a little further along its first element: a control goes round a corner only when something
+-- follows.
+onward :: Region -> Milling -> Segment -> [Move]
+onward keyword milling first = [Move (fst (Segment.cutAt share first)) (Mm 0, Mm 0) (Part.At (Part.feed milling)) False keyword False | l > 0]
   where
-    first = Offset.segment firstPiece
     Mm l = Segment.length first
     share = min 1 (l / 2) / l
 

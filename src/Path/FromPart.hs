@@ -136,11 +136,10 @@ passOf number job@(Located region milling) side' isFirst isLast at allowance z p
       -- Most pieces lie at one height, and share it.
       level' = (plus z (Mm 0), plus z (Mm 0))
       raised = maybe (NonEmpty.repeat level') (fmap (\(a, b) -> (plus z a, plus z b))) swivels
-      !firstPiece = NonEmpty.head pieces
-      -- The pieces come one after the other, and are not kept.
-      moved !m done previous rest hs = case (rest, hs) of
-        (piece : more, h : higher) -> moved (move (goesOn previous piece) h piece) (m : done) piece more higher
-        _ -> (NonEmpty.reverse (m :| done), previous)
+      cut = move False (NonEmpty.head raised) (NonEmpty.head pieces) :| following pieces (NonEmpty.tail raised)
+      following (previous :| rest) hs = case (rest, hs) of
+        (piece : more, h : higher) -> let m = move (goesOn previous piece) h piece in m `seq` (m : following (piece :| more) higher)
+        _ -> []
       numberOf piece = case Offset.origin piece of
         Offset.Along i -> i
         Offset.Around i -> i
@@ -158,15 +157,18 @@ passOf number job@(Located region milling) side' isFirst isLast at allowance z p
       goesOn previous piece = case (Offset.origin previous, Offset.origin piece) of
         (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
         _ -> False
-  (cut, lastPiece) <- Right (moved (move False (NonEmpty.head raised) firstPiece) [] firstPiece (NonEmpty.tail pieces) (NonEmpty.tail raised))
-  let entry = Segment.start (Offset.segment firstPiece)
-      exit = Segment.end (Offset.segment lastPiece)
-      leadIn = leading region milling side' LeadingIn (setOut Segment.startDirection firstPiece (NonEmpty.head (elements (contour milling)))) entry
-      leadOut = case leading region milling side' LeadingOut (setOut Segment.endDirection lastPiece (NonEmpty.last (elements (contour milling)))) exit of
-        [] -> Compensation.onward (keyword region) milling firstPiece lastPiece
+      !around = Compensation.endsAround milling pieces
+      -- From here on the moves are asked, so that a piece need not be kept behind its move.
+      !firstSegment = Path.segment (NonEmpty.head cut)
+      !lastSegment = Path.segment (NonEmpty.last cut)
+      entry = Segment.start firstSegment
+      exit = Segment.end lastSegment
+      leadIn = leading region milling side' LeadingIn (setOut Segment.startDirection firstSegment (NonEmpty.head (elements (contour milling)))) entry
+      leadOut = case leading region milling side' LeadingOut (setOut Segment.endDirection lastSegment (NonEmpty.last (elements (contour milling)))) exit of
+        [] -> if around then Compensation.onward (keyword region) milling firstSegment else []
         moves -> moves
       -- A cutter that fills a hollow stands still in it; then the contour tells the direction.
-      setOut direction piece e = direction (if Segment.length (Offset.segment piece) > Tolerance.coincident then Offset.segment piece else Part.segment e)
+      setOut direction s e = direction (if Segment.length s > Tolerance.coincident then s else Part.segment e)
       begin = maybe entry (Segment.start . Path.segment) (listToMaybe leadIn)
       finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
       -- The axis of a blade stands higher or lower.
