@@ -24,7 +24,7 @@ module Tape.Plan
   )
 where
 
-import Data.Bits (testBit, unsafeShiftL, unsafeShiftR, (.&.), (.|.))
+import Data.Bits (testBit)
 import Data.Functor.Identity (runIdentity)
 import Data.List (foldl', nub)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -205,9 +205,7 @@ foldBare mark total p state frame = go False (steps p)
       Priority leadForth leadBack forth back -> lead w n (if leads p frame (content w) then (if n < 0 then leadBack else leadForth) else (if n < 0 then back else forth)) before
     lead w n d = figure (InWord (content w) n (Lead d)) (d `mod` 10)
     numeral w n = case service f of
-      []
-        | places <= mostPacked -> packedFigures use (decimals f) (places - 1) (packed left)
-        | otherwise -> plainFigures use (decimals f) (places - 1) left
+      [] -> plainFigures use (decimals f) (places - 1) left
       services -> figures use n (decimals f) (places - 1) services left
       where
         f = form w
@@ -215,14 +213,6 @@ foldBare mark total p state frame = go False (steps p)
         places = digitCount f (abs n)
         left = lowest places (abs n)
     pointAt use pointed k before = if k == pointed - 1 then single (use Point) (point p) before else pure before
-    -- The digits of a packed number from a place on.
-    packedFigures use pointed k !digits' !before
-      | k < 0 = pure before
-      | otherwise = do
-        let d = (digits' `unsafeShiftR` (4 * k)) .&. 15
-        ready <- pointAt use pointed k before
-        behind <- figure (use (Digit d k NoHole False)) d ready
-        packedFigures use pointed (k - 1) digits' behind
     -- The digits of what is left from a place on.
     plainFigures use pointed k !left !before
       | k < 0 = pure before
@@ -266,21 +256,6 @@ power k = if k < mostDigits then Primitive.indexPrimArray powers k else maxBound
 
 powers :: PrimArray Int
 powers = Primitive.primArrayFromList (take mostDigits (iterate (10 *) 1))
-
--- | So many digits of a number fit into one word, four bits each.
-mostPacked :: Int
-mostPacked = 15
-
--- | The digits of a number of no more than 'mostPacked', the lowest one in the lowest four bits.
-packed :: Int -> Int
-packed n
-  | n < 1000000000 = lower 0 0 n
-  | otherwise = let high = n `quot` 1000000000 in lower 0 0 (n - 1000000000 * high) .|. lower 0 36 high
-  where
-    -- A tenth of a number below 2³² without a division.
-    lower !done !place !m
-      | m == 0 = done
-      | otherwise = let tenth = (m * 0xCCCCCCCD) `unsafeShiftR` 35 in lower (done .|. ((m - 10 * tenth) `unsafeShiftL` place)) (place + 4) tenth
 
 -- | How many digits a number has in a form.
 digitCount :: NumberForm -> Int -> Int
