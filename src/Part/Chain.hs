@@ -382,8 +382,8 @@ directly walks begin before final
     forwards w a b = case w of
       OnCircle _ _ -> True
       AtPoint _ -> True
-      OnLine _ -> not (walked w Nothing Nothing a b < Mm 0)
-      OnCurve _ -> not (walked w Nothing Nothing a b < Mm 0)
+      OnLine _ -> walked w Nothing Nothing a b >= Mm 0
+      OnCurve _ -> walked w Nothing Nothing a b >= Mm 0
 
 -- | The segments of one element from a point on it to a joint, and what that inserts.
 between :: Walk -> Point -> Maybe Segment -> Joint -> [Element]
