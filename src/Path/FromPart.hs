@@ -20,6 +20,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
+import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour qualified as Contour
@@ -103,36 +104,37 @@ blocksOf number tool at operation = case operation of
     possible region given
     milling <- asWalked <$> oriented region given
     let job = Located region milling
+        -- In an array once for all passes: they are many, and lie far apart in memory.
+        numbered = Vector.fromList (NonEmpty.toList (elements (contour milling)))
         passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [standing milling] else Part.levels milling]
     if null (Part.levels milling) && standing milling > Mm 0
       then Left (CutsAir (keyword region) (standing milling))
       else do
         side' <- leadingSide milling
-        reverse . snd <$> foldl (next job side' (length passes)) (Right (at, [])) (zip [1 ..] passes)
+        reverse . snd <$> foldl (next job side' numbered (length passes)) (Right (at, [])) (zip [1 ..] passes)
   where
     -- How the contour was written is not asked any more; it is much to keep.
     asWalked milling = milling {contour = (contour milling) {Part.legs = []}}
     -- Without depth the cutter stays at the height to which it was brought last.
     standing milling = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
-    next job side' count before (k, (allowance, z)) = do
+    next job side' numbered count before (k, (allowance, z)) = do
       (spot, done) <- before
-      (found, rests) <- along job side' allowance
+      (found, rests) <- along job side' numbered allowance
       let !cuts = length found
           one before' (n, pieces) = do
             (spot', done') <- before'
-            b <- passOf number job side' (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
+            b <- passOf number job side' numbered (k == 1 && n == 1) (k == count && n == cuts) spot' allowance z pieces (if n == 1 then rests else [])
             Right (Way.arriving spot' (Path.moves b), b : done')
       foldl one (Right (spot, done)) (zip [1 :: Int ..] (NonEmpty.toList found))
 
 -- Machining a contour
 
--- | One pass, or one way of it, from where the cutter stands: its side, whether it is the first one and the last one, what it
+-- | One pass, or one way of it, from where the cutter stands: its side, the elements by their numbers, whether it is the first one and the last one, what it
 -- leaves, its height, the way beside the contour, what stays there.
-passOf :: Int -> Located Milling -> Maybe Offset.Side -> Bool -> Bool -> Spot -> Mm -> Mm -> NonEmpty Offset.Piece -> [Offset.Rest] -> Either Error Block
-passOf number job@(Located region milling) side' isFirst isLast at allowance z pieces rests = do
+passOf :: Int -> Located Milling -> Maybe Offset.Side -> Vector Part.Element -> Bool -> Bool -> Spot -> Mm -> Mm -> NonEmpty Offset.Piece -> [Offset.Rest] -> Either Error Block
+passOf number job@(Located region milling) side' numbered isFirst isLast at allowance z pieces rests = do
   swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
-      origins = Vector.fromList (NonEmpty.toList (elements (contour milling)))
       -- Most pieces lie at one height, and share it.
       level' = (plus z (Mm 0), plus z (Mm 0))
       raised = maybe (NonEmpty.repeat level') (fmap (\(a, b) -> (plus z a, plus z b))) swivels
@@ -145,7 +147,7 @@ passOf number job@(Located region milling) side' isFirst isLast at allowance z p
         Offset.Around i -> i
       -- A feed of its own holds on the element, not round its corners; nor does it slow down there.
       move continues heights piece =
-        let e = origins Vector.! numberOf piece
+        let e = numbered Vector.! numberOf piece
             own = case Offset.origin piece of
               Offset.Along _ -> Part.ownFeed (Part.finish e)
               Offset.Around _ -> Nothing
@@ -155,7 +157,7 @@ passOf number job@(Located region milling) side' isFirst isLast at allowance z p
          in Move (Offset.segment piece) heights (maybe pace Part.At own) slows (Part.origin e) continues
       -- Behind an arc in which the cutter stands still there may be a corner.
       goesOn previous piece = case (Offset.origin previous, Offset.origin piece) of
-        (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (origins Vector.! j)
+        (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (numbered Vector.! j)
         _ -> False
       !around = Compensation.endsAround milling pieces
       -- From here on the moves are asked, so that a piece need not be kept behind its move.
@@ -205,9 +207,9 @@ leading region milling side' which direction p = case if which == LeadingIn then
       Just Offset.RightOf -> -1
       _ -> 1 :: Double
 
--- | The cutter's ways along the contour itself on a side, with so much left standing; where material may stay, what stays.
-along :: Located Milling -> Maybe Offset.Side -> Mm -> Either Error (NonEmpty (NonEmpty Offset.Piece), [Offset.Rest])
-along (Located region milling) side' allowance = case side' of
+-- | The cutter's ways along the contour itself on a side, by its elements, with so much left standing; where material may stay, what stays.
+along :: Located Milling -> Maybe Offset.Side -> Vector Part.Element -> Mm -> Either Error (NonEmpty (NonEmpty Offset.Piece), [Offset.Rest])
+along (Located region milling) side' numbered allowance = case side' of
   Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
   Just s -> case (Offset.styled style s r outline, Part.rest milling) of
     (Right pieces, _) -> Right (pieces :| [], [])
@@ -216,8 +218,13 @@ along (Located region milling) side' allowance = case side' of
   where
     outline = Part.outline (contour milling)
     r = plus (radius milling) allowance
-    numbered = Vector.fromList (NonEmpty.toList (elements (contour milling)))
-    style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra = \i -> Part.allowance (Part.finish (numbered Vector.! i))}
+    style = Offset.Style {Offset.sharp = Part.corners milling == Part.Sharp, Offset.extra}
+    -- Mostly nothing is left on any element by itself; then none need be looked at again.
+    extra
+      | plain = const (Mm 0)
+      | otherwise = allowanceOf . (numbered Vector.!)
+    !plain = all ((== Mm 0) . allowanceOf) numbered
+    allowanceOf = Part.allowance . Part.finish
     refusal = Obstacle.refusal region (Remaining.toolOf milling allowance) (NonEmpty.toList (elements (contour milling)))
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
