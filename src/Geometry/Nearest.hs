@@ -4,16 +4,19 @@ module Geometry.Nearest
   ( Nearest,
     index,
     within,
+    each,
     select,
     closest,
     toList,
+    foldl',
+    size,
   )
 where
 
 import Base.Quantity (Mm (..), minus)
 import Control.Monad (forM_)
 import Control.Monad.Primitive (PrimMonad, PrimState)
-import Data.List (foldl')
+import Data.List qualified as List
 import Data.Primitive.PrimArray (MutablePrimArray, PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
@@ -24,7 +27,13 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 
 -- | The things in order; four numbers for each box: left, bottom, right, top.
-data Nearest a = Nearest {things :: Vector a, levels :: [PrimArray Double]}
+data Nearest a = Nearest
+  { things :: Vector a,
+    -- | the boxes of the things
+    lowest :: PrimArray Double,
+    -- | all levels, the highest one first
+    levels :: [PrimArray Double]
+  }
 
 -- | So many boxes have one about them.
 fan :: Int
@@ -32,7 +41,7 @@ fan = 8
 
 -- | Build an index, in a time that grows with the number of things.
 index :: (a -> Box) -> [a] -> Nearest a
-index box list = Nearest {things, levels = reverse (grow lowest)}
+index box list = Nearest {things, lowest, levels = reverse (grow lowest)}
   where
     things = Vector.fromList list
     lowest = PrimArray.runPrimArray $ do
@@ -78,9 +87,57 @@ within :: Box -> Nearest a -> [a]
 within (Box l b r t) = select (\(Box l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 {-# INLINE within #-}
 
+-- | For each of some others, by its box, all things whose boxes meet that and for which something holds of both, in order. Others that lie
+-- beside one another are asked for together: the boxes of a few things are looked at one by one.
+each :: (b -> Box) -> (b -> a -> Bool) -> Nearest a -> [b] -> [[a]]
+each boxOf holds n = start
+  where
+    start others = case others of
+      [] -> []
+      b : rest -> let box = boxOf b in gather (1 :: Int) (sizeOf box) box [box] [b] rest
+    -- So many lie within a box, the last one first; the smallest has so much size.
+    gather known least all' boxes found rest = case rest of
+      b : more
+        | known < together, box <- boxOf b, both <- Box.union all' box, smaller <- min least (sizeOf box), sizeOf both <= widest * smaller -> gather (known + 1) smaller both (box : boxes) (b : found) more
+      _ -> let ranks = ranksWithin all' n in answer (if null (drop fewAtMost ranks) then \box b -> among box b ranks else \box b -> filter (holds b) (within box n)) boxes found (start rest)
+    answer ask boxes found behind = case (boxes, found) of
+      (box : boxes', b : found') -> let a = ask box b in a `seq` answer ask boxes' found' (a : behind)
+      _ -> behind
+    among box b ranks = case ranks of
+      [] -> []
+      i : more
+        | Box.meets box (boxAt (lowest n) i), a <- Vector.unsafeIndex (things n) i, holds b a -> let as = among box b more in as `seq` (a : as)
+        | otherwise -> among box b more
+    sizeOf (Box l b r t) = (r - l) + (t - b)
+{-# INLINE each #-}
+
+-- | So many boxes are asked for together, if the box about them is no larger than so many times each.
+together :: Int
+together = 8
+
+widest :: Double
+widest = 8
+
+-- | No more than so many things are looked at one by one.
+fewAtMost :: Int
+fewAtMost = 128
+
+-- | The places of all things whose boxes meet a box, in order.
+ranksWithin :: Box -> Nearest a -> [Int]
+ranksWithin (Box l b r t) = selectRanks (\(Box l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
+
 -- | All things for whose boxes something holds, in order. It holds for a box that holds one for which it does.
 select :: (Box -> Bool) -> Nearest a -> [a]
-select holds n = case levels n of
+select holds n = selectWith (Vector.unsafeIndex (things n)) holds n
+{-# INLINE select #-}
+
+selectRanks :: (Box -> Bool) -> Nearest a -> [Int]
+selectRanks = selectWith id
+{-# INLINE selectRanks #-}
+
+-- | What is made of the places of those things.
+selectWith :: (Int -> b) -> (Box -> Bool) -> Nearest a -> [b]
+selectWith make holds n = case levels n of
   [] -> []
   top : below -> go top below 0 (count top - 1) []
   where
@@ -88,10 +145,10 @@ select holds n = case levels n of
     go level below begin i rest
       | i < begin = rest
       | holds (boxAt level i) = case below of
-        [] -> go level below begin (i - 1) (Vector.unsafeIndex (things n) i : rest)
+        [] -> go level below begin (i - 1) (make i : rest)
         next : lower -> go level below begin (i - 1) (go next lower (fan * i) (min (count next) (fan * (i + 1)) - 1) rest)
       | otherwise = go level below begin (i - 1) rest
-{-# INLINE select #-}
+{-# INLINE selectWith #-}
 
 -- | The thing nearest to a point; of several the first. Its distance is that of its box or more, but for 'Tolerance.coincident':
 -- distances of lines, arcs and boxes are computed in different ways, and each is rounded.
@@ -119,9 +176,18 @@ closest distanceTo p n = case levels n of
            in case below' of
                 [] -> distanceTo (Vector.unsafeIndex (things n) k)
                 next : lower -> guess next lower (fan * k) (min (count next) (fan * (k + 1)))
-      nearestBox level i end = fst (foldl' (\(k, d) j -> let e = away level j in if e < d then (j, e) else (k, d)) (i, away level i) [i + 1 .. end - 1])
+      nearestBox level i end = fst (List.foldl' (\(k, d) j -> let e = away level j in if e < d then (j, e) else (k, d)) (i, away level i) [i + 1 .. end - 1])
       away level i = minus (Box.distance p (boxAt level i)) Tolerance.coincident
 
 -- | All things in order.
 toList :: Nearest a -> [a]
 toList = Vector.toList . things
+
+-- | All things in order, one after the other; there is no list of them.
+foldl' :: (b -> a -> b) -> b -> Nearest a -> b
+foldl' with b = Vector.foldl' with b . things
+{-# INLINE foldl' #-}
+
+-- | How many there are.
+size :: Nearest a -> Int
+size = Vector.length . things

@@ -20,6 +20,12 @@ spec = do
     property $
       forAll ((,) <$> boxes <*> box) $ \(things, b) ->
         map fst (Nearest.within b (Nearest.index snd things)) === [i | (i, b') <- things, Box.meets b' b]
+  it "tells each of many boxes what it would be told alone (catches things that only the boxes beside it meet, and one that is asked for twice)" $
+    property $
+      forAll ((,) <$> boxes <*> oneof [boxes, alike]) $ \(things, others) ->
+        let n = Nearest.index snd things
+            holds (i, _) (k, _) = (i + k) `mod` 3 /= (0 :: Int)
+         in map (map fst) (Nearest.each snd holds n others) === [[fst t | t <- Nearest.within b n, holds o t] | o@(_, b) <- others]
   it "finds what is nearest to a point, of several the first (catches a group left out by the bound of another)" $
     property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
@@ -62,6 +68,12 @@ box = do
   let b = Box.inflate (Mm w) (Box.ofPoints p [])
       rounded x = fromIntegral (round x :: Int)
   pure (if whole then let Box l c r t = b in Box (rounded l) (rounded c) (rounded r) (rounded t) else b)
+
+-- | Some beside one another, and then some elsewhere.
+alike :: Gen [(Int, Box)]
+alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
+  where
+    near p = (\a b w -> Box.inflate (Mm w) (Box.ofPoints (Vec.shift (Vec.vec a b) p) [])) <$> choose (-3, 3) <*> choose (-3, 3) <*> choose (0, 4)
 
 -- | Along a walk, as contours are.
 boxes :: Gen [(Int, Box)]
