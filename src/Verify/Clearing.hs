@@ -88,7 +88,7 @@ pocketOf found@((_, Located statement job, _, _) :| _) = Pocket {statement, mill
     side = fromMaybe LeftOf (fromRight Nothing (Path.leadingSide milling))
     contours = map (NonEmpty.toList . Part.elements) (Part.contour milling : Part.islands job)
     elements = Vector.fromList (concat contours)
-    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.rank = i, Passage.before = 0, Passage.long = 0, Passage.course = Course.ofSegment (Part.segment e)} | (i, e) <- Vector.toList (Vector.indexed elements)]
+    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.rank = i, Passage.before = 0, Passage.long = 0, Passage.left = Mm 0, Passage.continues = False, Passage.course = Course.ofSegment (Part.segment e)} | (i, e) <- Vector.toList (Vector.indexed elements)]
     about = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
     away = plus (plus (Part.radius milling) (NonEmpty.last (Part.allowances milling))) margin
     rim = [(elements Vector.! i, s) | (i, s) <- Reachable.rim side away (Nearest.index Box.ofSegment (map Part.segment (Vector.toList elements))) (map (map Part.segment) contours)]
@@ -120,7 +120,7 @@ examine :: Machine -> Bool -> (Trace -> Mm) -> [Trace] -> (Box -> [Trace]) -> (T
 examine machine flat toolOf traces nearby isOwn pocket isFirst pass = (passage, findings)
   where
     pulse = Machine.pulse machine
-    (inside, outside) = Deviation.allowedOff (milling pocket)
+    (inside, outside) = Deviation.allowedOff (any Part.continues (Part.elements (Part.contour (milling pocket)))) (milling pocket)
     mayGouge = plus inside pulse
     mayLeave = plus (plus (max inside outside) pulse) margin
     atHeight = filter (\t -> (flat || Deviation.isAt machine (level pass) t) && toolOf t >= Part.radius (milling pocket)) traces

@@ -11,13 +11,19 @@ module Verify.Course
     spot,
     isLine,
     distance,
+    mayLieWithin,
     box,
     uneven,
-    isFurther,
+    mayComeWithin,
     apart,
+    apartAtLeast,
     furthest,
     furthestFrom,
+    divided,
+    begin,
+    isWithin,
     isCovered,
+    isAccompanied,
     range,
     isLeftOf,
     isRightOf,
@@ -86,12 +92,22 @@ distance course !px !py = case course of
     | inSector course px py -> abs (hypotenuse (px - cx) (py - cy) - r)
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
 
--- | A box about it, as 'Box.ofSegment' has it.
+-- | Whether a point may lie within a distance of a course of such a length, or a little more: no point of it is further from its beginning.
+mayLieWithin :: Double -> Double -> Course -> Double -> Double -> Bool
+mayLieWithin most long course !px !py = case course of
+  Line ax ay _ _ -> about (px - ax) (py - ay)
+  Bow ax ay _ _ _ _ _ _ -> about (px - ax) (py - ay)
+  where
+    about vx vy = let d = most + long + unsure in vx * vx + vy * vy <= d * d
+    {-# INLINE about #-}
+{-# INLINE mayLieWithin #-}
+
+-- | A box about it, that of its ends grown by the most that an arc may bulge: @r·(1 − cos(φ/2)) ≤ r·φ²/8@.
 box :: Course -> Box
 box course = case course of
   Line ax ay bx by -> Box (min ax bx) (min ay by) (max ax bx) (max ay by)
   Bow ax ay bx by cx cy r s
-    | abs s < pi -> Box.inflate (Mm (2 * r * sin (s / 4) ^ (2 :: Int))) (Box (min ax bx) (min ay by) (max ax bx) (max ay by))
+    | abs s < pi -> Box.inflate (Mm (r * s * s / 8)) (Box (min ax bx) (min ay by) (max ax bx) (max ay by))
     | otherwise -> Box (cx - r) (cy - r) (cx + r) (cy + r)
 
 -- | By how much the radii of an arc differ at its ends.
@@ -100,15 +116,22 @@ uneven course = case course of
   Line {} -> 0
   Bow _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
 
--- | Whether no point of the first course is surely so near to the second: no point of one that does not turn by more than a half turn lies further from
--- the middle of its ends than they do.
-isFurther :: Double -> Course -> Course -> Bool
-isFurther least e t = case e of
-  Line ax ay bx by -> away ax ay bx by
-  Bow ax ay bx by _ _ _ s -> abs s <= pi && away ax ay bx by
+-- | Whether a course of such a length may come within a distance of what carries the second one, a line or a circle: no point of it is further from
+-- its beginning than that length.
+mayComeWithin :: Double -> Double -> Course -> Course -> Bool
+mayComeWithin most long e t = case t of
+  Line px py qx qy ->
+    let ux = qx - px
+        uy = qy - py
+        side = ux * (y - py) - uy * (x - px)
+     in side * side <= far * far * (ux * ux + uy * uy)
+  Bow _ _ _ _ cx cy r _ ->
+    let vv = (x - cx) * (x - cx) + (y - cy) * (y - cy)
+     in vv <= (r + far) * (r + far) && (r <= far || vv >= (r - far) * (r - far))
   where
-    away ax ay bx by = distance t ((ax + bx) / 2) ((ay + by) / 2) > least + hypotenuse (bx - ax) (by - ay) / 2 + unsure
-{-# INLINE isFurther #-}
+    far = most + long + unsure
+    (x, y) = begin e
+{-# INLINE mayComeWithin #-}
 
 hypotenuse :: Double -> Double -> Double
 hypotenuse a b = sqrt (a * a + b * b)
@@ -143,6 +166,58 @@ apart a b
     ends c other = case c of
       Line ax ay bx by -> min (distance other ax ay) (distance other bx by)
       Bow ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
+
+-- | No points of two courses are nearer to one another than this; it is exact where the second lies beside the first, and found sooner. What carries the first is
+-- nowhere further from a point than the first itself.
+apartAtLeast :: Course -> Course -> Double
+apartAtLeast t e = case t of
+  Line px py qx qy -> case across px py qx qy e of
+    Span low high
+      | low > 0 -> low
+      | high < 0 -> negate high
+      | otherwise -> 0
+  Bow _ _ _ _ cx cy r _ -> case spanFrom cx cy e of
+    Span low high
+      | low > r -> low - r
+      | high < r -> r - high
+      | otherwise -> 0
+
+-- | From one number to another.
+data Span = Span Double Double
+
+-- | How far a course is from a point at least and at most.
+spanFrom :: Double -> Double -> Course -> Span
+spanFrom !px !py e = case e of
+  Line ax ay bx by -> Span (distance e px py) (max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py)))
+  Bow ax ay bx by cx cy r _ ->
+    let a = hypotenuse (ax - px) (ay - py)
+        b = hypotenuse (bx - px) (by - py)
+        ux = cx - px
+        uy = cy - py
+        off = hypotenuse ux uy
+        onLine f = inSector e (cx + f * ux) (cy + f * uy)
+     in if off > 0
+          then Span (if onLine (negate r / off) then abs (off - r) else min a b) (if onLine (r / off) then off + r else max a b)
+          else Span r r
+
+-- | How far to the left of a line a course lies at least and at most; 0 where the line has no length.
+across :: Double -> Double -> Double -> Double -> Course -> Span
+across px py qx qy e
+  | l <= 0 = Span 0 0
+  | otherwise = case e of
+    Line ax ay bx by -> let a = height ax ay; b = height bx by in Span (min a b) (max a b)
+    Bow ax ay bx by cx cy r _ ->
+      let a = height ax ay
+          b = height bx by
+          c = height cx cy
+          sx = negate iy * r
+          sy = ix * r
+       in Span (if inSector e (cx - sx) (cy - sy) then c - r else min a b) (if inSector e (cx + sx) (cy + sy) then c + r else max a b)
+  where
+    l = hypotenuse (qx - px) (qy - py)
+    ix = (qx - px) / l
+    iy = (qy - py) / l
+    height x y = ix * (y - py) - iy * (x - px)
 
 -- | From where a normal of the first course meets the second, an arc, at a right angle, too.
 normals :: Course -> Course -> Double
@@ -205,9 +280,10 @@ furthest e t = min (beside e t) (case t of Line ax ay bx by -> fromEnds ax ay bx
 -- | No point of a course is further than this from any of some others; 'never' where an end of it is further from one of them than so much.
 furthestFrom :: Double -> Course -> [Course] -> Double
 furthestFrom most e ts
-  | all endsNear ts = foldl' (\far t -> max far (furthest e t)) 0 ts
+  | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
   | otherwise = never
   where
+    enough t = let far = beside e t in if far <= most then far else furthest e t
     endsNear t = case e of
       Line ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
       Bow ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
@@ -222,6 +298,67 @@ isWithin most e t = atBegin && (beside e t <= most || fromEnds)
     atBegin = case e of
       Line ax ay _ _ -> distance t ax ay <= most
       Bow ax ay _ _ _ _ _ _ -> distance t ax ay <= most
+
+-- | Whether every point of a line or of an arc of no more than 'aCorner' surely has a point of some others within a distance: those of them that follow one
+-- another without a gap are one curve. As seen from the line, or from the arc's centre, that comes past its beginning and past its end, so
+-- it comes past all between, and nowhere is it further above it, or out from it, or less so, than the distance. It is so short that it does not go
+-- round the centre.
+isAccompanied :: Double -> [Course] -> Course -> Bool
+isAccompanied most others t = case t of
+  Line px py qx qy
+    | l <- hypotenuse (qx - px) (qy - py),
+      l > 0 ->
+      let ix = (qx - px) / l
+          iy = (qy - py) / l
+          along x y = ix * (x - px) + iy * (y - py)
+       in chain (\x y -> let f = along x y in if f <= 0 then Before else if f >= l then Behind else Amidst) (across px py qx qy) (\(Span low high) _ -> low >= negate most' && high <= most') others
+  Bow ax ay bx by cx cy r s
+    | abs s <= aCorner ->
+      let place x y = bearing ax ay bx by cx cy s x y (\behind before alongBegin -> if behind <= 0 && alongBegin > 0 then Before else if before <= 0 && (bx - cx) * (x - cx) + (by - cy) * (y - cy) > 0 then Behind else Amidst)
+       in chain place (spanFrom cx cy) (\(Span low high) long -> long < low && r - low <= most' && high - r <= most') others
+  _ -> False
+  where
+    most' = most - 2 * unsure
+
+-- | Whether of curves one behind the other some follow one another without a gap from past one end to past the other, and keep to what is asked.
+chain :: (Double -> Double -> Stand) -> (Course -> Span) -> (Span -> Double -> Bool) -> [Course] -> Bool
+chain place spanOf fits = start
+  where
+    start es = case es of
+      [] -> False
+      e : _ -> let (x, y) = begin e in go (place x y) never (negate never) 0 x y es
+    -- From where the curve is past one end, what it has kept to and how far it has gone since it was there.
+    go :: Stand -> Double -> Double -> Double -> Double -> Double -> [Course] -> Bool
+    go from !low !high !long !x !y es = case es of
+      [] -> False
+      e : more -> case (begin e, finish e) of
+        ((bx, by), (fx, fy))
+          | not (bx == x && by == y) -> start es
+          | from == Amidst -> go there never (negate never) 0 fx fy more
+          | there == from -> go there never (negate never) 0 fx fy more
+          | there == Amidst -> go from low' high' long' fx fy more
+          | otherwise -> fits (Span low' high') long' || go there never (negate never) 0 fx fy more
+          where
+            there = place fx fy
+            Span a b = spanOf e
+            low' = min low a
+            high' = max high b
+            long' = long + lengthOf e
+{-# INLINE chain #-}
+
+-- | Past which end a point lies.
+data Stand = Before | Amidst | Behind
+  deriving stock (Eq)
+
+-- | A turn by no more than this, in radians, goes round no centre.
+aCorner :: Double
+aCorner = 1
+
+-- | How long it is.
+lengthOf :: Course -> Double
+lengthOf e = case e of
+  Line ax ay bx by -> hypotenuse (bx - ax) (by - ay)
+  Bow _ _ _ _ _ _ r s -> r * abs s
 
 -- | How far the furthest point of a course is from a point.
 fromPoint :: Course -> Double -> Double -> Double
@@ -239,8 +376,8 @@ beside e t = case (e, t) of
   (Line ax ay bx by, Line {}) -> max (distance t ax ay) (distance t bx by)
   (Line ax ay bx by, Bow _ _ _ _ cx cy r s)
     | abs s <= pi || isWhole s ->
-      let near = distance e cx cy
-          high = max (abs (near - r)) (max (abs (hypotenuse (ax - cx) (ay - cy) - r)) (abs (hypotenuse (bx - cx) (by - cy) - r)))
+      let !near = distance e cx cy
+          !high = max (abs (near - r)) (max (abs (hypotenuse (ax - cx) (ay - cy) - r)) (abs (hypotenuse (bx - cx) (by - cy) - r)))
        in aside high (max (pastArc t ax ay) (pastArc t bx by)) near r
   (Bow ax ay bx by cx cy r _, Line px py qx qy) ->
     let ux = qx - px
@@ -251,7 +388,7 @@ beside e t = case (e, t) of
         past x y = let f = ix * (x - px) + iy * (y - py) in max 0 (max (negate f) (f - l))
         outermost x y = if inSector e x y then height x y else 0
         furthestPast x y = if inSector e x y then past x y else 0
-        high = max (max (height ax ay) (height bx by)) (max (outermost (cx - r * iy) (cy + r * ix)) (outermost (cx + r * iy) (cy - r * ix)))
+        !high = max (max (height ax ay) (height bx by)) (max (outermost (cx - r * iy) (cy + r * ix)) (outermost (cx + r * iy) (cy - r * ix)))
      in if l > 0
           then aside high (max (max (past ax ay) (past bx by)) (max (furthestPast (cx + r * ix) (cy + r * iy)) (furthestPast (cx - r * ix) (cy - r * iy)))) l 0
           else never
@@ -261,13 +398,13 @@ beside e t = case (e, t) of
           away x y = hypotenuse (x - dx) (y - dy)
           -- From the centre of the other its range has its extremes at its ends and on the line of both centres.
           onLine sense = let f = sense * r / off in off > 0 && inSector e (cx + f * (cx - dx)) (cy + f * (cy - dy))
-          behind = onLine 1
-          before = onLine (-1)
-          high = max (max (abs (away ax ay - q)) (abs (away bx by - q))) (max (if behind then abs (off + r - q) else 0) (if before then abs (abs (off - r) - q) else 0))
+          !behind = onLine 1
+          !before = onLine (-1)
+          !high = max (max (abs (away ax ay - q)) (abs (away bx by - q))) (max (if behind then abs (off + r - q) else 0) (if before then abs (abs (off - r) - q) else 0))
           near = min (min (away ax ay) (away bx by)) (min (if behind then off + r else never) (if before then abs (off - r) else never))
           -- What is furthest past an end of the other is an end, too, or lies square to the line to that end.
           squarePast x y sense = let f = sense * r / q; u = cx - f * (y - dy); v = cy + f * (x - dx) in if inSector e u v then pastArc t u v else 0
-          past = max (max (pastArc t ax ay) (pastArc t bx by)) (max (max (squarePast px py 1) (squarePast px py (-1))) (max (squarePast qx qy 1) (squarePast qx qy (-1))))
+          !past = max (max (pastArc t ax ay) (pastArc t bx by)) (max (max (squarePast px py 1) (squarePast px py (-1))) (max (squarePast qx qy 1) (squarePast qx qy (-1))))
           {-# INLINE away #-}
           {-# INLINE onLine #-}
           {-# INLINE squarePast #-}
@@ -397,6 +534,15 @@ foot e !x !y = case e of
         turned = atan2 (vx * (y - cy) - vy * (x - cx)) (vx * (x - cx) + vy * (y - cy)) / s
      in if turned < 0 then turned + 2 * pi / abs s else turned
 
+-- | The two parts of a course before and behind the foot of a point, if that lies on it.
+divided :: Double -> Double -> Course -> Maybe (Course, Course)
+divided x y e
+  | isAbout, m > 0, m < 1 = Just (between e 0 m, between e m 1)
+  | otherwise = Nothing
+  where
+    m = foot e x y
+    isAbout = isLine e || inSector e x y
+
 -- | The part of a course between two shares of its length.
 between :: Course -> Double -> Double -> Course
 between e a b = case e of
@@ -409,30 +555,18 @@ between e a b = case e of
 -- | Whether all of a course surely lies to the left of an element, or of the circle or line that carries it.
 isLeftOf :: Course -> Course -> Bool
 isLeftOf t e = case e of
-  Line ax ay bx by -> let (low, _) = heights ax ay bx by t in low > unsure
-  Bow _ _ _ _ cx cy r s -> let (near, far) = ranges cx cy t in if s > 0 then far < r - unsure else near > r + unsure
+  Line ax ay bx by -> case across ax ay bx by t of Span low _ -> low > unsure
+  Bow _ _ _ _ cx cy r s -> if s > 0 then isInside cx cy (r - unsure) t else isOutside cx cy (r + unsure) t
 
 isRightOf :: Course -> Course -> Bool
 isRightOf t e = case e of
-  Line ax ay bx by -> let (_, high) = heights ax ay bx by t in high < -unsure
-  Bow _ _ _ _ cx cy r s -> let (near, far) = ranges cx cy t in if s > 0 then near > r + unsure else far < r - unsure
+  Line ax ay bx by -> case across ax ay bx by t of Span _ high -> high < -unsure
+  Bow _ _ _ _ cx cy r s -> if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
--- | How far to the left of a line a course lies at least and at most, or beyond both.
-heights :: Double -> Double -> Double -> Double -> Course -> (Double, Double)
-heights ax ay bx by t = case t of
-  Line px py qx qy -> let h = height px py; k = height qx qy in (min h k, max h k)
-  Bow _ _ _ _ cx cy r _ -> let h = height cx cy in (h - r, h + r)
-  where
-    l = hypotenuse (bx - ax) (by - ay)
-    height x y = if l > 0 then ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / l else 0
-{-# INLINE heights #-}
-
--- | How far from a point a course lies at least and at most, or beyond both.
-ranges :: Double -> Double -> Course -> (Double, Double)
-ranges cx cy t = case t of
-  Line px py qx qy -> (distance t cx cy, max (hypotenuse (px - cx) (py - cy)) (hypotenuse (qx - cx) (qy - cy)))
-  Bow _ _ _ _ dx dy q _ -> let d = hypotenuse (dx - cx) (dy - cy) in (abs (d - q), d + q)
-{-# INLINE ranges #-}
+-- | Whether all of a course lies within a distance of a point, or all of it beyond.
+isInside, isOutside :: Double -> Double -> Double -> Course -> Bool
+isInside cx cy r t = case spanFrom cx cy t of Span _ high -> high < r
+isOutside cx cy r t = case spanFrom cx cy t of Span low _ -> low > r
 
 -- | Whether the foot of a point may fall on a course rather than before or behind it.
 spansAbout :: Course -> Double -> Double -> Bool

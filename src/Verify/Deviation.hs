@@ -12,7 +12,7 @@ module Verify.Deviation
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
-import Control.Monad (forM_, when)
+import Control.Monad (foldM, when)
 import Control.Monad.ST (runST)
 import Control.Walk qualified as Control
 import Data.Containers.ListUtils (nubOrd)
@@ -41,7 +41,7 @@ import Part.Part qualified as Part
 import Verify.Course (Course)
 import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
-import Verify.Passage (Edge (course, element, rank), Job (..))
+import Verify.Passage (Edge (course, element, left, long, rank), Job (..))
 import Verify.Passage qualified as Passage
 import Verify.Pointed qualified as Pointed
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
@@ -61,7 +61,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
   where
     contourBox = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour (milling job))))
     pulse = Machine.pulse machine
-    (inside, outside) = allowedOff (milling job)
+    (inside, outside) = allowedOff (Passage.isCurved (edges job)) (milling job)
     mayGouge = plus (if upon then allowance' else inside) pulse
     mayLeave = plus (if upon then allowance' else outside) pulse
     allowance' = max inside outside
@@ -78,13 +78,13 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
       | IntSet.member (number t) ownNumbers = Spared {upTo = furthest t, most = plus (reach job) mostLeft, required = \e p -> plus (reach job) (leftAt (edges job) e p)}
       | otherwise = Spared {upTo = furthest t, most = toolOf t, required = \_ _ -> toolOf t}
     furthest t = max (outreach job) (toolOf t)
-    mostLeft = foldl' (\left' e -> max left' (Part.allowance (Part.finish (element e)))) (Mm 0) (Nearest.toList (edges job))
+    mostLeft = max (Mm 0) (Passage.mostLeft (edges job))
     gouges = mapMaybe (\t -> gougeOf (spared t) (edges job) t) looked <> pierced
     -- No distance tells when a tool without a radius crosses the contour; nor, then, that it leaves nothing.
     pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) (edges job) mayGouge t]]
     (Seen {cut, strays, wrongly}, covered) = lookAlong job spared mayLeave looked within
     deepest = foldl' deeper cut pierced
-    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (concatMap (touchable (plus (reach job) more)) es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
+    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (if mayStay then concatMap (touchable (plus (reach job) more)) es else es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     -- What the cutter cannot touch may stay, where that is allowed.
     touchable distance e = case (Part.rest (milling job), side job) of
       (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance elementSegments (Part.segment (element e))]
@@ -121,55 +121,67 @@ ascending ns = case ns of
 -- | Elements by what is left on them besides what the pass leaves.
 byAllowance :: [Edge] -> [(Mm, [Edge])]
 byAllowance es = case es of
-  e : others | all ((== left' e) . left') others -> [(left' e, es)]
-  _ -> [(more, [e | e <- es, left' e == more]) | more <- nubOrd (map left' es)]
-  where
-    left' = Part.allowance . Part.finish . element
+  e : others | all ((== left e) . left) others -> [(left e, es)]
+  _ -> [(more, [e | e <- es, left e == more]) | more <- nubOrd (map left es)]
 
 -- | What a stroke has to spare: elements up to a distance, at most and at a point beside one of them.
 data Spared = Spared {upTo :: Mm, most :: Mm, required :: Element -> Point -> Mm}
 
--- | What is seen along the strokes: the deepest cut, where they stray with the last one first, the first one on the wrong side.
-data Seen = Seen {cut :: Maybe Witness, strays :: [Witness], wrongly :: Maybe Finding}
+-- | What is seen along the strokes: the deepest cut, where they stray with the last one first, the first one on the wrong side; the courses of the stroke
+-- that was last seen to follow the contour.
+data Seen = Seen {cut :: Maybe Witness, strays :: [Witness], wrongly :: Maybe Finding, behind :: [Course]}
 
 -- | Look along the strokes that have to spare a contour and those that have to follow it, both in the order of the tape. Each
--- asks once for the elements around it. With what is seen comes for each element, by its number, how far its furthest point is at most from one of the strokes that
--- follow the contour and lie beside it on the right side, as far as that is easily told.
+-- asks once for the elements around it. With what is seen comes for each element, by its number, how far any point of it is at most from one of the strokes that
+-- follow the contour and lie beside it on the right side, or from one of two that do so one behind the other, as far as that is easily told.
 lookAlong :: Job -> (Trace -> Spared) -> Mm -> [Trace] -> [Trace] -> (Seen, PrimArray Double)
 lookAlong job spared mayLeave looked0 within0 = runST $ do
-  ranges <- PrimArray.newPrimArray (length (Nearest.toList (edges job)))
+  ranges <- PrimArray.newPrimArray (Nearest.size (edges job))
   PrimArray.setPrimArray ranges 0 (PrimArray.sizeofMutablePrimArray ranges) (1 / 0)
   let go seen looked within = case (looked, within) of
-        (t : ts, w : ws) -> case comparing (\a -> (number a, part a)) t w of
-          EQ -> both seen (view t) >>= \seen' -> go seen' ts ws
-          LT -> go (spares (view t) seen) ts within
-          GT -> follows seen (view w) >>= \seen' -> go seen' looked ws
-        (t : ts, []) -> go (spares (view t) seen) ts []
-        ([], w : ws) -> follows seen (view w) >>= \seen' -> go seen' [] ws
-        ([], []) -> pure seen
+        (v : vs, w : ws) -> case inOrder (trace v) w of
+          EQ -> both seen v >>= \seen' -> go seen' vs ws
+          LT -> go (spares v seen) vs within
+          GT -> follows seen (view (Passage.closeTo job w) w) >>= \seen' -> go seen' looked ws
+        (v : vs, []) -> go (spares v seen) vs []
+        ([], ws) -> foldM follows seen (views ws)
       both seen v = follows (spares v seen) v
       follows seen v = do
-        forM_ (close v) (noted v)
+        mapM_ (noted (behind seen) v) (close v)
         pure $! followed v seen
-      noted View {lines = ls} e = do
+      noted before View {trace = t, lines = ls} e = do
         known <- PrimArray.readPrimArray ranges (rank e)
-        let far = Course.furthestFrom reaches (course e) ls
-        when (far < known && all (isSurelyOn job (course e)) ls) (PrimArray.writePrimArray ranges (rank e) far)
-  seen <- go (Seen Nothing [] Nothing) looked0 within0
+        -- Nearer than it has to be tells no more.
+        when (known > enough) $ do
+          let far = furthestFrom before (Course.begin (trail t)) ls e
+          when (far < known && all (isSurelyOn job (course e)) ls) (PrimArray.writePrimArray ranges (rank e) far)
+  seen <- go (Seen Nothing [] Nothing []) (views looked0) within0
   frozen <- PrimArray.unsafeFreezePrimArray ranges
   pure (seen, frozen)
   where
-    view t = View {trace = t, close = Passage.closeTo job t, lines = courses t}
+    views ts = zipWith view (Passage.closeToEach job ts) ts
+    view es t = View {trace = t, close = es, lines = courses t}
+    inOrder a b = compare (number a) (number b) <> compare (part a) (part b)
     Mm reaches = Passage.reaches job
+    enough = let Mm r = reach job in r - 2 * Course.unsure
+    -- An element may lie beside a stroke and the one before it.
+    furthestFrom before (x, y) ls e
+      | far < 1 / 0 || null before || not (Course.mayLieWithin reaches (long e) (course e) x y) = far
+      | otherwise = case Course.divided x y (course e) of
+        Just (p, q) | all (isSurelyOn job (course e)) before -> max (Course.furthestFrom reaches p before) (Course.furthestFrom reaches q ls)
+        _ -> far
+      where
+        far = Course.furthestFrom reaches (course e) ls
     spares v@View {trace = t} seen = seen {cut = cutBy (spared t) v (cut seen)}
     cutBy s View {trace = t, close, lines} best
       | mayExceed s best t lines (if upTo s <= Mm reaches then close else Nearest.within (Box.inflate (upTo s) (box t)) (edges job)) = maybe best (deeper best) (gougeOf s (edges job) t)
       | otherwise = best
-    followed v@View {trace = t} seen
-      | isUpright t = seen
+    followed v@View {trace = t, lines} seen
+      | isUpright t = seen {behind = []}
       | otherwise =
         seen
-          { strays = maybe (strays seen) (: strays seen) (strayOf job {reach = outreach job, allowance = mayLeave} v),
+          { behind = lines,
+            strays = maybe (strays seen) (: strays seen) (strayOf job {reach = outreach job, allowance = mayLeave} v),
             wrongly = case wrongly seen of
               Nothing -> wrongSide job v
               found -> found
@@ -187,7 +199,7 @@ deeper best w = case best of
 -- | Whether a stroke of some courses may cut deeper than the deepest so far into elements around it, by what can be told without
 -- comparing exactly. The courses of an arc differ by as much as its radii.
 mayExceed :: Spared -> Maybe Witness -> Trace -> [Course] -> [Edge] -> Bool
-mayExceed spared best t lines' = any (\e -> Course.apart (trail t) (course e) < least + off && (off <= 0 || any (\c -> Course.apart c (course e) < least) (lines' <> bridges t)))
+mayExceed spared best t lines' = any (\e -> Course.apartAtLeast (trail t) (course e) < least + off && Course.apart (trail t) (course e) < least + off && (off <= 0 || any (\c -> Course.apart c (course e) < least) (lines' <> bridges t)))
   where
     off = Course.uneven (trail t)
     least = let Mm d = most spared in d - maybe 0 (\w -> let Mm a = amount w in a) best + Course.unsure
@@ -237,14 +249,15 @@ uncut job known index = go (Mm 0)
              in Witness {amount = left', frame = number nearest, Verify.Proof.element = Part.origin (element e), place = p} : go next rest
     surely least e =
       let far@(Mm d) = plus (reach job) least
-       in PrimArray.indexPrimArray known (rank e) <= d - 2 * Course.unsure || Course.isCovered d courses (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index) (course e)
+       in PrimArray.indexPrimArray known (rank e) <= d - 2 * Course.unsure || Course.isCovered d snd (counts e) (map withCourses (Nearest.within (Box.inflate far (Course.box (course e))) index)) (course e)
+    withCourses t = (t, courses t)
     -- No other stroke is nearer than what is looked at.
     range e =
       let far@(Mm d) = plus (reach job) (allowance job)
-          near = filter (counts e) (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index)
-          (low, high) = Course.range (map courses near) (course e)
+          near = filter (counts e) (map withCourses (Nearest.within (Box.inflate far (Box.ofSegment (Part.segment (element e)))) index))
+          (low, high) = Course.range (map snd near) (course e)
        in Cover.Range {Cover.atLeast = Mm (min d low), Cover.atMost = Mm high}
-    counts e t = all (isSurelyOn job (course e)) (courses t) || all (onLeadingSide job (Part.segment (element e))) (ways t)
+    counts e (t, ts) = all (isSurelyOn job (course e)) ts || all (onLeadingSide job (Part.segment (element e))) (ways t)
     others e = Cover.Others {Cover.index, Cover.lines = ways, Cover.counts = all (onLeadingSide job (Part.segment e)) . ways, Cover.reach = reach job, Cover.allowance = allowance job}
 
 -- | Whether all of a course surely lies on the side of an element on which the cutter has to stand.
@@ -270,7 +283,7 @@ onLeadingSide job element t = case side job of
 -- | How far a stroke strays from the contour, if it is more than is allowed; the elements around it.
 strayOf :: Job -> View -> Maybe Witness
 strayOf job View {trace = t, close, lines}
-  | all (Course.isCovered d (pure . course) (const True) close) lines = Nothing
+  | all (\l -> any (Course.isWithin (d - 2 * Course.unsure) l . course) close || Course.isAccompanied d (map course close) l || Course.isCovered d (pure . course) (const True) close l) lines = Nothing
   | otherwise = case mapMaybe beyond (NonEmpty.toList (ways t)) of
     [] -> Nothing
     ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
@@ -292,12 +305,12 @@ wrongSide job View {trace = t, close} = case side job of
   where
     looked = map (\k -> Segment.at k (line t)) (if Course.isLine (trail t) then [0.5] else let ks = Trace.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) ks)
     -- Of those that are nearest, to a hair, one may have the place on its wrong side.
-    mayBe keeps p = least > a - Course.unsure && any (\e -> Course.distance (course e) x y <= least + Course.unsure && Course.spansAbout (course e) x y && wrong e) near
+    mayBe keeps p = least > a - Course.unsure && any (\e -> Course.mayLieWithin (least + Course.unsure) (long e) (course e) x y && Course.distance (course e) x y <= least + Course.unsure && Course.spansAbout (course e) x y && wrong e) near
       where
         (x, y) = (Vec.x p, Vec.y p)
         Mm a = allowance job
         Mm far = Passage.reaches job
-        leastOf = foldl' (\d e -> min d (Course.distance (course e) x y)) (1 / 0)
+        leastOf es = Passage.leastDistance (1 / 0) es x y
         -- Where one is close, no other one is nearer.
         (near, least) = let l = leastOf close in if l + Course.unsure <= far then (close, l) else (around, leastOf around)
         wrong e = not (case keeps of Offset.LeftOf -> Course.isLeftOf (Course.spot x y) (course e); Offset.RightOf -> Course.isRightOf (Course.spot x y) (course e))
@@ -316,10 +329,10 @@ wrongSide job View {trace = t, close} = case side job of
        in if Vec.cross ahead (Vec.to foot p) > 0 then Offset.LeftOf else Offset.RightOf
 
 -- | How far a tape may be off from a contour, into the material and out of it. Of a curve the contour has arcs that may be
--- off themselves: the tape has to come so much nearer to them.
-allowedOff :: Milling -> (Mm, Mm)
-allowedOff milling
-  | any Part.continues (Part.elements (Part.contour milling)) = (less a, less b)
+-- off themselves, if there are any: the tape has to come so much nearer to them.
+allowedOff :: Bool -> Milling -> (Mm, Mm)
+allowedOff isCurved milling
+  | isCurved = (less a, less b)
   | otherwise = (a, b)
   where
     (a, b) = Part.deepest (Part.tolerance milling)

@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The proof: the frames read from a tape, run on the virtual controller and compared with the part.
 --
 -- Three comparisons, each exact over whole strokes and whole elements and none of them a
@@ -159,12 +161,15 @@ compared machine path program frames tools traces ownTraces unkept =
 data Sum = Sum {count :: Int, endsAt :: V3, largest :: V3, firstRisen :: Maybe Int}
 
 sumOf :: V3 -> [Frame] -> Sum
-sumOf begin@(V3 _ _ z0) = foldl' with (Sum 0 begin 0 Nothing)
+sumOf begin@(V3 _ _ z0) = go 0 begin 0 Nothing
   where
-    with (Sum n at (V3 a b c) risen) f = Sum (n + 1) at' (V3 (max a (abs x)) (max b (abs y)) (max c (abs z))) (if isJust risen || z' == z0 then risen else Just (n + 1))
-      where
-        V3 x y z = increment f
-        at'@(V3 _ _ z') = at + increment f
+    go :: Int -> V3 -> V3 -> Maybe Int -> [Frame] -> Sum
+    go !n at@(V3 x y z) most@(V3 a b c) risen frames = case frames of
+      [] -> Sum {count = n, endsAt = at, largest = most, firstRisen = risen}
+      f : more ->
+        let V3 dx dy dz = increment f
+            z' = z + dz
+         in go (n + 1) (V3 (x + dx) (y + dy) z') (V3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz))) (if isJust risen || z' == z0 then risen else Just (n + 1)) more
 
 -- | The number of the first frame that is not the program's own.
 differenceFrom :: Int -> [Frame.Planned] -> [Frame] -> Maybe Int
@@ -184,7 +189,8 @@ follow machine flat lastFrame begin traces blocks = go begin traces (zip (Path.p
       (_, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
-            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling reach, allowance = plus (uncurry max (Deviation.allowedOff milling)) (Machine.pulse machine), edges = Passage.edgesOf milling}
+            edges = Passage.edgesOf milling
+            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine), edges}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then rest else filter (Deviation.isAt machine atHeight) rest)
             final = lastOf (Passage.stretch found)
@@ -209,13 +215,11 @@ exitByControl milling (Mm reach) = case (Part.byControl milling, Path.leadingSid
   where
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
 
--- | How far the cutter's centre goes from a contour at most.
-furthestOut :: Milling -> Mm -> Mm
-furthestOut milling reach
+-- | How far the cutter's centre goes from a contour at most, on whose elements so much is left at most.
+furthestOut :: Milling -> Mm -> Mm -> Mm
+furthestOut milling most reach
   | Part.corners milling == Part.Sharp = times 2 (plus reach most)
   | otherwise = plus reach most
-  where
-    most = maximum (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling)))
 
 -- | Whether each pass is the first one along its contour.
 firsts :: [Pass] -> [Bool]

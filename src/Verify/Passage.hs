@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | Where on a tape a contour is milled: the strokes that follow it from its beginning to its end, in the
 -- direction of the walk.
 module Verify.Passage
@@ -7,9 +9,13 @@ module Verify.Passage
     elementsOf,
     Edge (..),
     edgesOf,
+    isCurved,
+    mostLeft,
     reaches,
     closeTo,
+    closeToEach,
     besideOf,
+    leastDistance,
     find,
     measurable,
   )
@@ -17,7 +23,6 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus, total)
 import Base.Region (Region)
-import Control.Monad (foldM)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -56,8 +61,18 @@ data Job = Job
     edges :: Nearest Edge
   }
 
--- | An element with its number from 0, its place along the contour and its length in mm, and as bare numbers.
-data Edge = Edge {element :: Element, rank :: Int, before :: Double, long :: Double, course :: Course}
+-- | An element with its number from 0, its place along the contour and its length in mm, and as bare numbers: what is asked of all elements is kept beside them.
+data Edge = Edge
+  { element :: Element,
+    rank :: Int,
+    before :: Double,
+    long :: Double,
+    -- | what is left on it besides what the pass leaves
+    left :: Mm,
+    -- | it goes on with the curve of the element before
+    continues :: Bool,
+    course :: Course
+  }
 
 -- | The elements of a contour by their places.
 edgesOf :: Milling -> Nearest Edge
@@ -70,7 +85,7 @@ edgesOf job = Nearest.index (Course.box . course) (go 0 0 (NonEmpty.toList (Part
       element : more ->
         let Mm long = Segment.length (Part.segment element)
             behind = before + long
-            edge = Edge {element, rank, before, long, course = Course.ofSegment (Part.segment element)}
+            edge = Edge {element, rank, before, long, left = Part.allowance (Part.finish element), continues = Part.continues element, course = Course.ofSegment (Part.segment element)}
          in edge `seq` behind `seq` (edge : go (rank + 1) behind more)
 
 -- | The strokes of one contour.
@@ -106,7 +121,7 @@ find job at traces = case if fits blurs then mapMaybe followed starts else [] of
     followed (arrival, rest) = (\n -> Followed arrival (take n rest)) <$> follows job ruler rest
     starts = begun Nothing traces
     -- The cutter may leave from the beginning of a contour, which was the end of another one, and come back.
-    staysBeside rest = let along = untilExit job rest in not (null along) && all (\t -> all (\k -> beside job (Segment.at k (line t))) (final t)) along
+    staysBeside rest = let along = untilExit job rest in not (null along) && and (zipWith (\t near -> all (\k -> beside job near (Segment.at k (line t))) (final t)) along (closeToEach job along))
     -- A straight stroke may cut across.
     final t = case line t of
       Straight _ _ -> [1]
@@ -117,9 +132,11 @@ find job at traces = case if fits blurs then mapMaybe followed starts else [] of
       [] -> [([t], []) | Just t <- [before], endsNear job (entry job) t] <> [([], []) | Nothing <- [before], Just p <- [at], isNear job (entry job) p]
       t : rest -> [([b | Just b <- [before], endsNear job (entry job) b], ts) | isNear job (entry job) (Segment.start (line t))] <> begun (Just t) rest
 
--- | Whether the cutter with its centre at a point touches the contour at all.
-beside :: Job -> Point -> Bool
-beside job p = not (null (touched job (around job p) p))
+-- | Whether the cutter with its centre at a point touches the contour at all, of which all elements are given that it may touch there.
+beside :: Job -> [Edge] -> Point -> Bool
+beside job near p = any (\e -> Course.mayLieWithin most (long e) (course e) (Vec.x p) (Vec.y p) && Course.distance (course e) (Vec.x p) (Vec.y p) <= most) near
+  where
+    Mm most = reaches job
 
 isNear :: Job -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
@@ -155,12 +172,27 @@ measurable = fits . blursOf
 data Blurs = Blurs {furthestBack :: Double, fits :: Bool}
 
 blursOf :: Job -> Blurs
-blursOf job = foldl' with (Blurs 0 True) (runsOf job)
+blursOf job
+  | isCurved (edges job) = foldl' with (Blurs 0 True) (runsOf job)
+  | otherwise = Nearest.foldl' alone (Blurs 0 True) (edges job)
   where
     with (Blurs most allFit) run = let b@(Mm far) = blurAlong job run in Blurs (max most far) (allFit && (not (any isArc run) || b < total (map Segment.length (NonEmpty.toList run))))
+    -- Each element is a run of its own.
+    alone (Blurs most allFit) e
+      | Course.isLine (course e) = Blurs (max most onLine) allFit
+      | otherwise = let b = blur job (Part.segment (element e)) in Blurs (max most b) (allFit && b < long e)
+    onLine = blur job (Straight (entry job) (entry job))
     isArc s = case s of
       Arc {} -> True
       Straight _ _ -> False
+
+-- | Whether an element goes on with the curve of another.
+isCurved :: Nearest Edge -> Bool
+isCurved = Nearest.foldl' (\is e -> is || continues e) False
+
+-- | The most that is left on one of some elements besides what a pass leaves.
+mostLeft :: Nearest Edge -> Mm
+mostLeft = Nearest.foldl' (\most e -> max most (left e)) (Mm (-1 / 0))
 
 -- | The elements, those together that go on with one curve; also over the beginning of a closed contour.
 runsOf :: Job -> [NonEmpty Segment]
@@ -214,37 +246,37 @@ closedOf :: Job -> Bool
 closedOf job = Part.ends (Part.contour (milling job)) == Part.Closed
 
 measure :: Job -> Blurs -> Ruler
-measure job blurs = Ruler {whole = foldl' (\l e -> l + long e) 0 (Nearest.toList (edges job)), slack = furthestBack blurs, closed = closedOf job}
+measure job blurs = Ruler {whole = Nearest.foldl' (\_ e -> before e + long e) 0 (edges job), slack = furthestBack blurs, closed = closedOf job}
 
 -- | How many of the strokes follow the contour to its end; none when they stray from it, turn back on
 -- it, or end before.
 follows :: Job -> Ruler -> [Trace] -> Maybe Int
-follows job ruler = go 0 0 0 (entry job)
+follows job ruler strokes = go 0 0 0 (entry job) strokes (closeToEach job strokes)
   where
-    go :: Int -> Double -> Double -> Point -> [Trace] -> Maybe Int
-    go count gone mark at traces
+    go :: Int -> Double -> Double -> Point -> [Trace] -> [[Edge]] -> Maybe Int
+    go !count !gone !mark at traces close
       | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler =
         Just (count + length (takeWhile (staysNear job (exit job)) traces))
-      | otherwise = case traces of
-        [] -> Nothing
-        t : rest -> case foldM (step (closeTo job t)) (Along gone mark) [Segment.at k (line t) | k <- Trace.places t] of
-          Just (Along gone' mark') -> go (count + 1) gone' mark' (Segment.end (line t)) rest
-          Nothing -> Nothing
+      | otherwise = case (traces, close) of
+        (t : rest, near : others) -> along (count + 1) (line t) (Trace.pieces t) 1 near gone mark rest others
+        _ -> Nothing
+    -- From place to place of a stroke.
+    along :: Int -> Segment -> Int -> Int -> [Edge] -> Double -> Double -> [Trace] -> [[Edge]] -> Maybe Int
+    along !count s !n !k near !gone !mark rest others
+      | k > n = go count gone mark (Segment.end s) rest others
+      | isInfinite delta = Nothing
+      | otherwise = along count s n (k + 1) near (gone + delta) (mark + delta) rest others
+      where
+        delta = step near mark (Segment.at (fromIntegral k / fromIntegral n) s)
     -- How far on the furthest place is that the cutter touches.
     ahead mark p = maximum (0 : map (difference mark) (touched job (around job p) p))
     -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
-    step near (Along gone mark) p
-      | isInfinite delta = Nothing
-      | otherwise = Just (Along (gone + delta) (mark + delta))
+    step near mark p = foldTouched job near p smaller (1 / 0)
       where
-        delta = foldl' smaller (1 / 0) (touched job near p)
         smaller least s = let d = difference mark s in if d >= negate (slack ruler) && abs d < abs least then d else least
     difference mark s
       | closed ruler = let d = s - mark - whole ruler * fromIntegral (floor ((s - mark) / whole ruler + 0.5) :: Int) in d
       | otherwise = s - mark
-
--- | How far the walk has gone along a contour, and which place of it that is.
-data Along = Along Double Double
 
 -- | How far the centre of a cutter that touches an element may be from it.
 reaches :: Job -> Mm
@@ -256,9 +288,18 @@ around job p = Nearest.within (Box.inflate (reaches job) (Box.ofPoints p [])) (e
 
 -- | The elements that a cutter may touch as its centre goes along a stroke.
 closeTo :: Job -> Trace -> [Edge]
-closeTo job t = filter (\e -> not (Course.isFurther (far + Course.uneven (Trace.trail t)) (course e) (Trace.trail t))) (besideOf job t)
+closeTo job t = filter (isClose job t) (besideOf job t)
+
+-- | The same for each of some strokes, which lie beside one another as a rule.
+closeToEach :: Job -> [Trace] -> [[Edge]]
+closeToEach job = Nearest.each (Box.inflate (reaches job) . Trace.box) (isClose job) (edges job)
+
+-- | Whether a cutter whose centre goes along a stroke may touch an element.
+isClose :: Job -> Trace -> Edge -> Bool
+isClose job t = \e -> Course.mayComeWithin far (long e) (course e) (Trace.trail t)
   where
-    Mm far = reaches job
+    far = let Mm r = reaches job in r + Course.uneven (Trace.trail t)
+{-# INLINE isClose #-}
 
 -- | The same, and some around it.
 besideOf :: Job -> Trace -> [Edge]
@@ -267,10 +308,30 @@ besideOf job t = Nearest.within (Box.inflate (reaches job) (Trace.box t)) (edges
 -- | The places along the contour that the cutter with its centre at a point touches, among elements with all that lie
 -- within its reach. What it touches is nearest to it; beside an arc the nearer of its ends counts.
 touched :: Job -> [Edge] -> Point -> [Double]
-touched job near p = [before e + Course.footOn (course e) x y * long e | e <- near, Course.distance (course e) x y <= far]
+touched job near p = reverse (foldTouched job near p (flip (:)) [])
+
+-- | The same, one after the other.
+foldTouched :: Job -> [Edge] -> Point -> (b -> Double -> b) -> b -> b
+foldTouched job near p with = go near
   where
+    go es b = case es of
+      [] -> b
+      e : more
+        | mayLie far e, Course.distance (course e) x y <= far -> let b' = with b (before e + Course.footOn (course e) x y * long e) in b' `seq` go more b'
+        | otherwise -> go more b
     (x, y) = (Vec.x p, Vec.y p)
     Mm most = reaches job
     Mm a = allowance job
-    far = min most (foldl' (\d e -> min d (Course.distance (course e) x y)) most near + 2 * a)
-{-# INLINE touched #-}
+    far = min most (leastDistance most near x y + 2 * a)
+    mayLie d e = Course.mayLieWithin d (long e) (course e) x y
+{-# INLINE foldTouched #-}
+
+-- | How far the nearest of some elements is from a point, if it is no further than so much; else that.
+leastDistance :: Double -> [Edge] -> Double -> Double -> Double
+leastDistance most near !x !y = go most near
+  where
+    go !d es = case es of
+      [] -> d
+      e : more
+        | Course.mayLieWithin d (long e) (course e) x y -> go (min d (Course.distance (course e) x y)) more
+        | otherwise -> go d more

@@ -29,9 +29,15 @@ refused machine = go 1
         [] -> go (n + 1) (at + Frame.increment f) more
         why -> map Refused why <> go (n + 1) (at + Frame.increment f) more
     inFrame n at f =
-      map ByRule (Frame.broken machine n f)
-        <> [UnequalRadii n (minus b a) | Just (a, b) <- [Control.radii machine (Stroke {number = n, from = at, to = at + Frame.increment f, frame = f})], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
-        <> [NoSweep n | Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f, Round _ <- [Frame.motion f]]
+      map ByRule (Frame.broken machine n f) <> case Frame.motion f of
+        Round _ -> aboutCentre n at f
+        Still -> []
+        Rapid -> []
+        Straightway -> []
+    -- What can be wrong with an arc alone.
+    aboutCentre n at f =
+      [UnequalRadii n (minus b a) | Just (a, b) <- [Control.radii machine (Stroke {number = n, from = at, to = at + Frame.increment f, frame = f})], max (minus a b) (minus b a) > plus mostApart Tolerance.coincident]
+        <> [NoSweep n | Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f]
     mostApart = times 2 (Machine.pulse machine)
 
 -- | Frames with other commands than the program's own frame in the same place.

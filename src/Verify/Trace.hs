@@ -12,6 +12,7 @@ module Verify.Trace
     isSame,
     isUpright,
     places,
+    pieces,
   )
 where
 
@@ -91,9 +92,13 @@ isUpright t = case line t of
   Straight a b -> a == b
   Arc {} -> False
 
--- | The places of a stroke at which it is looked at, as shares of its length, the last one its end: two of a straight one, and so many of
--- an arc that a contour that is followed does not turn by more than an eighth of a half turn from one to the next, nor is a quarter of a closed one passed.
+-- | The places of a stroke at which it is looked at, as shares of its length, the last one its end.
 places :: Trace -> [Double]
-places t = case line t of
-  Straight _ _ -> [0.5, 1]
-  Arc {sweep = Rad s} -> let n = max 4 (ceiling (abs s / (pi / 8))) :: Int in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
+places t = let n = pieces t in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
+
+-- | How many these are: two of a straight one, and so many of
+-- an arc that a contour that is followed does not turn by more than an eighth of a half turn from one to the next, nor is a quarter of a closed one passed.
+pieces :: Trace -> Int
+pieces t = case line t of
+  Straight _ _ -> 2
+  Arc {sweep = Rad s} -> max 4 (ceiling (abs s / (pi / 8)))

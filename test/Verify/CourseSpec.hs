@@ -40,6 +40,41 @@ spec = do
                 surely = Course.isCovered reach (pure . Course.ofSegment) (const True) others (Course.ofSegment s)
                 gaps = Distance.uncovered (Mm reach) others s
              in classify surely "covered" $ counterexample (show gaps) (not surely || all (\(from, to) -> to - from < 1e-6) gaps)
+  it "two are as far apart as is told at least (catches a bulge that comes nearer than both ends)" $
+    property $
+      forAll pair $ \(a, b) ->
+        let Distance.Nearest (Mm d) _ = Distance.segments a b
+            told = Course.apartAtLeast (Course.ofSegment a) (Course.ofSegment b)
+         in classify (told > d - 1e-6) "tight" $ counterexample (show (d, told)) (told <= d + 1e-9)
+  it "what may come near is not left out (catches a length that is not added)" $
+    property $
+      forAll ((,) <$> pair <*> choose (0, 20)) $ \((a, b), r) ->
+        let Distance.Nearest (Mm d) _ = Distance.segments a b
+            Mm long = Segment.length a
+            p = Segment.start b
+            Mm e = Distance.toPoint p a
+         in counterexample (show (d, e)) ((d > r || Course.mayComeWithin r long (Course.ofSegment a) (Course.ofSegment b)) && (e > r || Course.mayLieWithin r long (Course.ofSegment a) (Vec.x p) (Vec.y p)))
+  it "what is surely accompanied is covered (catches a curve that goes round the other way, and one with a gap)" $
+    property $
+      forAll ((,,) <$> chain <*> choose (0.5, 12) <*> arbitrary) $ \(others, r, backwards) ->
+        forAll (oneof [beside r others, wayAlong r others]) $ \s -> forAll (sublistOf others) $ \some ->
+          let reach = 1.1 * r
+              surely ss = Course.isAccompanied reach (map Course.ofSegment ss) (Course.ofSegment (if backwards then Segment.reverse s else s))
+              gaps ss = filter (\(from, to) -> to - from > 1e-6) (Distance.uncovered (Mm reach) ss s)
+           in classify (surely others) "accompanied" $ counterexample (show (gaps others, gaps some)) (all (\ss -> not (surely ss) || null (gaps ss)) [others, some])
+  it "is divided where the foot of a point lies (catches parts that do not meet, or that make less than the whole)" $
+    property $
+      forAll ((,) <$> point <*> segment) $ \(p, s) -> case Course.divided (Vec.x p) (Vec.y p) (Course.ofSegment s) of
+        Nothing -> property True
+        Just (a, b) ->
+          let (q, r) = (Course.segment a, Course.segment b)
+              apart u v = let Mm d = Vec.distance u v in d
+              Mm away = Distance.toPoint p s
+              Mm far = Distance.toPoint (Segment.end q) s
+           in counterexample (show (q, r)) $
+                apart (Segment.start q) (Segment.start s) < 1e-9 && apart (Segment.end r) (Segment.end s) < 1e-9 && apart (Segment.end q) (Segment.start r) < 1e-9 && far < 1e-9 && case s of
+                  Straight _ _ -> abs (apart p (Segment.end q) - away) < 1e-6
+                  Arc {} -> True
   it "what surely lies on a side lies there with every point (catches an arc judged by its ends)" $
     property $
       forAll pair $ \(t, e) ->
@@ -79,6 +114,24 @@ beside r others = do
       let turned t = Vec.rotate (Rad (t * sweep)) (Vec.to centre start)
           at t = Vec.shift (Vec.scale ((old + r) / old) (turned t)) c
       pure Arc {start = at from, end = at to, centre = c, sweep = Rad (sweep * (to - from))}
+
+-- | A line or a flat arc at about a distance from the beginning of the first of some others and from the end of the last one.
+wayAlong :: Double -> [Segment] -> Gen Segment
+wayAlong r others = case others of
+  [] -> segment
+  first : more -> wayBetween r first (foldl (\_ s -> s) first more)
+
+-- | From beside the one to beside the other.
+wayBetween :: Double -> Segment -> Segment -> Gen Segment
+wayBetween r first final = do
+  shaken <- choose (-0.05, 0.05)
+  share <- elements [0, 0.05, 0.2]
+  bend <- oneof [pure 0, choose (-0.9, 0.9)]
+  let out s t = Vec.shift (Vec.scale (r + shaken) (Vec.left (Segment.directionAt t s))) (Segment.at t s)
+      (a, b) = (out first share, out final (1 - share))
+      l = Vec.to a b
+      c = Vec.shift (Vec.scale (1 / (2 * tan (bend / 2))) (Vec.left l)) (Vec.between 0.5 a b)
+  pure (if abs bend < 0.01 || a == b then Straight a b else Arc {start = a, end = b, centre = c, sweep = Rad bend})
 
 -- | Lines and arcs one behind the other without a corner.
 chain :: Gen [Segment]
