@@ -71,7 +71,7 @@ ofContour folder peers family segments = do
     -- The chorders would need minutes here.
     bearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
-      | few = (5, 20, 5)
+      | few = (15, 20, 5)
       | middling = (3, 2, 3)
       | last' = (1, 1, 1)
       | otherwise = (3, 1, 2)
