@@ -166,10 +166,14 @@ entering keyword asked milling side ways edge = case reverse ways of
           begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
           Rad least = Tolerance.controlBend
       when (d <= r) (Left (ShortForControl (origin m) asked True (Mm d) radius))
-      when (bend < 2 * least || bend > furthestTurn) (Left (WrongWayForControl (origin m) asked to'))
+      when (bend < max (2 * least) leastOntoArc || bend > furthestTurn) (Left (WrongWayForControl (origin m) asked to'))
       let l = Vec.distance on begin
       when (l <= plus radius Tolerance.byControl) (Left (ShortForControl (origin m) asked True l radius))
       Right begin
+    -- Before an arc the line is an element of its own, which must not be too short for a control.
+    leastOntoArc = case segment first of
+      Straight _ _ -> 0
+      Arc {} -> let Mm l = Tolerance.controlLength in 2 * atan2 l r
     beginningAt begin = case segment first of
       Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
       Arc {start} -> first {segment = Straight begin start, braked = False, continues = False} :| NonEmpty.toList edge

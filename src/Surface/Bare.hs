@@ -4,7 +4,10 @@ module Surface.Bare
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Region (Located (Located), Region (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Primitive.PrimArray qualified as PrimArray
 import Surface.Syntax hiding (statements)
 
 -- | Statements, all at one place.
@@ -60,8 +63,16 @@ line :: Line_ -> Line_
 line l = case l of
   Header columns -> Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)
   Entries es -> Entries (fmap expr es)
-  Numbers xs -> Numbers xs
+  Numbers xs -> maybe BrokenLine Entries (NonEmpty.nonEmpty (map bare (PrimArray.primArrayToList xs)))
   BrokenLine -> BrokenLine
+
+-- | A number as it is written in a program.
+bare :: Double -> Expr
+bare x
+  | x < 0 = Located nowhere (Negate (bare (negate x)))
+  | otherwise = Located nowhere (Literal (Numeral (Decimal.exact x) x) Nothing)
+  where
+    nowhere = Region 0 0
 
 cipher :: Cipher_ -> Cipher_
 cipher (Cipher digit es) = Cipher (here digit) (fmap expr es)

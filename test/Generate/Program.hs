@@ -12,6 +12,7 @@ import Base.Region (Located (..), Region (..))
 import Data.Char (isAlphaNum)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (fromMaybe)
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
@@ -91,7 +92,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       ]
     deep =
       [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
-        Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (Entries <$> nonEmpty 3 cell)))),
+        Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (oneof [Entries <$> nonEmpty 3 cell, Numbers . PrimArray.primArrayFromList <$> (chooseInt (1, 3) >>= (`vectorOf` ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000))))])))),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
         Pocket <$> expr n <*> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
