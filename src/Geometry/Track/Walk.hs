@@ -63,16 +63,16 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
     go !i !u !from !step !bending
       | u >= final = pure ()
       | otherwise = case guess i u step of
-        Guess ahead r -> search tries i u from (Last step bending) Held {reach = u, chords = 1, heldOff = 0} Missed {tooFar = 1 / 0, excess = 1 / 0} r (if final - u <= 1.5 * ahead then final else u + ahead)
+        Guess ahead r -> search tries i u from (Last step bending) Held {reach = u, chords = 1} (1 / 0) r (if final - u <= 1.5 * ahead then final else u + ahead)
     -- Between the biarc that held and reached furthest (u when none has) and the nearest parameter that was missed.
     search !left !i !u !from before !held !missed !r !v
       | v <= u || left <= 0 = settled i u from before held
       | d <= aim =
-        if v >= final || d >= enough * aim || tooFar missed - v <= narrow * (v - u)
+        if v >= final || d >= enough * aim || missed - v <= narrow * (v - u)
           then longer i u from before j v to pair ((v - u) * grown)
-          else search (left - 1) i u from before (Held v r expected) missed balanced (between v expected (tooFar missed) (excess missed) (u + (v - u) * grown))
+          else search (left - 1) i u from before (Held v r) missed balanced (closer v missed (u + (v - u) * grown))
       | reach held > u && v - reach held <= narrow * (reach held - u) = settled i u from before held
-      | otherwise = search (left - 1) i u from before held (Missed v missedBy) balanced (between (reach held) (heldOff held) v missedBy (u + (v - u) * shrunk))
+      | otherwise = search (left - 1) i u from before held v balanced (closer (reach held) v (u + (v - u) * shrunk))
       where
         j = seek i v
         to = pose j v
@@ -80,22 +80,17 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
         Off d1 d2 = off (1e6 * aim) i u from j v to pair
         d = if d1 > d2 then d1 else d2
         known = d < 1e5 * aim
-        -- The arc that is further off is made shorter, until both are equally far off; by half of what it would take with the other one as it is.
+        -- The arc that is further off is made shorter, until both are equally far off.
         uneven = if known && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
-        balanced = max 0.4 (min 2.5 (r * sqrt (cubeRoot uneven)))
+        balanced = max 0.4 (min 2.5 (r * cubeRoot uneven))
         expected = if uneven > 1 then d / sqrt uneven else d * sqrt uneven
-        missedBy = if known then expected else 1 / 0
         -- The deviation grows with the third power of the step where the curve is smooth.
         grown = if 60 * expected <= aim then 4 else max 1.02 (cubeRoot (0.97 * aim / expected))
         shrunk = if known then max 0.1 (min 0.97 (cubeRoot (0.97 * aim / expected))) else 0.4
-        -- Between one that held and one that was missed it grows with some power of the step.
-        between low atLow high atHigh w
+        closer low high w
           | low <= u = w
           | high > final = min final w
-          | atLow > 0 && atHigh < 1 / 0 && atHigh > atLow = inside (u + (low - u) * ((high - u) / (low - u)) ** logBase (atHigh / atLow) (0.95 * aim / atLow))
-          | otherwise = inside w
-          where
-            inside = max (low + 0.1 * (high - low)) . min (high - 0.1 * (high - low))
+          | otherwise = max (low + 0.1 * (high - low)) (min (high - 0.1 * (high - low)) w)
     settled i u from before held
       | reach held > u = let j = seek i (reach held); to = pose j (reach held); pair = Pair.joined (chords held) from to in longer i u from before j (reach held) to pair (reach held - u)
       | otherwise = case other u (Vec.point (px from) (py from), Vec.vec (dx from) (dy from)) (if final - u <= 4 * lastStep before then final - u else lastStep before) of
@@ -135,12 +130,8 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
       Arc {sweep = Rad a} -> tan (a / 4)
 {-# INLINE along #-}
 
--- | A biarc that stays near enough: the parameter at its end, how many times longer than usual its second chord is, and how far it is off with
--- arcs that are equally far off.
-data Held = Held {reach :: Double, chords :: Double, heldOff :: Double}
-
--- | The nearest parameter up to which no biarc was near enough, and how far that is off in the same way; infinite where none is known.
-data Missed = Missed {tooFar :: Double, excess :: Double}
+-- | A biarc that stays near enough: the parameter at its end, and how many times longer than usual its second chord is.
+data Held = Held {reach :: Double, chords :: Double}
 
 -- | The biarc before: how far it went, and how fast the curvature changed by it; both by the parameter.
 data Last = Last {lastStep :: Double, lastRate :: Double}
