@@ -35,7 +35,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Track (Side (..), Track (Track))
 import Geometry.Track qualified as Track
 import Geometry.Track.Vertices qualified as Vertices
-import Geometry.Track.Walk (Guess (..), Off (..), Spans (..), Stretch (..))
+import Geometry.Track.Walk (Off (..), Spans (..), Stretch (..))
 import Geometry.Track.Walk qualified as Walk
 import Geometry.Vec qualified as Vec
 
@@ -57,7 +57,7 @@ approximate (Mm tolerance) segments = runST $ do
             vertices
             aim
             Stretch {inSpan = from, begin = station chain from, final, step = final - station chain from}
-            Spans {seek = seekFrom chain to, pose = poseWithin chain from to, Walk.off = apart chain, guess = \_ _ before -> Guess before 1, other = sharp to, hopeless = astray chain, patient = True}
+            Spans {seek = seekFrom chain to, pose = poseWithin chain from to, Walk.off = apart chain, other = sharp to, hopeless = astray chain, patient = True}
           stretches to
       endOf k
         | k >= n || cornered chain k = k

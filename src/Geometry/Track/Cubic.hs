@@ -26,7 +26,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Track (Side (..), Track (Track))
 import Geometry.Track qualified as Track
 import Geometry.Track.Vertices qualified as Vertices
-import Geometry.Track.Walk (Guess (..), Off (..), Spans (..), Stretch (..))
+import Geometry.Track.Walk (Off (..), Spans (..), Stretch (..))
 import Geometry.Track.Walk qualified as Walk
 import Geometry.Vec qualified as Vec
 
@@ -43,7 +43,7 @@ approximate (Mm tolerance) xs ys = runST $ do
             vertices
             aim
             Stretch {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
-            Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, Walk.off = apart xs ys, guess = guessed xs ys aim to, other = sharp to, hopeless = \_ _ _ _ _ _ _ -> False, patient = False}
+            Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, Walk.off = apart xs ys, other = sharp to, hopeless = \_ _ _ _ _ _ _ -> False, patient = False}
           stretches to
       endOf k
         | k >= n || cornered xs ys k = k
@@ -89,37 +89,6 @@ poseWithin xs ys from to i u
           sy = dy a + dy b
           s = sqrt (sx * sx + sy * sy)
        in b {dx = sx / s, dy = sy / s}
-
--- | How far a biarc may reach from a parameter, before the end of a stretch, given how far the one before reached.
---
--- Over a length l of a curve whose curvature changes at the rate κ′, a biarc of equal chords is off by @|κ′|·l³/324@ at most, each of its
--- arcs by @8·|κ′|·l³/324@ for its own length l. Where the rate differs between both halves, the lengths of the arcs are chosen for both to be off
--- by the same.
-guessed :: Cubics -> Cubics -> Double -> Int -> Int -> Double -> Double -> Guess
-guessed xs ys aim to i u before = closer (closer (Guess before 1))
-  where
-    closer (Guess step _)
-      | k1 > 0 && k2 > 0 = Guess (max (0.25 * before) (min (4 * before) (0.5 * (1 + r) * Walk.cubeRoot (324 * 0.94 * aim / k1)))) r
-      | otherwise = Guess before 1
-      where
-        k1 = rate (u + 0.25 * step)
-        k2 = rate (u + 0.75 * step)
-        r = max 0.4 (min 2.5 (Walk.cubeRoot (k1 / k2)))
-    rate v = let j = max i (min (to - 1) (truncate v)) in unevenness (Spline.at xs j) (Spline.at ys j) (v - fromIntegral j)
-
--- | How fast the curvature of a cubic changes, times the third power of its speed: with the derivatives v, a, j by the parameter,
--- @|(v×j)·v² − 3·(v×a)·(v·a)| / |v|³@.
-unevenness :: Cubic -> Cubic -> Double -> Double
-unevenness (Cubic _ p1 p2 p3) (Cubic _ q1 q2 q3) t = abs ((vx * jy - vy * jx) * square - 3 * (vx * ay - vy * ax) * (vx * ax + vy * ay)) / (square * sqrt square)
-  where
-    vx = p1 + t * (2 * p2 + 3 * t * p3)
-    vy = q1 + t * (2 * q2 + 3 * t * q3)
-    ax = 2 * p2 + 6 * t * p3
-    ay = 2 * q2 + 6 * t * q3
-    jx = 6 * p3
-    jy = 6 * q3
-    square = vx * vx + vy * vy
-{-# INLINE unevenness #-}
 
 -- | How far a biarc is from the curve between two parameters; of what is further than a limit only that it is so.
 apart :: Cubics -> Cubics -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off

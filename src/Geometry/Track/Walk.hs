@@ -6,9 +6,7 @@ module Geometry.Track.Walk
   ( Stretch (..),
     Spans (..),
     Off (..),
-    Guess (..),
     along,
-    cubeRoot,
   )
 where
 
@@ -32,9 +30,6 @@ data Stretch = Stretch {inSpan :: Int, begin :: Double, final :: Double, step ::
 -- known.
 data Off = Off Double Double
 
--- | How far a biarc may reach, by the parameter, and how many times longer than usual its second chord should be.
-data Guess = Guess Double Double
-
 -- | A curve of spans, the parameters at which spans meet belonging to the one behind.
 data Spans = Spans
   { -- | the span of a parameter, given one that is not behind it
@@ -44,8 +39,6 @@ data Spans = Spans
     -- | how far a biarc is from the curve between two parameters, each given with its span and pose; of what is further than
     -- the first argument only that it is so
     off :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off,
-    -- | a first guess, given the span of a parameter and how far the biarc before reached
-    guess :: Int -> Double -> Double -> Guess,
     -- | a biarc from a pose by other means, with a step to try
     other :: Double -> (Point, Vec) -> Double -> Further,
     -- | whether no biarc between two parameters, each given with its span and pose, stays within a distance
@@ -58,12 +51,11 @@ data Spans = Spans
 -- | The biarcs along a stretch, each as far as it stays within a distance. The vertices up to the last but one are
 -- written; the last one begins what follows.
 along :: Vertices s -> Double -> Stretch -> Spans -> ST s ()
-along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pose, off, guess, other, hopeless, patient} = go inSpan begin (pose inSpan begin) first 0
+along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pose, off, other, hopeless, patient} = go inSpan begin (pose inSpan begin) first 0
   where
     go !i !u !from !step !bending
       | u >= final = pure ()
-      | otherwise = case guess i u step of
-        Guess ahead r -> search tries i u from (Last step bending) Held {reach = u, chords = 1} (1 / 0) r (if final - u <= 1.5 * ahead then final else u + ahead)
+      | otherwise = search tries i u from (Last step bending) Held {reach = u, chords = 1} (1 / 0) 1 (if final - u <= 1.5 * step then final else u + step)
     -- Between the biarc that held and reached furthest (u when none has) and the nearest parameter that was missed.
     search !left !i !u !from before !held !missed !r !v
       | v <= u || left <= 0 = settled i u from before held
