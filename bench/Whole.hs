@@ -44,7 +44,7 @@ ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], No
       | Just (_, Nothing) <- before = pure (rows, before)
       | expected before > 1000 * allowed = pure (row n (replicate 10 "–") : rows, Just (n, Nothing))
       | otherwise = do
-        found <- Peer.repeated (if expected before > 3000 then 1 else repeats n) (Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine])
+        found <- Peer.repeated (if expected before > 6000 then 1 else repeats n) (Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine])
         let outcome = found >>= middles
         Text.putStrLn (Programs.name kind <> " on " <> machine <> ", " <> Decimal.whole n <> ": " <> either id (\s -> Table.number (total s) <> " ms") outcome)
         hFlush stdout
@@ -60,8 +60,7 @@ ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], No
       _ -> 0
     repeats n
       | n <= 1000 = 5
-      | n <= 10000 = 3
-      | otherwise = 1
+      | otherwise = 3
 
 total :: Staged -> Double
 total = sum . map snd . stages
