@@ -242,7 +242,7 @@ toReport err = case err of
   WrongWayForControl region asked p ->
     (at region "E0418" "a control cannot take this way onto the contour")
       { others = [Label asked "asked here"],
-        message = ["It ends at " <> Vec.written 3 p <> ", and comes there out of the part or against the direction of the walk."],
+        message = ["It ends at " <> Vec.written 3 p <> ", and comes there out of the part, against the direction of the walk, or nearly along an arc with a thin cutter."],
         hints = ["Let the last approach point lie beside the beginning of the contour or behind it, or lead in along an arc."]
       }
   TightForControl region asked element old radius' ->
