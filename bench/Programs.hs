@@ -27,6 +27,8 @@ data Kind
     WavyFile
   | -- | closed arcs through the rows of such a file, 19 mm apart, with noise of 2 mm: each arc needs a frame of its own
     ArcsFile
+  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 2 mm, engraved: each line needs a frame of its own
+    LinesFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 name :: Kind -> Text
@@ -38,6 +40,7 @@ name kind = case kind of
   Wavy -> "noisy rows"
   WavyFile -> "noisy rows, csv"
   ArcsFile -> "arcs, csv"
+  LinesFile -> "lines, csv"
 
 -- | The text of a program, and the files beside it.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
@@ -52,9 +55,10 @@ written kind n = case kind of
   Wavy -> inline 0.1
   WavyFile -> filed "closed_spline" 1 0.1
   ArcsFile -> filed "closed_arcs" 6 2
+  LinesFile -> Written (curved "polyline" "on" (6 * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 6 2))))]
   where
-    inline noise = Written (curved "closed_spline" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
-    filed through scale noise = Written (curved through (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]
+    inline noise = Written (curved "closed_spline" "outside" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
+    filed through scale noise = Written (curved through "outside" (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]
 
 -- | Elements around a circle, so far apart that half of what lies between them is given.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text
@@ -66,12 +70,12 @@ ring half n element =
   where
     r = half / sin (pi / fromIntegral n)
 
--- | A closed curve of a kind through a table, so large.
-curved :: Text -> Double -> Text -> Text
-curved through r table =
+-- | A closed curve of a kind through a table, so large, milled on a side of it.
+curved :: Text -> Text -> Double -> Text -> Text
+curved through side r table =
   header "wave" 6 (0.7 * r + 40)
     <> table
-    <> ("curve skin = " <> through <> "(t)\ncontour c closed { skin }\nmill c outside { start near (")
+    <> ("curve skin = " <> through <> "(t)\ncontour c closed { skin }\nmill c " <> side <> " { start near (")
     <> coordinate r
     <> ", 0) }\n"
 
