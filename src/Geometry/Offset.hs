@@ -89,21 +89,23 @@ raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
 raw style side radius contour@(Contour ends ss@(first :| others)) = case causes style side radius contour turnings of
   cause : _ -> Left cause
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
-  [] -> Right (maybe (along side (radiusAt style radius 0) 0 first :| []) chained (NonEmpty.nonEmpty (from 0 (frontOf bends) first others)))
+  [] -> Right (maybe (along side (radiusAt style radius 0) 0 first :| []) chained (NonEmpty.nonEmpty (from 0 (frontOf bends contour) first (way 0 first) others)))
   where
     turnings = turningsOf contour
     bends = Bends {style, side, radius, turnings, whole = NonEmpty.length ss, isClosed = ends == Closed}
-    -- A segment, by how much its way is shortened at its beginning, and what is behind it.
-    from !i !front s rest = real (shortened front back (along side (radiusAt style radius i) i s)) (corner <> next)
+    way i = along side (radiusAt style radius i) i
+    -- A segment, by how much its way is shortened at its beginning, that way, and what is behind it.
+    from !i !front s p rest = real (shortened front back p) (corner <> next)
       where
-        back = backOf bends i
+        Cuts back front' = cutsAt bends i (segment p) (segment p')
+        s' = case rest of
+          [] -> first
+          behind : _ -> behind
+        p' = way (following bends i) s'
         next = case rest of
           [] -> []
-          s' : more -> from (i + 1) back s' more
-        corner = case rest of
-          s' : _ -> behind s'
-          [] -> if ends == Closed then behind first else []
-        behind s' = filter long (cornerWay bends i s s')
+          _ : more -> from (i + 1) front' s' p' more
+        corner = if null rest && ends == Open then [] else filter long (cornerWay bends i s s')
     real p rest = if long p then p : rest else rest
     long p = Segment.length (segment p) > Tolerance.coincident
     chained = Contour.chained segment (\s p -> p {segment = s}) ends
@@ -126,19 +128,46 @@ turningsOf (Contour ends ss@(first :| _)) = runST $ do
 -- corner behind the last one.
 data Bends = Bends {style :: Style, side :: Side, radius :: Mm, turnings :: PrimArray Double, whole :: Int, isClosed :: Bool}
 
--- | By how much the way along the first segment is shortened at its beginning, and that along another one at its end.
-frontOf :: Bends -> Double
-frontOf bends = backOf bends (whole bends - 1)
+-- | By how much the way before a corner is shortened at its end, and that behind it at its beginning, in mm.
+data Cuts = Cuts Double Double
 
-backOf :: Bends -> Int -> Double
-backOf bends i = case cornerOf bends i of
-  Bent t -> t
-  Passed -> 0
-  Blocked -> 0
+-- | The same at the corner behind a segment, between two ways.
+cutsAt :: Bends -> Int -> Segment -> Segment -> Cuts
+cutsAt bends i before behind = case cornerOf bends i of
+  Bent t -> meeting t before behind
+  Passed -> Cuts 0 0
+  Blocked -> Cuts 0 0
+
+-- | By how much the way along the first segment is shortened at its beginning.
+frontOf :: Bends -> Contour -> Double
+frontOf bends (Contour _ ss) = front
+  where
+    Cuts _ front = cutsAt bends (whole bends - 1) (way (whole bends - 1) (NonEmpty.last ss)) (way 0 (NonEmpty.head ss))
+    way i = segment . along (side bends) (radiusAt (style bends) (radius bends) i) i
+
+-- | How far before the end of the one way and behind the beginning of the other they meet: lines at so much, arcs nearby, where a few of
+-- Newton's steps lead that take both for straight. Where these lead to no place on both ways, they are cut as lines are.
+meeting :: Double -> Segment -> Segment -> Cuts
+meeting t before behind = case (before, behind) of
+  (Straight _ _, Straight _ _) -> Cuts t t
+  _ -> go (3 :: Int) t t
+  where
+    Mm l = Segment.length before
+    Mm l' = Segment.length behind
+    go n a b
+      | n == 0 = Cuts a b
+      | a' > 0 && a' < min l (2 * t) && b' > 0 && b' < min l' (2 * t) = go (n - 1) a' b'
+      | otherwise = Cuts t t
+      where
+        (k, k') = (1 - a / l, b / l')
+        (u, v) = (Segment.directionAt k before, Segment.directionAt k' behind)
+        gap = Vec.to (Segment.at k before) (Segment.at k' behind)
+        a' = a - Vec.cross gap v / Vec.cross u v
+        b' = b - Vec.cross u gap / Vec.cross u v
 
 -- | All that is in the way, the most telling first.
 causes :: Style -> Side -> Mm -> Contour -> PrimArray Double -> [Cause]
-causes style side radius (Contour ends ss) turnings = concaves 0 list <> blocked 0 list <> overlong 0 (frontOf bends) list
+causes style side radius contour@(Contour ends ss@(first :| _)) turnings = concaves 0 list <> blocked 0 list <> overlong 0 (frontOf bends contour) list
   where
     list = NonEmpty.toList ss
     count = NonEmpty.length ss
@@ -157,13 +186,15 @@ causes style side radius (Contour ends ss) turnings = concaves 0 list <> blocked
       [] -> []
       s : more
         | front + back > 0,
-          way <- segment (along side (radiusAt style radius i) i s),
-          Mm (front + back) >= Segment.length way ->
+          Mm (front + back) >= Segment.length (way i s) ->
           let a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
-           in InnerCorner a ((a + 1) `mod` count) (Segment.end way) : overlong (i + 1) back more
-        | otherwise -> overlong (i + 1) back more
+           in InnerCorner a ((a + 1) `mod` count) (Segment.end (way i s)) : overlong (i + 1) front' more
+        | otherwise -> overlong (i + 1) front' more
         where
-          back = backOf bends i
+          Cuts back front' = cutsAt bends i (way i s) $ case more of
+            [] -> way 0 first
+            s' : _ -> way (i + 1) s'
+    way i = segment . along side (radiusAt style radius i) i
 
 -- | A way without so much of it at its beginning and at its end, in mm.
 shortened :: Double -> Double -> Piece -> Piece
@@ -202,7 +233,7 @@ leftward side = case side of
 data Corner
   = -- | a way round it, or none is needed
     Passed
-  | -- | a corner towards the cutter that is too slight to leave more than 'Tolerance.slightRest' standing: by how much the ways
+  | -- | a corner towards the cutter that is too slight to leave more than 'Tolerance.slightRest' standing: by how much straight ways
     -- before and behind it are shortened, @r·tan(θ/2)@. Measured curves that are joined smoothly have such ones
     Bent Double
   | -- | a corner into which the cutter does not get

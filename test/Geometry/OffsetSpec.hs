@@ -51,6 +51,8 @@ spec = do
     it "length, with sharp corners (catches a corner arc of another radius or sweep)" $
       property $
         forAll Generate.closedCase $ \c -> not (cutOff c) ==> lengthLaw c
+    it "slight inner corners: the ways along two arcs, or an arc and a line, meet where both are at the radius (catches arcs cut as lines are)" $
+      property slightCornerLaw
   describe "obstacles" $ do
     it "the largest cutter that fits does fit, and one a little larger does not (catches a search that stops early)" $
       property $
@@ -64,6 +66,11 @@ spec = do
     it "a slot of 8 whose walls are far apart in the contour stops a cutter of 10" $
       causeOf RightOf 5 keyhole `shouldSatisfy` \case
         Just (Collision {}, fits) -> abs (fits - 4) < 1e-5
+        _ -> False
+    it "the far end of an open contour stops a cutter where it begins" $
+      causeOf LeftOf 14 hook `shouldSatisfy` \case
+        -- Its end is then as far from the centre as its beginning.
+        Just (Collision 0 2 _, fits) -> abs (fits - 12.33589) < 1e-4
         _ -> False
     it "a cutter of 8 goes down a slot of 8" $
       causeOf RightOf 4 keyhole `shouldBe` Nothing
@@ -137,6 +144,31 @@ lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * 
     outside = (Contour.signedArea (contour c) > 0) == (side c == RightOf)
     sign = if outside then 1 else -1
 
+-- | Two elements, of which one at least is an arc, at a corner so slight that the cutter passes it: the centre is then at its radius from both.
+slightCornerLaw :: Property
+slightCornerLaw =
+  forAll (choose (2e-7, 0.004)) $ \turned ->
+    forAll bend $ \k -> forAll (bend `suchThat` \k' -> k /= 0 || k' /= 0) $ \k' ->
+      let corner = Vec.point 0 0
+          first = Segment.reverse (from corner (Vec.vec (-1) 0) (negate k))
+          second = from corner (Vec.vec (cos turned) (sin turned)) k'
+       in case Offset.equidistant LeftOf (Mm r) (Contour Open (first :| [second])) of
+            Right (p :| [q]) -> conjoin [Segment.end (segment p) === Segment.start (segment q), isAway (segment p) first, isAway (segment p) second]
+            found -> counterexample (show found) False
+  where
+    r = 5
+    -- A curvature, positive to the left; 0 for a line.
+    bend = frequency [(1, pure 0), (4, (\sign old -> sign / old) <$> elements [-1, 1] <*> choose (12, 300))]
+    -- From a point in a direction, 4 mm long.
+    from at u bent
+      | bent == 0 = Straight at (Vec.shift (Vec.scale 4 u) at)
+      | otherwise = let c = Vec.shift (Vec.scale (1 / bent) (Vec.left u)) at in Arc {start = at, end = Vec.shift (Vec.rotate (Rad (4 * bent)) (Vec.to c at)) c, centre = c, sweep = Rad (4 * bent)}
+    isAway way s = let Mm d = carrier s (Segment.end way) in counterexample (show (s, d)) (abs (d - r) < 1e-9)
+    -- From the line or the circle that carries an element.
+    carrier s p = case s of
+      Straight a b -> Mm (abs (Vec.cross (Vec.unit (Vec.to a b)) (Vec.to a p)))
+      Arc {start, centre} -> let Mm d = Quantity.minus (Vec.distance centre p) (Vec.distance centre start) in Mm (abs d)
+
 largestLaw :: Contour -> Side -> Property
 largestLaw c s = case Offset.equidistant s (Mm 60) c of
   Right _ -> discard
@@ -191,6 +223,14 @@ keyhole =
     )
   where
     neck = -20 + sqrt (20 * 20 - 4 * 4)
+
+-- | A wall, walked with its inside on the left, that goes round and comes back beneath its own beginning: a line, three quarters of a turn and more, a line.
+hook :: Contour
+hook = Contour Open (Straight (Vec.point 70 30) begin :| [Segment.arc CounterClockwise middle begin behind, Straight behind (Vec.shift (Vec.vec 8 6) behind)])
+  where
+    begin = Vec.point 50 50
+    middle = Vec.shift (Vec.scale (-30 / sqrt 2) (Vec.vec 1 1)) begin
+    behind = Vec.shift (Vec.vec 18 (-24)) middle
 
 segmentLength :: Piece -> Double
 segmentLength p = let Mm l = Segment.length (segment p) in l

@@ -78,13 +78,13 @@ data Way = Way
   }
   deriving stock (Eq, Show)
 
--- | Whether the cutter reaches every segment: there is one way, and nothing but arcs that have shrunk to a point is missing on it.
--- Corners are not looked at.
+-- | Whether the cutter reaches every segment: there is one way, and nothing but arcs that have shrunk to a point is missing on it, nor does
+-- anything stop the cutter at the ends of an open contour. Corners are not looked at.
 reachesAll :: Style -> Side -> Mm -> Contour -> Bool
 reachesAll style side radius contour = case asked style side radius contour of
   Just reach | isWhole reach -> True
   _ -> case along style side radius contour of
-    [way] -> Contour.ends contour == ends way && inOrder (map (numberOf . origin) (NonEmpty.toList (pieces way)))
+    [way] -> Contour.ends contour == ends way && inOrder (map (numberOf . origin) (NonEmpty.toList (pieces way))) && isOpenAtEnds way
     [] -> all shrunk (Vector.toList (Vector.indexed whole))
     _ -> False
   where
@@ -92,6 +92,10 @@ reachesAll style side radius contour = case asked style side radius contour of
     -- Nothing of the raw equidistant was cut away.
     isWhole reach = let l = Kernel.loops reach in Loops.count l == 1 && PrimArray.sizeofPrimArray (Loops.raws l) == PrimArray.sizeofPrimArray (Chain.xs (Kernel.raw reach)) - 1
     inOrder numbers = and (zipWith (<=) numbers (drop 1 numbers)) && all (\i -> shrunk (i, whole Vector.! i)) (IntSet.toList (IntSet.difference (IntSet.fromList [0 .. Vector.length whole - 1]) (IntSet.fromList numbers)))
+    -- Where the way begins or ends the contour does, but for arcs that have shrunk.
+    isOpenAtEnds way = maybe True (< firstOf way) (fst (stops way)) && maybe True (> finalOf way) (snd (stops way))
+    firstOf = numberOf . origin . NonEmpty.head . pieces
+    finalOf = numberOf . origin . NonEmpty.last . pieces
     shrunk (i, s) = case s of
       Straight a b -> Vec.near a b
       Arc {start, centre} -> let Mm d = minus (Segment.radius centre start) (radiusAt style radius i) in Mm (abs d) <= Tolerance.clearance
