@@ -30,7 +30,7 @@ import Control.Exception (evaluate)
 import Control.Monad (filterM, void)
 import Data.ByteString (ByteString)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
@@ -113,7 +113,7 @@ readProgram file = do
     Left e -> Left e
     Right (Left _) -> Left NotUtf8
     -- A mark of the byte order is not part of the text.
-    Right (Right text) -> Right (Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text)
+    Right (Right text) -> Right (fromMaybe text (Text.stripPrefix "\xFEFF" text))
 
 readBytes :: FilePath -> IO (Either Error ByteString)
 readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
