@@ -157,9 +157,11 @@ readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tap
 
 -- | Compare a tape's frames with the part; errors when it is not proven.
 prove :: Machine -> Path -> Program -> [Frame] -> Result Report Report Proof
-prove machine path program frames = Result.failing (Verify.toReports machine proof) proof
+prove machine path program frames = asked `seq` Result.failing (Verify.toReports machine proof) proof
   where
-    proof = Verify.prove machine path program frames
+    -- The moves along the contours are not held while the tape is compared.
+    asked = Path.withoutCuts path
+    proof = Verify.prove machine asked program frames
 
 -- Machines ----------------------------------------------------------------------------------------
 

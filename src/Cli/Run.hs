@@ -183,6 +183,13 @@ proven unproven' path machine = do
       pure ()
   pure (machine, punched)
 
+-- | The same for several machines. While the last tape is proven nothing waits for the path any more.
+provenOn :: Bool -> Path -> [Machine] -> Result Report Report [(Machine, Punched)]
+provenOn unproven' path ms = case ms of
+  [] -> pure []
+  [m] -> (: []) <$> proven unproven' path m
+  m : more -> (:) <$> proven unproven' path m <*> provenOn unproven' path more
+
 -- | A tape that moves something.
 moving :: Punched -> Result w Report Punched
 moving punched = if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure punched
@@ -193,7 +200,7 @@ compile reporter options = withProgram reporter (file options) (targets options)
   let !rest = loaded {texts = Compile.withoutSurface (texts loaded)}
       laid = analyse loaded `Result.thenSound` \a@Analysis {path = way} -> (way,) <$> chosen rest (targets options) a
   Progress.during ("working on " <> name rest) (computed laid)
-  settle reporter rest (laid `Result.thenSound` \(way, ms) -> traverse (proven (unproven options) way) ms) $ \tapes -> do
+  settle reporter rest (laid `Result.thenSound` \(way, ms) -> provenOn (unproven options) way ms) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (ownFiles (file options) rest) (map fst places)
     case clash of

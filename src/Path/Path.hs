@@ -1,3 +1,5 @@
+{-# LANGUAGE BangPatterns #-}
+
 -- | The path of the cutter's centre in mm, exact, with the feed asked on every move.
 module Path.Path
   ( Path (..),
@@ -12,6 +14,7 @@ module Path.Path
     isFlat,
     isTurned,
     end,
+    withoutCuts,
   )
 where
 
@@ -147,3 +150,17 @@ isTurned path = or [Part.work milling == Part.Turned | Cutting {job = Located _ 
 -- | Where the cutter stands at the end.
 end :: Path -> Spot
 end path = foldl (\_ m -> Spot (Segment.end (segment m)) (snd (heights m))) (value (start path)) (concatMap moves (blocks path))
+
+-- | With no more of each way along a contour than its first and its last move, and of the way in a pocket than its first: the rest of a
+-- large path need not be held by those who do not ask for it. A cut keeps its height.
+withoutCuts :: Path -> Path
+withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
+  where
+    brief = map shortened (blocks path)
+    shortened block = case block of
+      Cutting {cut} | first :| _ : _ <- cut -> let !final = NonEmpty.last cut in block {cut = first :| [final]}
+      Clearing {cleared = first :| _} -> block {cleared = first :| []}
+      Cutting {} -> block
+      Travelling _ _ -> block
+      Holing _ _ -> block
+      Commanding _ -> block
