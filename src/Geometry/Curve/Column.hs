@@ -7,6 +7,7 @@ module Geometry.Curve.Column
   ( Column (..),
     Course (..),
     column,
+    knots,
     series,
     scaled,
     reversed,
@@ -95,6 +96,12 @@ series n base c spot = case course c of
         0 -> Series.constant 0 here
         _ -> Series.integral here (Jet.speed (Base.jet n base spot))
       fraction = Series.scale (1 / width) (Series.plusConstant (-from) run)
+
+-- | The parameters of the base at which one cubic follows another, in rising order, but for the ends of its spans.
+knots :: Base -> Column -> [Double]
+knots base c = case course c of
+  BySpan _ -> []
+  ByLength _ _ -> map Base.at (Vector.toList (Base.rows base))
 
 -- | The number of the stretch between two of these lengths that a length belongs to, or the outer one on its side.
 stretchAt :: Double -> Unboxed.Vector Double -> Int

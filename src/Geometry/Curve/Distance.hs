@@ -10,6 +10,7 @@ module Geometry.Curve.Distance
     Stretch,
     stretch,
     marks,
+    knots,
     Below (..),
     series,
     scaled,
@@ -91,6 +92,17 @@ stretch ruler distance = case distance of
      in Stretch {marks = [begins, on 0.5, on 1, off 1, off 0.5, ends], first, final}
   where
     whole = Stretch {marks = [], first = Mm 0, final = Ruler.total ruler}
+
+-- | The parameters of the base, in rising order, at which the third derivative of a distance may jump, but for its marks and the ends of the base's spans.
+knots :: Base -> Distance -> [Double]
+knots base distance = case distance of
+  Constant _ -> []
+  Pointwise c -> Column.knots base c
+  -- Both columns are of one table.
+  Bevelled mu _ _ -> Column.knots base mu
+  Growing _ -> []
+  Square mu _ -> Column.knots base mu
+  Joggled _ -> []
 
 -- | What is known of the curve that is shifted: the base under all layers, the way along it (worked out only for
 -- distances that depend on it), its place near the spot.

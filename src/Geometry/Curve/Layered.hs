@@ -42,7 +42,7 @@ data Layer = Layer {side :: Side, distance :: Distance, known :: ~Stretch}
 shifted :: Side -> Distance -> Curve -> Curve
 shifted side distance lower = whole
   where
-    whole = Shifted Layer {side, distance, known = Distance.stretch (ruler lower) distance} lower (Ruler.measured speed (breaks whole))
+    whole = Shifted Layer {side, distance, known = Distance.stretch (ruler lower) distance} lower (Ruler.measured speed (merged (breaks whole) (knots whole)))
     speed u = Vec.norm (Jet.velocity (jetAt 1 whole (spot After u whole)))
 
 -- | What lies under all shifts.
@@ -64,6 +64,14 @@ breaks :: Curve -> [Double]
 breaks curve = case curve of
   Plain b -> map fromIntegral [0 .. Base.count b]
   Shifted layer lower _ -> merged (breaks lower) (filter inside (Distance.marks (known layer)))
+  where
+    inside u = u > 0 && u < domain curve
+
+-- | Where a column goes over from one cubic to the next within a span: the curve is smooth there, but a shift of it has no smooth speed.
+knots :: Curve -> [Double]
+knots curve = case curve of
+  Plain _ -> []
+  Shifted layer lower _ -> merged (knots lower) (filter inside (Distance.knots (base lower) (distance layer)))
   where
     inside u = u > 0 && u < domain curve
 
