@@ -200,7 +200,7 @@ compile reporter options = withProgram reporter (file options) (targets options)
   let !rest = loaded {texts = Compile.withoutSurface (texts loaded)}
       laid = analyse loaded `Result.thenSound` \a@Analysis {path = way} -> (way,) <$> chosen rest (targets options) a
   Progress.during ("working on " <> name rest) (computed laid)
-  settle reporter rest (laid `Result.thenSound` \(way, ms) -> provenOn (unproven options) way ms) $ \tapes -> do
+  settle reporter rest (laid `Result.thenSound` uncurry (provenOn (unproven options))) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (ownFiles (file options) rest) (map fst places)
     case clash of

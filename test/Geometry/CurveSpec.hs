@@ -87,7 +87,7 @@ spec = do
           let u = Generate.parameterOf c t
               Mm l = Curve.lengthTo c u
               byChords = chordSum c u
-           in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-5)
+           in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-6)
     it "has the length of what is known: lines and arcs" $
       property $
         forAll Generate.chain $ \c ->
