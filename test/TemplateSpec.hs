@@ -31,7 +31,7 @@ spec = do
   let fitted name = [f | (Located _ n, f) <- Part.fittings (part analysis), n == Name name]
       paper = concatMap (NonEmpty.toList . pieces) (fitted "paper")
       missed = concatMap misses (fitted "paper")
-      points = concatMap (map Curve.point . Vector.toList . Curve.points) (fitted "paper")
+      points = concatMap (Vector.toList . Curve.through) (fitted "paper")
   it "the formulas of the three sections are the paper's, corrected" $
     map formula paper
       `shouldBe` [ "0.6336634 -17.545050",

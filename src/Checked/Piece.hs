@@ -12,6 +12,8 @@ where
 
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region)
+import Base.Rows (Rows)
+import Base.Rows qualified as Rows
 import Checked.Builtin qualified as Builtin
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
@@ -46,14 +48,14 @@ table checker name written = case written of
     columns <- traverse column (NonEmpty.toList headings)
     mapM_ twice (zip [0 ..] columns)
     mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing at (Name n)))) ["x", "y"]
-    rows' <- catMaybes <$> traverse (row checker columns) (zip [1 ..] rows)
+    rows' <- rowsOf checker columns rows
     let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
         order = concatMap (`named` columns) ["x", "y"] <> [i | (i, c) <- zip [0 ..] columns, value (called c) `elem` map (value . called) extra]
     pure
       ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
         \sol ->
           let sizes = [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
-           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (solved sol (map (filled order (PrimArray.primArrayFromList sizes)) rows'))
+           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (solved sol (map (filled order sizes) (gathered rows')))
       )
     where
       twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
@@ -70,15 +72,29 @@ table checker name written = case written of
       [] -> Nothing
       x : _ -> Just x
 
--- | The cells of a row, brought into order, with the sizes of the bare numbers of their columns.
-filled :: [Int] -> PrimArray Double -> Row -> Later Cells
+-- | The cells of rows, brought into order, with the sizes of the bare numbers of their columns.
+filled :: [Int] -> [Double] -> Row -> Later Cells
 filled order sizes found sol = case found of
-  Numbers at xs -> Checked.Numbers at (PrimArray.primArrayFromListN (PrimArray.sizeofPrimArray xs) [PrimArray.indexPrimArray xs i * PrimArray.indexPrimArray sizes i | i <- order])
-  Cells at cells -> let es = zipWith expression (PrimArray.primArrayToList sizes) cells in foldr seq (Checked.Written at [es !! i | i <- order]) es
+  Numbers rows -> arranged rows
+  Bares at xs -> arranged (Rows.fromList [(at, xs)])
+  Cells at cells -> let es = zipWith expression sizes cells in foldr seq (Checked.Written at [es !! i | i <- order]) es
   where
+    arranged = Checked.Numbers . Rows.arranged [(i, sizes !! i) | i <- order]
     expression s c = case c of
       Bare at x -> Located at (Checked.Number (x * s))
       Written later -> later sol
+
+-- | Rows in order, given the last one first; those of bare numbers that follow one another together.
+gathered :: [Row] -> [Row]
+gathered = go []
+  where
+    go behind rows = case rows of
+      [] -> behind
+      Bares at xs : before -> bare behind [(at, xs)] before
+      other : before -> go (other : behind) before
+    bare behind found rows = case rows of
+      Bares at xs : before -> bare behind ((at, xs) : found) before
+      _ -> go (Numbers (Rows.fromList found) : behind) rows
 
 -- | The lengths x and y; what the others are is said by their unit, or by their use.
 column :: Surface.Heading -> Infer Column
@@ -94,24 +110,35 @@ column (Surface.Heading name unit) = case (unit, value name) of
       Infer.monomorphic d
       pure (Column name (Type.Quantity d) Nothing)
 
--- | A row: bare numbers for all columns, or its cells.
-data Row = Numbers Region (PrimArray Double) | Cells Region [Cell]
+-- | Rows of bare numbers for all columns; one such row; one of other cells.
+data Row = Numbers Rows | Bares Region (PrimArray Double) | Cells Region [Cell]
 
--- | The cells of a row, which has its number from 1.
-row :: Checker -> [Column] -> (Int, Surface.Line) -> Infer (Maybe Row)
-row checker columns (number, Located at line) = case line of
+-- | The rows of lines, the last one first.
+rowsOf :: Checker -> [Column] -> [Surface.Line] -> Infer [Row]
+rowsOf checker columns = go 1 []
+  where
+    go number found ls = case ls of
+      [] -> pure found
+      line : rest -> row checker columns number line >>= \r -> go (number + rowsIn (value line)) (maybe found (: found) r) rest
+    rowsIn line = case line of
+      Surface.Numbers numbers -> Rows.count numbers
+      _ -> 1
+
+-- | The rows of a line, the first of which has this number.
+row :: Checker -> [Column] -> Int -> Surface.Line -> Infer (Maybe Row)
+row checker columns number (Located at line) = case line of
   Surface.Header _ -> Nothing <$ Infer.mistake (HeadingsAgain at)
   Surface.BrokenLine -> Nothing <$ Infer.taint
-  Surface.Numbers xs
-    | PrimArray.sizeofPrimArray xs /= length columns -> wrongLength (PrimArray.sizeofPrimArray xs)
-    | otherwise -> pure (Just (Numbers at xs))
+  Surface.Numbers numbers
+    | Rows.width numbers /= length columns -> Nothing <$ mapM_ (\k -> wrongLength (Rows.place numbers k) (number + k) (Rows.width numbers)) [0 .. Rows.count numbers - 1]
+    | otherwise -> pure (Just (Numbers numbers))
   Surface.Entries cells
-    | length cells /= length columns -> wrongLength (length cells)
+    | length cells /= length columns -> Nothing <$ wrongLength at number (length cells)
     | otherwise -> do
       cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
-      pure $! Just $! maybe (Cells at cells') (Numbers at . PrimArray.primArrayFromList) (traverse bare cells')
+      pure $! Just $! maybe (Cells at cells') (Bares at . PrimArray.primArrayFromList) (traverse bare cells')
   where
-    wrongLength count = Nothing <$ Infer.mistake (RowLength at number (length columns) count)
+    wrongLength place k found = Infer.mistake (RowLength place k (length columns) found)
     bare c = case c of
       Bare _ x -> Just x
       Written _ -> Nothing

@@ -49,9 +49,9 @@ where
 
 import Base.Name (Name)
 import Base.Region (Located, Region)
+import Base.Rows (Rows)
 import Checked.Dimension (Dimension)
 import Data.List.NonEmpty (NonEmpty)
-import Data.Primitive.PrimArray (PrimArray)
 import Data.Text (Text)
 import Surface.Syntax (Choice (..), Closure (..), Compensation (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Side (..), Switch (..), Walk (..))
 
@@ -108,8 +108,8 @@ data Statement_
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
--- | A row of a table: bare numbers, which most have, or anything else.
-data Cells = Numbers Region {-# UNPACK #-} (PrimArray Double) | Written Region [Expr]
+-- | Rows of a table: bare numbers, which most have, or one of anything else.
+data Cells = Numbers {-# UNPACK #-} Rows | Written Region [Expr]
   deriving stock (Eq, Show)
 
 type Cipher = Located Cipher_

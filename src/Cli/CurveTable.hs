@@ -12,6 +12,7 @@ import Base.Region (Located (..))
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
@@ -19,7 +20,6 @@ import Geometry.Fit qualified as Fit
 import Geometry.Piece qualified as Piece
 import Geometry.Vec qualified as Vec
 import Part.Curve (Fitting (..))
-import Part.Curve qualified as Curve
 import Part.Part (Part)
 import Part.Part qualified as Part
 
@@ -28,8 +28,8 @@ fittings :: Part -> [Text]
 fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
 
 fitting :: Name -> Fitting -> Text
-fitting (Name name) Fitting {pieces, misses, points} =
-  "Curve " <> name <> ": " <> counted (length pieces) "section" <> " through " <> counted (Vector.length points) "row" <> "\n\n"
+fitting (Name name) Fitting {pieces, misses, through} =
+  "Curve " <> name <> ": " <> counted (length pieces) "section" <> " through " <> counted (Vector.length through) "row" <> "\n\n"
     <> Table.columns
       [ToRight, ToRight, ToLeft, ToLeft, ToRight]
       (["section", "rows", "kind", "equation", "largest deviation"] : zipWith section [1 ..] (NonEmpty.toList pieces))
@@ -44,7 +44,7 @@ fitting (Name name) Fitting {pieces, misses, points} =
       Piece.ParabolaKind -> "parabola"
       Piece.ArcKind -> "arc"
     row d =
-      let p = maybe (Vec.point 0 0) Curve.point (points Vector.!? (Fit.ofRow d - 1))
+      let p = fromMaybe (Vec.point 0 0) (through Vector.!? (Fit.ofRow d - 1))
        in [Decimal.whole (Fit.ofRow d), Decimal.short 6 (Vec.x p), Decimal.short 6 (Vec.y p), Decimal.whole (Fit.onPiece d), fixed 4 (Fit.miss d)]
     fixed n (Mm x) = Decimal.fixed n x
 

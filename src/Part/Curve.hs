@@ -1,7 +1,8 @@
 -- | Tables and curves as values of a program.
 module Part.Curve
   ( Table (..),
-    Row (..),
+    points,
+    columns,
     Curve (..),
     Fitting (..),
     curve,
@@ -18,7 +19,8 @@ where
 
 import Base.Name (Name)
 import Base.Quantity (Mm (..), Rad (..), minus, times)
-import Base.Region (Region)
+import Base.Rows (Rows)
+import Base.Rows qualified as Rows
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Semigroup (sconcat)
@@ -40,13 +42,19 @@ import Geometry.Track.Cubic qualified as Cubic
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | Points in the order of the rows, and the other columns, in mm, radians and minutes.
-data Table = Table {rows :: Vector Row, columns :: [(Name, Vector Double)]}
+-- | Rows of x, y and the columns with these names, in mm, radians and minutes.
+data Table = Table {rows :: Rows, names :: [Name]}
   deriving stock (Eq, Show)
 
--- | A point, and where its row stands.
-data Row = Row {written :: Region, point :: {-# UNPACK #-} Point}
-  deriving stock (Eq, Show)
+-- | The points of a table in the order of its rows.
+points :: Table -> Vector Point
+points Table {rows} = Vector.unfoldrExactN (Rows.count rows) next 0
+  where
+    next k = let p = Vec.point (Rows.cell rows k 0) (Rows.cell rows k 1) in p `seq` (p, k + 1)
+
+-- | The columns beside x and y.
+columns :: Table -> [(Name, Vector Double)]
+columns Table {rows, names} = [(n, Vector.generate (Rows.count rows) (\k -> Rows.cell rows k i)) | (i, n) <- zip [2 ..] names]
 
 -- | A curve as it is defined, exactly; the columns of its table; the pieces that were chosen for it, if they were; and the chain of arcs
 -- within 'Tolerance.curve' that stands for it where it is walked.
@@ -59,7 +67,7 @@ data Curve = Curve
   deriving stock (Eq, Show)
 
 -- | The pieces through a table, and by how much they miss its rows.
-data Fitting = Fitting {pieces :: NonEmpty Piece.Piece, misses :: [Fit.Deviation], points :: Vector Row}
+data Fitting = Fitting {pieces :: NonEmpty Piece.Piece, misses :: [Fit.Deviation], through :: Vector Point}
   deriving stock (Eq, Show)
 
 -- | A curve with the columns of its table.

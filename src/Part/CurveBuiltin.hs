@@ -7,9 +7,11 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Region)
+import Base.Rows qualified as Rows
 import Checked.Syntax (Builtin (..), Choice (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Geometry.Biarc qualified as Biarc
@@ -26,7 +28,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
 import Geometry.Walked qualified as Walked
-import Part.Curve (Curve (..), Fitting (..), Row (point, written), Table (..))
+import Part.Curve (Curve (..), Fitting (..), Table (..))
 import Part.Curve qualified as Curve
 import Part.Data
 import Part.Error (Candidate (..), Fact (..), Listing (..), Trouble (..))
@@ -57,8 +59,7 @@ apply region builtin arguments = case (builtin, arguments) of
     fitted region table (Fit.sections points chosen) >>= pieced region table points
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
     chosen <- traverse (rowNumber region t) [n | Quantity n <- ns]
-    let pick vs = Vector.fromList [vs Vector.! (k - 1) | k <- chosen]
-    pure (TableValue Table {rows = pick (rows t), columns = fmap (fmap pick) (columns t)})
+    pure (TableValue t {rows = Rows.picked (map (subtract 1) chosen) (rows t)})
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
     [] -> let (low, high) = Curve.abscissas (exact c) in Eval.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
     us -> picked Tolerance.nearTie region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
@@ -95,26 +96,28 @@ apply region builtin arguments = case (builtin, arguments) of
       | d > 0 = within region d
       | otherwise = Eval.mistake (NotPositive region "the tolerance of a curve" (Decimal.mm (Mm d)))
     tableOf t = case t of
-      Plain (TableValue table) -> table <$ Eval.spend region (Vector.length (rows table))
-      Plain (ListValue ps) -> Table {rows = Vector.fromList [Curve.Row region (place p) | Spatial p <- ps], columns = []} <$ Eval.spend region (length ps)
+      Plain (TableValue table) -> table <$ Eval.spend region (Rows.count (rows table))
+      Plain (ListValue ps) -> Table {rows = Rows.fromList [(region, coordinates (place p)) | Spatial p <- ps], names = []} <$ Eval.spend region (length ps)
       _ -> Eval.absent
+    coordinates p = PrimArray.primArrayFromListN 2 [Vec.x p, Vec.y p]
     made t make = do
       table <- tableOf t
-      c <- either (flawed region table) pure (make (Vector.map point (rows table)))
-      pure (CurveValue (Curve.curve (columns table) Nothing c))
+      c <- either (flawed region table) pure (make (Curve.points table))
+      pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
     arcs t ends = do
       table <- tableOf t
-      case NonEmpty.nonEmpty (pointsOf table) of
+      let points = Curve.points table
+      case NonEmpty.nonEmpty (Vector.toList points) of
         Just ps@(_ :| _ : _) -> do
-          _ <- either (flawed region table) pure (Exact.polyline (Vector.map point (rows table)))
+          _ <- either (flawed region table) pure (Exact.polyline points)
           let segments = Biarc.through ends ps
-          c <- either (flawed region table) pure (Exact.ofChain segments (Vector.map point (rows table)))
-          pure (CurveValue (Curve.curve (columns table) Nothing c))
+          c <- either (flawed region table) pure (Exact.ofChain segments points)
+          pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
         _ -> flawed region table (Exact.TooFew 2)
 
 -- | The points of a table.
 pointsOf :: Table -> [Point]
-pointsOf = map point . Vector.toList . rows
+pointsOf = Vector.toList . Curve.points
 
 -- | A curve of arcs and lines.
 chain :: Region -> NonEmpty Exact.Segment -> Eval Value
@@ -123,9 +126,9 @@ chain region segments = either (\_ -> Eval.mistake (NoLength region)) (pure . Cu
 -- | A curve of pieces, with what they miss.
 pieced :: Region -> Table -> Piece.Table -> NonEmpty Piece.Piece -> Eval Value
 pieced region table points chosen = do
-  let (pieces', stations) = Curve.piecesOf (Vector.map point (rows table)) chosen
+  let (pieces', stations) = Curve.piecesOf (Curve.points table) chosen
   c <- either (flawed region table) pure (Exact.ofPieces pieces' stations)
-  pure (CurveValue (Curve.curve (columns table) (Just (Fitting chosen (Fit.deviations points chosen) (rows table))) c))
+  pure (CurveValue (Curve.curve (Curve.columns table) (Just (Fitting chosen (Fit.deviations points chosen) (Curve.points table))) c))
 
 -- | What is wrong with the points of a curve, at the row where it shows.
 flawed :: Region -> Table -> Exact.Flaw -> Eval a
@@ -144,7 +147,7 @@ flawed region table flaw = Eval.mistake $ case flaw of
   Exact.DeepJoggle -> NoLength region
   Exact.LongJoggle _ _ -> NoLength region
   where
-    there = Vector.length (rows table)
+    there = Rows.count (rows table)
 
 -- | The same for a table whose x has to go on.
 ordered :: Region -> Table -> Either Piece.Flaw a -> Eval a
@@ -161,7 +164,7 @@ fitted region table = either (Eval.mistake . fact) pure
     fact flaw = case flaw of
       Fit.NoSections -> noCurve region table Nothing NoSection
       Fit.WrongCount s n -> noCurve region table Nothing (SectionRows s n)
-      Fit.NoSuchRow _ k -> NoSuchRow region (listing region table) k (Vector.length (rows table))
+      Fit.NoSuchRow _ k -> NoSuchRow region (listing region table) k (Rows.count (rows table))
       Fit.RowsDoNotRise s -> noCurve region table Nothing (SectionOrder s)
       Fit.NotJoined s begins must -> noCurve region table Nothing (SectionJoint s begins must)
       Fit.EndsEarly final all' -> noCurve region table Nothing (SectionEnd final all')
@@ -181,10 +184,12 @@ rowNumber region table x
   | otherwise = pure n
   where
     n = if abs x > 1e7 then 0 else round x :: Int
-    count = Vector.length (rows table)
+    count = Rows.count (rows table)
 
 rowAt :: Table -> Int -> Maybe Region
-rowAt table k = written <$> rows table Vector.!? (k - 1)
+rowAt table k
+  | k >= 1 && k <= Rows.count (rows table) = Just (Rows.place (rows table) (k - 1))
+  | otherwise = Nothing
 
 -- | A line, a circle or a curve.
 walkedOf :: Value -> Maybe Walked

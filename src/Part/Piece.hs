@@ -11,6 +11,8 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region)
+import Base.Rows (Rows)
+import Base.Rows qualified as Rows
 import Checked.Syntax (Cells (..), Cipher, Cipher_ (..), Columns (..), Expr, Expr_ (..), Joggle, Joggle_ (..), Side (..))
 import Checked.Syntax qualified as Checked
 import Control.Monad (foldM, when)
@@ -26,7 +28,7 @@ import Geometry.Curve.Fold qualified as Fold
 import Geometry.Offset qualified as Offset
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
-import Part.Curve (Curve (..), Row (..), Table (..))
+import Part.Curve (Curve (..), Table (..))
 import Part.Curve qualified as Curve
 import Part.Data (Value (..))
 import Part.Data qualified as Data
@@ -39,21 +41,20 @@ import Part.Value qualified as Value
 -- | The rows of a table.
 table :: Environment -> Columns -> Eval Table
 table env (Columns names written) = do
-  found <- Eval.collect row written
-  let column k = Vector.fromList [others !! k | Values _ others <- found]
-  pure Table {rows = Vector.fromList [r | Values r _ <- found], columns = [(n, column k) | (k, (n, _)) <- zip [0 ..] names]}
+  found <- Eval.collect (fmap pure . evaluated) written
+  pure Table {rows = Rows.joined (2 + length names) found, names = map fst names}
   where
-    row written' = case written' of
-      Numbers at xs -> Eval.spend at (PrimArray.sizeofPrimArray xs) *> placed at (PrimArray.primArrayToList xs)
-      Written at cells -> traverse (fmap Value.number . Value.evaluate env) cells >>= placed at
-    placed at vs = do
-      mapM_ (Data.within at) (take 2 vs)
-      case vs of
-        x : y : others -> let values = Values (Row at (Vec.point x y)) others in values `seq` pure [values]
-        _ -> pure []
-
--- | The point of a row, and its other values.
-data Values = Values Row [Double]
+    evaluated cells = case cells of
+      Numbers rows -> rows <$ Eval.collect (number rows) [0 .. Rows.count rows - 1]
+      Written at es -> do
+        vs <- traverse (fmap Value.number . Value.evaluate env) es
+        Rows.fromList [(at, PrimArray.primArrayFromList vs)] <$ mapM_ (Data.within at) (take 2 vs)
+    number :: Rows -> Int -> Eval [()]
+    number rows k = do
+      let at = Rows.place rows k
+      Eval.spend at (Rows.width rows)
+      Data.within at (Rows.cell rows k 0)
+      [] <$ Data.within at (Rows.cell rows k 1)
 
 -- | A curve recalculated by ciphers, one after the other, and joggled, to one side of the walk.
 piece :: Environment -> Curve -> [Cipher] -> Located Side -> [Joggle] -> Eval Curve

@@ -18,6 +18,7 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..))
+import Base.Rows qualified as Rows
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Argument (..), Expr, Expr_ (..), Operator (..))
@@ -26,7 +27,6 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Data.Vector qualified as Vector
 import Geometry.Contour qualified as Contour
 import Geometry.Curve qualified as Exact
 import Geometry.Shape (Circle (..), Line (..))
@@ -154,5 +154,5 @@ written dimension v = case v of
   ContourValue c -> "length " <> Decimal.mm (Contour.length (outline c))
   ListValue vs -> Decimal.whole (length vs) <> (if length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
-  TableValue t -> Decimal.whole (Vector.length (Curve.rows t)) <> " rows"
+  TableValue t -> Decimal.whole (Rows.count (Curve.rows t)) <> " rows"
   CurveValue c -> "length " <> Decimal.mm (Exact.length (Curve.exact c))

@@ -6,8 +6,8 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Region (Located (Located), Region (..))
+import Base.Rows qualified as Rows
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Primitive.PrimArray qualified as PrimArray
 import Surface.Syntax hiding (statements)
 
 -- | Statements, all at one place.
@@ -19,7 +19,7 @@ expr :: Expr -> Expr
 expr = moved expression
 
 moved :: (a -> a) -> Located a -> Located a
-moved inside (Located _ a) = Located (Region 0 0) (inside a)
+moved inside (Located _ a) = Located nowhere (inside a)
 
 here :: Located a -> Located a
 here = moved id
@@ -40,7 +40,7 @@ statement s = case s of
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) closure (map (moved item) items)
   Table name (LinesOf file) -> Table (here name) (LinesOf (here file))
-  Table name (WrittenLines ls) -> Table (here name) (WrittenLines (map (moved line) ls))
+  Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
   Curve name e -> Curve (here name) (expr e)
   Piece name e ciphers side joggles -> Piece (here name) (expr e) (map (moved cipher) ciphers) (here side) (map (moved joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
@@ -59,20 +59,21 @@ statement s = case s of
   With e inside -> With (expr e) (statements inside)
   Broken word name -> Broken word (fmap here name)
 
-line :: Line_ -> Line_
-line l = case l of
-  Header columns -> Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)
-  Entries es -> Entries (fmap expr es)
-  Numbers xs -> maybe BrokenLine Entries (NonEmpty.nonEmpty (map bare (PrimArray.primArrayToList xs)))
-  BrokenLine -> BrokenLine
+line :: Line -> [Line]
+line (Located _ l) = map (Located nowhere) $ case l of
+  Header columns -> [Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)]
+  Entries es -> [Entries (fmap expr es)]
+  Numbers rows -> [maybe BrokenLine Entries (NonEmpty.nonEmpty (map bare (Rows.cells rows k))) | k <- [0 .. Rows.count rows - 1]]
+  BrokenLine -> [BrokenLine]
 
 -- | A number as it is written in a program.
 bare :: Double -> Expr
 bare x
   | x < 0 = Located nowhere (Negate (bare (negate x)))
   | otherwise = Located nowhere (Literal (Numeral (Decimal.exact x) x) Nothing)
-  where
-    nowhere = Region 0 0
+
+nowhere :: Region
+nowhere = Region 0 0
 
 cipher :: Cipher_ -> Cipher_
 cipher (Cipher digit es) = Cipher (here digit) (fmap expr es)

@@ -12,12 +12,15 @@ import Base.Decimal (Leading (..))
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
+import Base.Region qualified as Region
+import Base.Rows (Rows (Rows))
+import Base.Rows qualified as Rows
+import Control.Monad.ST (ST, runST)
 import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Either (partitionEithers)
-import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Primitive.PrimArray qualified as PrimArray
+import Data.Primitive.PrimArray (MutablePrimArray, freezePrimArray, newPrimArray, resizeMutablePrimArray, writePrimArray)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
@@ -38,32 +41,60 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
           Entries _ -> Nothing
           Numbers _ -> Nothing
           BrokenLine -> Nothing
-        Rows _ wrongs others = foldl' (further separator columns) (Rows 1 [] []) rest
-     in (wrong <> reverse wrongs, first : reverse others)
+        (wrongs, others) = unzip (rowsFrom separator columns 1 rest)
+     in (wrong <> concat wrongs, first : others)
 
--- | The number of the next row, what is wrong with the rows before it, and these, the last one first.
-data Rows = Rows Int [Error] [Line]
-
-further :: Char -> Maybe Int -> Rows -> Located Text -> Rows
-further separator columns (Rows k wrongs others) line = case columns >>= \n -> plain separator n line of
-  Just found -> Rows (k + 1) wrongs (found : others)
-  Nothing -> let (wrong, found) = numbers separator columns k line in Rows (k + 1) (reverse wrong <> wrongs) (found : others)
-
--- | A row of so many numbers without spaces, signs other than minus, and exponents, as most are.
-plain :: Char -> Int -> Located Text -> Maybe Line
-plain separator columns (Located at line) = Located at . Numbers . PrimArray.primArrayFromListN columns <$> cells columns line
+-- | The rows from one with a number on, if the columns are known so many in each, and what is wrong with them.
+rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], Line)]
+rowsFrom separator columns k texts = [([], Located (Region.span (Rows.place found 0) (Rows.place found (count - 1))) (Numbers found)) | count > 0] <> other
   where
-    cells :: Int -> Text -> Maybe [Double]
-    cells wanted text = case Text.uncons text of
-      Just ('-', digits) -> number wanted negate digits
-      _ -> number wanted id text
-    number :: Int -> (Double -> Double) -> Text -> Maybe [Double]
-    number wanted signed text = case Decimal.leading text of
-      Leading {size, worth = Just x, behind} | size > 0 -> case Text.uncons behind of
-        Nothing | wanted == 1 -> Just [signed x]
-        Just (c, more) | c == separator && wanted > 1 -> (signed x :) <$> cells (wanted - 1) more
-        _ -> Nothing
-      _ -> Nothing
+    (found, behind) = maybe (Rows.joined 0 [],) (plain separator) columns texts
+    count = Rows.count found
+    other = case behind of
+      [] -> []
+      text : rest -> numbers separator columns (k + count) text : rowsFrom separator columns (k + count + 1) rest
+
+-- | The lines at the front with so many numbers without spaces, signs other than minus, and exponents, as most are; and those behind
+-- them.
+plain :: Char -> Int -> [Located Text] -> (Rows, [Located Text])
+plain separator width texts = runST $ do
+  ends <- newPrimArray (2 * few)
+  cells <- newPrimArray (width * few)
+  go 0 few ends cells texts
+  where
+    few = 8
+    -- So many rows are there, and room for so many.
+    go :: Int -> Int -> MutablePrimArray s Int -> MutablePrimArray s Double -> [Located Text] -> ST s (Rows, [Located Text])
+    go k room ends cells rest = case rest of
+      Located (Region from to) text : more
+        | k >= room -> do
+          ends' <- resizeMutablePrimArray ends (4 * room)
+          cells' <- resizeMutablePrimArray cells (2 * width * room)
+          go k (2 * room) ends' cells' rest
+        | otherwise -> do
+          fits <- row cells (width * k) width text
+          if fits
+            then writePrimArray ends (2 * k) from >> writePrimArray ends (2 * k + 1) to >> go (k + 1) room ends cells more
+            else done k ends cells rest
+      [] -> done k ends cells rest
+    done k ends cells rest = do
+      places <- freezePrimArray ends 0 (2 * k)
+      found <- freezePrimArray cells 0 (width * k)
+      pure (Rows {Rows.width, Rows.places, Rows.numbers = found}, rest)
+    -- Whether a text is so many numbers; they are put one behind the other from a place on.
+    row :: MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
+    row cells i wanted text = case Text.uncons text of
+      Just ('-', digits) -> number cells i wanted negate digits
+      _ -> number cells i wanted id text
+    number :: MutablePrimArray s Double -> Int -> Int -> (Double -> Double) -> Text -> ST s Bool
+    number cells i wanted signed text = case Decimal.leading text of
+      Leading {size, worth = Just x, behind} | size > 0 -> do
+        writePrimArray cells i (signed x)
+        case Text.uncons behind of
+          Nothing -> pure (wanted == 1)
+          Just (c, more) | c == separator && wanted > 1 -> row cells (i + 1) (wanted - 1) more
+          _ -> pure False
+      _ -> pure False
 
 -- | The lines with their places, without a mark of the byte order.
 linesOf :: Int -> Text -> [Located Text]

@@ -11,11 +11,11 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (Located))
 import Base.Region qualified as Region
+import Base.Rows qualified as Rows
 import Data.Char (isDigit)
 import Data.List (transpose)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Doc (Doc (..), Piece)
@@ -121,7 +121,7 @@ statement commented indent (Located _ s) = case s of
 table :: Commented -> Int -> [Line] -> [Row]
 table commented indent ls = map row written
   where
-    written = [cellsOf l | Located _ l <- ls, readable l]
+    written = concat [cellsOf l | Located _ l <- ls]
     row texts = Row {indent, cells = Whole (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))), continues = False}
     place front width text' = Text.justifyLeft width ' ' (pointed front text')
     -- Decimal points stand below one another.
@@ -131,15 +131,10 @@ table commented indent ls = map row written
     fronts = map (maximum . (0 :) . map frontOf . filter isNumber) (transpose written) <> repeat 0
     widths = zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose written) <> repeat 0
     cellsOf l = case l of
-      Header columns -> [name <> maybe "" ((" " <>) . unitName) unit | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns]
-      Entries es -> map cell (NonEmpty.toList es)
-      Numbers xs -> map Decimal.exact (PrimArray.primArrayToList xs)
+      Header columns -> [[name <> maybe "" ((" " <>) . unitName) unit | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns]]
+      Entries es -> [map cell (NonEmpty.toList es)]
+      Numbers numbers -> [map Decimal.exact (Rows.cells numbers k) | k <- [0 .. Rows.count numbers - 1]]
       BrokenLine -> []
-    readable l = case l of
-      BrokenLine -> False
-      Header _ -> True
-      Entries _ -> True
-      Numbers _ -> True
     cell e = case Region.value e of
       Literal _ _ -> text (PrintExpr.value commented e)
       Negate (Located _ (Literal _ _)) -> text (PrintExpr.value commented e)

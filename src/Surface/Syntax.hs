@@ -48,8 +48,8 @@ where
 
 import Base.Name (Name)
 import Base.Region (Located)
+import Base.Rows (Rows)
 import Data.List.NonEmpty (NonEmpty)
-import Data.Primitive.PrimArray (PrimArray)
 import Data.Text (Text)
 import Surface.Token (Numeral (..), Unit)
 
@@ -218,8 +218,8 @@ data Line_
     Header (NonEmpty Heading)
   | -- | a value for each column
     Entries {-# UNPACK #-} (NonEmpty Expr)
-  | -- | a bare number for each column, as a file has them
-    Numbers {-# UNPACK #-} (PrimArray Double)
+  | -- | lines one after the other with a bare number for each column, as a file has them
+    Numbers {-# UNPACK #-} Rows
   | -- | a line that could not be read
     BrokenLine
   deriving stock (Eq, Show)

@@ -9,6 +9,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
+import Base.Rows qualified as Rows
 import Data.Char (isAlphaNum)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (fromMaybe)
@@ -92,7 +93,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       ]
     deep =
       [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
-        Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (oneof [Entries <$> nonEmpty 3 cell, Numbers . PrimArray.primArrayFromList <$> (chooseInt (1, 3) >>= (`vectorOf` ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000))))])))),
+        Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (oneof [Entries <$> nonEmpty 3 cell, Numbers <$> rows])))),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
         Pocket <$> expr n <*> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
@@ -103,6 +104,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
     inside = some' 3 (statement (n - 1))
     cipher = Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
     joggle = Joggle <$> expr n <*> expr n <*> expr n <*> expr n
+    rows = chooseInt (1, 3) >>= \width -> Rows.fromList <$> listOf1 ((Region 0 0,) . PrimArray.primArrayFromList <$> vectorOf width ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000)))
     heading = Heading <$> at name <*> maybe' (elements columnUnits)
     cell = oneof [at (Literal <$> number <*> maybe' every), at (Negate <$> at (Literal <$> number <*> maybe' every)), expr (n + 1)]
 
