@@ -18,6 +18,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Control.Monad.ST (runST)
+import Data.Foldable (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
@@ -106,7 +107,8 @@ folded o f = go 0 0
 -- | A contour, and for each segment of the outline the number of the contour's segment, from 0.
 fromContour :: Contour -> (Outline, PrimArray Int)
 fromContour (Contour ends ss) = runST $ do
-  let room = 2 * NonEmpty.length ss + 1
+  -- A long arc takes two.
+  let room = foldl' (\k s -> if isLong s then k + 2 else k + 1) 1 ss
   px <- PrimArray.newPrimArray room
   py <- PrimArray.newPrimArray room
   pb <- PrimArray.newPrimArray room
@@ -121,7 +123,7 @@ fromContour (Contour ends ss) = runST $ do
       fill k i rest = case rest of
         [] -> pure k
         s : more -> case s of
-          Arc {sweep = Rad a} | abs a > pi, (first, second) <- Segment.cutAt 0.5 s -> put k i first >> put (k + 1) i second >> fill (k + 2) (i + 1) more
+          _ | isLong s, (first, second) <- Segment.cutAt 0.5 s -> put k i first >> put (k + 1) i second >> fill (k + 2) (i + 1) more
           _ -> put k i s >> fill (k + 1 :: Int) (i + 1) more
   count <- fill 0 0 (NonEmpty.toList ss)
   used <- case ends of
@@ -135,6 +137,9 @@ fromContour (Contour ends ss) = runST $ do
     bulge s = case s of
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> tan (a / 4)
+    isLong s = case s of
+      Straight _ _ -> False
+      Arc {sweep = Rad a} -> abs a > pi
 
 -- | The segments in order.
 segments :: Outline -> [Segment]

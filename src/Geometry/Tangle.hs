@@ -36,7 +36,7 @@ selfCrossing contour@(Contour ends ss) = case concatMap found (beside <> closeBy
     -- Neighbours, which are joined.
     beside = alongside 0
     alongside i
-      | i + 1 < count = if straightOn (whole Vector.! i) (whole Vector.! (i + 1)) then alongside (i + 1) else (i, i + 1) : alongside (i + 1)
+      | i + 1 < count = if straightOn (whole Vector.! i) (whole Vector.! (i + 1)) || lineBends (whole Vector.! i) (whole Vector.! (i + 1)) then alongside (i + 1) else (i, i + 1) : alongside (i + 1)
       | otherwise = [(0, count - 1) | ends == Closed, count > 2]
     found (i, j)
       | closes && straightOn other s = []
@@ -83,6 +83,15 @@ straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, sett
     hardlyTurns s = case s of
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
+
+-- | Whether two neighbours are lines, not too short for it to be certain, of which the other does not turn back along the one: they meet at
+-- their joint alone.
+lineBends :: Segment -> Segment -> Bool
+lineBends a b = case (a, b) of
+  (Straight p q, Straight _ r) | u <- Vec.to p q, v <- Vec.to q r -> long u && long v && abs (Vec.cross u v) > -(tan 0.1 * Vec.dot u v)
+  _ -> False
+  where
+    long v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)
 
 -- | A neighbour that runs back along the way it came meets it at its middle.
 retraced :: Segment -> Segment -> [Point]

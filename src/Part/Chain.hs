@@ -137,8 +137,8 @@ lone w@Walk {place, shape, link} = case (shape, link) of
 
 -- | The elements of a closed curve, of which the first goes on with the last if there is no corner.
 roundly :: [Element] -> [Element]
-roundly elements = case (elements, reverse elements) of
-  (first : rest, final : _ : _) | smoothly (segment final) (segment first) -> first {continues = True} : rest
+roundly elements = case elements of
+  first : rest@(_ : _) | smoothly (segment (last rest)) (segment first) -> first {continues = True} : rest
   _ -> elements
 
 -- | Whether one segment goes over into another without a corner.
@@ -325,9 +325,13 @@ begun shape a b = case shape of
 marked :: Walk -> Mm -> [Segment] -> [Element]
 marked Walk {place, shape, finish, bevel} (Mm from) whole = case whole of
   [] -> []
-  _ | null bevel -> zipWith (\s continues -> Element s place finish continues isCurve Nothing) whole (False : zipWith smoothly whole (drop 1 whole))
+  first : rest | null bevel -> unbevelled False first rest
   _ -> zipWith3 element ss (False : zipWith smoothly ss (drop 1 ss)) (zip marks (drop 1 marks))
   where
+    unbevelled continues s rest = let e = Element s place finish continues isCurve Nothing in e `seq` (e : behind s rest)
+    behind s rest = case rest of
+      [] -> []
+      next : more -> unbevelled (smoothly s next) next more
     element s continues (a, b) = Element s place finish continues isCurve ((,) <$> leaning angles a <*> leaning angles b)
     (isCurve, round') = case shape of
       OnCurve c -> (True, if Polyarc.isClosed c then Just (Polyarc.length c) else Nothing)

@@ -16,11 +16,9 @@ import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr, Item, Item_ (..), Modifier_ (..), Walk)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
-import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
-import Data.Ord (comparing)
 import Data.Text (Text)
 import Geometry.Distance qualified as Distance
 import Geometry.Polyarc qualified as Polyarc
@@ -165,7 +163,16 @@ startingNear p c = case NonEmpty.nonEmpty turned of
   Nothing -> c
   where
     list = NonEmpty.toList (elements c)
-    nearest = fst (minimumBy (comparing snd) (zip [0 ..] [Distance.toPoint p (Part.segment e) | e <- list]))
+    nearest = closest 0 (Mm (1 / 0)) 0 list
+    -- The number of the first element that is nearest, or of the nearest one so far.
+    closest :: Int -> Mm -> Int -> [Part.Element] -> Int
+    closest best least i es = case es of
+      [] -> best
+      e : more
+        | d < least -> closest i d (i + 1) more
+        | otherwise -> closest best least (i + 1) more
+        where
+          d = Distance.toPoint p (Part.segment e)
     (before, from) = splitAt nearest list
     turned = case from of
       [] -> list
