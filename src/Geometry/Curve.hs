@@ -97,7 +97,7 @@ import Geometry.Jet (Approach (..), Jet)
 import Geometry.Jet qualified as Jet
 import Geometry.Offset (Side (..))
 import Geometry.Ruler qualified as Ruler
-import Geometry.Segment (Segment (Arc, Straight))
+import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Series qualified as Series
 import Geometry.Similarity (Similarity)
@@ -129,19 +129,16 @@ ofSegments segments = Plain <$> Base.ofSegments segments
 
 -- | A chain of lines and arcs through the points of a table, in order; a closed one may leave out the first point at its end.
 ofChain :: NonEmpty Segment -> Vector Point -> Either Flaw Curve
-ofChain segments points = Plain <$> Base.ofPieces (fmap piece segments) (parameters 0 (NonEmpty.toList segments) (Vector.toList points))
+ofChain segments points = Plain <$> Base.ofChain segments parameters
   where
-    piece s = case s of
-      Straight p q -> Line p q
-      Arc {} -> Circular s
     -- Every point is the beginning of a segment, or the end of the last one.
-    parameters u ss ps = Vector.fromList (go u ss ps)
-    go u ss ps = case (ss, ps) of
+    parameters = Vector.unfoldrN (Vector.length points) next (0, NonEmpty.toList segments, Vector.toList points)
+    next (u, ss, ps) = case (ss, ps) of
       (s : rest, p : more)
-        | Vec.near (Segment.start s) p -> u : go u (s : rest) more
-        | otherwise -> go (u + 1) rest ps
-      ([], _ : _) -> [u]
-      (_, []) -> []
+        | Vec.near (Segment.start s) p -> u `seq` Just (u, (u, ss, more))
+        | otherwise -> next (u + 1, rest, ps)
+      ([], _ : _) -> Just (u, (u, [], []))
+      (_, []) -> Nothing
 
 -- | Numbers at the rows of the curve's table, as many as there are, interpolated as the points are.
 column :: Curve -> Vector Double -> Column

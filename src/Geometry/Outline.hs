@@ -12,16 +12,18 @@ module Geometry.Outline
     area,
     length,
     fromContour,
+    fromSegments,
     segments,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Control.Monad.ST (runST)
-import Data.Foldable (foldl')
-import Data.List.NonEmpty qualified as NonEmpty
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
 import Geometry.Contour (Contour (Contour), Ends (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -106,9 +108,13 @@ folded o f = go 0 0
 
 -- | A contour, and for each segment of the outline the number of the contour's segment, from 0.
 fromContour :: Contour -> (Outline, PrimArray Int)
-fromContour (Contour ends ss) = runST $ do
+fromContour (Contour ends (first :| others)) = fromSegments ends (Vector.fromList (first : others))
+
+-- | The same of the segments of a contour, of which there is one at least.
+fromSegments :: Ends -> Vector Segment -> (Outline, PrimArray Int)
+fromSegments ends ss = runST $ do
   -- A long arc takes two.
-  let room = foldl' (\k s -> if isLong s then k + 2 else k + 1) 1 ss
+  let room = Vector.foldl' (\k s -> if isLong s then k + 2 else k + 1) 1 ss
   px <- PrimArray.newPrimArray room
   py <- PrimArray.newPrimArray room
   pb <- PrimArray.newPrimArray room
@@ -120,15 +126,16 @@ fromContour (Contour ends ss) = runST $ do
       put k i s = do
         vertex k (Segment.start s) (bulge s)
         PrimArray.writePrimArray numbers k (i :: Int)
-      fill k i rest = case rest of
-        [] -> pure k
-        s : more -> case s of
-          _ | isLong s, (first, second) <- Segment.cutAt 0.5 s -> put k i first >> put (k + 1) i second >> fill (k + 2) (i + 1) more
-          _ -> put k i s >> fill (k + 1 :: Int) (i + 1) more
-  count <- fill 0 0 (NonEmpty.toList ss)
+      fill k i
+        | i >= Vector.length ss = pure k
+        | isLong s, (front, back) <- Segment.cutAt 0.5 s = put k i front >> put (k + 1) i back >> fill (k + 2) (i + 1)
+        | otherwise = put k i s >> fill (k + 1 :: Int) (i + 1)
+        where
+          s = ss Vector.! i
+  count <- fill 0 0
   used <- case ends of
     Closed -> pure count
-    Open -> (count + 1) <$ vertex count (Segment.end (NonEmpty.last ss)) 0
+    Open -> (count + 1) <$ vertex count (Segment.end (Vector.last ss)) 0
   mapM_ (`PrimArray.shrinkMutablePrimArray` used) [px, py, pb]
   PrimArray.shrinkMutablePrimArray numbers count
   o <- Outline ends <$> PrimArray.unsafeFreezePrimArray px <*> PrimArray.unsafeFreezePrimArray py <*> PrimArray.unsafeFreezePrimArray pb

@@ -8,10 +8,11 @@ import Base.Quantity (Mm (..), Rad (..), times)
 import Control.Monad (when)
 import Control.Monad.ST (runST)
 import Data.List (minimumBy)
-import Data.List.NonEmpty qualified as NonEmpty
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.Ord (comparing)
 import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.STRef (modifySTRef', newSTRef, readSTRef)
+import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour (Contour (..), Ends (..))
@@ -27,11 +28,14 @@ import Geometry.Vec qualified as Vec
 
 -- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
 selfCrossing :: Contour -> Maybe (Int, Int, Point)
-selfCrossing contour@(Contour ends ss) = case concatMap found (beside <> closeBy contour) of
+selfCrossing (Contour ends (first :| others)) = case concatMap found (beside <> closeBy ends whole) of
   [] -> Nothing
   ps -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) ps)
   where
-    whole = Vector.fromList (NonEmpty.toList ss)
+    whole = Vector.unfoldr next (first : others)
+    next ss = case ss of
+      [] -> Nothing
+      s : rest -> s `seq` Just (s, rest)
     count = Vector.length whole
     -- Neighbours, which are joined.
     beside = alongside 0
@@ -50,8 +54,8 @@ selfCrossing contour@(Contour ends ss) = case concatMap found (beside <> closeBy
         shared = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
 
 -- | Segments of a contour that are no neighbours and lie so near to one another that they may touch, by number.
-closeBy :: Contour -> [(Int, Int)]
-closeBy contour@(Contour ends _)
+closeBy :: Ends -> Vector Segment -> [(Int, Int)]
+closeBy ends whole
   | Chain.walks chain == 0 = []
   | otherwise = runST $ do
     pairs <- newSTRef []
@@ -60,9 +64,9 @@ closeBy contour@(Contour ends _)
       when (i >= 0 && j > i + 1 && j < count && not (ends == Closed && i == 0 && j == count - 1)) $ modifySTRef' pairs ((i, j) :)
     readSTRef pairs
   where
-    (outline, numbers) = Outline.fromContour contour
+    (outline, numbers) = Outline.fromSegments ends whole
     pieces = sizeofPrimArray numbers
-    count = indexPrimArray numbers (pieces - 1) + 1
+    count = Vector.length whole
     chain = Chain.fromOutlines 0 [outline]
     Mm margin = times 2 Tolerance.coincident
     boxes = Boxes.boxes margin chain

@@ -15,6 +15,7 @@ module Geometry.Curve.Base
     spline,
     parabola,
     ofPieces,
+    ofChain,
     ofSegments,
     count,
     ruler,
@@ -31,9 +32,10 @@ module Geometry.Curve.Base
 where
 
 import Base.Quantity (Mm (..))
+import Data.List (find)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Maybe (isJust, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
@@ -148,7 +150,9 @@ spans base = case course base of
 asSegments :: Base -> Maybe (NonEmpty Segment)
 asSegments base = case course base of
   Cubical _ _ -> Nothing
-  Mixed parts -> traverse Span.segment (Vector.toList parts) >>= NonEmpty.nonEmpty . linked Nothing
+  Mixed parts
+    | all (isJust . Span.segment) parts -> NonEmpty.nonEmpty (linked Nothing (mapMaybe Span.segment (Vector.toList parts)))
+    | otherwise -> Nothing
   where
     linked before ss = case ss of
       [] -> []
@@ -242,39 +246,57 @@ parabola points
 
 -- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
 ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Base
-ofPieces pieces parameters = do
-  joined (NonEmpty.toList parts)
-  maybe (Right ()) (Left . Disordered . (+ 1)) (Vector.findIndex not ordered)
+ofPieces = ofSpans . vector Span.ofPiece
+
+-- | The same of lines and arcs.
+ofChain :: NonEmpty Segment -> Vector Double -> Either Flaw Base
+ofChain = ofSpans . vector Span.ofSegment
+
+ofSpans :: Vector Span -> Vector Double -> Either Flaw Base
+ofSpans parts parameters = do
+  joined parts
+  maybe (Right ()) (Left . Disordered) (find (not . ordered) [1 .. count'])
   Right base {rows = Vector.map (\u -> Row {at = u, place = Jet.place (jet 0 base (spot After u base))}) parameters}
   where
-    parts = fmap Span.ofPiece pieces
     base = chain Vector.empty parts
-    n = fromIntegral (NonEmpty.length parts)
-    ordered = Vector.imap (\i u -> u >= 0 && u <= n && all (> u) (parameters Vector.!? (i + 1))) parameters
+    n = fromIntegral (Vector.length parts)
+    count' = Vector.length parameters
+    ordered i = let u = parameters Vector.! (i - 1) in u >= 0 && u <= n && (i >= count' || parameters Vector.! i > u)
 
 -- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the chain is closed.
 ofSegments :: NonEmpty Segment -> Either Flaw Base
 ofSegments segments = do
-  joined (NonEmpty.toList parts)
+  joined parts
   Right base {rows = numbered (if closed base then starts else Vector.snoc starts (Segment.end (NonEmpty.last segments)))}
   where
-    parts = fmap Span.ofSegment segments
+    parts = vector Span.ofSegment segments
     base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
--- | A base of spans that join.
-chain :: Vector Row -> NonEmpty Span -> Base
-chain rows parts = made Joined (Vec.near first final) rows (coursed (Vector.fromList (NonEmpty.toList parts)))
+-- | What is made of each, at once.
+vector :: (a -> b) -> NonEmpty a -> Vector b
+vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList list)
   where
-    (first, _) = Span.ends (NonEmpty.head parts)
-    (_, final) = Span.ends (NonEmpty.last parts)
+    next as = case as of
+      [] -> Nothing
+      a : rest -> let b = f a in b `seq` Just (b, rest)
+
+-- | A base of spans that join, of which there is one at least.
+chain :: Vector Row -> Vector Span -> Base
+chain rows parts = made Joined (Vec.near first final) rows (coursed parts)
+  where
+    (first, _) = Span.ends (Vector.head parts)
+    (_, final) = Span.ends (Vector.last parts)
 
 -- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
-joined :: [Span] -> Either Flaw ()
-joined parts = maybe (Right ()) Left (listToMaybe (lengthless <> apart))
+joined :: Vector Span -> Either Flaw ()
+joined parts
+  | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
+  | Just i <- find (\i -> not (Vec.near (snd (Span.ends (span' i))) (fst (Span.ends (span' (i + 1)))))) [1 .. n - 1] = Left (Disjoint i)
+  | otherwise = Right ()
   where
-    lengthless = [NoLength i | (i, s) <- zip [1 ..] parts, Span.isPoint s]
-    apart = [Disjoint i | (i, s, s') <- zip3 [1 ..] parts (drop 1 parts), not (Vec.near (snd (Span.ends s)) (fst (Span.ends s')))]
+    n = Vector.length parts
+    span' i = parts Vector.! (i - 1)
 
 -- | There are enough points, and none is the next one's place.
 distinct :: Int -> Vector Point -> Either Flaw ()
