@@ -19,7 +19,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Control.Monad.ST (runST)
-import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
@@ -108,7 +108,7 @@ folded o f = go 0 0
 
 -- | A contour, and for each segment of the outline the number of the contour's segment, from 0.
 fromContour :: Contour -> (Outline, PrimArray Int)
-fromContour (Contour ends (first :| others)) = fromSegments ends (Vector.fromList (first : others))
+fromContour (Contour ends ss) = fromSegments ends (Vector.fromListN (NonEmpty.length ss) (NonEmpty.toList ss))
 
 -- | The same of the segments of a contour, of which there is one at least.
 fromSegments :: Ends -> Vector Segment -> (Outline, PrimArray Int)

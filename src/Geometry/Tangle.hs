@@ -1,6 +1,7 @@
 -- | Where a contour crosses or touches itself.
 module Geometry.Tangle
   ( selfCrossing,
+    crossingOf,
   )
 where
 
@@ -8,7 +9,8 @@ import Base.Quantity (Mm (..), Rad (..), times)
 import Control.Monad (when)
 import Control.Monad.ST (runST)
 import Data.List (minimumBy)
-import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.STRef (modifySTRef', newSTRef, readSTRef)
@@ -28,15 +30,19 @@ import Geometry.Vec qualified as Vec
 
 -- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
 selfCrossing :: Contour -> Maybe (Int, Int, Point)
-selfCrossing (Contour ends (first :| others)) = case concatMap found (beside <> closeBy ends whole) of
+selfCrossing (Contour ends ss) = crossingOf id ends ss
+
+-- | The same of anything with segments.
+crossingOf :: (a -> Segment) -> Ends -> NonEmpty a -> Maybe (Int, Int, Point)
+crossingOf get ends things = case concatMap found (beside <> closeBy ends whole) of
   [] -> Nothing
   ps -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) ps)
   where
-    whole = Vector.unfoldr next (first : others)
-    next ss = case ss of
+    count = NonEmpty.length things
+    whole = Vector.unfoldrN count next (NonEmpty.toList things)
+    next left = case left of
       [] -> Nothing
-      s : rest -> s `seq` Just (s, rest)
-    count = Vector.length whole
+      a : rest -> let s = get a in s `seq` Just (s, rest)
     -- Neighbours, which are joined.
     beside = alongside 0
     alongside i

@@ -113,7 +113,7 @@ attempt region ends walks = do
     (Open, _) -> open walks
   elements <- maybe (Left nothingLeft) Right (NonEmpty.nonEmpty (filter long chosen))
   let contour = Contour.chained segment (\s e -> e {segment = s}) ends elements
-  case Tangle.selfCrossing (Contour.Contour ends (fmap segment contour)) of
+  case Tangle.crossingOf segment ends contour of
     Just (i, j, p) -> Left (CrossesItself region (origin (contour NonEmpty.!! i)) (origin (contour NonEmpty.!! j)) p (any hasFillet walks))
     Nothing -> Right contour
   where

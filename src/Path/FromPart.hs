@@ -105,7 +105,7 @@ blocksOf number tool at operation = case operation of
     milling <- asWalked <$> oriented region given
     let job = Located region milling
         -- In an array once for all passes: they are many, and lie far apart in memory.
-        numbered = Vector.fromList (NonEmpty.toList (elements (contour milling)))
+        numbered = let es = elements (contour milling) in Vector.fromListN (NonEmpty.length es) (NonEmpty.toList es)
         passes = [(a, z) | a <- NonEmpty.toList (Part.allowances milling), z <- if null (Part.levels milling) then [standing milling] else Part.levels milling]
     if null (Part.levels milling) && standing milling > Mm 0
       then Left (CutsAir (keyword region) (standing milling))

@@ -175,8 +175,10 @@ coursed parts = case traverse polynomial parts of
 polyline :: Vector Point -> Either Flaw Base
 polyline points = do
   distinct 2 points
-  let lines' part = Spline.generate (Vector.length points - 1) (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
   Right (made Polyline (closes points) (numbered points) (Cubical (lines' Vec.x) (lines' Vec.y)))
+  where
+    lines' part = Spline.generate (Vector.length points - 1) (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
+    {-# INLINE lines' #-}
 
 -- | A cubic spline by the chord length from point to point; continuous up to the second derivative by it. At
 -- clamped ends the derivative by the chord length is the direction given. The points of a periodic one may or may not
@@ -302,7 +304,7 @@ joined parts
 distinct :: Int -> Vector Point -> Either Flaw ()
 distinct needed points
   | Vector.length points < needed = Left (TooFew needed)
-  | otherwise = maybe (Right ()) (Left . Coincident . (+ 1)) (Vector.findIndex id (Vector.zipWith Vec.near points (Vector.drop 1 points)))
+  | otherwise = maybe (Right ()) (Left . Coincident) (find (\i -> Vec.near (points Vector.! (i - 1)) (points Vector.! i)) [1 .. Vector.length points - 1])
 
 closes :: Vector Point -> Bool
 closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
