@@ -81,7 +81,7 @@ closeBy ends whole
 
 -- | Whether of two neighbours that hardly turn the one lies in a cone behind their joint and the other before it.
 straightOn :: Segment -> Segment -> Bool
-straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, setting) in abs (Vec.cross u v) <= tan 0.1 * Vec.dot u v)
+straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, setting) in abs (Vec.cross u v) <= steepness * Vec.dot u v)
   where
     -- Directions, not of length 1.
     arriving = case a of
@@ -98,10 +98,14 @@ straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, sett
 -- their joint alone.
 lineBends :: Segment -> Segment -> Bool
 lineBends a b = case (a, b) of
-  (Straight p q, Straight _ r) | u <- Vec.to p q, v <- Vec.to q r -> long u && long v && abs (Vec.cross u v) > -(tan 0.1 * Vec.dot u v)
+  (Straight p q, Straight _ r) | u <- Vec.to p q, v <- Vec.to q r -> long u && long v && abs (Vec.cross u v) > -(steepness * Vec.dot u v)
   _ -> False
   where
     long v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)
+
+-- | Of the cones: the tangent of 0.1.
+steepness :: Double
+steepness = 0.10033467208545055
 
 -- | A neighbour that runs back along the way it came meets it at its middle.
 retraced :: Segment -> Segment -> [Point]

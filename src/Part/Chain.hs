@@ -11,7 +11,7 @@ module Part.Chain
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus, plus, total)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times, total)
 import Base.Region (Located (..), Region)
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List (minimumBy, sortOn)
@@ -143,7 +143,11 @@ roundly elements = case elements of
 
 -- | Whether one segment goes over into another without a corner.
 smoothly :: Segment -> Segment -> Bool
-smoothly a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in Rad (abs turned) <= Tolerance.smoothAngle
+smoothly a b = Rad (abs (Vec.cross u v)) <= times 2 Tolerance.smoothAngle && (let Rad turned = Vec.turn u v in Rad (abs turned) <= Tolerance.smoothAngle)
+  where
+    -- Most corners turn by an angle whose sine tells already.
+    u = Segment.endDirection a
+    v = Segment.startDirection b
 
 -- | An open contour runs from the first point of its first element to the last one of its last.
 open :: NonEmpty Walk -> Either Fact [Element]

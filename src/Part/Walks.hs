@@ -11,7 +11,7 @@ where
 import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
 import Base.Name (Name)
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), minus)
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr, Item, Item_ (..), Modifier_ (..), Walk)
 import Checked.Syntax qualified as Checked
@@ -20,11 +20,13 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
+import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Line (Line), Turn (..))
 import Geometry.Shape qualified as Shape
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.Walked (Walked (..))
@@ -169,10 +171,9 @@ startingNear p c = case NonEmpty.nonEmpty turned of
     closest best least i es = case es of
       [] -> best
       e : more
-        | d < least -> closest i d (i + 1) more
+        | minus (Box.distance p (Box.ofSegment (Part.segment e))) Tolerance.coincident > least -> closest best least (i + 1) more
+        | d <- Distance.toPoint p (Part.segment e), d < least -> closest i d (i + 1) more
         | otherwise -> closest best least (i + 1) more
-        where
-          d = Distance.toPoint p (Part.segment e)
     (before, from) = splitAt nearest list
     turned = case from of
       [] -> list
