@@ -333,12 +333,13 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       Cutting {job = Located _ milling, pass} | value (side milling) /= On -> Just (number pass, milling, [contour milling])
       Clearing {pocket = Located _ p, pass} -> Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
       _ -> Nothing
-    index = Box.index (Box.around . snd) [((n, milling), Box.index boxOf (grouped (concatMap (NonEmpty.toList . elements) walls))) | (n, milling, walls) <- jobs]
-    -- A box for each element would take more memory than the elements, and few are asked for.
+    index = Box.index (Box.around . snd) [((n, milling), Box.index boxOf (concatMap (grouped . NonEmpty.toList . elements) walls)) | (n, milling, walls) <- jobs]
+    -- A box for each element would take more memory than the elements, and few are asked for: a box is about some, from one on.
     grouped es = case es of
       [] -> []
-      e : rest -> let (some, more) = splitAt 15 rest in (e :| some) : grouped more
-    boxOf (e :| es) = foldl' (\box other -> Box.union box (Box.ofSegment (Part.segment other))) (Box.ofSegment (Part.segment e)) es
+      e : rest -> (e :| rest) : grouped (drop some es)
+    boxOf (e :| es) = foldl' (\box other -> Box.union box (Box.ofSegment (Part.segment other))) (Box.ofSegment (Part.segment e)) (take (some - 1) es)
+    some = 16
     inBlock b = case b of
       Commanding _ -> []
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
@@ -371,7 +372,7 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
           ((n, milling), walls) <- Box.within reach index,
           Just n /= own,
           group <- Box.within reach walls,
-          element <- NonEmpty.toList group,
+          element <- NonEmpty.take some group,
           Box.meets reach (Box.ofSegment (Part.segment element)),
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
           plus d (plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance) < tool
