@@ -2,6 +2,7 @@
 module Geometry.TangleSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust)
 import Geometry.Contour (Contour (..), Ends (..))
@@ -27,6 +28,13 @@ spec = describe "a contour" $ do
       forAll contour $ \c -> case Tangle.selfCrossing c of
         Just (i, j, p) -> counterexample (show (i, j, p)) (i < j && all (\k -> Distance.toPoint p (segments c NonEmpty.!! k) <= Mm 1e-6) [i, j])
         Nothing -> property True
+  it "of two lines crosses itself where the second turns back along the first, and at no other angle (catches a way back that is taken for a bend)" $
+    property $
+      forAll ((,,,) <$> choose (-3, 3) <*> choose (0.01, 10) <*> choose (0.01, 10) <*> elements [0, 0.001, 0.05, 0.09, 0.11, 0.2, 1, 1.5, 1.6, 2, 3.1]) $ \(a, l, m, away) ->
+        let q = Vec.point 300 (-20)
+            p = Vec.shift (Vec.polar (Mm l) (Rad a)) q
+            r = Vec.shift (Vec.polar (Mm m) (Rad (a + away))) q
+         in isJust (Tangle.selfCrossing (Contour Open (Straight p q :| [Straight q r]))) === (away == 0)
 
 -- | The places where segments meet that are not joined, pair by pair.
 meetings :: Contour -> [Point]
