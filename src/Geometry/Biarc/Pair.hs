@@ -7,6 +7,9 @@ module Geometry.Biarc.Pair
   ( Pose (..),
     Pair (..),
     joined,
+    Biarcs,
+    between,
+    among,
     Frame (..),
     frame,
     forwards,
@@ -35,11 +38,25 @@ data Pair = Pair
 -- | The biarc from one pose to another, its second chord so many times as long as 'Geometry.Biarc.join' has it. Its numbers are no numbers where an end leans to the chord by a quarter turn
 -- or more, or where the ends are one point.
 joined :: Double -> Pose -> Pose -> Pair
-joined times (Pose x0 y0 sx sy) end@(Pose x1 y1 ex ey)
-  | not (l > coincident && cosA > 0 && cosB > 0) = Pair False (0 / 0) (0 / 0) end (0 / 0) (0 / 0)
-  | abs sinA <= straight && abs sinB <= straight = Pair True 0 0 end 0 0
-  | abs (sinA * cosB + cosA * sinB) <= oneArc = let s = sb * ca - cb * sa in Pair True (2 * s / l) (s / (1 + cb * ca + sb * sa)) end 0 0
-  | otherwise = Pair {single = False, bend1 = 2 * s1 / (l / size), bulge1 = bulge s1 c1, joint, bend2 = 2 * s2 / (r * l / size), bulge2 = bulge s2 c2}
+joined times from end = among times (between from end)
+{-# INLINE joined #-}
+
+-- | All biarcs from one pose to another.
+data Biarcs
+  = -- | the only one
+    Only Pair
+  | -- | what those have in common that differ by the ratio of their chords: where they begin; the way between, its length and
+    -- its direction; the cosines and sines of half the angles of the ends from it, and the sines of the whole ones; the ratio of
+    -- 'Geometry.Biarc.join'
+    Biarcs {x0 :: Double, y0 :: Double, cx :: Double, cy :: Double, l :: Double, ux :: Double, uy :: Double, ca :: Double, sa :: Double, cb :: Double, sb :: Double, sinA :: Double, sinB :: Double, chords :: Double}
+
+-- | All from one pose to another.
+between :: Pose -> Pose -> Biarcs
+between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
+  | not (l > coincident && cosA > 0 && cosB > 0) = Only (Pair False (0 / 0) (0 / 0) final (0 / 0) (0 / 0))
+  | abs sinA <= straight && abs sinB <= straight = Only (Pair True 0 0 final 0 0)
+  | abs (sinA * cosB + cosA * sinB) <= oneArc = let s = sb * ca - cb * sa in Only (Pair True (2 * s / l) (s / (1 + cb * ca + sb * sa)) final 0 0)
+  | otherwise = Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords = ratio sinA cosA sinB cosB}
   where
     cx = x1 - x0
     cy = y1 - y0
@@ -55,42 +72,51 @@ joined times (Pose x0 y0 sx sy) end@(Pose x1 y1 ex ey)
     sa = sinA / (2 * ca)
     cb = sqrt (0.5 + 0.5 * cosB)
     sb = sinB / (2 * cb)
-    usual = times * ratio sinA cosA sinB cosB
-    -- An arc that turns by next to nothing is put as a line; the ratio with which it is one leaves no kink.
-    r
-      | abs ((sa + usual * sb) * ca + (ca + usual * cb) * sa) <= hardly = near (-(sinA / halved))
-      | abs ((ca + usual * cb) * sb + (sa + usual * sb) * cb) <= hardly = near (-(halved / sinB))
-      | otherwise = usual
-    halved = sa * cb + ca * sb
-    hardly = 0.5 * straight * (1 + usual)
-    near exact = if 0.5 * usual < exact && exact < 2 * usual then exact else usual
-    wr = ca + r * cb
-    wi = sa + r * sb
-    square = wr * wr + wi * wi
-    size = sqrt square
-    -- Half of the angle to the joint's direction.
-    cg = wr / size
-    sg = -(wi / size)
-    -- Half of what the arcs turn by.
-    s1 = sg * ca - cg * sa
-    c1 = cg * ca + sg * sa
-    s2 = sb * cg - cb * sg
-    c2 = cb * cg + sb * sg
-    along = (1 + r * (ca * cb + sa * sb)) / square
-    beside = r * (sa * cb - ca * sb) / square
-    cosG = cg * cg - sg * sg
-    sinG = 2 * cg * sg
-    joint =
-      Pose
-        { px = x0 + along * cx - beside * cy,
-          py = y0 + along * cy + beside * cx,
-          dx = cosG * ux - sinG * uy,
-          dy = cosG * uy + sinG * ux
-        }
-    bulge s c = let b = s / (1 + c) in if abs b <= 0.25 * straight then 0 else b
     Mm coincident = Tolerance.coincident
     Rad straight = Tolerance.straight
     Rad oneArc = Tolerance.oneArc
+
+-- | The one whose second chord is so many times as long as 'Geometry.Biarc.join' has it.
+among :: Double -> Biarcs -> Pair
+among times biarcs = case biarcs of
+  Only pair -> pair
+  Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords} -> Pair {single = False, bend1 = 2 * s1 / (l / size), bulge1 = bulge s1 c1, joint, bend2 = 2 * s2 / (r * l / size), bulge2 = bulge s2 c2}
+    where
+      usual = times * chords
+      -- An arc that turns by next to nothing is put as a line; the ratio with which it is one leaves no kink.
+      r
+        | abs ((sa + usual * sb) * ca + (ca + usual * cb) * sa) <= hardly = near (-(sinA / halved))
+        | abs ((ca + usual * cb) * sb + (sa + usual * sb) * cb) <= hardly = near (-(halved / sinB))
+        | otherwise = usual
+      halved = sa * cb + ca * sb
+      hardly = 0.5 * straight * (1 + usual)
+      near exact = if 0.5 * usual < exact && exact < 2 * usual then exact else usual
+      wr = ca + r * cb
+      wi = sa + r * sb
+      square = wr * wr + wi * wi
+      size = sqrt square
+      -- Half of the angle to the joint's direction.
+      cg = wr / size
+      sg = -(wi / size)
+      -- Half of what the arcs turn by.
+      s1 = sg * ca - cg * sa
+      c1 = cg * ca + sg * sa
+      s2 = sb * cg - cb * sg
+      c2 = cb * cg + sb * sg
+      along = (1 + r * (ca * cb + sa * sb)) / square
+      beside = r * (sa * cb - ca * sb) / square
+      cosG = cg * cg - sg * sg
+      sinG = 2 * cg * sg
+      joint =
+        Pose
+          { px = x0 + along * cx - beside * cy,
+            py = y0 + along * cy + beside * cx,
+            dx = cosG * ux - sinG * uy,
+            dy = cosG * uy + sinG * ux
+          }
+      bulge s c = let b = s / (1 + c) in if abs b <= 0.25 * straight then 0 else b
+  where
+    Rad straight = Tolerance.straight
 
 -- | The ratio of the chords, as 'Geometry.Biarc.ratio' chooses it: 1 unless a curve that bends to one side leans more than
 -- twice as much at one of its ends as at the other.

@@ -199,7 +199,7 @@ poseWithin chain from to i u
 apart :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Pair -> Off
 apart chain most first u from final v to pair
   -- Most of what is too far off is so at one of a few places.
-  | final - first >= 4 && (stray 1 || stray 2 || stray 3) = unknown
+  | if final - first >= 4 then stray 1 || stray 2 || stray 3 else strayed (first + 1) = unknown
   | single pair = let one = frame from (bend1 pair) to in if forwards one then let Reached _ _ _ d = onward chain most v to True one start in Off d d else unknown
   | one <- frame from (bend1 pair) (joint pair),
     two <- frame (joint pair) (bend2 pair) to,
@@ -209,15 +209,22 @@ apart chain most first u from final v to pair
     _ -> unknown
   | otherwise = unknown
   where
-    start = Reached first u from {dx = dx begin, dy = dy begin} 0
-    -- The chain's own direction.
-    begin = advanced (curvature chain first) (beginning chain first) (u - station chain first)
+    -- With the chain's own direction, not the mean of two where pieces meet.
+    start = Reached first u (if u > station chain first then from else let b = beginning chain first in from {dx = dx b, dy = dy b}) 0
     unknown = Off (1 / 0) (1 / 0)
     stray k
       | single pair || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair) < 0 = abs (above (bend1 pair) from p) > most
       | otherwise = abs (above (bend2 pair) (joint pair) p) > most
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
+    -- Where pieces meet, from one of them on: at first beside the first arc, and once beyond its end beside the second one.
+    strayed i
+      | i > final = False
+      | single pair || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair) < 0 = abs (above (bend1 pair) from p) > most || strayed (i + 1)
+      | otherwise = abs (above (bend2 pair) (joint pair) p) > most || strayedBehind (i + 1)
+      where
+        !p = beginning chain i
+    strayedBehind i = i <= final && (abs (above (bend2 pair) (joint pair) (beginning chain i)) > most || strayedBehind (i + 1))
 
 -- | Whether a place between two others, given with their pieces and poses, is further than a distance from any biarc between these: all of
 -- them lie between two circles through both places, one with the direction at the first and one with that at the final.

@@ -105,12 +105,13 @@ along vertices aim Stretch {inSpan, begin, final, step = first} Spans {seek, pos
             w = u + (v - u) * (case k of 0 -> 2.2; 1 -> 1.8; 2 -> 1.5; 3 -> 1.25; _ -> 1.1)
             l = seek i w
             at = pose l w
+            biarcs = Pair.between from at
             divided tried
               | tried >= 7 = beyond (k + 1)
               | d1 <= aim && d2 <= aim = longer i u from before l w at pair' (w - u)
               | otherwise = divided (tried + 1 :: Int)
               where
-                pair' = Pair.joined (case tried of 0 -> 1; 1 -> 0.7; 2 -> 1.4; 3 -> 0.5; 4 -> 2; 5 -> 0.35; _ -> 2.8) from at
+                pair' = Pair.among (case tried of 0 -> 1; 1 -> 0.7; 2 -> 1.4; 3 -> 0.5; 4 -> 2; 5 -> 0.35; _ -> 2.8) biarcs
                 Off d1 d2 = off aim i u from l w at pair'
     taken !j !from !v !to !pair !step !rate = do
       Vertices.push vertices (px from) (py from) (bulge1 pair)
