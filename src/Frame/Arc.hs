@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
 -- | Arcs in whole pulses.
 --
@@ -213,42 +214,37 @@ best attempts = case attempts of
 -- far, beginning with the one that seems least off; of two that are as true the first one is taken.
 truest :: Task -> V3 -> V3 -> Segment -> Turn -> [V2] -> Maybe [Step]
 truest task begin finish s turn cs
-  | begin /= finish, Just ends <- endsOf task s (flat begin) (flat finish), Likeliest number c <- likeliest ends, Just found <- among ends (tried number c) = Just (way (result found))
+  | Just ends <- endsOf task s (flat begin) (flat finish), Likeliest number c <- likeliest ends, Just found <- among ends (tried number c) = Just (way (result found))
   | otherwise = best (mapMaybe (attempt task begin finish s turn) cs)
   where
-    isWhole = inOneStep task turn begin finish
+    wholes = filter (inOneStep task turn begin finish) cs
     tried number c = Tried number <$> attempt task begin finish s turn c
-    likeliest ends = go 0 None (1 / 0) cs
+    likeliest ends = go 0 None (1 / 0) wholes
       where
         go !rank so !least todo = case todo of
           [] -> so
           c : more
-            | isWhole c, d <- seemingOff ends c, d < least || isNone so -> go (rank + 1) (Likeliest rank c) d more
+            | d <- seemingOff ends c, d < least, d' <- max d (offAtBegin ends c), d' < least -> go (rank + 1) (Likeliest rank c) d' more
+            | None <- so -> go (rank + 1) (Likeliest rank c) least more
             | otherwise -> go (rank + 1) so least more
-    isNone so = case so of
-      None -> True
-      Likeliest _ _ -> False
-    among ends = go 0 cs
+    among ends = go 0 wholes
       where
         go !rank todo so = case todo of
           [] -> so
-          c : more -> go (rank + 1) more (if isWhole c then better ends so rank c else so)
+          c : more -> go (rank + 1) more (better ends so rank c)
     better ends so rank c = case so of
       Nothing -> tried rank c
       Just b
         | isTruer ends (number b) (off (result b)) rank c, Just a <- tried rank c -> Just a
         | otherwise -> so
-    isTruer ends before most rank c = not isSurelyWorse && isLess (offAtBegin ends c) && isTrueAll
+    isTruer ends before most rank c = not isSurelyWorse && isLess (offAtBegin ends c) && isLess (offAt leg 1) && isTrueAll
       where
         isSurelyWorse = seemingOff ends c - unsureOff ends c > most
         isLess o = o < most || o == most && rank < before
-        isTrueAll = case legOf task s turn c (flat begin, flat finish) of
-          Nothing -> False
-          Just leg
-            | isLess (offAt leg 1) -> case atEnds task leg of
-              Just d -> isLess (evenly d)
-              Nothing -> all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
-            | otherwise -> False
+        leg = legAbout ends turn c
+        isTrueAll = case atEnds task leg of
+          Just d -> isLess (evenly d)
+          Nothing -> all (isLess . offAt leg) samples && isLess (evenly (deviationOf leg))
 
 -- | Shares of a sweep between its ends, those first at which an arc is most likely to be off.
 samples :: [Double]
@@ -260,37 +256,44 @@ data Likeliest = None | Likeliest Int V2
 -- | What has been tried, and its place.
 data Tried = Tried {number :: Int, result :: Attempt}
 
--- | An arc's rounded ends and its exact circle, in bare numbers: the ways of one pulse, the beginning, the centre, the radius; how far off the
--- beginning is; and by how much the directions from the centre to its middle and to its end differ from that to its beginning.
-data Ends = Ends {pulseX :: Double, pulseY :: Double, beginX :: Double, beginY :: Double, centreX :: Double, centreY :: Double, circle :: Double, firstOff :: Double, halfX :: Double, halfY :: Double, wholeX :: Double, wholeY :: Double}
+-- | An arc's rounded ends and its exact circle, in bare numbers: the ways of one pulse, both ends, the centre, the radius; how far off the
+-- ends are; and by how much the directions from the centre to its middle and to its end differ from that to its beginning.
+data Ends = Ends {pulseX :: Double, pulseY :: Double, beginX :: Double, beginY :: Double, finishX :: Double, finishY :: Double, centreX :: Double, centreY :: Double, circle :: Double, firstOff :: Double, finalOff :: Double, halfX :: Double, halfY :: Double, wholeX :: Double, wholeY :: Double}
 
 endsOf :: Task -> Segment -> V2 -> V2 -> Maybe Ends
 endsOf task exact begin finish = case exact of
   Straight _ _ -> Nothing
-  Arc {start, centre, sweep = Rad angle} ->
-    let a = point task begin
-        from = Vec.unit (Vec.to centre a)
-        half = Vec.add (Vec.rotate (Rad (angle / 2)) from) (Vec.negate from)
-        whole = Vec.add (Vec.unit (Vec.to centre (point task finish))) (Vec.negate from)
-        Mm circle = Segment.radius centre start
-        Mm far = Vec.distance centre a
-     in Just Ends {pulseX = grainX (grid task), pulseY = grainY (grid task), beginX = Vec.x a, beginY = Vec.y a, centreX = Vec.x centre, centreY = Vec.y centre, circle, firstOff = far - circle, halfX = Vec.dot (Vec.vec 1 0) half, halfY = Vec.dot (Vec.vec 0 1) half, wholeX = Vec.dot (Vec.vec 1 0) whole, wholeY = Vec.dot (Vec.vec 0 1) whole}
+  Arc {start, centre, sweep = Rad angle}
+    | begin == finish -> Nothing
+    | otherwise ->
+      let a = point task begin
+          b = point task finish
+          from = Vec.unit (Vec.to centre a)
+          half = Vec.add (Vec.rotate (Rad (angle / 2)) from) (Vec.negate from)
+          whole = Vec.add (Vec.unit (Vec.to centre b)) (Vec.negate from)
+          Mm circle = Segment.radius centre start
+          Mm far = Vec.distance centre a
+          Mm far' = Vec.distance centre b
+       in Just Ends {pulseX = grainX (grid task), pulseY = grainY (grid task), beginX = Vec.x a, beginY = Vec.y a, finishX = Vec.x b, finishY = Vec.y b, centreX = Vec.x centre, centreY = Vec.y centre, circle, firstOff = far - circle, finalOff = far' - circle, halfX = Vec.dot (Vec.vec 1 0) half, halfY = Vec.dot (Vec.vec 0 1) half, wholeX = Vec.dot (Vec.vec 1 0) whole, wholeY = Vec.dot (Vec.vec 0 1) whole}
 
--- | About how far off an arc about a lattice point is at its middle or its end with the radius of its beginning, in mm. About a centre
+-- | About how far off an arc about a lattice point is at its middle or its end with the radius of its beginning, or at its middle going evenly, in mm. About a centre
 -- that is off by a vector v it is off by @o + v·(u − u₀)@ where the true radius has the direction u, if it is off by o at its beginning,
 -- where that has the direction u₀; what is left out goes with the square of v.
 seemingOff :: Ends -> V2 -> Double
-seemingOff Ends {pulseX, pulseY, centreX, centreY, firstOff, halfX, halfY, wholeX, wholeY} (V2 (Pulses i) (Pulses j)) = if half > whole then half else whole
+seemingOff Ends {pulseX, pulseY, centreX, centreY, firstOff, finalOff, halfX, halfY, wholeX, wholeY} (V2 (Pulses i) (Pulses j)) = larger even' (larger (abs half) (abs whole))
   where
     x = fromIntegral i * pulseX - centreX
     y = fromIntegral j * pulseY - centreY
-    half = abs (firstOff + x * halfX + y * halfY)
-    whole = abs (firstOff + x * wholeX + y * wholeY)
+    half = firstOff + x * halfX + y * halfY
+    whole = firstOff + x * wholeX + y * wholeY
+    -- Its end is off by what that itself is off; half of the difference is made up for in the middle.
+    even' = abs (half + 0.5 * (finalOff - whole))
+    larger a b = if a > b then a else b
 {-# INLINE seemingOff #-}
 
 -- | By how much less an arc about a lattice point may be off than it seems, in mm.
 unsureOff :: Ends -> V2 -> Double
-unsureOff Ends {pulseX, pulseY, centreX, centreY, circle} (V2 (Pulses i) (Pulses j)) = 16 * far * far / circle + rounding'
+unsureOff Ends {pulseX, pulseY, centreX, centreY, circle} (V2 (Pulses i) (Pulses j)) = (if 8 * far < circle then 4 else 16) * far * far / circle + rounding'
   where
     far = abs (fromIntegral i * pulseX - centreX) + abs (fromIntegral j * pulseY - centreY) + pulseX + pulseY
 {-# INLINE unsureOff #-}
@@ -308,6 +311,24 @@ offAtBegin Ends {pulseX, pulseY, beginX, beginY, centreX, centreY, circle} (V2 (
     x = mx + (beginX - mx) - centreX
     y = my + (beginY - my) - centreY
 {-# INLINE offAtBegin #-}
+
+-- | The whole arc about a lattice point, as 'legOf' has it.
+legAbout :: Ends -> Turn -> V2 -> Leg
+legAbout Ends {pulseX, pulseY, beginX, beginY, finishX, finishY, centreX, centreY, circle} turn (V2 (Pulses i) (Pulses j)) =
+  Leg {middleX, middleY, outX, outY, radiusFirst = sqrt (outX * outX + outY * outY), radiusLast = sqrt (inX * inX + inY * inY), turned, trueX = centreX, trueY = centreY, trueRadius = circle}
+  where
+    middleX = fromIntegral i * pulseX
+    middleY = fromIntegral j * pulseY
+    outX = beginX - middleX
+    outY = beginY - middleY
+    inX = finishX - middleX
+    inY = finishY - middleY
+    short = atan2 (outX * inY - outY * inX) (outX * inX + outY * inY)
+    turned = case turn of
+      CounterClockwise | short < 0 -> short + 2 * pi
+      Clockwise | short > 0 -> short - 2 * pi
+      _ -> short
+{-# INLINE legAbout #-}
 
 -- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
 -- the chord between the directions of the ends. The ends come first: many points are tried between the same ones.
@@ -335,12 +356,13 @@ attempt task begin finish s turn c = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad exact}
     | null stops || (begin == finish && length stops == 1 && not (wholes && abs exact >= 2 * pi - Tolerance.equal)) -> Nothing
-    | all sound legs && and (zipWith near legs deviations) && abs (sum (map (swept task turn c) legs) - exact) <= slack -> Just (Attempt (map step legs) deviation)
+    | all sound legs && and (zipWith near walks deviations) && abs (sum (map (swept . arcAlong) walks) - exact) <= slack -> Just (Attempt (map step walks) deviation)
     | otherwise -> Nothing
     where
       stops = stopsAbout (machine (grid task)) (onAxes task (Segment.radius centre start) centre c) turn c (flat begin) (flat finish)
       legs = zip (flat begin : stops) stops
-      deviations = map (deviate task s turn c) legs
+      walks = map walked legs
+      deviations = map (deviate task s . arcAlong) walks
       deviation = maximum (map evenly deviations)
       near leg d = isStraight leg || Mm (evenly d) <= roundly (room task) && Mm (innermost d) <= inwards (room task) && Mm (outermost d) <= outwards (room task)
       Mm r = Segment.radius centre start
@@ -352,9 +374,9 @@ attempt task begin finish s turn c = case s of
       Arcs {Machine.fullCircle} -> fullCircle
     V3 _ _ z = finish
     -- A piece that a cut left nearly straight is straight.
-    isStraight leg@(from, to) = isFlat task (arcOf task turn c leg) && goesStraight task s [from, to]
-    step leg@(from, V2 x y)
-      | isStraight leg = Step {stop = V3 x y z, about = Nothing}
+    walked leg@(from, to) = let arcAlong = arcOf task turn c leg in Walked {from, to, arcAlong, isStraight = isFlat task arcAlong && goesStraight task s [from, to]}
+    step Walked {from, to = V2 x y, isStraight}
+      | isStraight = Step {stop = V3 x y z, about = Nothing}
       | otherwise = Step {stop = V3 x y z, about = Just (turn, c - from)}
     sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= furthestCentre (grid task)) && within (to - from) && level leg
     within (V2 dx dy) = case Machine.measure (Machine.layout (machine (grid task))) of
@@ -362,6 +384,9 @@ attempt task begin finish s turn c = case s of
       Machine.Increments -> abs dx <= Machine.capacity (machine (grid task)) X && abs dy <= Machine.capacity (machine (grid task)) Y
     -- The radii at the ends of a frame differ by no more than two pulses.
     level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to) in abs (a - b) <= 2 * grain (grid task)
+
+-- | A step between two stops, and whether its arc is so flat that it goes straight.
+data Walked = Walked {from :: V2, to :: V2, arcAlong :: Segment, isStraight :: Bool}
 
 -- | Where the axes through a lattice point near the centre of a circle cross it, in pulses from there: to the right, to the left,
 -- upwards, downwards.
@@ -425,8 +450,8 @@ arcOf task turn c (from, to)
     m = point task c
     a = point task from
 
-swept :: Task -> Turn -> V2 -> (V2, V2) -> Double
-swept task turn c leg = case arcOf task turn c leg of
+swept :: Segment -> Double
+swept s = case s of
   Straight _ _ -> 0
   Arc {sweep = Rad a} -> a
 
@@ -441,8 +466,8 @@ data Deviation = Deviation
   }
 
 -- | It is looked at in eighths, and where it is furthest from and nearest to the exact centre.
-deviate :: Task -> Segment -> Turn -> V2 -> (V2, V2) -> Deviation
-deviate task exact turn c ends = maybe (Deviation 0 0 0) (\leg -> fromMaybe (deviationOf leg) (atEnds task leg)) (legOf task exact turn c ends)
+deviate :: Task -> Segment -> Segment -> Deviation
+deviate task exact s = maybe (Deviation 0 0 0) (\leg -> fromMaybe (deviationOf leg) (atEnds task leg)) (legOf exact s)
 
 -- | How far off it is at its ends, if it is not further off between them with the radius of its beginning or going evenly, and stays within
 -- what is allowed however the control goes. Between its ends it is as far off as they are by their shares, but for
@@ -482,8 +507,8 @@ eighths = [k / 8 | k <- [1 .. 8]]
 -- turns in radians; the exact centre and radius.
 data Leg = Leg {middleX :: Double, middleY :: Double, outX :: Double, outY :: Double, radiusFirst :: Double, radiusLast :: Double, turned :: Double, trueX :: Double, trueY :: Double, trueRadius :: Double}
 
-legOf :: Task -> Segment -> Turn -> V2 -> (V2, V2) -> Maybe Leg
-legOf task exact turn c ends = case (exact, arcOf task turn c ends) of
+legOf :: Segment -> Segment -> Maybe Leg
+legOf exact walked = case (exact, walked) of
   (Arc {start = p, centre = true}, Arc {start = a, end = b, centre = m, sweep = Rad turned}) ->
     let Mm trueRadius = Segment.radius true p
         Mm radiusFirst = Vec.distance m a
@@ -502,6 +527,7 @@ offsAt leg t = Deviation {evenly = max (abs first) (abs even'), innermost = -(mi
 -- | The same as far as the control goes evenly.
 offAt :: Leg -> Double -> Double
 offAt leg t = max (abs (beyond leg t (radiusFirst leg))) (abs (beyond leg t (radiusFirst leg + t * (radiusLast leg - radiusFirst leg))))
+{-# INLINE offAt #-}
 
 -- | How far beyond the exact circle the place at a share of its sweep is, on a radius.
 beyond :: Leg -> Double -> Double -> Double

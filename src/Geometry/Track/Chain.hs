@@ -1,5 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness -fmax-worker-args=40 #-}
 
 -- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
 --
