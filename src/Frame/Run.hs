@@ -149,15 +149,13 @@ chords limits pieces = case pieces of
 -- | A place at a fraction of the first of some pieces, where chords can meet.
 placeOn :: Limits -> Piece -> Double -> [Piece] -> Place
 placeOn limits piece t pieces =
-  Place {place = meeting limits piece t pieces, level = levelAt t piece, rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces}
+  Place {place = meeting limits piece t (Segment.at t (segment piece)) pieces, level = levelAt t piece, rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces}
 
--- | Where chords meet at a fraction of the first of some pieces: beside it, at its end on it.
-meeting :: Limits -> Piece -> Double -> [Piece] -> Point
-meeting limits piece t pieces
+-- | Where chords meet at a fraction of the first of some pieces, given the point there: beside it, at its end on it.
+meeting :: Limits -> Piece -> Double -> Point -> [Piece] -> Point
+meeting limits piece t on pieces
   | t >= 1 && null (drop 1 pieces) || aside limits == 0 = on
   | otherwise = Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment piece)))) on
-  where
-    on = Segment.at t (segment piece)
 
 levelAt :: Double -> Piece -> Double
 levelAt t piece = let (a, b) = heights piece in if t >= 1 then b else a + t * (b - a)
@@ -211,7 +209,8 @@ furthest limits begin = case rest begin of
         | otherwise -> reached eye better after more
         where
           t = turnsAt limits before piece
-          seen u = see limits eye before piece u (meeting limits piece u pieces)
+          tangents = tangentsTo limits eye piece
+          seen u = let on = Segment.at u (segment piece) in see limits eye before piece tangents u on (meeting limits piece u on pieces)
           after = seen t
           better = maybe best found $ case search limits of
             AtEnds
@@ -286,9 +285,27 @@ turnsAt limits before piece = case segment piece of
       | signum s * (heading before + s * (1 - from piece) - end) <= Tolerance.equal = 1
       | otherwise = max (from piece) (from piece + (end - heading before) / s)
 
--- | What is seen when a piece has been passed up to a fraction, and whether a chord to a point beside it fits.
-see :: Limits -> Eye -> Sight -> Piece -> Double -> Point -> Sight
-see limits eye before piece t goal =
+-- | The directions in which the tangents to a piece run along the edges of what is allowed, to its left and to its right.
+data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
+
+tangentsTo :: Limits -> Eye -> Piece -> Tangents
+tangentsTo limits eye piece = Tangents {onLeft = touched (-1) (leftOf limits), onRight = touched 1 (rightOf limits)}
+  where
+    -- The direction in which a circle walked in a sense bulges by so much: its tangent there is that direction.
+    touched :: Double -> Double -> [Double]
+    touched sense y = case segment piece of
+      Arc {start, centre, sweep = Rad s}
+        | signum s == sense,
+          let Mm r = Segment.radius centre start,
+          let away = Vec.to (standing eye) centre,
+          let sine = sense * (r - y) / Vec.norm away,
+          abs sine <= 1 ->
+          [let Rad there = Vec.turn (out eye) away in there - asin sine]
+      _ -> []
+
+-- | What is seen when a piece has been passed up to a fraction, given the point there, and whether a chord to a point beside it fits.
+see :: Limits -> Eye -> Sight -> Piece -> Tangents -> Double -> Point -> Point -> Sight
+see limits eye before piece tangents t on goal =
   Sight
     { lowest = low,
       highest = high,
@@ -302,16 +319,16 @@ see limits eye before piece t goal =
     }
   where
     way = gone before + lengthBetween (from piece) t piece
-    end = Vec.to (standing eye) (Segment.at t (segment piece))
+    end = Vec.to (standing eye) on
     distance = Vec.norm end
     chord = Vec.to (standing eye) goal
-    Rad along = Vec.turn (out eye) chord
+    Rad along = if goal == on then Rad direction else Vec.turn (out eye) chord
     Rad direction = Vec.turn (out eye) end
     climb = (levelAt t piece - standingAt eye) / way
     flat = max (flattest before) (climb - rising limits / way)
     steep = min (steepest before) (climb + rising limits / way)
-    low = maximum (lowest before : [direction - asin (leftOf limits / distance) | distance > leftOf limits] <> [d | d <- touched (-1) (leftOf limits), after <= d, d <= heading before])
-    high = minimum (highest before : [direction + asin (rightOf limits / distance) | distance > rightOf limits] <> [d | d <- touched 1 (rightOf limits), heading before <= d, d <= after])
+    low = maximum (lowest before : [direction - asin (leftOf limits / distance) | distance > leftOf limits] <> [d | d <- onLeft tangents, after <= d, d <= heading before])
+    high = minimum (highest before : [direction + asin (rightOf limits / distance) | distance > rightOf limits] <> [d | d <- onRight tangents, heading before <= d, d <= after])
     after = case segment piece of
       Straight _ _ -> heading before
       Arc {sweep = Rad s} -> heading before + s * (t - from piece)
@@ -319,14 +336,3 @@ see limits eye before piece t goal =
       | x < a = LT
       | x > b = GT
       | otherwise = EQ
-    -- The direction in which a circle walked in a sense bulges by so much: its tangent there is that direction.
-    touched :: Double -> Double -> [Double]
-    touched sense y = case segment piece of
-      Arc {start, centre, sweep = Rad s}
-        | signum s == sense,
-          let Mm r = Segment.radius centre start,
-          let away = Vec.to (standing eye) centre,
-          let sine = sense * (r - y) / Vec.norm away,
-          abs sine <= 1 ->
-          [let Rad there = Vec.turn (out eye) away in there - asin sine]
-      _ -> []
