@@ -39,11 +39,14 @@ approximate (Mm tolerance) xs ys = runST $ do
         | from >= n = pure ()
         | otherwise = do
           let to = endOf (from + 1)
-          Walk.along
-            vertices
-            aim
-            Stretch {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
-            Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, Walk.off = apart xs ys, other = sharp to, hopeless = \_ _ _ _ _ _ _ -> False, patient = False}
+          if to == from + 1 && isStraight (Spline.at xs from) && isStraight (Spline.at ys from)
+            then let begin = placed xs ys from 0 in Vertices.push vertices (px begin) (py begin) 0
+            else
+              Walk.along
+                vertices
+                aim
+                Stretch {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
+                Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, Walk.off = apart xs ys, other = sharp to, hopeless = \_ _ _ _ _ _ _ -> False, patient = False}
           stretches to
       endOf k
         | k >= n || cornered xs ys k = k
@@ -56,6 +59,10 @@ approximate (Mm tolerance) xs ys = runST $ do
     n = Spline.count xs
     sharp to u = let i = max 0 (min (to - 1) (truncate u)) in Track.further (Mm tolerance) (trackOf xs ys i (min to (i + 64))) (fromIntegral (min to (i + 64))) u
     aim = tolerance * (1 - Tolerance.roundingShare)
+
+-- | Whether a span between two corners is a line.
+isStraight :: Cubic -> Bool
+isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
 -- | Whether the curve has a corner at the beginning of a span, behind another.
 cornered :: Cubics -> Cubics -> Int -> Bool
