@@ -96,13 +96,13 @@ besideInterpreter tools folder programs allowed = do
     turns left action = do
       turn <- action
       case fst turn of
-        Right (s, _) | left > 1 && s < 10 -> (turn :) <$> turns (left - 1) action
+        Right (s, _) | left > 1 && s < 4 -> (turn :) <$> turns (left - 1) action
         _ -> pure [turn]
     beside (kind, n) = do
       let Written {text, files} = Programs.written kind n
           (source, result) = (folder </> "program.part", folder </> "program.ngc")
       forM_ ((source, text) : [(folder </> name, t) | (name, t) <- files]) (uncurry Text.writeFile)
-      rounds <- turns (3 :: Int) $ do
+      rounds <- turns (5 :: Int) $ do
         compiled <- timed [partc tools, "compile", source, "-t", "iso6983", "-o", result]
         judged <- case (compiled, interpreter tools) of
           (Right _, Just rs274) -> timed [rs274, "-g", result]
