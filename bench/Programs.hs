@@ -27,7 +27,7 @@ data Kind
     WavyFile
   | -- | closed arcs through the rows of such a file, 19 mm apart, with noise of 2 mm: each arc needs a frame of its own
     ArcsFile
-  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 2 mm, engraved: each line needs a frame of its own
+  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved: each line needs a frame of its own
     LinesFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
@@ -55,7 +55,7 @@ written kind n = case kind of
   Wavy -> inline 0.1
   WavyFile -> filed "closed_spline" 1 0.1
   ArcsFile -> filed "closed_arcs" 6 2
-  LinesFile -> Written (curved "polyline" "on" (6 * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 6 2))))]
+  LinesFile -> Written (curved "polyline" "on" (fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
   where
     inline noise = Written (curved "closed_spline" "outside" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
     filed through scale noise = Written (curved through "outside" (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]

@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+-- The numbers that a loop carries stay bare even where there are more than ten of them.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
 -- | Arcs in whole pulses.

@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+-- The numbers that a loop carries stay bare even where there are more than ten of them.
 {-# OPTIONS_GHC -O2 -fno-full-laziness -fmax-worker-args=40 #-}
 
 -- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
