@@ -147,7 +147,7 @@ lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * 
 -- | Two elements, of which one at least is an arc, at a corner so slight that the cutter passes it: the centre is then at its radius from both.
 slightCornerLaw :: Property
 slightCornerLaw =
-  forAll (choose (2e-7, 0.004)) $ \turned ->
+  forAll (choose (2e-7, 0.0039)) $ \turned ->
     forAll bend $ \k -> forAll (bend `suchThat` \k' -> k /= 0 || k' /= 0) $ \k' ->
       let corner = Vec.point 0 0
           first = Segment.reverse (from corner (Vec.vec (-1) 0) (negate k))
