@@ -93,7 +93,7 @@ raw style side radius contour@(Contour ends ss@(first :| others)) = case causes 
   where
     turnings = turningsOf contour
     bends = Bends {style, side, radius, turnings, whole = NonEmpty.length ss, isClosed = ends == Closed}
-    way i = along side (radiusAt style radius i) i
+    way = wayOf bends
     -- A segment, by how much its way is shortened at its beginning, that way, and what is behind it.
     from !i !front s p rest = real (shortened front back p) (corner <> next)
       where
@@ -128,6 +128,10 @@ turningsOf (Contour ends ss@(first :| _)) = runST $ do
 -- corner behind the last one.
 data Bends = Bends {style :: Style, side :: Side, radius :: Mm, turnings :: PrimArray Double, whole :: Int, isClosed :: Bool}
 
+-- | The way along a segment, by its number, before anything of it is cut.
+wayOf :: Bends -> Int -> Segment -> Piece
+wayOf Bends {style, side, radius} i = along side (radiusAt style radius i) i
+
 -- | By how much the way before a corner is shortened at its end, and that behind it at its beginning, in mm.
 data Cuts = Cuts Double Double
 
@@ -140,13 +144,14 @@ cutsAt bends i before behind = case cornerOf bends i of
 
 -- | By how much the way along the first segment is shortened at its beginning.
 frontOf :: Bends -> Contour -> Double
-frontOf bends (Contour _ ss) = front
+frontOf bends (Contour _ ss@(first :| _)) = front
   where
-    Cuts _ front = cutsAt bends (whole bends - 1) (way (whole bends - 1) (NonEmpty.last ss)) (way 0 (NonEmpty.head ss))
-    way i = segment . along (side bends) (radiusAt (style bends) (radius bends) i) i
+    Cuts _ front = cutsAt bends final (segment (wayOf bends final (NonEmpty.last ss))) (segment (wayOf bends 0 first))
+    final = whole bends - 1
 
--- | How far before the end of the one way and behind the beginning of the other they meet: lines at so much, arcs nearby, where a few of
--- Newton's steps lead that take both for straight. Where these lead to no place on both ways, they are cut as lines are.
+-- | How far before the end of the one way and behind the beginning of the other they meet, in mm, given how far lines would. Arcs meet
+-- nearby: three of Newton's steps, which take both for straight, leave rounding only. Where they lead to no place on both ways, the ways
+-- are cut as lines are.
 meeting :: Double -> Segment -> Segment -> Cuts
 meeting t before behind = case (before, behind) of
   (Straight _ _, Straight _ _) -> Cuts t t
@@ -194,7 +199,7 @@ causes style side radius contour@(Contour ends ss@(first :| _)) turnings = conca
           Cuts back front' = cutsAt bends i (way i s) $ case more of
             [] -> way 0 first
             s' : _ -> way (i + 1) s'
-    way i = segment . along side (radiusAt style radius i) i
+    way i = segment . wayOf bends i
 
 -- | A way without so much of it at its beginning and at its end, in mm.
 shortened :: Double -> Double -> Piece -> Piece
