@@ -11,6 +11,7 @@ module Generate.Curve
     polyline,
     parabola,
     chain,
+    pieces,
     parameter,
     parameterOf,
     tightest,

@@ -4,6 +4,7 @@ module Geometry.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
 import Data.Foldable (toList)
+import Data.List (nub, sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import GHC.Exts qualified as Exts
 import Generate.Curve (Table (..))
@@ -88,6 +89,14 @@ spec = do
               Mm l = Curve.lengthTo c u
               byChords = chordSum c u
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-6)
+    it "is as long between the rows of a column, which lie within spans, of a curve shifted once more (catches a panel across a row)" $
+      property $
+        forAll shiftedTwice $ \c ->
+          let rows = map Base.at (toList (Base.rows (Curve.base c)))
+              Mm l = Curve.length c
+              places = nub (sort (rows <> Curve.breaks c))
+              byChords = sum (zipWith (chordsBetween c) places (drop 1 places))
+           in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-7)
     it "has the length of what is known: lines and arcs" $
       property $
         forAll Generate.chain $ \c ->
@@ -238,13 +247,28 @@ joinsTwice c =
 
 -- | The length up to a parameter by chords, twice, and what they tend to.
 chordSum :: Curve -> Double -> Double
-chordSum c u = sum [stretch a (min b u) | (a, b) <- zip bs (drop 1 bs), a < u]
+chordSum c u = sum [chordsBetween c a (min b u) | (a, b) <- zip bs (drop 1 bs), a < u]
   where
     bs = Curve.breaks c
-    stretch a b = let fine = chords a b 600 in fine + (fine - chords a b 300) / 3
-    chords a b n =
+
+-- | The length of a smooth stretch by its chords, which miss with the square of their number.
+chordsBetween :: Curve -> Double -> Double -> Double
+chordsBetween c a b = fine + (fine - chords 300) / 3
+  where
+    fine = chords 600
+    chords n =
       let place k = if k == n then Curve.placeFrom Before c b else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
+
+-- | Pieces that are shifted by a column and then by so little that no cusp comes of it.
+shiftedTwice :: Gen Curve
+shiftedTwice = do
+  c <- Generate.pieces
+  column <- Generate.columnOf c (-3) 3
+  let below = Curve.shifted Curve.LeftOf (Curve.Pointwise column) c
+      most = 0.5 / Generate.tightest below
+  d <- choose (-(min 3 most), min 3 most)
+  pure (Curve.shifted Curve.RightOf (Curve.Constant (Mm d)) below)
 
 spanLength :: Span -> Double
 spanLength s = case s of
