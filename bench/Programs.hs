@@ -29,6 +29,8 @@ data Kind
     ArcsFile
   | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved: each line needs a frame of its own
     LinesFile
+  | -- | a hole at each row of such a file, 3 mm apart
+    HolesFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 name :: Kind -> Text
@@ -41,6 +43,7 @@ name kind = case kind of
   WavyFile -> "noisy rows, csv"
   ArcsFile -> "arcs, csv"
   LinesFile -> "lines, csv"
+  HolesFile -> "holes, csv"
 
 -- | The text of a program, and the files beside it.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
@@ -56,6 +59,7 @@ written kind n = case kind of
   WavyFile -> filed "closed_spline" 1 0.1
   ArcsFile -> filed "closed_arcs" 6 2
   LinesFile -> Written (curved "polyline" "on" (fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
+  HolesFile -> Written (header "holes" 2 (0.7 * fromIntegral n + 40) <> "clearance 5 mm\ntable t from \"rows.csv\"\ndrill at points_of(t) depth 3 mm\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
   where
     inline noise = Written (curved "closed_spline" "outside" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
     filed through scale noise = Written (curved through "outside" (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]

@@ -94,6 +94,7 @@ name builtin = case builtin of
   Fit -> "fit"
   Sections -> "sections"
   RowsOf -> "rows_of"
+  PointsOf -> "points_of"
   PointAtX -> "point_at_x"
   PointAlong -> "point_along"
   LengthAlong -> "length_along"
@@ -185,6 +186,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Fit -> laid [tolerance]
   Sections -> laid [given "rows" (ListOf (ListOf Type.number))]
   RowsOf -> [Form [table', given "numbers" (ListOf Type.number)] (Table anything)]
+  PointsOf -> [Form [table'] points]
   PointAtX -> [Form ([curve, given "x" Type.len] <> selector) Type.aPoint | selector <- [] : [Parameter Rank "" Wrong] : map pure chosen]
   PointAlong -> [Form [curve, given "length" Type.len] Type.aPoint]
   LengthAlong -> [Form [curve, point] Type.len]

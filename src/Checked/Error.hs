@@ -279,6 +279,7 @@ mismatchHint expected found
   | expected == Type.angle && found == Type.number = ["A number of radians becomes an angle when it is multiplied by 1 rad."]
   | expected == Type.number && found == Type.angle = ["An angle becomes a number of radians when it is divided by 1 rad."]
   | expected == Type.len && found == Type.number = ["A number becomes a length when it is multiplied by 1 mm."]
+  | Table _ <- found, expected == ListOf Type.aPoint = ["The points of a table are points_of(…)."]
   | expected == found = []
   | Type.isSquare expected = ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []

@@ -240,6 +240,7 @@ data Builtin
   | Fit
   | Sections
   | RowsOf
+  | PointsOf
   | PointAtX
   | PointAlong
   | LengthAlong

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | What the cutter's centre does under a control that keeps the cutter beside the contour by itself, after LinuxCNC as it was
 -- measured. On machines without that, and where it is switched off, it goes as the frames say.
 --

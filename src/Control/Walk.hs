@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | A virtual controller without time: every frame that moves is one stroke, straight or on an arc.
 --
 -- The centre of an arc is a whole number of pulses from its beginning, and so is its end: the two lie at distances from

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Which code a frame gets for a feed, and what feed a code gives.
 module Frame.Feed
   ( codeFor,

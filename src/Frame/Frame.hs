@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | Frames: what a controller is told, in whole pulses along the axes of the part.
 module Frame.Frame

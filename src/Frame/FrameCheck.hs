@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | What stands against frames, and what is to be told of them: they are looked at one by one, in order.
 module Frame.FrameCheck
   ( Look,

@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | From the path to the frames of a machine: arcs where it walks them, else chords within the tolerance; positions in
 -- whole pulses; moves split to fit their fields; feeds, braking and commands as the machine takes them.
@@ -187,16 +188,26 @@ frameOf machine drive pace at Step {stop, about} = case about of
 stepsOf :: Machine -> Arc.Grid -> V3 -> Task -> [Step]
 stepsOf machine grid begin task = case task of
   Order _ _ -> []
+  Run {allowed, run = m :| []}
+    | Straight a b <- segment m, isByItself allowed -> map alone (Pulses.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
   Run {allowed, run} -> case Machine.arcs machine of
     Arcs {} | Pulses.isLevel machine run -> arcSteps machine grid begin allowed run
-    _ -> [Step {stop, about = Nothing} | stop <- chordStops machine (Chord.rounding machine allowed) begin run]
+    _ -> map alone (chordStops machine (Chord.rounding machine allowed) begin run)
+  where
+    isByItself allowed = case allowed of
+      Along _ -> False
+      Sagitta _ -> True
+      BandOf _ _ -> True
+
+-- | A straight step.
+alone :: V3 -> Step
+alone stop = Step {stop, about = Nothing}
 
 -- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are off is taken from what
 -- their own steps may be off. Of several ways the one of fewest steps.
 arcSteps :: Machine -> Arc.Grid -> V3 -> Allowed -> NonEmpty Move -> [Step]
 arcSteps machine grid begin allowed run = case allowed of
   Along bounds -> minimumBy (comparing length) (fmap (concat . snd . mapAccumL (partSteps bounds) begin) (Curve.ways machine bounds run))
-  _ | Straight a b <- segment m -> map alone (Pulses.split machine begin ((a, level), (b, level)))
   Sagitta y -> steps (Arc.Room pulse (plus pulse y) (plus pulse y)) (Chord.rounding machine allowed) begin (segment m)
   BandOf inwards outwards -> steps (Arc.Room pulse (plus pulse inwards) (plus pulse outwards)) (Chord.rounding machine allowed) begin (segment m)
   where
@@ -211,7 +222,6 @@ arcSteps machine grid begin allowed run = case allowed of
             ends = map (\s -> Pulses.rounded machine (Segment.end s, level)) (NonEmpty.toList segments)
             walked = zipWith (steps (Arc.Room left left left) (Sagitta (Chord.remainder machine left))) (at : ends) (NonEmpty.toList segments)
          in (fromMaybe at (listToMaybe (reverse ends)), concat walked)
-    alone stop = Step {stop, about = Nothing}
 
 -- | The stops of a run's chords.
 chordStops :: Machine -> Allowed -> V3 -> NonEmpty Move -> [V3]

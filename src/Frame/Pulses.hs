@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | Places in whole pulses: every position is rounded by itself, as an absolute position, so rounding never adds up.
 module Frame.Pulses

@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | What stands against tasks before their frames are made, and what is to be told of them: they are looked at one by one, in
 -- order.

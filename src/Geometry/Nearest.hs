@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Things by their boxes in flat arrays: a box for each, for each eight of them, for each eight of those, and so on. The
 -- order in which they are given is the order of a contour or of a walk, and that is a good order in space: nothing is sorted.
 module Geometry.Nearest

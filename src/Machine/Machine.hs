@@ -396,7 +396,11 @@ contentWord c = case c of
 
 -- | Whether rapid moves are a kind of motion rather than a feed.
 hasRapidMotion :: Machine -> Bool
-hasRapidMotion machine = or [True | w <- wordsOf machine, Motion MotionCodes {rapid = Just _} <- [content w]]
+hasRapidMotion machine = any saysRapid (items (layout machine))
+  where
+    saysRapid item = case item of
+      AWord Word' {content = Motion MotionCodes {rapid = Just _}} -> True
+      _ -> False
 
 -- Feeds -------------------------------------------------------------------------------------------
 

@@ -60,6 +60,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
     chosen <- traverse (rowNumber region t) [n | Quantity n <- ns]
     pure (TableValue t {rows = Rows.picked (map (subtract 1) chosen) (rows t)})
+  (PointsOf, [t@(Plain (TableValue _))]) -> Just (tableOf t >>= fmap ListValue . traverse at . pointsOf)
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
     [] -> let (low, high) = Curve.abscissas (exact c) in Eval.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
     us -> picked Tolerance.nearTie region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at

@@ -292,12 +292,12 @@ holing at (Located region d) = Way.rise at clear (keyword region) <> go (Spot (p
       [] -> []
       Located place p : rest ->
         let over = Way.ways from [Part.Stop (Located place p) (Just clear) Part.Rapid]
-         in over <> concat (zipWith (stroke place p) (Nothing : map Just depths) depths) <> go (Spot p clear) rest
-    stroke place p before z =
+         in over <> [Move down heights pace False place False | let { down = Straight p p }, (heights, pace) <- strokes] <> go (Spot p clear) rest
+    -- Down and up, the same at each hole.
+    strokes = concat (zipWith stroke (Nothing : map Just depths) depths)
+    stroke before z =
       let start' = maybe clear (\b -> min clear (plus b peckGap)) before
-       in [vertical place p (clear, start') Part.Rapid | start' /= clear]
-            <> [vertical place p (start', z) (Part.At (Part.drillFeed d)), vertical place p (z, clear) Part.Rapid]
-    vertical place p heights pace = Move (Straight p p) heights pace False place False
+       in [((clear, start'), Part.Rapid) | start' /= clear] <> [((start', z), Part.At (Part.drillFeed d)), ((z, clear), Part.Rapid)]
     depths = depthsOf d
 
 -- | The depths to which a drill goes down, one after the other: equal pecks, none deeper than is asked.

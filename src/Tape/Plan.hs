@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | One interpretation of a machine's layout. Here it writes: a frame becomes marks, rows with what they mean, and both
 -- the tape and its picture are made of them. Reading follows the same steps.
@@ -17,6 +18,7 @@ module Tape.Plan
     frameMarks,
     foldRows,
     mostRows,
+    wordsFor,
     isCount,
     blanks,
     constant,
@@ -47,12 +49,16 @@ data Plan = Plan
     symbols :: Symbols,
     axes :: Axes,
     steps :: [Step],
+    -- | those of a frame that walks no arc and commands nothing: most frames are of this kind, and most words do not stand there
+    bareSteps :: [Step],
     -- | between two words
     between :: [Symbol],
     minus :: Symbol,
     plus :: Symbol,
     point :: Symbol,
     ws :: [Word'],
+    -- | those that can stand in a frame that walks no arc and commands nothing
+    bareWords :: [Word'],
     -- | the axes in the order of their words
     leaders :: [Axis],
     -- | the commands in the order of their words and bits, and whether 0 is a command of its own rather than none
@@ -83,11 +89,13 @@ fromMachine machine =
       symbols,
       axes = State.axes machine,
       steps,
+      bareSteps = filter isBareStep steps,
       between,
       minus = Symbol.symbol symbols '-',
       plus = Symbol.symbol symbols '+',
       point = Symbol.symbol symbols '.',
       ws,
+      bareWords = filter State.standsBare ws,
       leaders = [a | w <- ws, Along a <- [content w]],
       commands = nub (concatMap commandsOf ws),
       motions = listToMaybe [(w, codes) | w <- ws, Motion codes <- [content w]],
@@ -106,6 +114,10 @@ fromMachine machine =
       Literal t -> Fixed (text t)
       AWord w -> let cs = text (address w) in Worded w (addressOf cs) (addressOf (between <> cs))
       CheckDigit m -> Checked m
+    isBareStep s = case s of
+      Fixed _ -> True
+      Worded w _ _ -> State.standsBare w
+      Checked _ -> True
     addressOf cs = Spelled {spelled = cs, extent = length cs, final = foldl' (\_ c -> Symbol.holes c) 0 cs}
     commandsOf w = [(o, State.zeroCommands w) | Command o <- [content w]] <> [(o, False) | OrderBit o _ <- service (form w)]
 
@@ -176,7 +188,7 @@ counted p state frame = runIdentity (foldBare count 0 p state frame 0)
 
 -- | The same, given what the symbols of the frame add to.
 foldBare :: Monad m => (r -> Word8 -> Int -> Sense -> m r) -> Int -> Plan -> State -> Frame -> r -> m r
-foldBare mark total p state frame = go False (steps p)
+foldBare mark total p state frame = go False (if State.isBare frame then bareSteps p else steps p)
   where
     go behindWord todo before = case todo of
       [] -> pure before
@@ -235,6 +247,10 @@ foldBare mark total p state frame = go False (steps p)
         behind <- mark ready holes (Symbol.digitWeight (symbols p) d) (use (Digit d k s hole))
         figures use n pointed (k - 1) (drop 1 services) (left - d * power k) behind
 {-# INLINE foldBare #-}
+
+-- | The words that may stand in a frame.
+wordsFor :: Plan -> Frame -> [Word']
+wordsFor p frame = if State.isBare frame then bareWords p else ws p
 
 -- | No frame has more rows.
 mostRows :: Plan -> Int

@@ -1,3 +1,6 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Frames onto tape and tape into frames: the leader, the frames with what stands between them, the end.
 module Tape.Punch
   ( write,
@@ -19,7 +22,7 @@ import Data.Primitive.PrimArray (PrimArray (PrimArray))
 import Data.Primitive.PrimArray qualified as Primitive
 import Data.Text qualified as Text
 import Frame.Frame (Frame)
-import Machine.Machine (Machine, Medium (..), Spare (..))
+import Machine.Machine (Machine, Measure (..), Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Damage (..), Reason (..), toReport)
 import Tape.Layout (Row)
@@ -39,31 +42,38 @@ import Prelude hiding (read)
 
 -- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
 write :: Machine -> V3 -> [Frame] -> Tape
-write machine start frames = Tape (ByteString.concat [holesOf (opened plan), punched plan (State.first (State.rising frames) start) frames, holesOf (closed plan)])
+write machine start frames = Tape (ByteString.concat (holesOf (opened plan) : punched plan (State.first (State.rising frames) start) frames <> [holesOf (closed plan)]))
   where
     plan = Plan.fromMachine machine
     holesOf = ByteString.pack . map holes
 
--- | The rows of frames with what stands between them, each put straight to its place in a buffer that grows.
-punched :: Plan -> State -> [Frame] -> ByteString
-punched plan state frames = case runST (Primitive.newPrimArray most >>= go 0 state frames) of
-  PrimArray filled -> Short.fromShort (SBS filled)
+-- | The rows of frames with what stands between them, in pieces: they are put into one buffer, which is copied when it is full.
+punched :: Plan -> State -> [Frame] -> [ByteString]
+punched plan state frames = runST (Primitive.newPrimArray (piece + most) >>= go 0 state frames)
   where
     medium = Machine.medium (Plan.machine plan)
     most = evenShift medium + Plan.mostRows plan + gap medium
     go used now todo buffer = case todo of
-      [] -> Primitive.resizeMutablePrimArray buffer used >>= Primitive.unsafeFreezePrimArray
-      f : more -> do
-        size <- Primitive.getSizeofMutablePrimArray buffer
-        roomy <- if used + most <= size then pure buffer else Primitive.resizeMutablePrimArray buffer (2 * size + most)
-        let put at h _ _ = (at + 1) <$ Primitive.writePrimArray roomy at h
-            blanks at n
-              | n <= 0 = pure at
-              | otherwise = (at + n) <$ Primitive.setPrimArray roomy at n 0
-        begin <- blanks used (shiftRows medium (State.ordinal now))
-        end <- Plan.foldRows put plan now f begin
-        next <- blanks end (gap medium)
-        go next (Plan.after plan now f) more roomy
+      [] -> (: []) <$> taken used buffer
+      f : more
+        | used >= piece -> (:) <$> taken used buffer <*> go 0 now todo buffer
+        | otherwise -> do
+          let put at h _ _ = (at + 1) <$ Primitive.writePrimArray buffer at h
+              blanks at n
+                | n <= 0 = pure at
+                | otherwise = (at + n) <$ Primitive.setPrimArray buffer at n 0
+          begin <- blanks used (shiftRows medium (State.ordinal now))
+          end <- Plan.foldRows put plan now f begin
+          next <- blanks end (gap medium)
+          go next (Plan.after plan now f) more buffer
+    taken used buffer = do
+      PrimArray filled <- Primitive.freezePrimArray buffer 0 used
+      let !rows' = Short.fromShort (SBS filled)
+      pure rows'
+
+-- | So many rows are written at once.
+piece :: Int
+piece = 32768
 
 -- | The rows of the same tape, each with what it means.
 rows :: Machine -> V3 -> [Frame] -> [Row]
@@ -114,6 +124,8 @@ read machine start (Tape raw) = case frontOf source of
   Left fault -> Left (damage Nothing fault)
   Right at -> case Reading.expect plan (line source) at (symbolsOf plan (opening (grid source))) of
     Left fault -> Left (damage Nothing fault)
+    -- Increments do not tell where the cutter stands.
+    Right behind | State.measure (Plan.axes plan) == Increments -> attempt behind False
     -- Only the frames tell whether the height has to be said.
     Right behind -> case (attempt behind True, attempt behind False) of
       (Right frames, _) | State.rising frames -> Right frames
@@ -150,7 +162,7 @@ sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped,
     skipped = case spare medium of
       Counted -> ByteString.empty
       Skipped -> ByteString.pack (Machine.skips (Machine.code (Plan.machine plan)))
-    kept = if ByteString.null skipped then raw else ByteString.filter (`ByteString.notElem` skipped) raw
+    kept = if ByteString.any (`ByteString.elem` raw) skipped then ByteString.filter (`ByteString.notElem` skipped) raw else raw
     grid = if ByteString.elem 0 skipped then medium {leader = 0, gap = 0, evenShift = 0} else medium
 
 -- | The row of the tape for a row that is kept.

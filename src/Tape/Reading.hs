@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | The rows of one frame read back, by the steps that wrote them.
 --
@@ -35,18 +36,11 @@ import Tape.State qualified as State
 import Tape.Symbol (Symbol)
 import Tape.Symbol qualified as Symbol
 
--- | What the words of a frame say; no two of them say the same.
+-- | What stands in a frame.
 data Reading = Reading
-  { frameNumber :: Maybe Said,
-    motionCode :: Maybe Said,
-    alongX :: Maybe Said,
-    alongY :: Maybe Said,
-    alongZ :: Maybe Said,
-    centreX :: Maybe Said,
-    centreY :: Maybe Said,
-    feedCode :: Maybe Said,
-    -- | the words of commands, and a centre's third
-    others :: [(Content, Said)],
+  { -- | its words in order; no two of them say the same
+    saids :: [Said],
+    -- | what its commands are given, and those beside its numbers
     commands :: [(Machine.OrderName, Int)],
     braked :: Bool,
     -- | what the symbols add to, if frames have a check digit
@@ -55,39 +49,22 @@ data Reading = Reading
     check :: Maybe (Int, Int)
   }
 
--- | The row of a number, the number, and how many digits it has.
-data Said = Said {at :: Int, number :: Int, places :: Int}
+-- | A word, the row of its number, the number, and how many digits it has.
+data Said = Said {word :: Word', at :: Int, number :: Int, places :: Int}
 
-nothing :: Reading
-nothing = Reading Nothing Nothing Nothing Nothing Nothing Nothing Nothing Nothing [] [] False 0 Nothing
+-- | The word that says something, if it was read.
+said :: (Content -> Bool) -> Reading -> Maybe Said
+said isIt reading = find (isIt . content . word) (saids reading)
+{-# INLINE said #-}
 
--- | The word that was read.
-saidOf :: Reading -> Content -> Maybe Said
-saidOf reading c = case c of
-  FrameNumber -> frameNumber reading
-  Motion _ -> motionCode reading
-  Along X -> alongX reading
-  Along Y -> alongY reading
-  Along Z -> alongZ reading
-  Centre X -> centreX reading
-  Centre Y -> centreY reading
-  Centre Z -> lookup c (others reading)
-  FeedWord -> feedCode reading
-  Command _ -> lookup c (others reading)
+isFrameNumber, isMotion, isFeed :: Content -> Bool
+isFrameNumber c = case c of FrameNumber -> True; _ -> False
+isMotion c = case c of Motion _ -> True; _ -> False
+isFeed c = case c of FeedWord -> True; _ -> False
 
--- | With another word.
-saying :: Content -> Said -> Reading -> Reading
-saying c s reading = case c of
-  FrameNumber -> reading {frameNumber = Just s}
-  Motion _ -> reading {motionCode = Just s}
-  Along X -> reading {alongX = Just s}
-  Along Y -> reading {alongY = Just s}
-  Along Z -> reading {alongZ = Just s}
-  Centre X -> reading {centreX = Just s}
-  Centre Y -> reading {centreY = Just s}
-  Centre Z -> reading {others = (c, s) : others reading}
-  FeedWord -> reading {feedCode = Just s}
-  Command o -> reading {others = (c, s) : others reading, commands = (o, number s) : commands reading}
+isAlong, isCentre :: Axis -> Content -> Bool
+isAlong a c = case c of Along b -> a == b; _ -> False
+isCentre a c = case c of Centre b -> a == b; _ -> False
 
 -- | The frame that begins at a row, and the row behind it.
 readFrame :: Plan -> State -> ShortByteString -> Int -> Either Fault (Frame, Int)
@@ -103,22 +80,24 @@ readFrame plan state rows begin = do
 
 -- | The words of a frame in order.
 readSteps :: Plan -> ShortByteString -> Int -> Either Fault (Reading, Int)
-readSteps plan rows = go False (Plan.steps plan) nothing
+readSteps plan rows = go False (Plan.steps plan) [] (Reading [] [] False 0 Nothing)
   where
-    go behindWord todo !now !k = case lacking behindWord todo k of
-      [] -> Right (now, k)
+    -- The words so far, the last one first; the rest of what is read rarely changes.
+    go behindWord todo done !now !k = case lacking behindWord todo k of
+      [] -> Right (now {saids = reverse done}, k)
       Fixed cs : more
-        | next >= 0 -> go False more (counting cs now) next
+        | next >= 0 -> go False more done (counting cs now) next
         | otherwise -> Left (mismatch plan Nothing rows k cs)
         where
           next = behind rows k cs
       Checked modulus : more -> do
         d <- Numeral.digit plan Nothing rows k
-        go False more (now {total = total now + Symbol.digitWeight (Plan.symbols plan) d, check = Just (k, modulus)}) (k + 1)
+        go False more done (now {total = total now + Symbol.digitWeight (Plan.symbols plan) d, check = Just (k, modulus)}) (k + 1)
       Worded w cs joined : more
         | stands -> do
           n <- Numeral.numeral plan (content w) (form w) rows begin
-          go True more (store w n (counting (spelled prefix) now)) (Numeral.next n)
+          let s = Said {word = w, at = Numeral.start n, number = Numeral.value n, places = Numeral.places n}
+          go True more (s : done) (beside w n (counting (spelled prefix) now)) (Numeral.next n)
         | otherwise -> Left (mismatch plan (Just (content w)) rows k (spelled prefix))
         where
           prefix = if behindWord then joined else cs
@@ -132,9 +111,11 @@ readSteps plan rows = go False (Plan.steps plan) nothing
     counting cs now
       | Plan.isChecked plan = now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
       | otherwise = now
-    store w n now = beside n (saying (content w) Said {at = Numeral.start n, number = Numeral.value n, places = Numeral.places n} now)
-    -- What the service track says beside a number, and what its digits add.
-    beside n now
+    -- What a command is given; what the service track says beside a number, and what its digits add.
+    beside w n now = case content w of
+      Command o -> (counted n now) {commands = (o, Numeral.value n) : commands (counted n now)}
+      _ -> counted n now
+    counted n now
       | null (Numeral.bits n) && not (Numeral.brakes n) && not (Plan.isChecked plan) = now
       | otherwise = now {commands = Numeral.bits n <> commands now, braked = braked now || Numeral.brakes n, total = total now + Numeral.total n}
 
@@ -179,17 +160,17 @@ insteadOf plan w s = case Numeral.blemish plan w of
 -- The frame ---------------------------------------------------------------------------------------
 
 -- | A fault of a word, or of the frame as a whole.
-faultOf :: Int -> Reading -> Content -> Reason -> Fault
-faultOf begin reading c why = case saidOf reading c of
-  Just s -> Fault (at s) (Just c) why
+faultOf :: Int -> Reading -> (Content -> Bool) -> Reason -> Fault
+faultOf begin reading isIt why = case said isIt reading of
+  Just s -> Fault (at s) (Just (content (word s))) why
   Nothing -> Fault begin Nothing why
 
 -- | The frame that the words make.
 frameOf :: Plan -> State -> Int -> Reading -> Either Fault Frame
 frameOf plan state begin reading = do
-  mapM_ (numbered plan state) (frameNumber reading)
-  let moved = V3 (distance X (alongX reading)) (distance Y (alongY reading)) (distance Z (alongZ reading))
-      V3 i j _ = State.signs axes * V3 (spoken (centreX reading)) (spoken (centreY reading)) 0
+  mapM_ (numbered state) (said isFrameNumber reading)
+  let moved = V3 (distance X) (distance Y) (distance Z)
+      V3 i j _ = State.signs axes * V3 (spoken X) (spoken Y) 0
   m <- motionOf plan begin reading moved
   code <- speedOf plan state begin reading m
   pure
@@ -203,8 +184,8 @@ frameOf plan state begin reading = do
       }
   where
     axes = Plan.axes plan
-    spoken = maybe 0 (Pulses . number)
-    distance a said = case said of
+    spoken a = maybe 0 (Pulses . number) (said (isCentre a) reading)
+    distance a = case said (isAlong a) reading of
       Nothing -> 0
       Just s ->
         let n = State.along a (State.signs axes) * Pulses (number s)
@@ -213,18 +194,17 @@ frameOf plan state begin reading = do
               Positions -> n - State.along a (place state)
 
 -- | Frames are counted.
-numbered :: Plan -> State -> Said -> Either Fault ()
-numbered plan state s = case find ((== FrameNumber) . content) (Plan.ws plan) of
-  Just w
-    | let n = ordinal state `mod` 10 ^ digits (form w),
-      n /= number s ->
-      Left (Fault (at s) (Just FrameNumber) (WrongNumber (number s) n))
-  _ -> Right ()
+numbered :: State -> Said -> Either Fault ()
+numbered state s
+  | n /= number s = Left (Fault (at s) (Just FrameNumber) (WrongNumber (number s) n))
+  | otherwise = Right ()
+  where
+    n = ordinal state `mod` 10 ^ digits (form (word s))
 
 motionOf :: Plan -> Int -> Reading -> V3 -> Either Fault Motion
 motionOf plan begin reading moved = case Plan.motions plan of
   Nothing -> Right (if moved == 0 then Still else Straightway)
-  Just (w, codes) -> case motionCode reading of
+  Just (w, codes) -> case said isMotion reading of
     Nothing
       | moved == 0 -> Right Still
       | otherwise -> Left (Fault begin Nothing MoveWithoutMotion)
@@ -241,7 +221,7 @@ motionOf plan begin reading moved = case Plan.motions plan of
     turned a b = if State.mirrored (Plan.axes plan) then b else a
 
 speedOf :: Plan -> State -> Int -> Reading -> Motion -> Either Fault Int
-speedOf plan state begin reading m = case (feedCode reading, m) of
+speedOf plan state begin reading m = case (said isFeed reading, m) of
   (Nothing, Still) -> Right 0
   (Nothing, Rapid) -> Right 0
   (Nothing, _) -> case feed state of
@@ -256,36 +236,37 @@ speedOf plan state begin reading m = case (feedCode reading, m) of
     | otherwise -> wrong (UnknownSpeed (number s))
   where
     changing = Plan.keepsFeed plan
-    wrong why = Left (faultOf begin reading FeedWord why)
+    wrong why = Left (faultOf begin reading isFeed why)
 
 -- | The frame keeps the rules of frames.
 lawful :: Plan -> Int -> Reading -> Frame -> Either Fault ()
 lawful plan begin reading f
-  | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading FeedWord IdleFrame)
+  | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading isFeed IdleFrame)
   | otherwise = case Frame.broken (Plan.machine plan) 1 f of
     [] -> Right ()
     rule : _ -> Left (blame rule (Rule rule))
   where
     blame rule = case rule of
-      Frame.OverCapacity _ a _ -> faultOf begin reading (Along a)
-      Frame.BadCentre _ -> faultOf begin reading (Centre X)
-      Frame.NoSuchSpeed _ _ -> faultOf begin reading FeedWord
-      Frame.NoSuchMotion _ -> maybe (Fault begin Nothing) (faultOf begin reading) (motionWord plan)
-      Frame.NoSuchOrder _ o -> faultOf begin reading (Command o)
-      Frame.Idle _ -> faultOf begin reading FeedWord
-
-motionWord :: Plan -> Maybe Content
-motionWord plan = fmap (content . fst) (Plan.motions plan)
+      Frame.OverCapacity _ a _ -> faultOf begin reading (isAlong a)
+      Frame.BadCentre _ -> faultOf begin reading (isCentre X)
+      Frame.NoSuchSpeed _ _ -> faultOf begin reading isFeed
+      Frame.NoSuchMotion _ -> faultOf begin reading isMotion
+      Frame.NoSuchOrder _ o -> faultOf begin reading (== Command o)
+      Frame.Idle _ -> faultOf begin reading isFeed
 
 -- | Whether each word stands where it would be written for a frame, with its number in as many digits: then the rows are those that
 -- would be written, where a word has nothing else that could differ.
 isSpelled :: Plan -> State -> Reading -> Frame -> Bool
-isSpelled plan state reading f = Plan.isPlain plan && all isAsWritten (Plan.ws plan)
+isSpelled plan state reading f = Plan.isPlain plan && go (Plan.wordsFor plan f) (saids reading)
   where
-    isAsWritten w = case (State.number (Plan.axes plan) state f w, saidOf reading (content w)) of
-      (Nothing, Nothing) -> True
-      (Just n, Just s) -> n == number s && Plan.isCount (form w) (places s) (abs n)
-      _ -> False
+    -- Both are in the order of the layout.
+    go ws read' = case ws of
+      [] -> null read'
+      w : more -> case State.number (Plan.axes plan) state f w of
+        Nothing -> go more read'
+        Just n -> case read' of
+          s : others -> content (word s) == content w && n == number s && Plan.isCount (form w) (places s) (abs n) && go more others
+          [] -> False
 
 -- | Whether the rows of a frame are those that would be written for it.
 isWritten :: Plan -> State -> ShortByteString -> Int -> Int -> Frame -> Bool

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | What a layout remembers from frame to frame.
 module Tape.State
   ( State (..),
@@ -7,6 +9,8 @@ module Tape.State
     axes,
     along,
     number,
+    isBare,
+    standsBare,
     zeroCommands,
     after,
   )
@@ -95,6 +99,26 @@ number system state frame word = case content word of
       WhenChanged -> given o
     given :: OrderName -> Maybe Int
     given o = lookup o (orders frame)
+
+-- | Whether a frame walks no arc and commands nothing.
+isBare :: Frame -> Bool
+isBare frame = null (orders frame) && not (isArc frame)
+
+-- | Whether a word can stand in a frame that walks no arc and commands nothing. Another word has no 'number' there.
+standsBare :: Word' -> Bool
+standsBare word = case content word of
+  Centre _ -> standsAnyway
+  Command _ -> standsAnyway
+  FrameNumber -> True
+  Motion _ -> True
+  Along _ -> True
+  FeedWord -> True
+  where
+    standsAnyway = case presence word of
+      Always -> True
+      InMotion -> True
+      WhenNeeded -> False
+      WhenChanged -> False
 
 -- | Whether 0 in the word of a command is a command: where the word stands without one, 0 says that there is none.
 zeroCommands :: Word' -> Bool

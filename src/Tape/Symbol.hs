@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | The rows of a code's symbols, as tables that writing and reading look up.
 module Tape.Symbol
   ( Symbols (..),

@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | Lines and arcs as bare numbers in mm, and what can be said of two of them at once.
 --

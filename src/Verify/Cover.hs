@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | How far a segment lies beyond the reach of others: an element beyond that of the strokes, or a stroke beyond that
 -- of the elements. Exact over the whole segment, and fast where there are many others, short ones.
 module Verify.Cover

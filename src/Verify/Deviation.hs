@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | How far the strokes of one pass are off from its contour: the three comparisons of the proof.
 module Verify.Deviation
   ( Pass (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | The feeds of a tape: those of the program frame by frame, those that a statement asks along its contour, and
 -- whether the machine can brake from one to the next.
 module Verify.Feeds

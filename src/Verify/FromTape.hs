@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | The proof: the frames read from a tape, run on the virtual controller and compared with the part.
 --
@@ -259,11 +260,11 @@ missingHoles machine path traces =
   [ HoleMissing at p
     | Path.Holing (Located _ d) _ <- Path.blocks path,
       Located at p <- NonEmpty.toList (Part.holes d),
-      not (any (reaches (Part.bottom d) p) (Box.within (Box.inflate (times 2 pulse) (Box.ofPoints p [])) index))
+      not (any (reaches (Part.bottom d) p) (Nearest.within (Box.inflate (times 2 pulse) (Box.ofPoints p [])) index))
   ]
   where
     pulse = Machine.pulse machine
-    index = Box.index (Box.ofSegment . line) (filter Trace.isUpright traces)
+    index = Nearest.index box (filter Trace.isUpright traces)
     reaches bottom p t =
       Vec.distance (Segment.start (line t)) p <= pulse && minus (uncurry min (heights t)) bottom <= times 0.6 (Machine.pulseOf machine Machine.Z)
 

@@ -1,4 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
 
 -- | Where on a tape a contour is milled: the strokes that follow it from its beginning to its end, in the
 -- direction of the walk.

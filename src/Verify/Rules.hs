@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | What holds for frames whatever the part: the control takes them, and they command what the program does.
 module Verify.Rules
   ( refused,

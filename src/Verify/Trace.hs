@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | What the cutter's centre does in a stroke, or in one of several parts of it, as a few bare numbers: there are as many as frames
 -- on the tape. All else is made from them where it is looked at.
 module Verify.Trace
