@@ -20,6 +20,7 @@ module Tape.Plan
     mostRows,
     wordsFor,
     isCount,
+    behindAddress,
     blanks,
     constant,
     after,
@@ -27,6 +28,8 @@ module Tape.Plan
 where
 
 import Data.Bits (testBit)
+import Data.ByteString.Short (ShortByteString)
+import Data.ByteString.Short qualified as Short
 import Data.Functor.Identity (runIdentity)
 import Data.List (foldl', nub)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -81,6 +84,14 @@ data Step
 
 -- | The symbols before a number; how many they are, and the row of the last one, by which most addresses are told apart.
 data Address = Spelled {spelled :: [Symbol], extent :: Int, final :: Word8}
+
+-- | The row behind an address that stands at a row; below 0 where it does not. Its last symbol is looked at first.
+behindAddress :: ShortByteString -> Int -> Address -> Int
+behindAddress rows k Spelled {spelled, extent, final}
+  | extent == 0 = k
+  | k + extent <= Short.length rows && Short.index rows (k + extent - 1) == final = Symbol.behind rows k spelled
+  | otherwise = -1
+{-# INLINE behindAddress #-}
 
 fromMachine :: Machine -> Plan
 fromMachine machine =

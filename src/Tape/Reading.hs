@@ -8,6 +8,7 @@
 module Tape.Reading
   ( Fault (..),
     readFrame,
+    wordByWord,
     expect,
   )
 where
@@ -25,6 +26,7 @@ import Frame.Frame qualified as Frame
 import Geometry.Shape (Turn (..))
 import Machine.Machine (Axis (..), Content (..), FeedCode (..), Measure (..), MotionCodes (..), NumberForm (..), Presence (..), Word' (..))
 import Machine.Machine qualified as Machine
+import Tape.Bare qualified as Bare
 import Tape.Damage (Reason (..))
 import Tape.Layout qualified as Layout
 import Tape.Numeral (Fault (..))
@@ -68,7 +70,13 @@ isCentre a c = case c of Centre b -> a == b; _ -> False
 
 -- | The frame that begins at a row, and the row behind it.
 readFrame :: Plan -> State -> ShortByteString -> Int -> Either Fault (Frame, Int)
-readFrame plan state rows begin = do
+readFrame plan state rows begin = case Bare.readFrame plan state rows begin of
+  Bare.Read f end -> Right (f, end)
+  Bare.NotBare -> wordByWord plan state rows begin
+
+-- | The same, whatever the frame is.
+wordByWord :: Plan -> State -> ShortByteString -> Int -> Either Fault (Frame, Int)
+wordByWord plan state rows begin = do
   (reading, end) <- readSteps plan rows begin
   case check reading of
     Just (k, modulus) | total reading `mod` max 1 modulus /= 0 -> Left (Fault k Nothing (AddsTo (total reading) modulus))
@@ -89,7 +97,7 @@ readSteps plan rows = go False (Plan.steps plan) [] (Reading [] [] False 0 Nothi
         | next >= 0 -> go False more done (counting cs now) next
         | otherwise -> Left (mismatch plan Nothing rows k cs)
         where
-          next = behind rows k cs
+          next = Symbol.behind rows k cs
       Checked modulus : more -> do
         d <- Numeral.digit plan Nothing rows k
         go False more done (now {total = total now + Symbol.digitWeight (Plan.symbols plan) d, check = Just (k, modulus)}) (k + 1)
@@ -101,12 +109,12 @@ readSteps plan rows = go False (Plan.steps plan) [] (Reading [] [] False 0 Nothi
         | otherwise -> Left (mismatch plan (Just (content w)) rows k (spelled prefix))
         where
           prefix = if behindWord then joined else cs
-          begin = behindAddress rows k prefix
+          begin = Plan.behindAddress rows k prefix
           stands = isThere w cs begin
     isThere w cs begin = begin >= 0 && (extent cs > 0 || presence w == Always || Numeral.begins plan (form w) rows begin)
     -- Behind the words that a frame can do without, as far as they do not stand here.
     lacking behindWord todo k = case todo of
-      Worded w cs joined : more | presence w /= Always && not (isThere w cs (behindAddress rows k (if behindWord then joined else cs))) -> lacking behindWord more k
+      Worded w cs joined : more | presence w /= Always && not (isThere w cs (Plan.behindAddress rows k (if behindWord then joined else cs))) -> lacking behindWord more k
       _ -> todo
     counting cs now
       | Plan.isChecked plan = now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
@@ -119,23 +127,9 @@ readSteps plan rows = go False (Plan.steps plan) [] (Reading [] [] False 0 Nothi
       | null (Numeral.bits n) && not (Numeral.brakes n) && not (Plan.isChecked plan) = now
       | otherwise = now {commands = Numeral.bits n <> commands now, braked = braked now || Numeral.brakes n, total = total now + Numeral.total n}
 
--- | The row behind symbols that stand here; below 0 where they do not.
-behind :: ShortByteString -> Int -> [Symbol] -> Int
-behind rows k cs = case cs of
-  [] -> k
-  c : more -> if k < Short.length rows && Short.index rows k == Symbol.holes c then behind rows (k + 1) more else -1
-
--- | The same of an address; its last symbol is looked at first.
-behindAddress :: ShortByteString -> Int -> Address -> Int
-behindAddress rows k Spelled {spelled, extent, final}
-  | extent == 0 = k
-  | k + extent <= Short.length rows && Short.index rows (k + extent - 1) == final = behind rows k spelled
-  | otherwise = -1
-{-# INLINE behindAddress #-}
-
 -- | The row behind symbols that have to stand here.
 expect :: Plan -> ShortByteString -> Int -> [Symbol] -> Either Fault Int
-expect plan rows k cs = let next = behind rows k cs in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
+expect plan rows k cs = let next = Symbol.behind rows k cs in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
 
 -- | The first of some symbols that does not stand where it should.
 mismatch :: Plan -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> Fault

@@ -14,6 +14,7 @@ module Tape.Symbol
     isForeign,
     isOdd,
     symbolAt,
+    behind,
   )
 where
 
@@ -128,3 +129,9 @@ symbolAt :: Symbols -> Word8 -> Maybe Char
 symbolAt table w = case Map.lookup w (nameOf table) of
   Just c -> Just c
   Nothing -> intToDigit <$> digitAt table w
+
+-- | The row behind symbols that stand at a row; below 0 where they do not.
+behind :: ShortByteString -> Int -> [Symbol] -> Int
+behind rows k cs = case cs of
+  [] -> k
+  c : more -> if k < Short.length rows && Short.index rows k == holes c then behind rows (k + 1) more else -1

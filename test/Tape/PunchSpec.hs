@@ -5,6 +5,7 @@ import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
+import Data.ByteString.Short qualified as Short
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, isNothing)
 import Data.Text qualified as Text
@@ -18,11 +19,15 @@ import Machine.Machine (Arcs (..), AxisForm (..), FeedCode (..), Item (..), Mach
 import Machine.Machine qualified as Machine
 import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
 import Report.Report qualified as Report
+import Tape.Bare qualified as Bare
 import Tape.Holes qualified as Holes
 import Tape.Journey (journey, machines, start)
 import Tape.Layout qualified as Layout
+import Tape.Plan qualified as Plan
 import Tape.Punch (Damage (..), Reason (..))
 import Tape.Punch qualified as Punch
+import Tape.Reading qualified as Reading
+import Tape.State qualified as State
 import Tape.Tape (Tape (..))
 import Tape.Tape qualified as Tape
 import Test.Hspec
@@ -52,6 +57,23 @@ randomMachines = do
                in case Punch.read m at (Tape rows') of
                     Left d -> counterexample (show d) (1 <= Punch.row d && Punch.row d <= ByteString.length rows)
                     Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
+  it "frames that go straight are read in one go as they are word by word (catches a shortcut that reads something else)" $
+    checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) -> forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
+      let plan = Plan.fromMachine m
+          states = scanl (Plan.after plan) (State.first (State.rising fs) at) fs
+          rowsFor state f = map Plan.holes (Plan.frameMarks plan state f)
+          readBoth state rows = (Bare.readFrame plan state (Short.pack rows) 0, Reading.wordByWord plan state (Short.pack rows) 0)
+          isRead state f = case readBoth state (rowsFor state f) of
+            (Bare.Read g end, slowly) -> Plan.isPlain plan && slowly == Right (g, end) && g == f
+            (Bare.NotBare, _) -> not (Plan.isPlain plan && State.isBare f && Frame.isMoving f)
+          isSame state rows = case readBoth state rows of
+            (Bare.Read g end, slowly) -> slowly == Right (g, end)
+            (Bare.NotBare, _) -> True
+          changedRow rows = take k rows <> [w] <> drop (k + 1) rows
+          -- As if nothing had been said before.
+          unsaid state = (State.first (State.rising fs) (State.place state)) {State.ordinal = State.ordinal state}
+       in cover 20 (Plan.isPlain plan && any (\f -> State.isBare f && Frame.isMoving f) fs) "frames that go straight" $
+            conjoin [counterexample (show f) (isRead state f && isSame state (changedRow (rowsFor state f)) && isSame state (rowsFor (unsaid state) f)) | (state, f) <- zip states fs]
   it "an axis that points the other way turns its numbers and the arcs about (catches a sign that is forgotten)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       let turned = m {Machine.axes = fmap (\f -> if axis f == Machine.X then f {reversed = not (reversed f)} else f) (Machine.axes m)}
