@@ -5,6 +5,7 @@
 module Geometry.Nearest
   ( Nearest,
     index,
+    indexOf,
     within,
     each,
     select,
@@ -43,9 +44,15 @@ fan = 8
 
 -- | Build an index, in a time that grows with the number of things.
 index :: (a -> Box) -> [a] -> Nearest a
-index box list = Nearest {things, lowest, levels = reverse (grow lowest)}
+index box list = indexed box (Vector.fromList list)
+
+-- | The same of so many things, at the most; they are not held twice.
+indexOf :: Int -> (a -> Box) -> [a] -> Nearest a
+indexOf most box list = indexed box (Vector.fromListN most list)
+
+indexed :: (a -> Box) -> Vector a -> Nearest a
+indexed box things = Nearest {things, lowest, levels = reverse (grow lowest)}
   where
-    things = Vector.fromList list
     lowest = PrimArray.runPrimArray $ do
       numbers <- PrimArray.newPrimArray (4 * Vector.length things)
       Vector.iforM_ things (\i a -> put numbers i (box a))

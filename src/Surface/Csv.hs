@@ -20,7 +20,7 @@ import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Either (partitionEithers)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Primitive.PrimArray (MutablePrimArray, freezePrimArray, newPrimArray, resizeMutablePrimArray, writePrimArray)
+import Data.Primitive.PrimArray (MutablePrimArray, newPrimArray, resizeMutablePrimArray, shrinkMutablePrimArray, unsafeFreezePrimArray, writePrimArray)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
@@ -78,8 +78,10 @@ plain separator width texts = runST $ do
             else done k ends cells rest
       [] -> done k ends cells rest
     done k ends cells rest = do
-      places <- freezePrimArray ends 0 (2 * k)
-      found <- freezePrimArray cells 0 (width * k)
+      shrinkMutablePrimArray ends (2 * k)
+      shrinkMutablePrimArray cells (width * k)
+      places <- unsafeFreezePrimArray ends
+      found <- unsafeFreezePrimArray cells
       pure (Rows {Rows.width, Rows.places, Rows.numbers = found}, rest)
     -- Whether a text is so many numbers; they are put one behind the other from a place on.
     row :: MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool

@@ -58,7 +58,7 @@ punched plan state frames = runST (Primitive.newPrimArray (piece + most) >>= go 
       f : more
         | used >= piece -> (:) <$> taken used buffer <*> go 0 now todo buffer
         | otherwise -> do
-          let put at h _ _ = (at + 1) <$ Primitive.writePrimArray buffer at h
+          let put at h _ _ = Primitive.writePrimArray buffer at h >> (pure $! at + 1)
               blanks at n
                 | n <= 0 = pure at
                 | otherwise = (at + n) <$ Primitive.setPrimArray buffer at n 0

@@ -179,7 +179,7 @@ after system ws state frame =
       unsaid = case measure system of
         Increments -> unsaid state
         Positions -> filter (not . isSaid) (unsaid state),
-      feed = if hasFeed frame then Just (speed frame) else feed state
+      feed = if hasFeed frame && feed state /= Just (speed frame) then Just (speed frame) else feed state
     }
   where
     isSaid a = or [isJust (number system state frame w) | w <- ws, content w == Along a]

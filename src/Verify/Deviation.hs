@@ -93,7 +93,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
       _ -> [e]
     elementSegments = Nearest.index Box.ofSegment (map (Part.segment . element) (Nearest.toList (edges job)))
     mayStay = Part.rest (milling job) == Part.Allowed
-    milledIndex = Nearest.index box milled
+    milledIndex = Nearest.indexOf (length milled) box milled
     strayed = reverse strays
     most' = listToMaybe (sortOn (negated . amount) (missed <> strayed))
     passage = Passage {contour = Part.contourName (Part.contour (milling job)), gouge = deepest, excess = most', allowedGouge = mayGouge, allowedExcess = mayLeave}
@@ -155,7 +155,7 @@ lookAlong job spared mayLeave looked0 within0 = runST $ do
         known <- PrimArray.readPrimArray ranges (rank e)
         -- Nearer than it has to be tells no more.
         when (known > enough) $ do
-          let far = furthestFrom before (Course.begin (trail t)) ls e
+          let far = furthestFrom known before (Course.begin (trail t)) ls e
           when (far < known && all (isSurelyOn job (course e)) ls) (PrimArray.writePrimArray ranges (rank e) far)
   seen <- go (Seen Nothing [] Nothing []) (views looked0) within0
   frozen <- PrimArray.unsafeFreezePrimArray ranges
@@ -166,9 +166,9 @@ lookAlong job spared mayLeave looked0 within0 = runST $ do
     inOrder a b = compare (number a) (number b) <> compare (part a) (part b)
     Mm reaches = Passage.reaches job
     enough = let Mm r = reach job in r - 2 * Course.unsure
-    -- An element may lie beside a stroke and the one before it.
-    furthestFrom before (x, y) ls e
-      | far < 1 / 0 || null before || not (Course.mayLieWithin reaches (long e) (course e) x y) = far
+    -- An element may lie beside a stroke and the one before it; that is asked for where none is known to be beside all of it.
+    furthestFrom known before (x, y) ls e
+      | far < 1 / 0 || known <= reaches || null before || not (Course.mayLieWithin reaches (long e) (course e) x y) = far
       | otherwise = case Course.divided x y (course e) of
         Just (p, q) | all (isSurelyOn job (course e)) before -> max (Course.furthestFrom reaches p before) (Course.furthestFrom reaches q ls)
         _ -> far

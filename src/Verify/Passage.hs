@@ -77,8 +77,9 @@ data Edge = Edge
 
 -- | The elements of a contour by their places.
 edgesOf :: Milling -> Nearest Edge
-edgesOf job = Nearest.index (Course.box . course) (go 0 0 (NonEmpty.toList (Part.elements (Part.contour job))))
+edgesOf job = Nearest.indexOf (NonEmpty.length walked) (Course.box . course) (go 0 0 (NonEmpty.toList walked))
   where
+    walked = Part.elements (Part.contour job)
     -- Each is made at once: nothing waits for the length of those before it.
     go :: Int -> Double -> [Element] -> [Edge]
     go rank before elements = case elements of
@@ -197,10 +198,15 @@ mostLeft = Nearest.foldl' (\most e -> max most (left e)) (Mm (-1 / 0))
 
 -- | The elements, those together that go on with one curve; also over the beginning of a closed contour.
 runsOf :: Job -> [NonEmpty Segment]
-runsOf job = map (fmap Part.segment) $ case NonEmpty.groupBy (\_ e -> Part.continues e) (elementsOf job) of
-  first : more
-    | closedOf job, Part.continues (NonEmpty.head first), final : between <- reverse more -> reverse ((final <> first) : between)
-  runs -> runs
+runsOf job = case (elementsOf job, runs (elementsOf job)) of
+  (e : _, first : more) | closedOf job, Part.continues e, final : between <- reverse more -> reverse ((final <> first) : between)
+  (_, found) -> found
+  where
+    runs es = case es of
+      [] -> []
+      -- Most lines are alone.
+      e : rest@(next : _) | not (Part.continues next) -> (Part.segment e :| []) : runs rest
+      e : rest -> let (along, others) = span Part.continues rest in (Part.segment e :| map Part.segment along) : runs others
 
 -- | How far along a run the place of touch may seem to go back by rounding alone: along a curve the most of it that is
 -- touched while the centre moves by as much as it does there on one arc.

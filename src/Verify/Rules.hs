@@ -1,3 +1,4 @@
+{-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
 -- | What holds for frames whatever the part: the control takes them, and they command what the program does.
@@ -25,7 +26,7 @@ refused :: Machine -> V3 -> [Frame] -> [Finding]
 refused machine = go 1
   where
     go :: Int -> V3 -> [Frame] -> [Finding]
-    go n at frames = case frames of
+    go !n !at frames = case frames of
       [] -> []
       f : more -> case inFrame n at f of
         [] -> go (n + 1) (at + Frame.increment f) more

@@ -37,10 +37,10 @@ push (Vertices ref) x y bulge = do
   PrimArray.writePrimArray array' (3 * n + 2) bulge
   writeSTRef ref (Written (n + 1) array')
 
--- | What has been written.
+-- | What has been written; nothing is written behind it.
 outline :: Vertices s -> ST s Outline
 outline (Vertices ref) = do
   Written n array <- readSTRef ref
-  written <- PrimArray.freezePrimArray array 0 (3 * n)
+  written <- PrimArray.unsafeFreezePrimArray array
   let part k = PrimArray.generatePrimArray n (\i -> PrimArray.indexPrimArray written (3 * i + k))
   pure Outline {ends = Open, xs = part 0, ys = part 1, bulges = part 2}
