@@ -64,8 +64,15 @@ at t segment
   | t >= 1 = end segment
   | otherwise = case segment of
     Straight a b -> Vec.between t a b
-    Arc {start, centre, sweep = Rad s} ->
-      Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre start)) centre
+    Arc {start = a, end = b, centre, sweep = Rad s}
+      -- About a centre so far away a place would be as inexact as the centre is: the chord from the beginning to it is
+      -- @2·r·sin(t·φ/2)@ long, and turned against the whole one by @(t − 1)·φ/2@.
+      | s /= 0 && abs s < flat -> Vec.shift (Vec.scale (sin (t * s / 2) / sin (s / 2)) (Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b))) a
+      | otherwise -> Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre a)) centre
+
+-- | Arcs of less, in radians, are almost lines: the radius is more than ten thousand times the chord.
+flat :: Double
+flat = 1e-4
 
 -- | The direction in which the segment sets out, of length 1. The segment has a length.
 startDirection :: Segment -> Vec

@@ -32,7 +32,7 @@ spec = do
         map (Report.title . Error.toReport) (Result.errors (Parser.parse 0 text :: Result.Result () Error Program)) === []
     -- The bug: a rule that no sentence ever uses.
     it "every word of it stands in some sentence" $ do
-      texts <- generate (vectorOf 3000 (Grammar.sentence grammar))
+      texts <- generate (vectorOf 6000 (Grammar.sentence grammar))
       let used = concatMap Text.words texts
       filter (`notElem` used) (Grammar.literals grammar) `shouldBe` []
     -- The bug: a construct that the parser knows and the manual does not.

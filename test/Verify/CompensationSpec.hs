@@ -98,7 +98,8 @@ deviation centre job = (r - minimum [nearest on p | p <- walked], maximum [neare
     Mm r = Part.radius job
     on = concatMap (dense 0.4 . Part.segment) (NonEmpty.toList (Part.elements (Part.contour job)))
     walked = concatMap (dense 0.2) centre
-    dense apart s = let Mm l = Segment.length s; n = max 1 (ceiling (l / apart)) :: Int in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
+    -- Short arcs may turn by much.
+    dense apart s = let Mm l = Segment.length s; n = max 16 (ceiling (l / apart)) :: Int in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
     nearest ps q = sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps]) :: Double
 
 exchanged :: (OrderName, Int) -> (OrderName, Int)
