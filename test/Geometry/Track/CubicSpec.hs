@@ -90,9 +90,10 @@ turnsOf c = [abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom 
     angle a b = let Rad t = Vec.turn a b in t
 
 -- | Whether a kink that is no corner takes from a fifth to all of the tolerance by itself. An arc across it then has hardly a
--- choice where to lie, and whether one is found that is near for certain is a matter of luck.
+-- choice where to lie, and whether one is found that is near for certain is a matter of luck. So it is where the curve turns
+-- between points that are nearer to one another than the tolerance.
 tight :: Tracked -> Bool
-tight (Tracked _ tolerance c) = or [k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c), let bulge = k * max a b / 8]
+tight (Tracked _ tolerance c) = any (<= tolerance) chords || or [k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c), let bulge = k * max a b / 8]
   where
     places = map (Curve.at c) (Curve.breaks c)
     chords = zipWith away places (drop 1 places)
@@ -109,9 +110,10 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
   where
     ss = arcsOf tolerance c
     -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the other.
-    known = [[(u, Curve.at c u) | k <- [0 .. count], let u = a + (b - a) * fromIntegral k / fromIntegral count] | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
-    count = 400 :: Int
-    nearest p = minimum [closer p (60 :: Int) a b | (_, (a, b)) <- take 8 (sort (concatMap (valleys p) known))]
+    known = [between (400 :: Int) (a, b) | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
+    between count (a, b) = [(u, Curve.at c u) | k <- [0 .. count], let u = a + (b - a) * fromIntegral k / fromIntegral count]
+    -- Where it turns sharply the curve may come near twice between two places.
+    nearest p = minimum [closer p (60 :: Int) a b | (_, within) <- take 8 (sort (concatMap (valleys p) known)), (_, (a, b)) <- take 3 (sort (valleys p (between 40 within)))]
     -- About the places of a span that are nearer than those beside them.
     valleys p us =
       let ds = [(away p q, u) | (u, q) <- us]
