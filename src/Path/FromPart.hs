@@ -54,7 +54,8 @@ lay :: Part -> Result Warning Error Path
 lay part = case (Part.start part, Part.operations part) of
   (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Spot (Vec.point 0 0) (Mm 0))) []))
   (Nothing, _) -> Result [] [] Nothing
-  (Just begin, operations) -> case collect 0 (firstTool operations) (value begin) operations of
+  -- Of the operations nothing is held behind their blocks.
+  (Just begin, operations) | !tool <- firstTool operations -> case collect 0 tool (value begin) operations of
     ([], blocks) ->
       let path = Path begin blocks
        in Result (staying path) (intrusions path) (Just path)
@@ -86,11 +87,11 @@ collect number tool at operations = case operations of
     Left e -> first (e :) (collect next tool' at rest)
     Right bs -> (bs <>) <$> collect next tool' (Way.arriving at (concatMap Path.moves bs)) rest
     where
-      next = case o of
+      !next = case o of
         Mill _ -> number + 1
         Pocket _ -> number + 1
         _ -> number
-      tool' = case o of
+      !tool' = case o of
         Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
         _ -> tool
 
