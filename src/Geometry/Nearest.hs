@@ -46,7 +46,7 @@ fan = 8
 index :: (a -> Box) -> [a] -> Nearest a
 index box list = indexed box (Vector.fromList list)
 
--- | The same of so many things, at the most; they are not held twice.
+-- | The same, where it is known how many they are: their array is made at once instead of growing. Of more things the first ones count.
 indexOf :: Int -> (a -> Box) -> [a] -> Nearest a
 indexOf most box list = indexed box (Vector.fromListN most list)
 

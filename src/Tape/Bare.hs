@@ -20,6 +20,8 @@ import Data.Maybe (isJust)
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Machine.Machine (Axis (..), Content (..), FeedCode (..), Measure (..), MotionCodes (..), NumberForm (..), Presence (..), Sign (..), Word' (..))
+import Tape.Numeral (Figures (..))
+import Tape.Numeral qualified as Numeral
 import Tape.Plan (Plan, Step (..))
 import Tape.Plan qualified as Plan
 import Tape.State (State (..))
@@ -134,22 +136,12 @@ plainNumber plan f rows begin = case sign f of
     none = Plain (-1) 0
     here :: Symbol -> Bool
     here s = begin < Short.length rows && Short.index rows begin == Symbol.holes s
-    unsigned minus from = case figures plan rows (from + digits f - decimals f) from 0 of
-      Plain at n
+    unsigned minus from = case Numeral.plainFigures plan rows (from + digits f - decimals f) from 0 of
+      Figures at n
         | decimals f == 0 -> finished minus (at - from) at n
-        | at < Short.length rows, Short.index rows at == Symbol.holes (Plan.point plan), Plain end m <- figures plan rows (at + 1 + decimals f) (at + 1) n, end == at + 1 + decimals f -> finished minus (end - from - 1) end m
+        | at < Short.length rows, Short.index rows at == Symbol.holes (Plan.point plan), Figures end m <- Numeral.plainFigures plan rows (at + 1 + decimals f) (at + 1) n, end == at + 1 + decimals f -> finished minus (end - from - 1) end m
         | otherwise -> none
     finished minus places end n
       | Plan.isCount f places n && not (minus && n == 0) = Plain end (if minus then negate n else n)
       | otherwise = none
 {-# INLINE plainNumber #-}
-
--- | The digits from a row on, up to another, behind those of a number: the row behind them, and the number.
-figures :: Plan -> ShortByteString -> Int -> Int -> Int -> Plain
-figures plan rows end = go
-  where
-    table = Plan.symbols plan
-    limit = min end (Short.length rows)
-    go !k !n
-      | k < limit, w <- Short.index rows k, Just d <- Symbol.digitAt table w, not (Symbol.holeAt table w) = go (k + 1) (10 * n + d)
-      | otherwise = Plain k n

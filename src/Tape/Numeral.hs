@@ -7,6 +7,8 @@ module Tape.Numeral
     Numeral (..),
     numeral,
     begins,
+    Figures (..),
+    plainFigures,
     digit,
     blemish,
   )
@@ -137,16 +139,10 @@ figures plan c rows least most ds
 -- | The digits up to a row, as far as the service track says what it may beside them.
 sound :: Plan -> ShortByteString -> Int -> Digits -> Digits
 sound plan rows end ds
-  | null (services ds) = plainly (at ds) (amount ds) (count ds)
+  | null (services ds), Figures k n <- plainFigures plan rows end (at ds) (amount ds) = ds {at = k, amount = n, count = if Plan.isChecked plan then count ds + weights (at ds) k else count ds}
   | otherwise = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
   where
-    plainly !k !n !weight
-      | k < limit,
-        w <- Short.index rows k,
-        Just d <- Symbol.digitAt table w,
-        not (Symbol.holeAt table w) =
-        plainly (k + 1) (10 * n + d) (weight + Symbol.digitWeight table d)
-      | otherwise = ds {at = k, amount = n, count = weight}
+    weights from to = sum [Symbol.digitWeight table d | k <- [from .. to - 1], Just d <- [Symbol.digitAt table (Short.index rows k)]]
     table = Plan.symbols plan
     limit = min end (Short.length rows)
     go k n minus bits brakes weight track
@@ -164,6 +160,19 @@ sound plan rows end ds
       | otherwise = reached
       where
         reached = Digits {at = k, amount = n, negative = minus, told = bits, slow = brakes, count = weight, services = track}
+
+-- | The row behind some digits, and their number.
+data Figures = Figures Int Int
+
+-- | The digits up to a row without a hole in the service track, from a row on and behind those of a number.
+plainFigures :: Plan -> ShortByteString -> Int -> Int -> Int -> Figures
+plainFigures plan rows end = go
+  where
+    table = Plan.symbols plan
+    limit = min end (Short.length rows)
+    go !k !n
+      | k < limit, w <- Short.index rows k, Just d <- Symbol.digitAt table w, not (Symbol.holeAt table w) = go (k + 1) (10 * n + d)
+      | otherwise = Figures k n
 
 -- | Why the digits end.
 stopped :: Plan -> Content -> ShortByteString -> Digits -> Fault

@@ -90,13 +90,14 @@ turnsOf c = [abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom 
     angle a b = let Rad t = Vec.turn a b in t
 
 -- | Whether a kink that is no corner takes from a fifth to all of the tolerance by itself. An arc across it then has hardly a
--- choice where to lie, and whether one is found that is near for certain is a matter of luck. So it is where the curve turns
--- between points that are nearer to one another than the tolerance.
+-- choice where to lie, and whether one is found that is near for certain is a matter of luck. So it is
+-- with a hook between points that are nearer to one another than the tolerance: no arc goes forwards along it.
 tight :: Tracked -> Bool
-tight (Tracked _ tolerance c) = any (<= tolerance) chords || or [k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c), let bulge = k * max a b / 8]
+tight (Tracked _ tolerance c) = or hooks || or [k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c), let bulge = k * max a b / 8]
   where
     places = map (Curve.at c) (Curve.breaks c)
     chords = zipWith away places (drop 1 places)
+    hooks = [away p q <= tolerance && (turnsBack Curve.After a || turnsBack Curve.Before b) | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c)), let (p, q) = (Curve.at c a, Curve.at c b), let turnsBack side u = Vec.dot (Curve.tangentFrom side c u) (Vec.to p q) < 0]
 
 curveLaw :: Tracked -> Property
 curveLaw (Tracked _ tolerance c) = forAll (vectorOf 100 (choose (0, 1))) $ \fs ->
