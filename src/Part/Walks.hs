@@ -102,7 +102,8 @@ walksOf at walk v finish link = case (v, walk) of
     Open -> pure (chained (NonEmpty.toList (elements c)))
   _ -> bug "an element that can not be walked"
   where
-    one shape begins stops = pure [Chain.Walk {Chain.place = at, Chain.shape, Chain.begins, Chain.stops, Chain.finish, Chain.bevel = [], Chain.source = case v of CurveValue c -> Just c; _ -> Nothing, Chain.link}]
+    -- It is made at once: what it is made of is not held.
+    one shape begins stops = let w = Chain.Walk {Chain.place = at, Chain.shape, Chain.begins, Chain.stops, Chain.finish, Chain.bevel = [], Chain.source = case v of CurveValue c -> Just c; _ -> Nothing, Chain.link} in w `seq` pure [w]
     chained es = case Part.runs es of
       [] -> []
       runs' -> zipWith walkOf runs' (map (Just . (at,) . Fixed . Segment.end . Part.segment . NonEmpty.last) (init runs') <> [link])
