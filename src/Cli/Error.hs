@@ -35,6 +35,8 @@ data Error
     DescriptionWrong (Maybe Region) Text Text [Report]
   | -- | the output would replace the program
     OverwritesProgram Text
+  | -- | several tapes would go to one place
+    OneForSeveral Text
   | -- | the program punches nothing
     NothingToPunch
   | -- | a value for a parameter of an input sheet
@@ -82,6 +84,10 @@ toReport err = case err of
         hints = ["partc machines " <> file <> " shows them in full."]
       }
   OverwritesProgram path -> wrong "E0807" InFile ("the output would replace " <> path <> ", of which it is made")
+  OneForSeveral place ->
+    (wrong "E0811" InFile ("several tapes would go to " <> (if place == "-" then "standard output" else place)))
+      { hints = [if place == "-" then "Leave -o out, or name a folder: then each machine has a file of its own." else "Two of the machines have one name: give one of them another, or compile for one after the other with -o."]
+      }
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]

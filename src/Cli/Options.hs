@@ -84,9 +84,9 @@ commands =
       entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
       entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
       entry "tape" "Draw the rows of a tape with their meaning" "partc tape -t lkp-01f flange.tape --frames 1..3" (DrawTape <$> optional target <*> rangeOption <*> tape),
-      entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional outputOption),
-      entry "import" "Make a part program of an input sheet" "partc import rib.sheet -o rib.part" (Import <$> sheet <*> optional outputOption),
-      entry "export-sheet" "Make an input sheet of a program" "partc export-sheet rib.part -o rib.sheet" (ExportSheet <$> program <*> optional outputOption),
+      entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional (outputOption "The file to write; - for standard output")),
+      entry "import" "Make a part program of an input sheet" "partc import rib.sheet -o rib.part" (Import <$> sheet <*> optional (outputOption "The file to write; - for standard output")),
+      entry "export-sheet" "Make an input sheet of a program" "partc export-sheet rib.part -o rib.sheet" (ExportSheet <$> program <*> optional (outputOption "The file to write; - for standard output")),
       entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME" <> Opt.help "A machine that is built in, or a description NAME.machine")) <*> Opt.switch (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")),
       entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes))),
       entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors),
@@ -109,7 +109,7 @@ compileOptions =
   CompileOptions
     <$> program
     <*> many target
-    <*> optional outputOption
+    <*> optional (outputOption "The file to write, or a folder; - for standard output")
     <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
 
 program :: Parser FilePath
@@ -137,8 +137,8 @@ fromTo = Opt.eitherReader $ \word -> case traverse (readMaybe . Text.unpack) (Te
   Just [a, b] | 1 <= a, a <= b -> Right (a, b)
   _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
 
-outputOption :: Parser FilePath
-outputOption = Opt.strOption (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help "The file to write, or a folder; - for standard output" <> Opt.action "file")
+outputOption :: String -> Parser FilePath
+outputOption what = Opt.strOption (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help what <> Opt.action "file")
 
 -- | Settings as far as they are given; they may stand before the command and behind it.
 data Overrides = Overrides

@@ -203,9 +203,15 @@ compile reporter options = withProgram reporter (file options) (targets options)
   settle reporter rest (laid `Result.thenSound` uncurry (provenOn (unproven options))) $ \tapes -> do
     places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
     clash <- overwrites (ownFiles (file options) rest) (map fst places)
-    case clash of
-      Just place -> complain reporter (name rest) (OverwritesProgram (Text.pack place))
-      Nothing -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+    case (clash, twice (map fst places)) of
+      (Just place, _) -> complain reporter (name rest) (OverwritesProgram (Text.pack place))
+      (Nothing, Just place) -> complain reporter (name rest) (OneForSeveral (Text.pack place))
+      (Nothing, Nothing) -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+  where
+    -- The first place that stands there again.
+    twice places = case places of
+      [] -> Nothing
+      p : more -> if p `elem` more then Just p else twice more
 
 -- | Where a tape goes: beside the program, into a folder, or to the file that is named.
 destination :: CompileOptions -> Int -> Machine -> IO FilePath
@@ -333,7 +339,7 @@ withTape reporter target tapeFile continue = case target of
 plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 plot reporter file' place = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (analyse loaded) $ \analysis ->
-    deliver reporter file' place (Plot.plot (part analysis) (path analysis))
+    deliver reporter (displayName file') (ownFiles file' loaded) place (Plot.plot (part analysis) (path analysis))
 
 -- | Write a sheet as a program.
 import' :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
@@ -345,22 +351,22 @@ import' reporter file' place = do
       let result = Result.mapErrors id Sheet.toReport (Sheet.read t)
       stopped <- Output.show' reporter (displayName file') (Region.fromText (displayName file') t) (errors result)
       case output result of
-        Just sheet | not stopped -> deliver reporter file' place (Sheet.text sheet)
+        Just sheet | not stopped -> deliver reporter (displayName file') [file'] place (Sheet.text sheet)
         _ -> pure Failed
 
 -- | Write a program as a sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 exportSheet reporter file' place = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (Compile.evaluated (values loaded) (texts loaded) `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry Sheet.fromPart)) $
-    deliver reporter file' place . Sheet.write
+    deliver reporter (displayName file') (ownFiles file' loaded) place . Sheet.write
 
--- | Write a text to a file, but not over what it was made from, or to standard output.
-deliver :: Reporter -> FilePath -> Maybe FilePath -> Text -> IO Exit
-deliver reporter file' place text = case place of
+-- | Write a text to a file, but not over one of those that it was made from, or to standard output.
+deliver :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> IO Exit
+deliver reporter about sources place text = case place of
   Just p | p /= "-" -> do
-    clash <- overwrites [file'] [p]
+    clash <- overwrites sources [p]
     case clash of
-      Just same -> complain reporter (displayName file') (OverwritesProgram (Text.pack same))
+      Just same -> complain reporter about (OverwritesProgram (Text.pack same))
       Nothing -> writeAll reporter [(p, Encoding.encodeUtf8 text)]
   _ -> printed reporter text
 
