@@ -77,7 +77,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     -- Its own strokes stay away from the contour by what they leave; all others have to spare the contour.
     looked = if upon then [] else filter belowTop (if isFirst then nearby (Box.inflate (outreach job) contourBox) else within)
     spared t
-      | IntSet.member (number t) ownNumbers = Spared {upTo = furthest t, most = plus (reach job) mostLeft, required = \e p -> plus (reach job) (leftAt (edges job) e p)}
+      | IntSet.member (number t) ownNumbers = Spared {upTo = furthest t, most = plus (reach job) mostLeft, required = \e p -> plus (reach job) (leftAt pulse (edges job) e p)}
       | otherwise = Spared {upTo = furthest t, most = toolOf t, required = \_ _ -> toolOf t}
     furthest t = max (outreach job) (toolOf t)
     mostLeft = max (Mm 0) (Passage.mostLeft (edges job))
@@ -221,10 +221,10 @@ gougeOf Spared {upTo, required} es t
       ]
     around way = Box.inflate upTo (Box.ofSegment way)
 
--- | What is left on an element where it is nearest to a point; where elements join, no more than on any of them, and nothing
--- of its own where another is nearer.
-leftAt :: Nearest Edge -> Element -> Point -> Mm
-leftAt es e p
+-- | What is left on an element where it is nearest to a point; where elements join, to a pulse, no more than on any of them, and
+-- nothing of its own where another is nearer: a step from what is left on one to what is left on the next ends on whole pulses.
+leftAt :: Mm -> Nearest Edge -> Element -> Point -> Mm
+leftAt pulse es e p
   | own <= Mm 0 = own
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined = Mm 0
   | otherwise = minimum (own : map left' joined)
@@ -232,7 +232,7 @@ leftAt es e p
     own = left' e
     left' = Part.allowance . Part.finish
     (d, foot) = Distance.nearest p (Part.segment e)
-    joined = [other | other <- map element (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) es), Distance.toPoint foot (Part.segment other) <= Tolerance.coincident]
+    joined = [other | other <- map element (Nearest.within (Box.inflate pulse (Box.ofPoints foot [])) es), Distance.toPoint foot (Part.segment other) <= pulse]
 
 -- | For each element the most that is left standing on it, as far as it is more than on those before
 -- or more than is allowed. By its number it is known how far its furthest point is at most from one of the strokes.

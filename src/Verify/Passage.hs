@@ -24,7 +24,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus, total)
 import Base.Region (Region)
-import Data.List (foldl')
+import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
@@ -262,11 +262,16 @@ follows job ruler strokes = go 0 0 0 (entry job) strokes (closeToEach job stroke
   where
     go :: Int -> Double -> Double -> Point -> [Trace] -> [[Edge]] -> Maybe Int
     go !count !gone !mark at traces close
-      | isNear job (exit job) at && gone + ahead mark at >= whole ruler - slack ruler =
-        Just (count + length (takeWhile (staysNear job (exit job)) traces))
-      | otherwise = case (traces, close) of
-        (t : rest, near : others) -> along (count + 1) (line t) (Trace.pieces t) 1 near gone mark rest others
-        _ -> Nothing
+      | isNear job (exit job) at && gone + furthest places >= whole ruler - slack ruler =
+        -- Where something between is not touched the contour only comes by its own end, if it goes on.
+        if areNeighbours places then ended else maybe ended Just onwards
+      | otherwise = onwards
+      where
+        places = ahead mark at
+        ended = Just (count + length (takeWhile (staysNear job (exit job)) traces))
+        onwards = case (traces, close) of
+          (t : rest, near : others) -> along (count + 1) (line t) (Trace.pieces t) 1 near gone mark rest others
+          _ -> Nothing
     -- From place to place of a stroke.
     along :: Int -> Segment -> Int -> Int -> [Edge] -> Double -> Double -> [Trace] -> [[Edge]] -> Maybe Int
     along !count s !n !k near !gone !mark rest others
@@ -275,12 +280,14 @@ follows job ruler strokes = go 0 0 0 (entry job) strokes (closeToEach job stroke
       | otherwise = along count s n (k + 1) near (gone + delta) (mark + delta) rest others
       where
         delta = step near mark (Segment.at (fromIntegral k / fromIntegral n) s)
-    -- How far on the furthest place is that the cutter touches.
-    ahead mark p = maximum (0 : map (difference mark) (touched job (around job p) p))
+    -- How far on the places are that the cutter touches, the nearest first, and the numbers of their elements.
+    ahead mark p = sortOn fst [(d, n) | (n, s) <- touched job (around job p) p, let d = difference mark s, d >= negate (slack ruler)]
+    furthest places = maximum (0 : map fst places)
+    areNeighbours places = and (zipWith (\(_, m) (_, n) -> n == m || n == m + 1 || m + 1 == Nearest.size (edges job) && n == 0) places (drop 1 places))
     -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
     step near mark p = foldTouched job near p smaller (1 / 0)
       where
-        smaller least s = let d = difference mark s in if d >= negate (slack ruler) && abs d < abs least then d else least
+        smaller least _ s = let d = difference mark s in if d >= negate (slack ruler) && abs d < abs least then d else least
     difference mark s
       | closed ruler = let d = s - mark - whole ruler * fromIntegral (floor ((s - mark) / whole ruler + 0.5) :: Int) in d
       | otherwise = s - mark
@@ -313,18 +320,18 @@ besideOf :: Job -> Trace -> [Edge]
 besideOf job t = Nearest.within (Box.inflate (reaches job) (Trace.box t)) (edges job)
 
 -- | The places along the contour that the cutter with its centre at a point touches, among elements with all that lie
--- within its reach. What it touches is nearest to it; beside an arc the nearer of its ends counts.
-touched :: Job -> [Edge] -> Point -> [Double]
-touched job near p = reverse (foldTouched job near p (flip (:)) [])
+-- within its reach, with the numbers of the elements. What it touches is nearest to it; beside an arc the nearer of its ends counts.
+touched :: Job -> [Edge] -> Point -> [(Int, Double)]
+touched job near p = reverse (foldTouched job near p (\found n s -> (n, s) : found) [])
 
 -- | The same, one after the other.
-foldTouched :: Job -> [Edge] -> Point -> (b -> Double -> b) -> b -> b
+foldTouched :: Job -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
 foldTouched job near p with = go near
   where
     go es b = case es of
       [] -> b
       e : more
-        | mayLie far e, Course.distance (course e) x y <= far -> let b' = with b (before e + Course.footOn (course e) x y * long e) in b' `seq` go more b'
+        | mayLie far e, Course.distance (course e) x y <= far -> let b' = with b (rank e) (before e + Course.footOn (course e) x y * long e) in b' `seq` go more b'
         | otherwise -> go more b
     (x, y) = (Vec.x p, Vec.y p)
     Mm most = reaches job
