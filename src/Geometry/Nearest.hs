@@ -1,11 +1,13 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Things by their boxes in flat arrays: a box for each, for each eight of them, for each eight of those, and so on. The
--- order in which they are given is the order of a contour or of a walk, and that is a good order in space: nothing is sorted.
+-- order in which they are given is the order of a contour or of a walk, and that is a good order in space as a rule: nothing is sorted
+-- unless it is asked for.
 module Geometry.Nearest
   ( Nearest,
     index,
     indexOf,
+    byPlace,
     within,
     each,
     select,
@@ -19,6 +21,7 @@ where
 import Base.Quantity (Mm (..), minus)
 import Control.Monad (forM_)
 import Control.Monad.Primitive (PrimMonad, PrimState)
+import Data.List (sortOn)
 import Data.List qualified as List
 import Data.Primitive.PrimArray (MutablePrimArray, PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
@@ -49,6 +52,18 @@ index box list = indexed box (Vector.fromList list)
 -- | The same, where it is known how many they are: their array is made at once instead of growing. Of more things the first ones count.
 indexOf :: Int -> (a -> Box) -> [a] -> Nearest a
 indexOf most box list = indexed box (Vector.fromListN most list)
+
+-- | The same for things whose order is none in space, such as the rounds of a pocket, each of which lies about the next: sorted by the middles of their
+-- boxes, in columns of as many things as a column is wide in boxes. The time has a logarithm more.
+byPlace :: (a -> Box) -> [a] -> Nearest a
+byPlace box list = index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
+  where
+    columns things = case splitAt (fan * perColumn) things of
+      (column, []) -> [column]
+      (column, rest) -> column : columns rest
+    perColumn = max 1 (ceiling (sqrt (fromIntegral (length list) / fromIntegral fan :: Double)))
+    middleX (Box l _ r _) = l + r
+    middleY (Box _ b _ t) = b + t
 
 indexed :: (a -> Box) -> Vector a -> Nearest a
 indexed box things = Nearest {things, lowest, levels = reverse (grow lowest)}

@@ -153,11 +153,13 @@ numbers separator columns k line = case partitionEithers (map number cells) of
       Located _ "" : rest@(_ : _ : _) -> reverse rest
       _ -> found
     number (Located at text) = case Text.uncons text of
-      Just ('-', rest) -> Located at . Negate . Located (Region (start at + 1) (end at)) <$> numeral at (Text.stripStart rest)
-      Just ('+', rest) -> Located at <$> numeral at rest
-      _ -> Located at <$> numeral at text
-    numeral at text =
+      Just ('-', rest) -> maybe (wrongly at text) (Right . Located at . Negate . Located (Region (start at + 1) (end at))) (numeral (Text.stripStart rest))
+      Just ('+', rest) -> maybe (wrongly at text) (Right . Located at) (numeral rest)
+      _ -> maybe (wrongly at text) (Right . Located at) (numeral text)
+    wrongly at text = Left (BadCell at text)
+    -- Behind its sign.
+    numeral text =
       let digits = if separator == ',' then text else Text.replace "," "." text
        in case Read.rational digits :: Either String (Double, Text) of
-            Right (x, "") | Text.all (`elem` ("0123456789.eE+-" :: String)) digits, not (isInfinite x) -> Right (Literal (Numeral digits x) Nothing)
-            _ -> Left (BadCell at text)
+            Right (x, "") | Text.all (`elem` ("0123456789.eE+-" :: String)) digits, not (isInfinite x), not (any ((`elem` ("+-" :: String)) . fst) (Text.uncons digits)) -> Just (Literal (Numeral digits x) Nothing)
+            _ -> Nothing

@@ -141,7 +141,7 @@ examine machine flat toolOf traces nearby isOwn pocket isFirst pass = (passage, 
     findings =
       [Gouge first most' mayGouge | Just most' <- [deepest], amount most' > mayGouge, first : _ <- [filter ((> mayGouge) . amount) gouges]]
         <> [Excess first (fromMaybe first worst) mayLeave | first : _ <- [tooMuch]]
-        <> [NotCleared (statement pocket) (level pass) p | isFinal pass, null tooMuch, p <- maybeToList (uncleared pocket (plus (Part.radius (milling pocket)) mayLeave) strokes)]
+        <> [NotCleared (statement pocket) (level pass) p | isFinal pass, null tooMuch, p <- maybeToList (uncleared pocket (plus (Part.radius (milling pocket)) mayLeave) (Nearest.byPlace box atHeight))]
 
 -- | For each stretch of the rim how far its furthest place is from the strokes, as far as that is more than of those before or more
 -- than is allowed.
