@@ -4,6 +4,7 @@ module Geometry.Tolerance
     smoothAngle,
     parallel,
     clearance,
+    slot,
     sameLength,
     smallestFillet,
     sameFillet,
@@ -56,6 +57,10 @@ parallel = 1e-12
 -- It is above what 'smoothAngle' opens at the radius of a large cutter (50 mm).
 clearance :: Mm
 clearance = Mm 1e-5
+
+-- | A slot of just the cutter's width that is no longer than half of this does not count.
+slot :: Mm
+slot = Mm 0.01
 
 -- | Two contours whose lengths differ by no more are equally long: the choice between them is a tie.
 sameLength :: Mm

@@ -59,7 +59,7 @@ blocks number at (Located region given) = do
       (spot, done) <- before
       let visit = Visit {Way.word, Way.milling, Way.isFirst = k == 1, Way.isLast = k == length passes, Way.from = spot}
           numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
-      (approach, cleared, retract) <- passOf visit (fst <$> depth) z legs
+      (approach, cleared, retract) <- passOf visit (fst <$> depth) (left, z) legs
       let b = Clearing {pocket = Located region pocket, pass = numbered, approach, cleared, retract, rests = if left == NonEmpty.last allowances then rests else []}
       Right (Way.arriving spot (Path.moves b), b : done)
 
@@ -67,10 +67,10 @@ blocks number at (Located region given) = do
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
--- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the cutter may be lifted; its own height; the legs
+-- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the cutter may be lifted; what it leaves at the walls and its own height; the legs
 -- from where the cutter goes down.
-passOf :: Visit -> Maybe Mm -> Mm -> (Maybe Point -> [Leg]) -> Either Error ([Move], NonEmpty Move, [Move])
-passOf visit clear z legsFrom = do
+passOf :: Visit -> Maybe Mm -> (Mm, Mm) -> (Maybe Point -> [Leg]) -> Either Error ([Move], NonEmpty Move, [Move])
+passOf visit clear (left, z) legsFrom = do
   legs <- fitting (NonEmpty.nonEmpty (legsFrom from))
   (visit', legs') <- case (legs, clear) of
     -- Something is in the way from where the cutter would go down: it goes on above.
@@ -82,7 +82,7 @@ passOf visit clear z legsFrom = do
   Right (before, cleared, behind)
   where
     Visit {Way.word, Way.milling} = visit
-    fitting = maybe (Left (NoPathInPocket word (contour milling))) Right
+    fitting = maybe (Left (NoPathInPocket word (contour milling) left)) Right
     standsAt = plane (Way.from visit)
     from = case (clear, lastApproach milling) of
       (Just _, p) -> p
@@ -103,7 +103,9 @@ laid pocket = (\from -> Pocket.clear (room first) step from) :| zipWith (\before
     step = apart pocket
     contours = Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
     inset = Inset.inset contours
-    room leaves = Room {walls = foldr1 (<>) (fmap Geometry.segments contours), offsetBy = inset, further = Inset.further, radius = Part.radius (wall pocket), leaves, turned = isTurned pocket}
+    -- Along the walls it goes down slots of just its width, too.
+    insetFrom nearest d = if d == nearest then Inset.fitting inset d else inset d
+    room leaves = Room {walls = foldr1 (<>) (fmap Geometry.segments contours), offsetBy = insetFrom (plus (Part.radius (wall pocket)) leaves), further = Inset.further, radius = Part.radius (wall pocket), leaves, turned = isTurned pocket}
 
 -- | Whether the free space lies on the right of the walk: a spindle that turns clockwise climbs with the material there.
 isTurned :: Pocketing -> Bool
@@ -142,7 +144,7 @@ resting word pocket = case (Part.rest milling, found) of
     found = [Obstacle.shifted n o | (n, c) <- zip starts contours, Left o <- [Offset.styled style side r (Part.outline c)]] <> gaps
     rests n c = case Offset.styled style side r (Part.outline c) of
       Right _ -> []
-      Left _ -> [rest {Offset.stop = Obstacle.shifted n (Offset.stop rest)} | rest <- snd (Offset.reachable style side r (Part.outline c))]
+      Left _ -> [rest {Offset.stop = Obstacle.shifted n (Offset.stop rest)} | rest <- snd (Offset.reachableFitting style side r (Part.outline c))]
     gaps = gapsBetween r (map Part.outline contours)
 
 -- | Contours between which a circle does not pass: of each two the narrowest place.

@@ -77,8 +77,8 @@ data Error
     TinyForControl Region Element Mm
   | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
     SlightForControl Region Element Element Rad Mm
-  | -- | there is no path that clears a pocket: the statement's first word, the outline
-    NoPathInPocket Region Contour
+  | -- | there is no path that clears a pocket: the statement's first word, the outline, what the pass leaves at the walls
+    NoPathInPocket Region Contour Mm
   | -- | a pocket in which the cutter has to be lifted, without a depth: the statement's first word, from where, to where
     HasToRise Region Point Point
   | -- | more is to be left on an element of a pocket's walls than the pocket leaves: the statement's first word
@@ -265,12 +265,12 @@ toReport err = case err of
         message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc that leads out behind it may then be refused."],
         hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
       }
-  NoPathInPocket region outline ->
+  NoPathInPocket region outline left ->
     let Located there (Name name) = contourName outline
      in (at region "E0420" "no path clears this pocket")
           { others = [Label there ("its outline is ‘" <> name <> "’")],
-            message = ["Nowhere in it the cutter has room."],
-            hints = ["Take a smaller cutter. A slot just as wide as the cutter is milled along its middle: mill … on."]
+            message = ["Nowhere in it the cutter has room" <> (if left > Mm 0 then " for a pass that leaves " <> Decimal.mm left else "") <> "."],
+            hints = ["Take a smaller cutter" <> (if left > Mm 0 then ", or leave less." else ".")]
           }
   HasToRise region p q ->
     (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")

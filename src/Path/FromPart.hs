@@ -214,7 +214,7 @@ along (Located region milling) side' numbered allowance = case side' of
   Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
   Just s -> case (Offset.styled style s r outline, Part.rest milling) of
     (Right pieces, _) -> Right (pieces :| [], [])
-    (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachable style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
+    (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachableFitting style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
     (Left o, _) -> Left (refusal o)
   where
     outline = Part.outline (contour milling)

@@ -2,12 +2,13 @@
 module Path.Inset
   ( oriented,
     inset,
+    fitting,
     further,
   )
 where
 
 import Base.Crash qualified as Crash
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), minus, total)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
@@ -18,6 +19,8 @@ import Geometry.Contour qualified as Contour
 import Geometry.Offset.Kernel qualified as Kernel
 import Geometry.Offset.Loops qualified as Loops
 import Geometry.Outline qualified as Outline
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Path.Nest (Loop)
 
 -- | An outline and islands, each walked with the free space on its left.
@@ -41,6 +44,17 @@ inset contours@(outline :| _) = within
         Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
         Left (Kernel.Crossed _ _) -> []
         Left Kernel.Misplaced -> []
+
+-- | The loops at a distance, and down slots of just twice that width: no area is there in which the centre could stand, but a line, which is
+-- the loop at a distance that is less by 'Tolerance.clearance'.
+fitting :: (Mm -> [Loop]) -> Mm -> [Loop]
+fitting within distance
+  | minus (longAll smaller) (longAll own) > Tolerance.slot = smaller
+  | otherwise = own
+  where
+    own = within distance
+    smaller = within (minus distance Tolerance.clearance)
+    longAll loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
 -- | The loops further in by a distance, of loops. From loop to loop the kernel has less to do than from the walls to each. Nothing where
 -- it cannot tell, as when loops touch.

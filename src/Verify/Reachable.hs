@@ -9,7 +9,7 @@ module Verify.Reachable
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus)
+import Base.Quantity (Mm (..), Rad (..), minus, times)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Nearest (Nearest)
@@ -26,7 +26,8 @@ parts side distance all' segment = case beside side distance segment of
   Nothing -> []
   Just centres ->
     let near = Nearest.within (Box.inflate distance (Box.ofSegment centres)) all'
-        free = Distance.uncovered (minus distance Tolerance.clearance) near centres
+        -- Half of what the path takes for room in which the cutter just fits.
+        free = Distance.uncovered (minus distance (times 0.5 Tolerance.clearance)) near centres
      in [piece segment a b | (a, b) <- free, b - a > Tolerance.hair]
 
 -- | Where the centre can be at a distance to the left of closed walks, or to the right: beside their segments and round their outer corners, with the place
