@@ -86,19 +86,22 @@ onTime machine least tasks = concatMap cut marked
     overTask ahead task = case task of
       Order _ _ -> (ahead, (task, []))
       Run {run = ms} -> let (ahead', marks) = mapAccumR (mark machine v2) ahead (atTheEnd ms) in (ahead', (task, marks))
-    -- A stretch shorter than a pulse is left out.
+    -- A stretch shorter than a pulse is not cut off a run.
     lengths = Map.fromListWith (+) [(within k, before k) | (_, marks) <- marked, (_, k) <- marks]
     Mm grain = Machine.pulse machine
     cut (task, marks) = case task of
       Order _ _ -> [task]
-      Run {} -> regrouped task (concatMap parts marks)
+      Run {}
+        | all isWhole marks -> regrouped task [(slowingTo k, m) | (m, k) <- marks]
+        | otherwise -> regrouped task (concatMap parts marks)
+    isWhole (m, k) = before k > 0 && before k >= (let Mm way = Task.wayOf m in way)
+    slowingTo k = Slowing (Feed (60 * to k))
     parts (m, k)
       | before k <= 0 || Map.findWithDefault 0 (within k) lengths < grain = [(Asked, m)]
-      | before k >= way = [(slowing, m)]
-      | otherwise = let (front, back) = Task.cutBefore (before k) m in [(Asked, front), (slowing, back)]
+      | before k >= way = [(slowingTo k, m)]
+      | otherwise = let (front, back) = Task.cutBefore (before k) m in [(Asked, front), (slowingTo k, back)]
       where
         Mm way = Task.wayOf m
-        slowing = Slowing (Feed (60 * to k))
 
 -- | What slows down at its end does so once, however many arcs stand for it.
 atTheEnd :: NonEmpty Move -> [Move]

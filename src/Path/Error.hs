@@ -129,7 +129,7 @@ stayWords tool s = case s of
   Between a b p largest -> "Between " <> shape a <> " and " <> shape b <> ", with the centre at " <> Vec.written 3 p <> ". " <> fits tool largest
 
 -- | What a control that is sent the edge of the part does not do.
-data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial
+data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
   deriving stock (Eq, Show)
 
 -- | The words for it.
@@ -290,6 +290,7 @@ unsent what = case what of
   Swivelling -> "A blade swivels while it cuts, and the control would not know how far."
   SharpCorners -> "The control goes round corners on arcs."
   LeavingMaterial -> "The control is told the diameter of the cutter, and leaves nothing standing."
+  Unreached -> "The control goes along all of the edge, also where the cutter does not reach it: there it would cut into the part."
 
 unsentHint :: Unsent -> Text
 unsentHint what = case what of
@@ -297,6 +298,7 @@ unsentHint what = case what of
   Swivelling -> "Leave out compensation controller, or take a mill."
   SharpCorners -> "Leave out corners sharp."
   LeavingMaterial -> "Mill the passes that leave something in a statement of their own, without compensation controller."
+  Unreached -> "Leave out compensation controller, or take a smaller cutter."
 
 inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"

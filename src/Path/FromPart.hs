@@ -38,7 +38,7 @@ import Part.Part qualified as Part
 import Path.Clearing qualified as Clearing
 import Path.Compensation (Ways (Ways))
 import Path.Compensation qualified as Compensation
-import Path.Error (Error (..), Warning (..))
+import Path.Error (Error (..), Unsent (..), Warning (..))
 import Path.Obstacle qualified as Obstacle
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
@@ -214,6 +214,7 @@ along (Located region milling) side' numbered allowance = case side' of
   Nothing -> Right (NonEmpty.zipWith (\i e -> Offset.Piece (Offset.Along i) (Part.segment e)) (0 :| [1 ..]) (elements (contour milling)) :| [], [])
   Just s -> case (Offset.styled style s r outline, Part.rest milling) of
     (Right pieces, _) -> Right (pieces :| [], [])
+    (Left _, Part.Allowed) | Just asked <- Part.byControl milling -> Left (NotForControl asked Unreached)
     (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachableFitting style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
     (Left o, _) -> Left (refusal o)
   where
