@@ -331,14 +331,14 @@ wrongSide job View {trace = t, close} = case side job of
        in if Vec.cross ahead (Vec.to foot p) > 0 then Offset.LeftOf else Offset.RightOf
 
 -- | How far a tape may be off from a contour, into the material and out of it. Of a curve the contour has arcs that may be
--- off themselves, if there are any: the tape has to come so much nearer to them.
+-- off themselves, if there are any: the tape has to come so much nearer to them, as far as anything is allowed there but a pulse.
 allowedOff :: Bool -> Milling -> (Mm, Mm)
 allowedOff isCurved milling
   | isCurved = (less a, less b)
   | otherwise = (a, b)
   where
     (a, b) = Part.deepest (Part.tolerance milling)
-    less d = minus d Tolerance.curve
+    less d = max (Mm 0) (minus d Tolerance.curve)
 
 -- | Whether a stroke runs at a height, to a pulse, or goes straight down to it or up from it.
 isAt :: Machine -> Mm -> Trace -> Bool
