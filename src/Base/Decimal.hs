@@ -8,6 +8,7 @@ module Base.Decimal
     leading,
     whole,
     mm,
+    some,
   )
 where
 
@@ -108,3 +109,9 @@ whole = Text.pack . show
 -- | A length for a message: at most four decimals, with its unit.
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
+
+-- | The same of a length that is not 0, with as many more decimals as show it.
+some :: Mm -> Text
+some (Mm x)
+  | abs x >= 0.0001 = mm (Mm x)
+  | otherwise = short 9 x <> " mm"

@@ -252,7 +252,7 @@ toReport (Error fact calls) = addCalls $ case fact of
         hints = ["Leave the link out, or make the contour closed."]
       }
   NoMeeting j gap ->
-    (joined "E0311" j (things j <> " do not meet: they miss one another by " <> Decimal.mm gap))
+    (joined "E0311" j (things j <> " do not meet: they miss one another by " <> Decimal.some gap))
       { message = [stop "17533"],
         hints =
           if any isCurve [before j, after j]
@@ -337,7 +337,7 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   NothingCommon region a b gap ->
     (at region "E0330" (described a <> " and " <> described b <> " do not meet"))
-      { message = ["They miss one another by " <> Decimal.mm gap <> "."]
+      { message = ["They miss one another by " <> Decimal.some gap <> "."]
       }
   SameThing region ->
     at region "E0331" "these are the same curve, so they have no one point in common"
@@ -415,7 +415,7 @@ toReport (Error fact calls) = addCalls $ case fact of
         hints = ["The largest distance that fits there is less than " <> below largest <> "."]
       }
   ShiftsCorner region p angle ->
-    (at region "E0351" ("the curve has a corner of " <> Decimal.short 2 (degrees angle) <> " deg at " <> Vec.written 3 p))
+    (at region "E0351" ("the curve has a corner of " <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle) <> " deg at " <> Vec.written 3 p))
       { message = ["A shift would tear it open there, or let its parts cross."],
         hints = ["Lay a spline through the points, or make a piece of each part and join them by a link."]
       }

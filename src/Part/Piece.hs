@@ -138,7 +138,7 @@ shiftedBy at side distance lower = do
   let corners = Exact.corners lower
       whole = Exact.shifted side distance lower
   -- A curve that is put together stays together.
-  case [u | u <- corners, turnAt u > Tolerance.kink || torn whole u > Tolerance.curve] of
+  case [u | u <- corners, torn whole u > Tolerance.curve] of
     u : _ -> Eval.mistake (ShiftsCorner at (Exact.at lower u) (turnAt u))
     [] -> pure ()
   case Fold.fold whole of
