@@ -91,7 +91,9 @@ pocketOf found@((_, Located statement job, _, _) :| _) = Pocket {statement, mill
     walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.rank = i, Passage.before = 0, Passage.long = 0, Passage.left = Mm 0, Passage.continues = False, Passage.course = Course.ofSegment (Part.segment e)} | (i, e) <- Vector.toList (Vector.indexed elements)]
     about = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
     away = plus (plus (Part.radius milling) (NonEmpty.last (Part.allowances milling))) margin
-    rim = [(elements Vector.! i, s) | (i, s) <- Reachable.rim side away (Nearest.index Box.ofSegment (map Part.segment (Vector.toList elements))) (map (map Part.segment) contours)]
+    -- Where contours nearly touch, a place beside one of them may lie within the other.
+    rim = [(elements Vector.! i, s) | (i, s) <- inRim, isInside side walls (Segment.at 0.5 s)]
+    inRim = Reachable.rim side away (Nearest.index Box.ofSegment (map Part.segment (Vector.toList elements))) (map (map Part.segment) contours)
     passes = fmap pass found
     pass (order, _, p, aside) = Pass {order, level = Path.atHeight p, reach = Path.reach p, isFinal = Path.left p == NonEmpty.last (Part.allowances milling), aside}
 
@@ -101,7 +103,7 @@ margin = times 3 Tolerance.clearance
 
 -- | Whether a point lies in a pocket.
 holds :: Pocket -> Point -> Bool
-holds pocket p = maybe False (isFree pocket p . snd) (nearestWall pocket p)
+holds pocket = isInside (side pocket) (walls pocket)
 
 -- | Whether strokes cut the passes of a pocket depth by depth in their order.
 isInOrder :: Machine -> Pocket -> [Trace] -> Bool
@@ -111,9 +113,11 @@ isInOrder machine pocket = go (map NonEmpty.head (NonEmpty.group (map level (Non
       ([], _) -> True
       (_, []) -> False
       (z : more, t : rest)
-        | isLevel t && Deviation.atLevel machine z (fst (heights t)) && holds pocket (Segment.at 0.5 (line t)) -> go more rest
+        | (isLevel t || goesDown t) && Deviation.atLevel machine z (snd (heights t)) && holds pocket (Segment.at 0.5 (line t)) -> go more rest
         | otherwise -> go levels rest
     isLevel t = uncurry (==) (heights t) && not (Trace.isUpright t)
+    -- Where there is room for less than a pulse that is all.
+    goesDown t = Trace.isUpright t && uncurry (>) (heights t)
 
 -- | How one pass came out: whether it is the first one of its pocket; all strokes, those that may touch what lies in a box, and those of the pass.
 examine :: Machine -> Bool -> (Trace -> Mm) -> [Trace] -> (Box -> [Trace]) -> (Trace -> Bool) -> Pocket -> Bool -> Pass -> (Passage, [Finding])
@@ -171,18 +175,19 @@ uncleared pocket (Mm r) strokes = listToMaybe (look Nothing False ((left + right
     Mm d = away pocket
     -- A square about a place, half as wide; a stroke that may well cover it, and whether it is known to lie in the pocket.
     look :: Maybe [Course] -> Bool -> Double -> Double -> Double -> [Point]
-    look hint isInside x y half
+    look hint known x y half
       | corner < r, Just cs <- hint, rangeOf x y cs + corner <= r' = []
       | corner < r, Just cs <- stroke', rangeOf x y cs + corner <= r' || isBetween cs = []
-      | otherwise = case nearestWall pocket p of
+      | otherwise = case nearestWall (walls pocket) p of
         Nothing -> [p]
         Just (Mm w, e)
           | w + corner < d -> []
-          | w > corner && not isInside && not (isFree pocket p e) -> []
-          | corner <= finest -> [p | w >= d, isInside || w > corner || isFree pocket p e]
-          | otherwise -> let h = half / 2 in concat [look stroke' (isInside || w > corner) (x + a * h) (y + b * h) h | (a, b) <- [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
+          | w > corner && not known && not (free p e) -> []
+          | corner <= finest -> [p | w >= d, known || w > corner || free p e]
+          | otherwise -> let h = half / 2 in concat [look stroke' (known || w > corner) (x + a * h) (y + b * h) h | (a, b) <- [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
       where
         p = Vec.point x y
+        free = isFree (side pocket) (walls pocket)
         corner = half * sqrt 2
         stroke' = if corner < r then nearestStroke x y else Nothing
         corners = [(x + a * half, y + b * half) | (a, b) <- [(-1, -1), (1, -1), (1, 1), (-1, 1)]]
@@ -204,16 +209,20 @@ uncleared pocket (Mm r) strokes = listToMaybe (look Nothing False ((left + right
 floorResolution :: Mm
 floorResolution = Mm 0.02
 
+-- | Whether a point lies between walls on whose side the free space lies.
+isInside :: Side -> Nearest Edge -> Point -> Bool
+isInside side walls p = maybe False (isFree side walls p . snd) (nearestWall walls p)
+
 -- | The wall nearest to a point, and how far it is.
-nearestWall :: Pocket -> Point -> Maybe (Mm, Edge)
-nearestWall pocket p = Nearest.closest (\e -> Mm (Course.distance (Passage.course e) (Vec.x p) (Vec.y p))) p (walls pocket)
+nearestWall :: Nearest Edge -> Point -> Maybe (Mm, Edge)
+nearestWall walls p = Nearest.closest (\e -> Mm (Course.distance (Passage.course e) (Vec.x p) (Vec.y p))) p walls
 
 -- | Whether a point lies on the free side of the wall nearest to it. Nearest to a corner, it is on the same side of both walls there.
-isFree :: Pocket -> Point -> Edge -> Bool
-isFree pocket p e = (leftward > 0) == (side pocket == LeftOf)
+isFree :: Side -> Nearest Edge -> Point -> Edge -> Bool
+isFree side walls p e = (leftward > 0) == (side == LeftOf)
   where
     foot = snd (Distance.nearest p (Part.segment (element e)))
-    touching = filter (\o -> Distance.toPoint foot (Part.segment (element o)) <= Tolerance.coincident) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) (walls pocket))
+    touching = filter (\o -> Distance.toPoint foot (Part.segment (element o)) <= Tolerance.coincident) (Nearest.within (Box.inflate Tolerance.coincident (Box.ofPoints foot [])) walls)
     leftward = sum [Vec.cross (directionBeside foot (Part.segment (element o))) (Vec.to foot p) | o <- touching]
 
 -- | The direction of a segment at one of its points.

@@ -24,6 +24,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus, total)
 import Base.Region (Region)
+import Control.Applicative ((<|>))
 import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -264,7 +265,7 @@ follows job ruler strokes = go 0 0 0 (entry job) strokes (closeToEach job stroke
     go !count !gone !mark at traces close
       | isNear job (exit job) at && gone + furthest places >= whole ruler - slack ruler =
         -- Where something between is not touched the contour only comes by its own end, if it goes on.
-        if areNeighbours places then ended else maybe ended Just onwards
+        if areNeighbours places then ended else onwards <|> ended
       | otherwise = onwards
       where
         places = ahead mark at
