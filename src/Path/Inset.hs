@@ -19,6 +19,7 @@ import Geometry.Contour qualified as Contour
 import Geometry.Offset.Kernel qualified as Kernel
 import Geometry.Offset.Loops qualified as Loops
 import Geometry.Outline qualified as Outline
+import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Path.Nest (Loop)
@@ -35,7 +36,7 @@ inset :: NonEmpty Contour -> Mm -> [Loop]
 inset contours@(outline :| _) = within
   where
     walls = map (fst . Outline.fromContour) (NonEmpty.toList contours)
-    Box l b r t = let s :| more = fmap Box.ofSegment (Contour.segments outline) in foldl Box.union s more
+    Box l b r t = about (Contour.segments outline)
     within distance@(Mm d)
       -- No circle in the outline is larger; the kernel would have to tell a cutter that covers all of it from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
@@ -59,9 +60,18 @@ fitting within distance
 -- | The loops further in by a distance, of loops. From loop to loop the kernel has less to do than from the walls to each. Nothing where
 -- it cannot tell, as when loops touch.
 further :: [Loop] -> Mm -> Maybe [Loop]
-further loops distance = case Kernel.offset (Kernel.plain Kernel.LeftOf distance) (map (fst . Outline.fromContour . Contour Closed) loops) of
-  Right reach -> Just (loopsOf reach)
-  Left _ -> Nothing
+further loops distance@(Mm d)
+  | 2 * d >= min (r - l) (t - b) = Just []
+  | otherwise = case Kernel.offset (Kernel.plain Kernel.LeftOf distance) (map (fst . Outline.fromContour . Contour Closed) loops) of
+    Right reach -> Just (loopsOf reach)
+    Left _ -> Nothing
+  where
+    -- No circle in any of them is larger.
+    Box l b r t = maybe (Box 0 0 0 0) (foldr1 Box.union) (NonEmpty.nonEmpty (map about loops))
+
+-- | The box about segments.
+about :: NonEmpty Segment -> Box
+about (s :| more) = foldl (\box s' -> Box.union box (Box.ofSegment s')) (Box.ofSegment s) more
 
 loopsOf :: Kernel.Reach -> [Loop]
 loopsOf reach = mapMaybe (NonEmpty.nonEmpty . Outline.segments) (Loops.outlines (Kernel.loops reach))

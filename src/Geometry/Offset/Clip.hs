@@ -9,9 +9,10 @@ module Geometry.Offset.Clip
   )
 where
 
-import Control.Monad (foldM, forM_, unless)
+import Control.Monad (foldM, forM_, unless, when, zipWithM_)
 import Control.Monad.ST (ST, runST)
 import Data.Int (Int32)
+import Data.List (sortOn)
 import Data.Primitive.PrimArray
 import Geometry.Offset.Boxes (Boxes)
 import Geometry.Offset.Chain (Chain)
@@ -90,7 +91,7 @@ sorted c xs begins order = do
     let s = segmentOf o
         t = parameterOf xs o
         sink !q
-          | q == 0 = writePrimArray order q (fromIntegral o)
+          | q == 0 || isMany = writePrimArray order q (fromIntegral o)
           | otherwise = do
             o' <- fromIntegral <$> readPrimArray order (q - 1)
             if o' >= 0 && segmentOf o' == s && parameterOf xs o' > t
@@ -99,6 +100,15 @@ sorted c xs begins order = do
     e <- readPrimArray begins (s + 1)
     writePrimArray begins (s + 1) (e + 1)
     sink (fromIntegral (e :: Int32))
+  when isMany $
+    forM' n $ \s -> do
+      from <- fromIntegral <$> readPrimArray begins s
+      to <- fromIntegral <$> readPrimArray begins (s + 1)
+      found <- traverse (readPrimArray order) [from .. to - 1]
+      zipWithM_ (writePrimArray order) [from ..] (sortOn (parameterOf xs . fromIntegral) found)
+  where
+    -- So many on each that to put them in their places one by one takes too long, as where all segments meet in the middle of a circle.
+    isMany = 2 * Crossings.count xs > 32 * sizeofPrimArray (Chain.xs c)
 
 -- | How far along its segment's chord an occurrence lies.
 parameterOf :: Crossings -> Int -> Double
