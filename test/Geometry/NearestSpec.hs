@@ -2,7 +2,7 @@
 module Geometry.NearestSpec (spec) where
 
 import Base.Quantity (Mm (..), plus)
-import Data.List (minimumBy)
+import Data.List (minimumBy, sort)
 import Data.Ord (comparing)
 import Generate.Run qualified as Curve
 import Geometry.Box (Box (..))
@@ -52,6 +52,12 @@ spec = do
               [] -> Nothing
               _ -> let (d, (i, _)) = minimumBy (comparing fst) slipped in Just (d, i)
          in found === wanted
+  it "sorted by place it holds the same things, each once, and finds one that is as near (catches a column that is left out)" $
+    property $
+      forAll ((,) <$> boxes <*> point) $ \(things, p) ->
+        let sorted = Nearest.byPlace snd things
+            distanceOf = fmap fst . Nearest.closest (Box.distance p . snd) p
+         in (sort (map fst (Nearest.toList sorted)), distanceOf sorted) === (map fst things, distanceOf (Nearest.index snd things))
   it "gives everything back in order (catches a level taken for the things)" $
     property $
       forAll boxes $ \things -> map fst (Nearest.toList (Nearest.index snd things)) === map fst things
