@@ -86,7 +86,8 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     pierced = [w | Part.radius (milling job) <= Mm 0, Just keeps <- [side job], t <- looked, Just w <- [Pointed.gougeOf keeps (Part.contour (milling job)) (edges job) mayGouge t]]
     (Seen {cut, strays, wrongly}, covered) = lookAlong job spared mayLeave looked within
     deepest = foldl' deeper cut pierced
-    missed = concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (if mayStay then concatMap (touchable (plus (reach job) more)) es else es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
+    -- Where material may stay all strokes count, and they are the same for all cuts of a pass.
+    missed = if mayStay && not isFirst then [] else concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (if mayStay then concatMap (touchable (plus (reach job) more)) es else es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     -- What the cutter cannot touch may stay, where that is allowed.
     touchable distance e = case (Part.rest (milling job), side job) of
       (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance elementSegments (Part.segment (element e))]

@@ -184,23 +184,27 @@ differenceFrom n own frames = case (own, frames) of
 -- | The passes along contours one after the other, from where the cutter stands; each begins on the tape behind the
 -- end of the one before, and behind pockets, if their last frames are known by the numbers of their passes. A flat path is looked for whatever the height.
 follow :: Machine -> Bool -> (Int -> Maybe Int) -> (Point, Mm) -> [Trace] -> [Block] -> [Pass]
-follow machine flat lastFrame begin traces blocks = go begin traces (zip (Path.passNumbers blocks) blocks)
+follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip (Path.passNumbers blocks) blocks)
   where
-    go at rest numbered = case numbered of
+    -- The cuts of a pass have its elements in common.
+    go at rest before numbered = case numbered of
       (_, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
-            edges = Passage.edgesOf milling
+            edges = case before of
+              Just Pass {job = Job {edges = same}, passNumber = m} | m == n -> same
+              _ -> Passage.edgesOf milling
             job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine), edges}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then rest else filter (Deviation.isAt machine atHeight) rest)
             final = lastOf (Passage.stretch found)
             behind = maybe rest (\t -> drop 1 (dropWhile (not . Trace.isSame t) rest)) final
             next = maybe at standing final
-         in Pass {job, passNumber = n, level = atHeight, found} : go next behind more
+            pass = Pass {job, passNumber = n, level = atHeight, found}
+         in pass : go next behind (Just pass) more
       -- What a pocket asks is no way along a contour.
-      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at standing (lastOf done)) rest' more
-      _ : more -> go at rest more
+      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at standing (lastOf done)) rest' before more
+      _ : more -> go at rest before more
       [] -> []
     standing t = (Segment.end (line t), snd (heights t))
 
