@@ -329,7 +329,7 @@ toReport (Error fact calls) = addCalls $ case fact of
         hints = ["Change the order or the senses of the elements so that one of them is the shorter way."]
       }
   Overrun region walked overlap links largest ->
-    (at region "E0324" ("the links do not fit: " <> describe walked <> " is too short for them by " <> Decimal.mm overlap))
+    (at region "E0324" ("the links do not fit: " <> describe walked <> " is too short for them by " <> Decimal.some overlap))
       { label = "it would have to be walked backwards",
         others = [Label l "this link takes its share" | l <- nub links],
         message = [stop "17535"],
