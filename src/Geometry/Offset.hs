@@ -334,24 +334,9 @@ data Rest = Rest {stop :: Obstacle, middle :: Point, standing :: [Segment]}
 -- | The ways beside a contour that the centre can go, in the order of the contour; and for every place where a stretch of it is cut
 -- away, what stays there. The radius is positive.
 reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
-reachable style side radius contour = beside style side radius contour (Way.along style side radius contour)
-
--- | The same for a cutter that goes down slots of just its own width, too. No area is there in which its centre could stand, but a line: that of
--- a cutter that is smaller by 'Tolerance.clearance'.
-reachableFitting :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
-reachableFitting style side radius contour
-  | less > Mm 0 && minus (longAll smaller) (longAll own) > Tolerance.slot = beside style side less contour smaller
-  | otherwise = beside style side radius contour own
+reachable style side radius contour = (ways, map rest (cuts contour (radiusAt style radius) ways))
   where
-    less = minus radius Tolerance.clearance
-    own = Way.along style side radius contour
-    smaller = Way.along style side less contour
-    longAll ways = total [Segment.length (segment p) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
-
--- | Ways at a radius, and what stays beside them.
-beside :: Style -> Side -> Mm -> Contour -> [Way] -> ([Way], [Rest])
-beside style side radius contour ways = (ways, map rest (cuts contour (radiusAt style radius) ways))
-  where
+    ways = Way.along style side radius contour
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     onWays = IntMap.fromListWith (<>) [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
     rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
@@ -362,6 +347,18 @@ beside style side radius contour ways = (ways, map rest (cuts contour (radiusAt 
       | otherwise = []
       where
         edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (NonEmpty.last stretch)) (Segment.start (NonEmpty.head stretch))
+
+-- | The same for a cutter that goes down slots of just its own width, too. No area is there in which its centre could stand, but a line: that of
+-- a cutter that is smaller by 'Tolerance.clearance'.
+reachableFitting :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
+reachableFitting style side radius contour
+  | less > Mm 0 && minus (longAll smaller) (longAll own) > Tolerance.slot = smaller
+  | otherwise = own
+  where
+    less = minus radius Tolerance.clearance
+    own = reachable style side radius contour
+    smaller = reachable style side less contour
+    longAll (ways, _) = total [Segment.length (segment p) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
 
 -- | The contour from where a cutter touches one segment to where it touches a later one; nothing when a way goes along what lies
 -- between, when it touches both at one point, or when an open contour ends between them.

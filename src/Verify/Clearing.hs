@@ -107,17 +107,19 @@ holds pocket = isInside (side pocket) (walls pocket)
 
 -- | Whether strokes cut the passes of a pocket depth by depth in their order.
 isInOrder :: Machine -> Pocket -> [Trace] -> Bool
-isInOrder machine pocket = go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket)))))
+isInOrder machine pocket whole = go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket))))) whole
   where
     go levels traces = case (levels, traces) of
       ([], _) -> True
       (_, []) -> False
       (z : more, t : rest)
-        | (isLevel t || goesDown t) && Deviation.atLevel machine z (snd (heights t)) && holds pocket (Segment.at 0.5 (line t)) -> go more rest
+        | cuts z t || goesDownTo z t && not (any (cuts z) whole) -> go more rest
         | otherwise -> go levels rest
+    cuts z t = isLevel t && isThere z t
+    isThere z t = Deviation.atLevel machine z (snd (heights t)) && holds pocket (Segment.at 0.5 (line t))
     isLevel t = uncurry (==) (heights t) && not (Trace.isUpright t)
     -- Where there is room for less than a pulse that is all.
-    goesDown t = Trace.isUpright t && uncurry (>) (heights t)
+    goesDownTo z t = Trace.isUpright t && uncurry (>) (heights t) && isThere z t
 
 -- | How one pass came out: whether it is the first one of its pocket; all strokes, those that may touch what lies in a box, and those of the pass.
 examine :: Machine -> Bool -> (Trace -> Mm) -> [Trace] -> (Box -> [Trace]) -> (Trace -> Bool) -> Pocket -> Bool -> Pass -> (Passage, [Finding])
