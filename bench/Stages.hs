@@ -71,7 +71,7 @@ stages machine Written {text, files} = do
   where
     reader there = pure (maybe (Left "no such file") Right (lookup (takeFileName there) files))
     proof :: Path -> Frame.Program -> Tape -> Either Text Proof.Proof
-    proof path program tape = reported (Compile.readTape machine (Frame.start program) tape) >>= reported . Compile.prove machine path program
+    proof path program tape = reported (Compile.readBack machine program tape) >>= reported . Compile.prove machine path program
 
 -- | Time a stage by a number that needs its whole output.
 stage :: String -> (a -> Int) -> IO (Either Text a) -> IO a

@@ -20,6 +20,7 @@ module Compile
     Punched (..),
     punch,
     readTape,
+    readBack,
     prove,
 
     -- * Machines
@@ -154,6 +155,10 @@ punch machine path = do
 -- | From a tape back to its frames; where the cutter stands before the first.
 readTape :: Machine -> V3 -> Tape -> Result Report Report [Frame]
 readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine begin tape))
+
+-- | The same of a tape on which the frames of a program should stand.
+readBack :: Machine -> Program -> Tape -> Result Report Report [Frame]
+readBack machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
 
 -- | Compare a tape's frames with the part; errors when it is not proven.
 prove :: Machine -> Path -> Program -> [Frame] -> Result Report Report Proof

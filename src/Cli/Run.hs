@@ -178,7 +178,7 @@ proven unproven' path machine = do
   if unproven'
     then Result.warned [Cli.warningReport Unproven]
     else do
-      read' <- Compile.readTape machine (Frame.start (program punched)) (tape punched)
+      read' <- Compile.readBack machine (program punched) (tape punched)
       _ <- Compile.prove machine path (program punched) read'
       pure ()
   pure (machine, punched)
@@ -278,7 +278,7 @@ verify reporter file' target tapeFile = withProgram reporter file' (maybe [] pur
     case given of
       Left e -> complain reporter (maybe "" displayName tapeFile) e
       Right t -> do
-        let read' = Compile.readTape machine (Frame.start (program punched)) t
+        let read' = Compile.readBack machine (program punched) t
             tapeName = maybe (name loaded) displayName tapeFile
         broken <- Output.show' reporter tapeName (source loaded) (errors read')
         case output read' of

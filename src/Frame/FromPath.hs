@@ -15,6 +15,8 @@ import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
+import Base.Series (Series)
+import Base.Series qualified as Series
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl', mapAccumL, minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -61,8 +63,9 @@ quantise machine path = case nubOrd (early <> late) of
     Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
     looks = Looks {machine, grid = Arc.gridOf machine, early = TaskCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}
-    made = ended looks (foldl' (next looks) (nothingFrom fromRegion begin) (Braking.applied machine (Task.tasksOf machine path)))
-    frames = reverse (latest made)
+    making = framesOf looks (nothingFrom fromRegion begin) (Braking.applied machine (Task.tasksOf machine path))
+    made = Series.end making
+    frames = Series.toList making
     commands = reverse (told made)
     warnings = nubOrd (startWarning <> FrameCheck.warnings (seen made) <> TaskCheck.unsure (looked made) <> byHand)
     startWarning =
@@ -119,7 +122,7 @@ data Making = Making
     here :: Region,
     -- | commands that no frame holds yet
     waiting :: Maybe Waiting,
-    -- | frames and commands, the latest first
+    -- | the frames of the task at hand and all commands, the latest first
     latest :: [Planned],
     told :: [Told],
     looked :: TaskCheck.Seen,
@@ -128,6 +131,12 @@ data Making = Making
 
 nothingFrom :: Region -> V3 -> Making
 nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [], looked = TaskCheck.nothing, seen = FrameCheck.nothing}
+
+-- | The frames of tasks, and what has been made at the end of them.
+framesOf :: Looks -> Making -> [Task] -> Series Making Planned
+framesOf looks !made tasks = case tasks of
+  [] -> let final = ended looks made in Series.behind (latest final) (Series.End final)
+  task : more -> let made' = next looks made task in Series.behind (latest made') (framesOf looks made' more)
 
 -- | Make the frames of the next task. Commands stand in the frame of the next move, where they find room. Once the frames
 -- cannot be made or are too many there are no more of them.
@@ -139,9 +148,9 @@ next looks@Looks {machine, grid, early} made task = case task of
   Run {run}
     | TaskCheck.isBounded looked' ->
       let final = NonEmpty.last run
-          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine grid (at made) task)
+          walked = foldl' (stepped looks task) made {looked = looked', latest = []} (stepsOf machine grid (at made) task)
        in walked {at = Pulses.rounded machine (Segment.end (segment final), snd (heights final)), here = origin final}
-    | otherwise -> made {looked = looked'}
+    | otherwise -> made {looked = looked', latest = []}
   where
     looked' = TaskCheck.see early task (looked made)
 

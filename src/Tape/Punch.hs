@@ -6,6 +6,7 @@ module Tape.Punch
   ( write,
     rows,
     read,
+    readBack,
     Damage (..),
     Reason (..),
     toReport,
@@ -13,6 +14,8 @@ module Tape.Punch
 where
 
 import Base.Lattice (V3)
+import Base.Series (Series)
+import Base.Series qualified as Series
 import Control.Monad.ST (runST)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
@@ -120,24 +123,61 @@ symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
 -- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows that the code passes
 -- over are left out first, and blank rows are passed over between frames.
 read :: Machine -> V3 -> Tape -> Either Damage [Frame]
-read machine start (Tape raw) = case frontOf source of
-  Left fault -> Left (damage Nothing fault)
-  Right at -> case Reading.expect plan (line source) at (symbolsOf plan (opening (grid source))) of
-    Left fault -> Left (damage Nothing fault)
-    -- Increments do not tell where the cutter stands.
-    Right behind | State.measure (Plan.axes plan) == Increments -> attempt behind False
-    -- Only the frames tell whether the height has to be said.
-    Right behind -> case (attempt behind True, attempt behind False) of
-      (Right frames, _) | State.rising frames -> Right frames
-      (Left high, Right frames) | State.rising frames -> Left high
-      (_, Right frames) -> Right frames
-      (Left high, Left low) -> Left (if row high > row low then high else low)
-      (Right _, Left low) -> Left low
+read machine start (Tape raw) = case beginning source of
+  Left fault -> Left (damage source Nothing fault)
+  -- Increments do not tell where the cutter stands.
+  Right behind | not (saysHeights source) -> gathered source start behind False
+  -- Only the frames tell whether the height has to be said.
+  Right behind -> case (gathered source start behind True, gathered source start behind False) of
+    (Right frames, _) | State.rising frames -> Right frames
+    (Left high, Right frames) | State.rising frames -> Left high
+    (_, Right frames) -> Right frames
+    (Left high, Left low) -> Left (if row high > row low then high else low)
+    (Right _, Left low) -> Left low
   where
-    plan = Plan.fromMachine machine
-    source = sourceOf plan raw
-    attempt behind rises = either (\(n, fault) -> Left (damage n fault)) Right (framesFrom source behind (State.first rises start))
-    damage n (Fault at c why) = Damage (1 + origin source at) n c why
+    source = sourceOf (Plan.fromMachine machine) raw
+
+-- | Read a tape on which some frames should stand. Where it has just these they are what is read: they are not made a second time.
+readBack :: Machine -> V3 -> [Frame] -> Tape -> Either Damage [Frame]
+readBack machine start wanted tape
+  | holds machine start wanted tape = Right wanted
+  | otherwise = read machine start tape
+
+-- | Whether these frames are read from a tape.
+holds :: Machine -> V3 -> [Frame] -> Tape -> Bool
+holds machine start wanted (Tape raw) = case beginning source of
+  Left _ -> False
+  Right behind
+    | not (saysHeights source) -> are wanted (framesFrom source behind (State.first False start))
+    | State.rising wanted -> are wanted (framesFrom source behind (State.first True start))
+    | Right frames <- gathered source start behind True, State.rising frames -> False
+    | otherwise -> are wanted (framesFrom source behind (State.first False start))
+  where
+    source = sourceOf (Plan.fromMachine machine) raw
+    are frames series = case (frames, series) of
+      (f : fs, Series.Next g more) -> f == g && are fs more
+      ([], Series.End wrong) -> null wrong
+      _ -> False
+
+-- | The row of the first frame.
+beginning :: Source -> Either Fault Int
+beginning source = frontOf source >>= \at -> Reading.expect (plan source) (line source) at (symbolsOf (plan source) (opening (grid source)))
+
+-- | Whether frames say where the cutter is.
+saysHeights :: Source -> Bool
+saysHeights source = State.measure (Plan.axes (plan source)) /= Increments
+
+-- | The frames from a row on, where the cutter stands before them; whether they say heights.
+gathered :: Source -> V3 -> Int -> Bool -> Either Damage [Frame]
+gathered source start behind rises = case Series.end series of
+  Just (n, fault) -> Left (damage source n fault)
+  Nothing -> Right (Series.toList series)
+  where
+    series = framesFrom source behind (State.first rises start)
+
+-- | What is wrong, in which frame if it is in one.
+damage :: Source -> Maybe Int -> Fault -> Damage
+damage source n (Fault at c why) = Damage (1 + origin source at) n c why
 
 -- | The rows to be read.
 data Source = Source
@@ -203,26 +243,27 @@ skipsBlanks source = ByteString.elem 0 (skipped source)
 blankFrom :: Source -> Int -> Int
 blankFrom source at = at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | The frames from a row on.
-framesFrom :: Source -> Int -> State -> Either (Maybe Int, Fault) [Frame]
-framesFrom source = go []
+-- | The frames from a row on, and behind them what is wrong with the tape, and in which frame, if anything is.
+framesFrom :: Source -> Int -> State -> Series (Maybe (Maybe Int, Fault)) Frame
+framesFrom source = go
   where
     p = plan source
-    go done at state = case endAt source at of
-      Ended -> Right (reverse done)
-      Torn fault -> Left (Nothing, fault)
-      Onward -> do
-        let n = State.ordinal state
-            numbered = either (\fault -> Left (Just n, fault)) Right
-        begin <- numbered (blankRows source ShiftNotBlank (shiftRows (grid source) n) at)
-        let first = case spare (grid source) of
-              Counted -> begin
-              Skipped -> blankFrom source begin
-        case Reading.readFrame p state (line source) first of
-          Left fault -> Left (maybe (Just n, fault) (Nothing,) (tornAt source at))
-          Right (f, end) -> do
-            behind <- numbered (blankRows source GapNotBlank (gap (grid source)) end)
-            go (f : done) behind (Plan.after p state f)
+    go !at !state = case endAt source at of
+      Ended -> Series.End Nothing
+      Torn fault -> wrong Nothing fault
+      Onward -> case blankRows source ShiftNotBlank (shiftRows (grid source) n) at of
+        Left fault -> wrong (Just n) fault
+        Right begin -> case Reading.readFrame p state (line source) (firstFrom begin) of
+          Left fault -> maybe (wrong (Just n) fault) (wrong Nothing) (tornAt source at)
+          Right (f, next) -> case blankRows source GapNotBlank (gap (grid source)) next of
+            Left fault -> wrong (Just n) fault
+            Right behind -> let !state' = Plan.after p state f in Series.Next f (go behind state')
+      where
+        n = State.ordinal state
+    wrong n fault = Series.End (Just (n, fault))
+    firstFrom begin = case spare (grid source) of
+      Counted -> begin
+      Skipped -> blankFrom source begin
 
 -- | The row behind blank ones.
 blankRows :: Source -> Reason -> Int -> Int -> Either Fault Int
