@@ -46,6 +46,7 @@ import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
 import Path.Path (Path)
+import Path.Path qualified as Path
 import Report.Explanation qualified as Explanation
 import Report.Report (Report)
 import Sheet.Error qualified as Sheet
@@ -173,15 +174,18 @@ withMachine reporter about wanted continue = do
 
 -- | Punch a path for one machine and prove the tape.
 proven :: Bool -> Path -> Machine -> Result Report Report (Machine, Punched)
-proven unproven' path machine = do
+proven unproven' path machine = asked `seq` do
   punched <- Compile.punch machine path >>= moving
   if unproven'
     then Result.warned [Cli.warningReport Unproven]
     else do
       read' <- Compile.readBack machine (program punched) (tape punched)
-      _ <- Compile.prove machine path (program punched) read'
+      _ <- Compile.prove machine asked (program punched) read'
       pure ()
   pure (machine, punched)
+  where
+    -- The moves along the contours are dropped as their frames are made.
+    asked = Path.withoutCuts path
 
 -- | The same for several machines. While the last tape is proven nothing waits for the path any more.
 provenOn :: Bool -> Path -> [Machine] -> Result Report Report [(Machine, Punched)]

@@ -49,18 +49,17 @@ import Machine.Machine qualified as Machine
 import Part.Part (Pace (..), Spot (..))
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
-import Path.Path (Move (..), Path)
+import Path.Path (Move (..), Path (Path))
 import Path.Path qualified as Path
 
 -- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an increment is
 -- the difference of two of them, so rounding never adds up. What keeps the frames from being made at all, or from being few
 -- enough, is looked for before they are made.
 quantise :: Machine -> Path -> Result Warning Error Program
-quantise machine path = case nubOrd (early <> late) of
+quantise machine path@Path {Path.start = Located fromRegion (Spot fromPoint fromHeight)} = foldr seq () (tooCoarse <> tooMany) `seq` case nubOrd (early <> late) of
   [] -> Result warnings [] (Just (Program begin frames))
   problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
   where
-    Located fromRegion (Spot fromPoint fromHeight) = Path.start path
     begin = Pulses.rounded machine (fromPoint, fromHeight)
     looks = Looks {machine, grid = Arc.gridOf machine, early = TaskCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}
     making = framesOf looks (nothingFrom fromRegion begin) (Braking.applied machine (Task.tasksOf machine path))
@@ -73,7 +72,10 @@ quantise machine path = case nubOrd (early <> late) of
        in [StartRounded fromRegion fromPoint at' | not (Vec.near at' fromPoint)]
     byHand = concatMap Order.warnings commands
     boundless = TaskCheck.boundless (looked made)
-    early = mapMaybe (toleranceProblem machine) (Path.blocks path) <> TaskCheck.feedless (looked made) <> boundless <> concatMap Order.errors commands <> tooManyContours machine path
+    -- Looked at before there are frames, so that the path is not held for them.
+    tooCoarse = mapMaybe (toleranceProblem machine) (Path.blocks path)
+    tooMany = tooManyContours machine path
+    early = tooCoarse <> TaskCheck.feedless (looked made) <> boundless <> concatMap Order.errors commands <> tooMany
     late
       | null boundless = case drop TaskCheck.mostFrames frames of
         p : _ -> [TooManyFrames (Frame.origin p) TaskCheck.mostFrames]
@@ -135,7 +137,7 @@ nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [
 -- | The frames of tasks, and what has been made at the end of them.
 framesOf :: Looks -> Making -> [Task] -> Series Making Planned
 framesOf looks !made tasks = case tasks of
-  [] -> let final = ended looks made in Series.behind (latest final) (Series.End final)
+  [] -> let final = ended looks made {latest = []} in Series.behind (latest final) (Series.End final)
   task : more -> let made' = next looks made task in Series.behind (latest made') (framesOf looks made' more)
 
 -- | Make the frames of the next task. Commands stand in the frame of the next move, where they find room. Once the frames

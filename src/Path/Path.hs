@@ -113,8 +113,13 @@ moves block = case block of
 
 -- | How many passes along contours and in pockets stand before each block.
 passNumbers :: [Block] -> [Int]
-passNumbers = scanl (\n b -> if isPass b then n + 1 else n) 0
+passNumbers = go 0
   where
+    -- A block is not held until the one behind it is asked for.
+    go :: Int -> [Block] -> [Int]
+    go n bs = case bs of
+      [] -> [n]
+      b : more -> let !next = if isPass b then n + 1 else n in n : go next more
     isPass b = case b of
       Cutting {} -> True
       Clearing {} -> True
