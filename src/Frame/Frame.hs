@@ -15,7 +15,6 @@ module Frame.Frame
     height,
     centreOf,
     segment,
-    end,
     Broken (..),
     invariants,
     broken,
@@ -121,10 +120,6 @@ segment machine at f = case motion f of
     begin = position machine at
     finish = position machine (at + increment f)
     middle = centreOf machine at f
-
--- | Where the cutter stands after the last frame.
-end :: Program -> V3
-end program = start program + sum (map (increment . frame) (planned program))
 
 -- | A rule that a frame breaks; the frame's number from 1.
 data Broken

@@ -77,9 +77,9 @@ quantise machine path@Path {Path.start = Located fromRegion (Spot fromPoint from
     tooMany = tooManyContours machine path
     early = tooCoarse <> TaskCheck.feedless (looked made) <> boundless <> concatMap Order.errors commands <> tooMany
     late
-      | null boundless = case drop TaskCheck.mostFrames frames of
-        p : _ -> [TooManyFrames (Frame.origin p) TaskCheck.mostFrames]
-        [] -> FrameCheck.errors (seen made)
+      | null boundless = case overlong made of
+        Just place -> [TooManyFrames place TaskCheck.mostFrames]
+        Nothing -> FrameCheck.errors (seen made)
       | otherwise = []
 
 -- What stands against it ---------------------------------------------------------------------------
@@ -127,18 +127,24 @@ data Making = Making
     -- | the frames of the task at hand and all commands, the latest first
     latest :: [Planned],
     told :: [Told],
+    -- | how many frames there are, and where they become too many
+    count :: Int,
+    overlong :: Maybe Region,
     looked :: TaskCheck.Seen,
     seen :: FrameCheck.Seen
   }
 
 nothingFrom :: Region -> V3 -> Making
-nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [], looked = TaskCheck.nothing, seen = FrameCheck.nothing}
+nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [], count = 0, overlong = Nothing, looked = TaskCheck.nothing, seen = FrameCheck.nothing}
 
 -- | The frames of tasks, and what has been made at the end of them.
 framesOf :: Looks -> Making -> [Task] -> Series Making Planned
 framesOf looks !made tasks = case tasks of
-  [] -> let final = ended looks made {latest = []} in Series.behind (latest final) (Series.End final)
-  task : more -> let made' = next looks made task in Series.behind (latest made') (framesOf looks made' more)
+  [] -> let final = ended looks placed in Series.behind (latest final) (Series.End final)
+  task : more -> let made' = next looks placed task in Series.behind (latest made') (framesOf looks made' more)
+  where
+    -- The frames of the task before stand in the series.
+    placed = made {latest = []}
 
 -- | Make the frames of the next task. Commands stand in the frame of the next move, where they find room. Once the frames
 -- cannot be made or are too many there are no more of them.
@@ -150,9 +156,9 @@ next looks@Looks {machine, grid, early} made task = case task of
   Run {run}
     | TaskCheck.isBounded looked' ->
       let final = NonEmpty.last run
-          walked = foldl' (stepped looks task) made {looked = looked', latest = []} (stepsOf machine grid (at made) task)
+          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine grid (at made) task)
        in walked {at = Pulses.rounded machine (Segment.end (segment final), snd (heights final)), here = origin final}
-    | otherwise -> made {looked = looked', latest = []}
+    | otherwise -> made {looked = looked'}
   where
     looked' = TaskCheck.see early task (looked made)
 
@@ -176,7 +182,14 @@ stepped looks@Looks {machine} task made s = case task of
 
 -- | A frame behind the others: how fast the program asks it to be, where it ends.
 put :: Looks -> Pace -> V3 -> Planned -> Making -> Making
-put Looks {late} asked stop !p made = made {at = stop, latest = p : latest made, seen = FrameCheck.see late asked stop p (seen made)}
+put Looks {late} asked stop !p made =
+  made
+    { at = stop,
+      latest = p : latest made,
+      count = count made + 1,
+      overlong = if count made == TaskCheck.mostFrames then Just (Frame.origin p) else overlong made,
+      seen = FrameCheck.see late asked stop p (seen made)
+    }
 
 -- | The frame of a step; none for one that moves nothing.
 frameOf :: Machine -> Drive -> Pace -> V3 -> Step -> Maybe Frame

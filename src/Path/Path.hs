@@ -156,16 +156,18 @@ isTurned path = or [Part.work milling == Part.Turned | Cutting {job = Located _ 
 end :: Path -> Spot
 end path = foldl (\_ m -> Spot (Segment.end (segment m)) (snd (heights m))) (value (start path)) (concatMap moves (blocks path))
 
--- | With no more of each way along a contour than its first and its last move, and of the way in a pocket than its first: the rest of a
--- large path need not be held by those who do not ask for it. A cut keeps its height.
+-- | With no more of each way along a contour or in a pocket than its first and its last move: the rest of a large path need not be held by
+-- those who do not ask for it. A cut keeps its height.
 withoutCuts :: Path -> Path
 withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
   where
     brief = map shortened (blocks path)
     shortened block = case block of
-      Cutting {cut} | first :| _ : _ <- cut -> let !final = NonEmpty.last cut in block {cut = first :| [final]}
-      Clearing {cleared = first :| _} -> block {cleared = first :| []}
-      Cutting {} -> block
+      Cutting {cut} -> let !ends = endsOf cut in block {cut = ends}
+      Clearing {cleared} -> let !ends = endsOf cleared in block {cleared = ends}
       Travelling _ _ -> block
       Holing _ _ -> block
       Commanding _ -> block
+    endsOf way = case way of
+      _ :| [] -> way
+      first :| _ -> let !final = NonEmpty.last way in first :| [final]

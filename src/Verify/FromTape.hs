@@ -33,6 +33,7 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Frame.Frame (Frame (..), Program)
 import Frame.Frame qualified as Frame
+import Frame.Pulses qualified as Pulses
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Nearest qualified as Nearest
@@ -42,7 +43,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Milling)
+import Part.Part (Milling, Spot (..))
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 import Path.Path (Block, Path)
@@ -74,10 +75,10 @@ prove machine path program frames = case centres frames of
 -- | The same of the traces on the tape and of the program's own, and what the control refuses.
 compared :: Machine -> Path -> Program -> [Frame] -> Vector Double -> [Trace] -> [Trace] -> [Compensation.Unkept] -> Proof
 compared machine path program frames tools traces ownTraces unkept =
-  Proof (count run) (passages <> emptied) closure (largest run) firstDifference (sortOn order findings)
+  Proof (count run) (passages <> emptied) closure (largest run) (firstDifference run) (sortOn order findings)
   where
     begin = Frame.start program
-    run = sumOf begin frames
+    run = sumOf begin (Frame.planned program) frames
     sameCount = Vector.length tools == count run
     flat = Path.isFlat path
     located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
@@ -98,14 +99,14 @@ compared machine path program frames tools traces ownTraces unkept =
     strokesByPlace = Nearest.index box traces
     largestTool = foldl' (\most t -> max most (toolOf t)) (Mm 0) traces
     (passages, found) = unzip (zipWith (\isFirst l -> Deviation.examine machine flat toolOf isFirst traces nearby l) (firsts located) located)
-    closure = endsAt run - Frame.end program
+    closure = endsAt run - Pulses.rounded machine (let Spot p z = Path.end path in (p, z))
     findings =
       concat found
         <> concat foundIn
         <> [NotInOrder (Clearing.statement p) | not flat, p <- pockets, not (Clearing.isInOrder machine p (if sameCount then filter (ownTo p) traces else traces))]
         <> [OffPlane n | flat, Just n <- [firstRisen run]]
         <> missingHoles machine path traces
-        <> take 1 [CutsElsewhere n p | not flat, isJust firstDifference, (n, p) <- strangers machine path ownTraces traces]
+        <> take 1 [CutsElsewhere n p | not flat, isJust (firstDifference run), (n, p) <- strangers machine path ownTraces traces]
         <> (if sameCount then unlessSame (Feeds.asPlanned program frames) else concatMap foreignFeeds located <> concatMap foreignPocket inPockets)
         <> Feeds.tooFast machine begin frames
         <> unlessSame (Rules.wrongCommands program frames)
@@ -121,7 +122,7 @@ compared machine path program frames tools traces ownTraces unkept =
     strokesOf ts = let numbers = IntSet.fromList (map number ts) in filter (\s -> IntSet.member (Control.number s) numbers) (Control.run begin frames)
     isAlong s way = all (\q -> Distance.toPoint q way <= times 2 (Machine.pulse machine)) [Segment.start s, Segment.end s]
     -- The frames of the program itself have its feeds and its commands.
-    unlessSame = if isJust firstDifference then id else const []
+    unlessSame = if isJust (firstDifference run) then id else const []
     -- A path that has left the band does not end where it should either.
     leaves finding = case finding of
       Gouge {} -> True
@@ -139,7 +140,6 @@ compared machine path program frames tools traces ownTraces unkept =
       TooFast {} -> False
       Refused _ -> False
       NotClosed {} -> False
-    firstDifference = differenceFrom 1 (Frame.planned program) frames
     order finding = case finding of
       Gouge w _ _ -> (frame w, 0 :: Int)
       Excess w _ _ -> (frame w, 1)
@@ -157,27 +157,26 @@ compared machine path program frames tools traces ownTraces unkept =
       Refused refusal -> (Proof.refusedFrame refusal, 8)
       NotClosed _ -> (maxBound, 9)
 
--- | What frames come to: how many there are, where they end, the largest increment of each axis, whatever its sign, and the first of them behind which the
--- cutter is above or below its first height.
-data Sum = Sum {count :: Int, endsAt :: V3, largest :: V3, firstRisen :: Maybe Int}
+-- | What frames come to: how many there are, where they end, the largest increment of each axis, whatever its sign; the first of them behind which the
+-- cutter is above or below its first height, the first that is not the program's own.
+data Sum = Sum {count :: Int, endsAt :: V3, largest :: V3, firstRisen :: Maybe Int, firstDifference :: Maybe Int}
 
-sumOf :: V3 -> [Frame] -> Sum
-sumOf begin@(V3 _ _ z0) = go 0 begin 0 Nothing
+-- | In one go, as they are many.
+sumOf :: V3 -> [Frame.Planned] -> [Frame] -> Sum
+sumOf begin@(V3 _ _ z0) = go 0 begin 0 Nothing Nothing
   where
-    go :: Int -> V3 -> V3 -> Maybe Int -> [Frame] -> Sum
-    go !n at@(V3 x y z) most@(V3 a b c) risen frames = case frames of
-      [] -> Sum {count = n, endsAt = at, largest = most, firstRisen = risen}
+    go :: Int -> V3 -> V3 -> Maybe Int -> Maybe Int -> [Frame.Planned] -> [Frame] -> Sum
+    go !n at@(V3 x y z) most@(V3 a b c) risen differs own frames = case frames of
+      [] -> Sum {count = n, endsAt = at, largest = most, firstRisen = risen, firstDifference = if null own then differs else earlier differs}
       f : more ->
         let V3 dx dy dz = increment f
             z' = z + dz
-         in go (n + 1) (V3 (x + dx) (y + dy) z') (V3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz))) (if isJust risen || z' == z0 then risen else Just (n + 1)) more
-
--- | The number of the first frame that is not the program's own.
-differenceFrom :: Int -> [Frame.Planned] -> [Frame] -> Maybe Int
-differenceFrom n own frames = case (own, frames) of
-  ([], []) -> Nothing
-  (p : ps, f : fs) | Frame.frame p == f -> differenceFrom (n + 1) ps fs
-  _ -> Just n
+            isOwn = case own of
+              p : _ -> Frame.frame p == f
+              [] -> False
+         in go (n + 1) (V3 (x + dx) (y + dy) z') (V3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz))) (if isJust risen || z' == z0 then risen else Just (n + 1)) (if isOwn then differs else earlier differs) (drop 1 own) more
+      where
+        earlier known = if isJust known then known else Just (n + 1)
 
 -- Where the passes are on the tape
 

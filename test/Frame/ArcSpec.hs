@@ -65,7 +65,7 @@ spec = do
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
           let Mm grain = Machine.pulse m
-              at = Frame.position m (Frame.end p)
+              at = Frame.position m (Frame.start p + sum (map (Frame.increment . Frame.frame) (Frame.planned p)))
            in counterexample (show (at, end a)) (max (abs (Vec.x at - Vec.x (end a))) (abs (Vec.y at - Vec.y (end a))) <= grain / 2 + 1e-9)
     it "has radii at its ends that agree to two pulses (catches a centre beside the middle of the chord)" $
       property $
