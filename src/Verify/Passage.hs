@@ -334,10 +334,11 @@ foldTouched job near p with = go near
       e : more
         | mayLie far e, Course.distance (course e) x y <= far -> let b' = with b (rank e) (before e + Course.footOn (course e) x y * long e) in b' `seq` go more b'
         | otherwise -> go more b
-    (x, y) = (Vec.x p, Vec.y p)
-    Mm most = reaches job
-    Mm a = allowance job
-    far = min most (leastDistance most near x y + 2 * a)
+    !x = Vec.x p
+    !y = Vec.y p
+    !(Mm most) = reaches job
+    !(Mm a) = allowance job
+    !far = min most (leastDistance most near x y + 2 * a)
     mayLie d e = Course.mayLieWithin d (long e) (course e) x y
 {-# INLINE foldTouched #-}
 
