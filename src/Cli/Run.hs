@@ -174,15 +174,16 @@ withMachine reporter about wanted continue = do
 
 -- | Punch a path for one machine and prove the tape.
 proven :: Bool -> Path -> Machine -> Result Report Report (Machine, Punched)
-proven unproven' path machine = asked `seq` do
-  punched <- Compile.punch machine path >>= moving
-  if unproven'
-    then Result.warned [Cli.warningReport Unproven]
-    else do
-      read' <- Compile.readBack machine (program punched) (tape punched)
-      _ <- Compile.prove machine asked (program punched) read'
-      pure ()
-  pure (machine, punched)
+proven unproven' path machine =
+  asked `seq` do
+    punched <- Compile.punch machine path >>= moving
+    if unproven'
+      then Result.warned [Cli.warningReport Unproven]
+      else do
+        read' <- Compile.readBack machine (program punched) (tape punched)
+        _ <- Compile.prove machine asked (program punched) read'
+        pure ()
+    pure (machine, punched)
   where
     -- The moves along the contours are dropped as their frames are made.
     asked = Path.withoutCuts path

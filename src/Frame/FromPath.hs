@@ -56,9 +56,10 @@ import Path.Path qualified as Path
 -- the difference of two of them, so rounding never adds up. What keeps the frames from being made at all, or from being few
 -- enough, is looked for before they are made.
 quantise :: Machine -> Path -> Result Warning Error Program
-quantise machine path@Path {Path.start = Located fromRegion (Spot fromPoint fromHeight)} = foldr seq () (tooCoarse <> tooMany) `seq` case nubOrd (early <> late) of
-  [] -> Result warnings [] (Just (Program begin frames))
-  problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
+quantise machine path@Path {Path.start = Located fromRegion (Spot fromPoint fromHeight)} =
+  foldr seq () (tooCoarse <> tooMany) `seq` case nubOrd (early <> late) of
+    [] -> Result warnings [] (Just (Program begin frames))
+    problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
   where
     begin = Pulses.rounded machine (fromPoint, fromHeight)
     looks = Looks {machine, grid = Arc.gridOf machine, early = TaskCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}

@@ -126,7 +126,7 @@ read :: Machine -> V3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case beginning source of
   Left fault -> Left (damage source Nothing fault)
   -- Increments do not tell where the cutter stands.
-  Right behind | not (saysHeights source) -> gathered source start behind False
+  Right behind | not (saysPlaces source) -> gathered source start behind False
   -- Only the frames tell whether the height has to be said.
   Right behind -> case (gathered source start behind True, gathered source start behind False) of
     (Right frames, _) | State.rising frames -> Right frames
@@ -143,15 +143,11 @@ readBack machine start wanted tape
   | holds machine start wanted tape = Right wanted
   | otherwise = read machine start tape
 
--- | Whether these frames are read from a tape.
+-- | Whether these frames are read from a tape. If it says where the cutter is, they tell whether it says heights.
 holds :: Machine -> V3 -> [Frame] -> Tape -> Bool
 holds machine start wanted (Tape raw) = case beginning source of
   Left _ -> False
-  Right behind
-    | not (saysHeights source) -> are wanted (framesFrom source behind (State.first False start))
-    | State.rising wanted -> are wanted (framesFrom source behind (State.first True start))
-    | Right frames <- gathered source start behind True, State.rising frames -> False
-    | otherwise -> are wanted (framesFrom source behind (State.first False start))
+  Right behind -> are wanted (framesFrom source behind (State.first (saysPlaces source && State.rising wanted) start))
   where
     source = sourceOf (Plan.fromMachine machine) raw
     are frames series = case (frames, series) of
@@ -163,9 +159,9 @@ holds machine start wanted (Tape raw) = case beginning source of
 beginning :: Source -> Either Fault Int
 beginning source = frontOf source >>= \at -> Reading.expect (plan source) (line source) at (symbolsOf (plan source) (opening (grid source)))
 
--- | Whether frames say where the cutter is.
-saysHeights :: Source -> Bool
-saysHeights source = State.measure (Plan.axes (plan source)) /= Increments
+-- | Whether frames say where the cutter is, rather than how far it goes.
+saysPlaces :: Source -> Bool
+saysPlaces source = State.measure (Plan.axes (plan source)) /= Increments
 
 -- | The frames from a row on, where the cutter stands before them; whether they say heights.
 gathered :: Source -> V3 -> Int -> Bool -> Either Damage [Frame]

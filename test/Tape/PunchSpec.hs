@@ -45,6 +45,12 @@ randomMachines = do
   it "decode after encode gives the frames (catches a word that writer and reader see differently)" $
     checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)
+  it "a tape is read back as it is read, whatever frames should stand on it (catches frames that are taken for those on the tape)" $
+    checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) -> forAll (wantedFor fs) $ \wanted -> forAll (oneof [pure Nothing, Just <$> ((,) <$> choose (1, 200) <*> arbitrary)]) $ \change ->
+      let t = Tape (maybe id (\(k, w) -> changed k (const w)) change (rowsOf (Punch.write m at fs)))
+       in cover 20 (Punch.read m at t == Right wanted) "just these" $
+            cover 20 (Punch.read m at t /= Right wanted) "others" $
+              Punch.readBack m at wanted t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       ByteString.pack (map Layout.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
@@ -137,6 +143,14 @@ pages = do
   it "a tape has metres, a text has none" $ do
     Tape.metres lkp01f (Tape (ByteString.replicate 1000 0)) `shouldBe` Just 2.54
     Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
+
+-- | Frames that may be taken for some.
+wantedFor :: [Frame] -> Gen [Frame]
+wantedFor fs = do
+  k <- choose (0, length fs)
+  elements [fs, fs, fs, take k fs, drop k fs, fs <> take 1 fs, [f {increment = increment f * sign k} | f <- fs]]
+  where
+    sign k = if even k then V3 1 1 0 else V3 1 1 (-1)
 
 oneHole :: Spec
 oneHole = do

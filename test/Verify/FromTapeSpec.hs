@@ -50,6 +50,10 @@ spec = do
         Proof.isProven (proofOf fs)
     ]
       `shouldBe` []
+  it "a program whose own frames end elsewhere than its path is refused, frame by frame as its tape is (catches an end that is compared with the frames)" $
+    let (analysis, own) = punched "contour l open { line((-10, 0), (10, 0)) }\nmill l on { depth 1 }"
+        further = own {Frame.planned = Frame.planned own <> take 1 (reverse (filter (Frame.isMoving . Frame.frame) (Frame.planned own)))}
+     in findings (Verify.prove lkp01f (path analysis) further (map Frame.frame (Frame.planned further))) `shouldSatisfy` any isOpen
   it "two lobes that are never cut, although the path closes, are an excess" $
     findings (proofOf shortcut) `shouldSatisfy` any isExcess
   it "half of a circle that is never cut is an excess, also where the cutter runs on the circle itself (catches a way taken for all of the circle on which it lies)" $
