@@ -9,6 +9,7 @@ module Base.Decimal
     whole,
     mm,
     some,
+    unlike,
   )
 where
 
@@ -109,6 +110,12 @@ whole = Text.pack . show
 -- | A length for a message: at most four decimals, with its unit.
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
+
+-- | The same of a length, with as many more decimals as tell it from another one.
+unlike :: Mm -> Mm -> Text
+unlike (Mm other) (Mm x) = case [written | decimals <- [4 .. 9], let written = short decimals x, written /= short decimals other] of
+  written : _ -> written <> " mm"
+  [] -> mm (Mm x)
 
 -- | The same of a length that is not 0, with as many more decimals as show it.
 some :: Mm -> Text

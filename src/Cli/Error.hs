@@ -119,7 +119,7 @@ placed file text r = case place r of
 whyNot :: Error -> Text
 whyNot err = case err of
   CannotRead why -> why
-  _ -> "the file is not UTF-8 text"
+  _ -> "the file is not UTF-8 text; save it as UTF-8 in your editor"
 
 warningReport :: Warning -> Report
 warningReport warning = case warning of

@@ -141,7 +141,7 @@ toReport err = case err of
         hints = ["Say left or right of the walk, or on."]
       }
   ConcaveRadius region tool element old largest ->
-    (at (origin element) "E0402" (cutter tool <> " does not fit into a concave radius of " <> Decimal.mm old))
+    (at (origin element) "E0402" (cutter tool <> " does not fit into a concave radius of " <> Decimal.unlike (plus (radius tool) (leaves tool)) old))
       { label = shape element,
         others = [Label region (worked tool <> " here") | region /= origin element],
         hints = [fits tool largest]

@@ -100,7 +100,7 @@ toReport (Damage at n c why) =
 
 explanation :: Reason -> [Text]
 explanation why = case why of
-  NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
+  NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows." | wanted > 0]
   LeaderNotBlank wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
   TrailerLength found wanted ->
     [ "Behind the last frame stand " <> Decimal.whole found <> " blank rows, and it should be " <> Decimal.whole wanted

@@ -215,8 +215,9 @@ origin source at
 -- they may be the trailer.
 frontOf :: Source -> Either Fault Int
 frontOf source
+  | ByteString.null (kept source) && (passed < asked || not (Text.null (opening (grid source)))) = Left (Fault 0 Nothing (NoFrames asked))
   | blankRun < ByteString.length front = Left (Fault blankRun Nothing (LeaderNotBlank asked))
-  | blankRun < wanted || passed < asked && ByteString.null (kept source) = Left (Fault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
+  | blankRun < wanted = Left (Fault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
   | passed < asked = Left (Fault 0 Nothing (LeaderNotBlank asked))
   | spare (grid source) == Skipped && not (Text.null (opening (grid source))) = Right (blankFrom source wanted)
   | otherwise = Right wanted

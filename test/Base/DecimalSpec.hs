@@ -2,6 +2,7 @@
 module Base.DecimalSpec (spec) where
 
 import Base.Decimal qualified as Decimal
+import Base.Quantity (Mm (..))
 import Data.Char (isDigit)
 import Data.Text qualified as Text
 import Test.Hspec
@@ -20,6 +21,9 @@ spec = do
       map Decimal.exact [0, -0.0, 0.1, 59.3, -2.5, 1e-3, 100, 1 / 3] `shouldBe` ["0", "0", "0.1", "59.3", "-2.5", "0.001", "100", "0.3333333333333333"]
     it "rounds what has more digits than a program may" $
       (Decimal.amount (Decimal.exact 1e-30), Decimal.exact 5e-324) `shouldBe` (Just 1e-30, "0")
+  describe "unlike" $ do
+    it "has as many decimals as tell a length from another one (catches a radius of 3 mm into which 3 mm do not fit)" $
+      [Decimal.unlike (Mm 3) (Mm x) | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]] `shouldBe` ["2.5 mm", "3 mm", "2.9999 mm", "2.99999 mm", "3.000004 mm", "3 mm"]
   describe "amount" $ do
     it "is the nearest double, whatever the number of digits" $
       map Decimal.amount ["0.1", "0.3", "2.675", "9007199254740993", "0.30000000000000004", "123456789.123456789123456789"]

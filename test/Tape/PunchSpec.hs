@@ -225,6 +225,7 @@ damage = do
     reasonOf lkp01f (rows <> "\0") `shouldBe` Just (TrailerLength 26 25)
     reasonOf lkp01f "" `shouldBe` Just (NoFrames 25)
     reasonOf n55 "" `shouldBe` Just (NoFrames 25)
+    either (\d -> Just (Punch.row d, Punch.reason d)) (const Nothing) (Punch.read iso6983 start (Tape "")) `shouldBe` Just (1, NoFrames 0)
     reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines') `shouldBe` Just (NoClosing "%\n")
   it "does not lie in blank rows between frames or in erased ones, where they are passed over" $ do
     let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
