@@ -92,17 +92,17 @@ besideInterpreter tools folder programs allowed = do
       | otherwise = do
         (fails, row) <- beside (kind, n)
         pure ([kind | fails] <> failed, row : rows)
-    -- A long one is not asked again.
-    turns left action = do
+    -- A short one is asked more often, a long one not again.
+    turns done action = do
       turn <- action
       case fst turn of
-        Right (s, _) | left > 1 && s < 4 -> (turn :) <$> turns (left - 1) action
+        Right (s, _) | done < (if s < 0.6 then 15 else if s < 4 then 5 else 1) -> (turn :) <$> turns (done + 1) action
         _ -> pure [turn]
     beside (kind, n) = do
       let Written {text, files} = Programs.written kind n
           (source, result) = (folder </> "program.part", folder </> "program.ngc")
       forM_ ((source, text) : [(folder </> name, t) | (name, t) <- files]) (uncurry Text.writeFile)
-      rounds <- turns (5 :: Int) $ do
+      rounds <- turns (1 :: Int) $ do
         compiled <- timed [partc tools, "compile", source, "-t", "iso6983", "-o", result]
         judged <- case (compiled, interpreter tools) of
           (Right _, Just rs274) -> timed [rs274, "-g", result]
