@@ -183,17 +183,17 @@ sumOf begin@(V3 _ _ z0) = go 0 begin 0 Nothing Nothing
 -- | The passes along contours one after the other, from where the cutter stands; each begins on the tape behind the
 -- end of the one before, and behind pockets, if their last frames are known by the numbers of their passes. A flat path is looked for whatever the height.
 follow :: Machine -> Bool -> (Int -> Maybe Int) -> (Point, Mm) -> [Trace] -> [Block] -> [Pass]
-follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip (Path.passNumbers blocks) blocks)
+follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip3 (Path.passNumbers blocks) (areOfSeveral blocks) blocks)
   where
     -- The cuts of a pass have its elements in common.
     go at rest before numbered = case numbered of
-      (_, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
+      (_, isOneOfSeveral, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
             edges = case before of
               Just Pass {job = Job {edges = same}, passNumber = m} | m == n -> same
               _ -> Passage.edgesOf milling
-            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine), edges}
+            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine), isOneOfSeveral, edges}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then rest else filter (Deviation.isAt machine atHeight) rest)
             final = lastOf (Passage.stretch found)
@@ -202,10 +202,19 @@ follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip
             pass = Pass {job, passNumber = n, level = atHeight, found}
          in pass : go next behind (Just pass) more
       -- What a pocket asks is no way along a contour.
-      (n, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at standing (lastOf done)) rest' before more
+      (n, _, Path.Clearing {}) : more | Just final <- lastFrame n -> let (done, rest') = span ((<= final) . number) rest in go (maybe at standing (lastOf done)) rest' before more
       _ : more -> go at rest before more
       [] -> []
     standing t = (Segment.end (line t), snd (heights t))
+
+-- | Whether each block is one of several cuts of a pass.
+areOfSeveral :: [Block] -> [Bool]
+areOfSeveral blocks = zipWith3 (\before own next -> isJust own && (own == before || own == next)) (Nothing : passes) passes (drop 1 passes <> [Nothing])
+  where
+    passes = map passOf blocks
+    passOf b = case b of
+      Path.Cutting {Path.pass = Path.Pass {Path.number, Path.left, Path.atHeight}} -> Just (number, left, atHeight)
+      _ -> Nothing
 
 lastOf :: [a] -> Maybe a
 lastOf = foldl' (\_ a -> Just a) Nothing

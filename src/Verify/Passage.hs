@@ -60,6 +60,8 @@ data Job = Job
     outreach :: Mm,
     -- | how far the chords may be off on one side or the other, and one pulse
     allowance :: Mm,
+    -- | it is one of several cuts of a pass: none of them goes along all of the contour
+    isOneOfSeveral :: Bool,
     edges :: Nearest Edge
   }
 
@@ -111,9 +113,10 @@ elementsOf :: Job -> [Element]
 elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 
 -- | Find a contour among strokes that begin at a point of its height, if they do. Of several arrivals at its beginning the first counts
--- from which it is followed.
+-- from which it is followed. One of several cuts only has to arrive at its own end: where they meet to a hair, they may seem to follow the contour one after
+-- the other.
 find :: Job -> Maybe Point -> [Trace] -> Found
-find job at traces = case if fits blurs then mapMaybe followed starts else [] of
+find job at traces = case if fits blurs && not (isOneOfSeveral job) then mapMaybe followed starts else [] of
   found : _ -> found
   [] -> case filter (staysBeside . snd) starts <> starts of
     (arrival, rest) : _ -> Lost arrival (untilExit job rest)
