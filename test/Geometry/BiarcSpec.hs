@@ -434,10 +434,10 @@ fewLaw w@(Tracked c tolerance) =
     (found, size, slack) = case c of
       Bends _ -> (length ss, length, 2)
       _ -> (1 + length (filter ends (zip ss (drop 1 ss))), const 1, 1)
-    ends (before, s) =
+    ends (previous, s) =
       let (_, u) = near (Segment.start s)
           Rad off = Vec.turn (Segment.startDirection s) (direction t Leaving u)
-       in Segment.length before > Mm 0.1 && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9 && abs off < 5e-6
+       in Segment.length previous > Mm 0.1 && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9 && abs off < 5e-6
 
 -- | The same where the biarcs have other directions than the curve: segments are counted.
 fewOnCubicsLaw :: Tracked -> Property
