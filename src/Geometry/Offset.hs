@@ -297,12 +297,17 @@ collision style radius contour pieces
   | otherwise = case minimumBy (comparing (\(d, _, _, _) -> d)) found of
     (_, i, j, p) -> Collision i j p
   where
+    found = struck style radius contour (NonEmpty.toList pieces)
+
+-- | Where the cutter, on some pieces, would cut the contour: how far its centre is then, the segments of the piece and of the contour, the place of
+-- the centre.
+struck :: Style -> Mm -> Contour -> [Piece] -> [(Mm, Int, Int, Point)]
+struck style radius contour = concatMap strikes
+  where
     index = Box.index (Box.ofSegment . snd) (zip [0 ..] (NonEmpty.toList (segments contour)))
-    found =
-      [ (d, i, j, p)
-        | Piece origin s <- NonEmpty.toList pieces,
-          let i = numberOf origin,
-          (j, other) <- Box.select (\box -> Box.meets (Box.inflate widest (Box.ofSegment s)) box && Box.atLeast (`Distance.toPoint` s) box < widest) index,
+    strikes (Piece origin s) =
+      [ (d, numberOf origin, j, p)
+        | (j, other) <- Box.select (\box -> Box.meets (Box.inflate widest (Box.ofSegment s)) box && Box.atLeast (`Distance.toPoint` s) box < widest) index,
           let Nearest d p = Distance.segments s other,
           plus d Tolerance.clearance < plus radius (extra style j)
       ]
@@ -334,12 +339,14 @@ data Rest = Rest {stop :: Obstacle, middle :: Point, standing :: [Segment]}
 -- | The ways beside a contour that the centre can go, in the order of the contour; and for every place where a stretch of it is cut
 -- away, what stays there. The radius is positive.
 reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
-reachable style side radius contour = (ways, map rest (cuts contour (radiusAt style radius) ways))
+reachable style side radius contour = (if sharp style then map (sharpened style side radius contour) ways else ways, map rest (cuts contour (radiusAt style radius) ways))
   where
-    ways = Way.along style side radius contour
+    -- Round corners reach furthest.
+    rolling = style {sharp = False}
+    ways = Way.along rolling side radius contour
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     onWays = IntMap.fromListWith (<>) [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
-    rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast style side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
+    rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast rolling side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
     -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side. What lies beyond the
     -- contour, where the cutter touches it from behind, does not stay.
     closedBy at stretch
@@ -347,6 +354,22 @@ reachable style side radius contour = (ways, map rest (cuts contour (radiusAt st
       | otherwise = []
       where
         edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (NonEmpty.last stretch)) (Segment.start (NonEmpty.head stretch))
+
+-- | A way with sharp corners instead of round ones wherever these are whole and nothing is in the way.
+sharpened :: Style -> Side -> Mm -> Contour -> Way -> Way
+sharpened style side radius contour = \way -> way {Way.pieces = corner =<< Way.pieces way}
+  where
+    whole = Vector.fromList (NonEmpty.toList (segments contour))
+    bends = Bends {style, side, radius, turnings = turningsOf contour, whole = Vector.length whole, isClosed = Contour.ends contour == Closed}
+    strikes = struck style radius contour
+    corner p = case (origin p, segment p) of
+      (Around i, Arc {start, end})
+        | [a@(Piece _ (Straight from tip)), b@(Piece _ (Straight _ to))] <- cornerWay bends i (whole Vector.! i) (whole Vector.! following bends i),
+          Vec.near from start,
+          Vec.near to end,
+          null (strikes [a, b]) ->
+          a {segment = Straight start tip} :| [b {segment = Straight tip end}]
+      _ -> p :| []
 
 -- | The same for a cutter that goes down slots of just its own width, too. No area is there in which its centre could stand, but a line: that of
 -- a cutter that is smaller by 'Tolerance.clearance'.
