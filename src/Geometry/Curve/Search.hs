@@ -92,12 +92,13 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
         roots _ = []
     -- What is as near as doubles can tell is there.
     off v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
-    -- Touching samples that follow one another closely are one place; of more that do, the ends are kept.
+    -- Touching samples that follow one another closely are one place, but not crossings between which the curve goes away and comes back.
     distinct (a : b : rest)
-      | b - a <= same = distinct (a : rest)
+      | b - a <= same && isThere ((a + b) / 2) = distinct (a : rest)
       | otherwise = a : distinct (b : rest)
     distinct us = us
     same = 1e-3 / fromIntegral steps
+    isThere u = let Jet a _ = Layered.jetAt 0 curve (Layered.spot After u curve) in off (Series.value a) == 0
 
 merged :: [Double] -> [Double] -> [Double]
 merged as bs = case (as, bs) of
