@@ -1,7 +1,8 @@
 -- | A curve as cubic spans: its own, or cubics that stand for a shifted one.
 --
--- Between two places h apart in the parameter, Hermite's cubic has the places P and the derivatives V of both. It differs from the
--- curve by the fourth derivative times h⁴/384 in the middle, and 16 times less where it is put in two halves.
+-- Between two places h apart in the parameter, Hermite's cubic has the places P and the derivatives V of both. At a share t of the way it
+-- differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …), and in the middle its place tells c/16, its derivative there d/16. Half a span
+-- has a sixteenth of c and a thirty-second of d.
 module Geometry.Curve.Cubics
   ( along,
   )
@@ -32,17 +33,18 @@ along (Mm tolerance) curve = case curve of
         part f = Spline.generate (Vector.length spans) (\i -> f (spans Vector.! i))
     Just (Mm tolerance, part inX, part inY)
   where
-    onStretch (a, b) = refined most a b (node (a, b) a) (node (a, b) b)
+    onStretch (a, b) = refined most (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
     node stretch u = case Layered.jetAt 1 curve (Search.within stretch curve u) of
       Jet x y -> Node (Series.value x) (Series.value y) (Series.coefficient 1 x) (Series.coefficient 1 y)
-    refined left a b from to
-      | not (speed from > still && speed to > still && speed inside > still) = Nothing
-      | near from inside to (b - a) tolerance = Just [span' from inside (m - a), span' inside to (b - m)]
+    refined left piece@Piece {begin, end, first, inside, final, nodeAt}
+      | not (speed first > still && speed final > still && speed inside > still) = Nothing
+      | near tolerance piece one other = Just [span' one, span' other]
       | left <= 0 = Nothing
-      | otherwise = (<>) <$> refined (left - 1) a m from inside <*> refined (left - 1) m b inside to
+      | otherwise = (<>) <$> refined (left - 1) one <*> refined (left - 1) other
       where
-        m = 0.5 * (a + b)
-        inside = node (a, b) m
+        m = middle begin end
+        one = between nodeAt begin first m inside
+        other = between nodeAt m inside end final
     Mm still = Tolerance.still
 
 -- | How often a stretch is halved.
@@ -55,19 +57,42 @@ data Node = Node Double Double Double Double
 speed :: Node -> Double
 speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
+-- | A piece of a stretch with the nodes at its ends and in its middle, and what gives the others.
+data Piece = Piece {begin, end :: Double, first, inside, final :: Node, nodeAt :: Double -> Node}
+
+between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Piece
+between nodeAt begin first end final = Piece {begin, end, first, inside = nodeAt (middle begin end), final, nodeAt}
+
+middle :: Double -> Double -> Double
+middle a b = 0.5 * (a + b)
+
 -- | A cubic in x and one in y.
 data Span = Span {inX :: Cubic, inY :: Cubic}
 
--- | Hermite's cubics between two nodes so far apart in the parameter.
-span' :: Node -> Node -> Double -> Span
-span' (Node px py vx vy) (Node qx qy wx wy) h = Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
+-- | Hermite's cubics between the ends of a piece.
+span' :: Piece -> Span
+span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
+  Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
   where
+    h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | Whether the cubics of both halves of a stretch, whose nodes are at its ends and in its middle, stay so near to the curve: what the cubic
--- of the whole differs by in the middle is 16 times as much. An odd difference does not tell in the place there, but in the derivative.
-near :: Node -> Node -> Node -> Double -> Double -> Bool
-near (Node px py vx vy) (Node mx my sx sy) (Node qx qy wx wy) h tolerance = off px mx qx vx wx + off py my qy vy wy <= 8 * tolerance && h * (bent px sx qx vx wx + bent py sy qy vy wy) <= 16 * tolerance
+-- | Whether the cubics of both halves of a piece stay so near to the curve: by what is to be expected of a half where the whole differs so,
+-- with half of it to spare, and by what each differs itself. The even and the odd of a difference are looked at alike, the one in the place in the
+-- middle, the other in the derivative there.
+near :: Double -> Piece -> Piece -> Piece -> Bool
+near tolerance whole one other = place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]
   where
+    (place, bend) = difference whole
+    itself half = let (e, o) = difference half in e + oddShare * o <= tolerance
+    -- The most of t²(1−t)²(t−½), √5/250 where t is ½ ± √(1/20), by its derivative in the middle, 1/16.
+    oddShare = 16 * sqrt 5 / 250
+
+-- | By how much the cubic of a piece differs in the middle: in the place, mm, and in the derivative, mm for the whole piece.
+difference :: Piece -> (Double, Double)
+difference Piece {begin, end, first = Node px py vx vy, inside = Node mx my sx sy, final = Node qx qy wx wy} =
+  (off px mx qx vx wx + off py my qy vy wy, bent px sx qx vx wx + bent py sy qy vy wy)
+  where
+    h = end - begin
     off p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
-    bent p s q v w = abs (1.5 * (q - p) / h - 0.25 * (v + w) - s)
+    bent p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))

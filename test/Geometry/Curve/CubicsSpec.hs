@@ -4,8 +4,9 @@ module Geometry.Curve.CubicsSpec (spec) where
 import Base.Quantity (Mm (..))
 import Data.List (sort)
 import Data.Maybe (isNothing)
+import GHC.Exts qualified as Exts
 import Generate.Curve qualified as Generate
-import Geometry.Curve (Curve)
+import Geometry.Curve (Curve, Distance (..), Ends (..), Side (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Fold qualified as Fold
 import Geometry.Spline qualified as Spline
@@ -20,6 +21,8 @@ spec =
     it "every point of a shifted curve is near them (catches a stretch whose middle alone is looked at)" $
       property $
         forAll ((,) <$> shifted <*> ((10 **) <$> choose (-7, -3))) (uncurry nearLaw)
+    it "every point of a long shallow bevel is near them (catches halves that are taken to be as near as half the way lets expect)" $
+      once (nearWhere [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
     it "they join, and run from the beginning of the curve to its end (catches a half that is left out)" $
       property $
         forAll shifted joinedLaw
@@ -30,10 +33,20 @@ spec =
 shifted :: Gen Curve
 shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Fold.fold)
 
+-- | The cubics of its halves are less near than the whole lets expect.
+shallow :: Curve
+shallow = Curve.shifted RightOf (Bevelled (column [-0.0883, -0.0247, -0.1041]) (column [3.0449, 3.6712, 3.4022]) (Mm 1.426)) spline
+  where
+    spline = Generate.ok (Curve.spline (Clamped (Vec.vec 1 (-0.0061)) (Vec.vec 1 0.0061)) (Exts.fromList [Vec.point x 0 | x <- [0, 15.8045, 28.7877]]))
+    column = Curve.column spline . Exts.fromList
+
 nearLaw :: Curve -> Double -> Property
-nearLaw c tolerance = case placesOf tolerance c of
+nearLaw c tolerance = forAll (vectorOf 30 (choose (0, 1))) $ \fs -> nearWhere fs c tolerance
+
+nearWhere :: [Double] -> Curve -> Double -> Property
+nearWhere fs c tolerance = case placesOf tolerance c of
   Nothing -> classify True "stands still" True
-  Just (n, place) -> forAll (vectorOf 30 (choose (0, 1))) $ \fs ->
+  Just (n, place) ->
     -- Each span by itself: where a shift has torn the curve, what is near on the one hides what is nearer on the other.
     let known = [[(w, place i w) | k <- [0 .. 16 :: Int], let w = fromIntegral i + fromIntegral k / 16] | i <- [0 .. n - 1]]
         closer :: Point -> Int -> Int -> Double -> Double -> Double
