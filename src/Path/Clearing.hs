@@ -13,6 +13,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour qualified as Geometry
 import Geometry.Distance (Nearest (..))
@@ -121,8 +123,8 @@ oriented pocket = pocket {wall = (wall pocket) {contour = walked (not turned) (c
     walked counterClockwise c = if (Geometry.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
 
 -- | The elements of the outline, and of the islands in order.
-elementsOf :: Pocketing -> [Element]
-elementsOf pocket = concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket)
+elementsOf :: Pocketing -> Vector Element
+elementsOf pocket = Vector.fromList (concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket))
 
 -- What stays
 

@@ -227,7 +227,7 @@ along (Located region milling) side' numbered allowance = case side' of
       | otherwise = allowanceOf . (numbered Vector.!)
     !plain = all ((== Mm 0) . allowanceOf) numbered
     allowanceOf = Part.allowance . Part.finish
-    refusal = Obstacle.refusal region (Remaining.toolOf milling allowance) (NonEmpty.toList (elements (contour milling)))
+    refusal = Obstacle.refusal region (Remaining.toolOf milling allowance) numbered
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
 touchedRadius :: Milling -> Mm

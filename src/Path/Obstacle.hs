@@ -1,13 +1,15 @@
 -- | What keeps a cutter from following contours, in the words of the program.
 module Path.Obstacle
   ( refusal,
-    stay,
+    stays,
     shifted,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
 import Base.Region (Region)
+import Data.Vector (Vector, (!))
+import Data.Vector qualified as Vector
 import Geometry.Offset (Cause (..), Obstacle (..))
 import Geometry.Offset qualified as Offset
 import Geometry.Segment qualified as Segment
@@ -19,28 +21,35 @@ import Path.Error (Error (ConcaveRadius), Stay (..), Tool (leaves))
 import Path.Error qualified as Error
 
 -- | Why there is no path: the statement's first word, the cutter, the elements by their numbers.
-refusal :: Region -> Tool -> [Element] -> Obstacle -> Error
+refusal :: Region -> Tool -> Vector Element -> Obstacle -> Error
 refusal region tool elements (Obstacle cause largest) = case cause of
-  Concave i old -> ConcaveRadius region tool (elements !! i) old (fitting tool largest)
-  InnerCorner i j p -> Error.InnerCorner region tool (elements !! i) (elements !! j) p (fitting tool largest)
-  Collision i j p -> Error.Collision region tool (elements !! i) (elements !! j) p (fitting tool largest)
+  Concave i old -> ConcaveRadius region tool (elements ! i) old (fitting tool largest)
+  InnerCorner i j p -> Error.InnerCorner region tool (elements ! i) (elements ! j) p (fitting tool largest)
+  Collision i j p -> Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 
--- | What stays.
-stay :: Tool -> [Element] -> Offset.Rest -> Stay
-stay tool elements rest = case cause (Offset.stop rest) of
-  InnerCorner i j p -> InCorner (elements !! i) (elements !! j) p
-  Concave i old -> InHollow (elements !! i) old largest'
-  Collision i j _ -> case joints i j of
-    -- The arcs of a curve behind a corner, or before one: no cutter comes into it, though a smaller one comes further.
-    [(a, b)] | isCorner a b -> InCorner a b (Segment.start (Part.segment b))
-    _ -> Between (elements !! i) (elements !! j) (Offset.middle rest) largest'
+-- | What stays, place by place.
+stays :: Functor f => Tool -> Vector Element -> f Offset.Rest -> f Stay
+stays tool elements = fmap stay
   where
-    largest' = fitting tool (largest (Offset.stop rest))
-    count = length elements
-    joints i j = [(elements !! k, elements !! l) | k <- takeWhile (/= j) (take count (iterate next i)), let l = next k, not (Part.continues (elements !! l))]
-    next k = (k + 1) `mod` count
+    stay rest = case cause (Offset.stop rest) of
+      InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
+      Concave i old -> InHollow (elements ! i) old (largest' rest)
+      Collision i j _ -> case onlyCorner i j of
+        -- The arcs of a curve behind a corner, or before one: no cutter comes into it, though a smaller one comes further.
+        Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
+        _ -> Between (elements ! i) (elements ! j) (Offset.middle rest) (largest' rest)
+    largest' rest = fitting tool (largest (Offset.stop rest))
+    -- Those with which a curve does not go on, and how many of them stand before each element and before the end.
+    corners = Vector.findIndices (not . Part.continues) elements
+    before = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
+    -- On the way from one element to another, and round the end, if there is just one.
+    onlyCorner i j =
+      let from = before ! (i + 1)
+          around = if j < i then Vector.length corners else 0
+          l = corners ! (from `mod` Vector.length corners)
+       in if before ! (j + 1) - from + around == 1 then Just (elements ! ((l - 1) `mod` Vector.length elements), elements ! l) else Nothing
     -- Towards the cutter.
-    isCorner a b =
+    isCorner rest a b =
       let along = Segment.endDirection (Part.segment a)
           Rad turned = Vec.turn along (Segment.startDirection (Part.segment b))
           Rad smooth = Tolerance.smoothAngle

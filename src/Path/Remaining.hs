@@ -12,6 +12,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
+import Data.Vector qualified as Vector
 import Geometry.Offset (Rest)
 import Part.Part (Contour, Milling)
 import Part.Part qualified as Part
@@ -39,11 +40,11 @@ ofBlock block = case block of
 
 -- | What a pass leaves beside a contour and islands in it.
 stayed :: Region -> Milling -> [Contour] -> Pass -> NonEmpty Rest -> (Int, Remaining)
-stayed word milling islands pass rests = (number pass, Remaining {word, tool, walls, places = fmap (\r -> (Obstacle.stay tool elements r, r)) rests, beside = reach pass})
+stayed word milling islands pass rests = (number pass, Remaining {word, tool, walls, places = NonEmpty.zip (Obstacle.stays tool elements rests) rests, beside = reach pass})
   where
     tool = toolOf milling (Path.left pass)
     walls = Part.contour milling :| islands
-    elements = concatMap (NonEmpty.toList . Part.elements) walls
+    elements = Vector.fromList (concatMap (NonEmpty.toList . Part.elements) walls)
 
 -- | The cutter that leaves so much.
 toolOf :: Milling -> Mm -> Tool
