@@ -7,7 +7,11 @@ module Draw.Label
 where
 
 import Base.Quantity (Mm (..), Rad, radians)
-import Data.List (find)
+import Data.List (find, foldl')
+import Data.List qualified as List
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Draw.Sheet (Area, holds)
 import Draw.Svg qualified as Draw
@@ -31,41 +35,54 @@ size = 3
 -- | The middles of the labels, in order, in an area and clear of lines. A label for which there is
 -- no room is left out.
 settle :: Area -> Box.Index Segment -> [Label] -> [(Point, Text)]
-settle area drawn labels = reverse (foldl next [] labels)
+settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
-    next settled label = case find (free area drawn settled (caption label)) (candidates label) of
-      Just p -> (p, caption label) : settled
-      Nothing -> settled
+    next taken label = case find (free area drawn taken) (candidates label) of
+      Just box -> (settled box taken, Just (middleOf box, caption label))
+      Nothing -> (taken, Nothing)
 
--- | Places near the point, the best first.
-candidates :: Label -> [Point]
+-- | The middle of a box.
+middleOf :: Box -> Point
+middleOf Box {left, bottom, right, top} = Vec.point ((left + right) / 2) ((bottom + top) / 2)
+
+-- | What labels cover, by the squares in which some of it lies.
+type Taken = Map (Int, Int) [Box]
+
+settled :: Box -> Taken -> Taken
+settled box taken = foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
+
+-- | The squares of paper, 10 mm wide, in which some of a box lies.
+squares :: Box -> [(Int, Int)]
+squares Box {left, bottom, right, top} = [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
+  where
+    at x = floor (x / 10)
+
+-- | What the label covers at places near its point, the best first.
+candidates :: Label -> [Box]
 candidates Label {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
   where
+    -- Figures are 0.72 of their size high.
+    high = 0.36 * size
+    wide = max high (Draw.textWidth size caption / 2)
     at distance angle =
       let direction = Vec.rotate angle outward
           -- From the middle of the text to its edge, as far as the direction goes across it.
-          Box {right, top} = frame caption (Vec.point 0 0)
-          inside = min (right / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0)))) (top / max 1e-9 (abs (Vec.dot direction (Vec.vec 0 1))))
-       in Vec.shift (Vec.scale (distance + inside) direction) anchor
+          inside = min (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0)))) (high / max 1e-9 (abs (Vec.dot direction (Vec.vec 0 1))))
+          p = Vec.shift (Vec.scale (distance + inside) direction) anchor
+       in Box (Vec.x p - wide) (Vec.y p - high) (Vec.x p + wide) (Vec.y p + high)
 
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
-free :: Area -> Box.Index Segment -> [(Point, Text)] -> Text -> Point -> Bool
-free area drawn settled caption p =
+free :: Area -> Box.Index Segment -> Taken -> Box -> Bool
+free area drawn taken box@Box {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]
-    && not (any (\(q, w) -> Box.meets (Box.inflate (Mm 0.6) box) (frame w q)) settled)
-    && all clear (Box.within (Box.inflate (Mm 0.6) box) drawn)
+    && not (any (Box.meets around) (concatMap (\square -> Map.findWithDefault [] square taken) (squares around)))
+    && all clear (Box.within around drawn)
   where
-    box@Box {left, bottom, right, top} = frame caption p
+    around = Box.inflate (Mm 0.6) box
     half = (top - bottom) / 2
+    y = (bottom + top) / 2
     -- A text is a horizontal line as thick as its letters are high.
-    middle = Straight (Vec.point (left + half / 2) (Vec.y p)) (Vec.point (right - half / 2) (Vec.y p))
+    middle = Straight (Vec.point (left + half / 2) y) (Vec.point (right - half / 2) y)
     clear s = let Nearest (Mm d) _ = Distance.segments middle s in d > half + 0.5
-
--- | What a text covers about its middle: figures are 0.72 of their size high.
-frame :: Text -> Point -> Box
-frame caption p = Box (Vec.x p - w) (Vec.y p - h) (Vec.x p + w) (Vec.y p + h)
-  where
-    w = max h (Draw.textWidth size caption / 2)
-    h = 0.36 * size

@@ -8,9 +8,12 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), minus, over, times, total)
+import Data.Bifunctor (first)
 import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
+import Data.Set (Set)
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Draw.Label qualified as Label
 import Draw.Node qualified as Node
@@ -71,7 +74,7 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
     inWindows s = let p = beginning s in length [w | (box, w) <- boxed, Box.meets (Box.ofPoints p []) box, outline w /= outline s, Winding.about p (outline w) /= 0]
     boxed = [(foldr (Box.union . Box.ofSegment) (Box.ofPoints (beginning w) []) (outline w), w) | w <- windows]
     beginning s = case outline s of
-      first : _ -> Segment.start first
+      s' : _ -> Segment.start s'
       [] -> Vec.point 0 0
 
 contourLine :: Shape -> Svg
@@ -129,16 +132,18 @@ ways Scene {feeds, rapids} = map (line Sign.feedPen) lineFeeds <> map (line Sign
   where
     arrows = concatMap (Sign.arrowOn Sign.red 0.75) (feeds <> rapids)
     line pen s = Svg.stroke pen [s]
-    lineFeeds = once [] feeds
-    lineRapids = once lineFeeds rapids
+    (lineFeeds, drawn) = once Set.empty feeds
+    (lineRapids, _) = once drawn rapids
 
--- | Segments that are neither in a list nor, either way round, earlier among themselves.
-once :: [Segment] -> [Segment] -> [Segment]
+-- | Segments that, either way round, are neither among known ones nor earlier among themselves; and all that are known then.
+once :: Set Segment -> [Segment] -> ([Segment], Set Segment)
 once known segments = case segments of
-  [] -> []
+  [] -> ([], known)
   s : rest
-    | s `elem` known || Segment.reverse s `elem` known -> once known rest
-    | otherwise -> s : once (s : known) rest
+    | Set.member key known -> once known rest
+    | otherwise -> first (s :) (once (Set.insert key known) rest)
+    where
+      key = min s (Segment.reverse s)
 
 -- | The way along a contour, with five arrows, or in a pocket, with more on a long one. On the contour itself it runs between two thin lines.
 cutLine :: Cut -> [Svg]

@@ -11,10 +11,13 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Located (..))
-import Data.List (nub)
+import Data.Containers.ListUtils (nubOrd, nubOrdOn)
+import Data.List qualified as List
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isNothing, mapMaybe)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (catMaybes, isNothing, mapMaybe)
 import Data.Semigroup (sconcat)
 import Draw.Sheet (Sheet)
 import Draw.Sheet qualified as Sheet
@@ -90,21 +93,34 @@ set :: Part -> Path -> Scene
 set part path =
   Scene
     { sheet,
-      shapes = map (shapeOf sheet millings) contours <> map (holeOf sheet) (nub (concatMap holesOf (Part.operations part))),
+      shapes = map (shapeOf sheet millingsAt) contours <> map (holeOf sheet) (nubOrd (concatMap holesOf (Part.operations part))),
       cuts = concatMap (cutsOf sheet) (drawnOnce (Path.blocks path)),
       rests = map (map (Sheet.segment sheet)) (restsOf path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
       start = Sheet.place sheet begin,
-      tools = nub (map radius millings)
+      tools = nubOrd (map radius millings)
     }
   where
     begin = Part.plane (value (Path.start path))
     millings = concatMap millingOf (Part.operations part)
-    contours = nub (Part.contours part <> map contour millings)
+    contours = distinct (Part.contours part <> map contour millings)
+    millingsAt = Map.fromListWith (flip (<>)) [(beginning (contour m), [m]) | m <- millings]
     between = concatMap movesBetween (Path.blocks path)
-    along wanted = map (Sheet.segment sheet) (nub [Path.segment m | m <- between, wanted (Path.pace m)])
+    along wanted = map (Sheet.segment sheet) (nubOrd [Path.segment m | m <- between, wanted (Path.pace m)])
     sheet = Sheet.lay (foldl Box.union (Box.ofPoints begin []) (boxesOf contours path))
+
+-- | Contours that are not earlier among themselves.
+distinct :: [Part.Contour] -> [Part.Contour]
+distinct = catMaybes . snd . List.mapAccumL next Map.empty
+  where
+    next known c
+      | c `elem` Map.findWithDefault [] (beginning c) known = (known, Nothing)
+      | otherwise = (Map.insertWith (<>) (beginning c) [c] known, Just c)
+
+-- | Where a contour begins.
+beginning :: Part.Contour -> Point
+beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
@@ -116,7 +132,7 @@ millingOf operation = case operation of
 
 -- | What stays beside contours: its outline, or where that is not known a circle where the cutter turns back.
 restsOf :: Path -> [[Segment]]
-restsOf path = nub (concatMap drawn (Remaining.ofPath path))
+restsOf path = nubOrd (concatMap drawn (Remaining.ofPath path))
   where
     drawn Remaining {beside, places} = [if null outline then spot (Offset.middle f) beside else outline | (_, f) <- NonEmpty.toList places, let outline = Offset.standing f]
     spot p (Mm r) = [Segment.fullCircle CounterClockwise (Circle p (Mm (r / 4))) (Vec.shift (Vec.vec (r / 4) 0) p)]
@@ -155,11 +171,12 @@ cutterBox block = case block of
   where
     cutterAt milling ms = Box.inflate (radius milling) (Box.ofPoints (Segment.start (Path.segment (NonEmpty.head ms))) [])
 
-shapeOf :: Sheet -> [Milling] -> Part.Contour -> Shape
+-- | With the millings of the contours that begin there.
+shapeOf :: Sheet -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Sheet.segment sheet) (NonEmpty.toList (Contour.segments bare))}
   where
     bare = Part.outline c
-    matter = case mapMaybe sideOf (filter (\m -> Part.outline (contour m) == bare) millings) of
+    matter = case mapMaybe sideOf (filter (\m -> Part.outline (contour m) == bare) (Map.findWithDefault [] (beginning c) millings)) of
       side : _ | Part.ends c == Closed -> if (side == Offset.LeftOf) == (Contour.signedArea bare > 0) then Beyond else Within
       _ -> Unknown
 
@@ -199,16 +216,12 @@ isCut m = Path.pace m /= Rapid && uncurry (==) (Path.heights m)
 
 -- | Passes of a pocket that differ in their depth alone, once.
 drawnOnce :: [Block] -> [Block]
-drawnOnce = go []
+drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
   where
-    go known blocks = case blocks of
-      [] -> []
-      b@Clearing {pass} : more
-        | key `elem` known -> go known more
-        | otherwise -> b : go (key : known) more
-        where
-          key = (Path.number pass, Path.left pass)
-      b : more -> b : go known more
+    key :: (Int, Block) -> Either Int (Int, Mm)
+    key (i, b) = case b of
+      Clearing {pass} -> Right (Path.number pass, Path.left pass)
+      _ -> Left i
 
 -- | A cutter on the contour itself leaves no side free; the labels then stand outside.
 awayFrom :: Milling -> Double

@@ -30,7 +30,7 @@ import Prelude hiding (length, reverse)
 data Segment
   = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
   | Arc {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point, centre :: {-# UNPACK #-} Point, sweep :: Rad}
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | The arc about a centre from one point to another in a sense; less than a full turn.
 arc :: Turn -> Point -> Point -> Point -> Segment

@@ -41,7 +41,7 @@ parallelAt (Mm h) l = Line (Vec.shift offset (from l)) (Vec.shift offset (to l))
 
 -- | A circle; its radius is positive.
 data Circle = Circle {centre :: {-# UNPACK #-} Point, radius :: Mm}
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | The sense in which an arc is walked.
 data Turn = Clockwise | CounterClockwise
