@@ -29,12 +29,14 @@ import Base.Quantity (Mm (..), Rad (..), minus, plus, times, total)
 import Base.Search qualified as Search
 import Control.Monad.ST (runST)
 import Data.IntMap.Strict qualified as IntMap
+import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Data.Primitive.PrimArray (PrimArray, indexPrimArray, newPrimArray, unsafeFreezePrimArray, writePrimArray)
+import Data.Set qualified as Set
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
 import Geometry.Contour (Contour (..), Ends (..))
@@ -339,14 +341,16 @@ data Rest = Rest {stop :: Obstacle, middle :: Point, standing :: [Segment]}
 -- | The ways beside a contour that the centre can go, in the order of the contour; and for every place where a stretch of it is cut
 -- away, what stays there. The radius is positive.
 reachable :: Style -> Side -> Mm -> Contour -> ([Way], [Rest])
-reachable style side radius contour = (if sharp style then map (sharpened style side radius contour) ways else ways, map rest (cuts contour (radiusAt style radius) ways))
+reachable style side radius contour = (if sharp style then map (sharpened style side radius contour) ways else ways, zipWith rest [0 ..] stops)
   where
     -- Round corners reach furthest.
     rolling = style {sharp = False}
     ways = Way.along rolling side radius contour
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     onWays = IntMap.fromListWith (<>) [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
-    rest (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = largestPast rolling side radius contour cause}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
+    stops = cuts contour (radiusAt style radius) ways
+    past = largestPast rolling side radius contour [cause | (cause, _, _, _) <- stops]
+    rest k (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = past k}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
     -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side. What lies beyond the
     -- contour, where the cutter touches it from behind, does not stay.
     closedBy at stretch
@@ -440,27 +444,29 @@ cuts contour radiusOf ways = if null ways then [] else concatMap along' ways
       Arc {start, centre} | r <- Segment.radius centre start, r <= plus (radiusOf i) Tolerance.clearance -> Just r
       _ -> Nothing
 
--- | The largest cutter, smaller than this one, that a cause does not stop.
-largestPast :: Style -> Side -> Mm -> Contour -> Cause -> Maybe Mm
-largestPast style side radius contour cause = case cause of
-  InnerCorner {} -> Nothing
-  Concave {} -> search passes
-  Collision {} -> search passes
+-- | The largest cutter, smaller than this one, that each of some causes does not stop, by their numbers from 0.
+largestPast :: Style -> Side -> Mm -> Contour -> [Cause] -> Int -> Maybe Mm
+largestPast style side radius contour stops = \k -> if IntSet.member k passSmallest then Just (search k smallest radius whole) else Nothing
   where
-    search fits
-      | fits smallest = Just (largestOf fits smallest radius)
-      | otherwise = Nothing
+    whole = halvings smallest radius
+    passSmallest = passing smallest
     smallest = times 10 Tolerance.clearance
-    passes r = not (any (\(other, _, _, _) -> same cause other) (cuts contour (radiusAt style r) found)) && reached found
+    search k low high Halving {middling, passed, below, above}
+      | minus high low <= Tolerance.resolution = low
+      | IntSet.member k passed = search k middling high above
+      | otherwise = search k low middling below
+    halvings low high = let middling = times 0.5 (plus low high) in Halving {middling, passed = passing middling, below = halvings low middling, above = halvings middling high}
+    -- Those that do not stop a cutter of this radius, and whose segments are on some way at all.
+    passing r = IntSet.fromDistinctAscList [k | (k, c) <- zip [0 ..] stops, Just es <- [between c], Set.notMember es stopped, all (`IntSet.member` on) es]
       where
         found = Way.along style side r contour
-    same a b = case (a, b) of
-      (Concave i _, Concave j _) -> i == j
-      (Collision i j _, Collision k l _) -> (i, j) == (k, l) || (i, j) == (l, k)
-      _ -> False
-    -- The segments in question have to be on some way at all.
-    reached found = let on = IntSet.fromList [numberOf (origin p) | w <- found, p <- NonEmpty.toList (Way.pieces w)] in all (`IntSet.member` on) (ofCause cause)
-    ofCause a = case a of
-      Concave i _ -> [i]
-      Collision i j _ -> [i, j]
-      InnerCorner i j _ -> [i, j]
+        stopped = Set.fromList [es | (c, _, _, _) <- cuts contour (radiusAt style r) found, Just es <- [between c]]
+        on = IntSet.fromList [numberOf (origin p) | w <- found, p <- NonEmpty.toList (Way.pieces w)]
+    -- A smaller cutter does not come into a corner either.
+    between c = case c of
+      Concave i _ -> Just [i]
+      Collision i j _ -> Just [min i j, max i j]
+      InnerCorner {} -> Nothing
+
+-- | What passes a cutter in the middle between two radii, and the same for either half. It is computed once for all that ask.
+data Halving = Halving {middling :: Mm, passed :: ~IntSet, below, above :: ~Halving}
