@@ -28,7 +28,10 @@ nearest wanted candidates =
 
 -- | The candidates that look the same but are written with letters of another alphabet.
 lookAlike :: Text -> [Text] -> [Text]
-lookAlike wanted candidates = [c | c <- candidates, c /= wanted, Text.map latin c == Text.map latin wanted]
+lookAlike wanted candidates = [c | c <- candidates, Text.compareLength c size == EQ, c /= wanted, Text.map latin c == seen]
+  where
+    size = Text.length wanted
+    seen = Text.map latin wanted
 
 -- | The Latin letter that a Cyrillic one looks like.
 latin :: Char -> Char
