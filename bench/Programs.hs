@@ -2,6 +2,7 @@
 module Programs
   ( Kind (..),
     name,
+    most,
     Written (..),
     written,
   )
@@ -29,6 +30,8 @@ data Kind
     ArcsFile
   | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved: each line needs a frame of its own
     LinesFile
+  | -- | the same milled round: it has as many inner corners, into which no cutter comes, as outer ones, round which it goes on an arc
+    CornersFile
   | -- | a hole at each row of such a file, 3 mm apart
     HolesFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
@@ -43,7 +46,13 @@ name kind = case kind of
   WavyFile -> "noisy rows, csv"
   ArcsFile -> "arcs, csv"
   LinesFile -> "lines, csv"
+  CornersFile -> "corners, csv"
   HolesFile -> "holes, csv"
+
+-- | How many elements there are at most: ten times as many would take more than a million frames, or more room than a drawing has; and what is
+-- written by hand is no larger.
+most :: Kind -> Int
+most kind = if kind `elem` [Rows, Wavy, WavyFile, LinesFile] then 1000000 else 100000
 
 -- | The text of a program, and the files beside it.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
@@ -58,11 +67,13 @@ written kind n = case kind of
   Wavy -> inline 0.1
   WavyFile -> filed "closed_spline" 1 0.1
   ArcsFile -> filed "closed_arcs" 6 2
-  LinesFile -> Written (curved "polyline" "on" (fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
+  LinesFile -> cornered "on" ""
+  CornersFile -> cornered "outside" " rest allowed"
   HolesFile -> Written (header "holes" 2 (0.7 * fromIntegral n + 40) <> "clearance 5 mm\ntable t from \"rows.csv\"\ndrill at points_of(t) depth 3 mm\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
   where
-    inline noise = Written (curved "closed_spline" "outside" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
-    filed through scale noise = Written (curved through "outside" (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]
+    cornered side more = Written (curved "polyline" side more (fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
+    inline noise = Written (curved "closed_spline" "outside" "" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
+    filed through scale noise = Written (curved through "outside" "" (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]
 
 -- | Elements around a circle, so far apart that half of what lies between them is given.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text
@@ -74,14 +85,14 @@ ring half n element =
   where
     r = half / sin (pi / fromIntegral n)
 
--- | A closed curve of a kind through a table, so large, milled on a side of it.
-curved :: Text -> Text -> Double -> Text -> Text
-curved through side r table =
+-- | A closed curve of a kind through a table, so large, milled on a side of it with more settings.
+curved :: Text -> Text -> Text -> Double -> Text -> Text
+curved through side more r table =
   header "wave" 6 (0.7 * r + 40)
     <> table
     <> ("curve skin = " <> through <> "(t)\ncontour c closed { skin }\nmill c " <> side <> " { start near (")
     <> coordinate r
-    <> ", 0) }\n"
+    <> (", 0)" <> more <> " }\n")
 
 -- | Rows of x and y around a wave of five crests, so many times 3 mm apart.
 rows :: Text -> Int -> Double -> Double -> [Text]

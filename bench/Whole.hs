@@ -28,7 +28,7 @@ data Tools = Tools {timer :: FilePath, partc :: FilePath, cost :: [String], inte
 -- | Milliseconds of each stage, in order, and the peak of memory in kilobytes.
 data Staged = Staged {stages :: [(Text, Double)], peak :: Double}
 
--- | Every kind of program on two machines, by tens up to so many elements. A size is left out when the one before it lets expect more than
+-- | Every kind of program on two machines, by tens up to so many elements, if there can be so many. A size is left out when the one before it lets expect more than
 -- the seconds that are allowed.
 staged :: Tools -> Int -> Double -> IO Text
 staged tools most allowed =
@@ -38,7 +38,7 @@ staged tools most allowed =
     names = [(n, ()) | n <- ["parse", "check", "part", "path", "frames", "tape", "verify"]] :: [(Text, ())]
 
 ofKind :: Tools -> Int -> Double -> (Kind, Text) -> IO [Table.Row]
-ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], Nothing) (takeWhile (<= most) [100, 1000, 10000, 100000])
+ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], Nothing) (takeWhile (<= min most (Programs.most kind)) [100, 1000, 10000, 100000, 1000000])
   where
     size (rows, before) n
       | Just (_, Nothing) <- before = pure (rows, before)
@@ -60,7 +60,8 @@ ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], No
       _ -> 0
     repeats n
       | n <= 1000 = 5
-      | otherwise = 3
+      | n <= 100000 = 3
+      | otherwise = 1
 
 total :: Staged -> Double
 total = sum . map snd . stages

@@ -356,7 +356,7 @@ drilling state at points depth settings = do
         _ -> 1
       pecks = maybe 1 (\(Mm p) -> ceiling (min 1e9 (d / p) - Tolerance.equal)) pecked :: Int
   when (pecks > 1000) (Eval.mistake (NotWhole (region depth) "the number of pecks" "up to 1000" (fromIntegral pecks)))
-  Eval.spend at (places' * pecks * statementSteps)
+  Eval.spend at (places' * pecks)
   let places = case v of
         ListValue vs -> map Value.point vs
         _ -> [Value.point v]

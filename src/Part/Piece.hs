@@ -49,10 +49,10 @@ table env (Columns names written) = do
       Written at es -> do
         vs <- traverse (fmap Value.number . Value.evaluate env) es
         Rows.fromList [(at, PrimArray.primArrayFromList vs)] <$ mapM_ (Data.within at) (take 2 vs)
+    -- Numbers take no steps: there are no more than were written.
     number :: Rows -> Int -> Eval [()]
     number rows k = do
       let at = Rows.place rows k
-      Eval.spend at (Rows.width rows)
       Data.within at (Rows.cell rows k 0)
       [] <$ Data.within at (Rows.cell rows k 1)
 
