@@ -25,6 +25,7 @@ import Draw.Sign qualified as Sign
 import Draw.Svg (Anchor (..), Pen (..), Style (..), Svg)
 import Draw.Svg qualified as Svg
 import Draw.Title qualified as Title
+import Geometry.Box (Box (..))
 import Geometry.Box qualified as Box
 import Geometry.Contour (Ends (..))
 import Geometry.Segment (Segment (Straight))
@@ -71,8 +72,8 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
     painted s = (level s, Svg.area (if matter s == Within then Sign.matterColour else "white") (outline s))
     -- What stands in a window is drawn above it, and a window in that above that.
     level s = 2 * inWindows s + (if matter s == Within then 0 else 1)
-    inWindows s = let p = beginning s in length [w | (box, w) <- boxed, Box.meets (Box.ofPoints p []) box, outline w /= outline s, Winding.about p (outline w) /= 0]
-    boxed = [(foldr (Box.union . Box.ofSegment) (Box.ofPoints (beginning w) []) (outline w), w) | w <- windows]
+    inWindows s = let p = beginning s in length [w | w <- Box.within (Box.ofPoints p []) index, outline w /= outline s, Winding.about p (outline w) /= 0]
+    index = Box.index (\w -> foldr (Box.union . Box.ofSegment) (Box.ofPoints (beginning w) []) (outline w)) windows
     beginning s = case outline s of
       s' : _ -> Segment.start s'
       [] -> Vec.point 0 0
@@ -173,7 +174,10 @@ numbers :: Scene -> [Svg]
 numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p words' | (p, words') <- Label.settle Sheet.field index labels]
   where
     style = Style {size = Label.size, ink = Sign.blue, bold = False}
-    labels = concatMap Node.labels (filter numbered cuts)
+    labels = concatMap Node.labels (if length marked > 60 then filter readable marked else marked)
+    marked = filter numbered cuts
+    -- Of many ways only those have numbers that are larger than these.
+    readable cut = let Box {left, bottom, right, top} = foldr1 Box.union (fmap Box.ofSegment (Scene.lines cut)) in max (right - left) (top - bottom) > Label.size
     index = Box.index Box.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
     lines' = concatMap outline shapes <> concatMap cutLines cuts <> feeds <> rapids <> Sign.diamond start
 
