@@ -18,6 +18,8 @@ spec = do
     map (take 3 . drop 3) (rows "mill notched outside { approach (-20, 20) rapid  allowance 0.5  rest allowed  retract (-20, -20) rapid }") `shouldBe` [["3.999", "mm", "narrow"]]
   it "no cutter comes into the corner before a curve (catches the cutter that touches the curve's first arc)" $
     map (\r -> (take 2 r, drop 3 r)) (rows "mill wavy left { approach (-10, 20) rapid  rest allowed  retract (90, 40) rapid }") `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
+  it "nor into one at which the contour begins (catches a way round the end that is taken for one back to the beginning)" $
+    map (\r -> (take 2 r, drop 3 r)) (rows "mill ridge outside { approach (-10, 20) rapid  rest allowed  retract (-10, 20) rapid }") `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
   it "into a hollow goes what is narrower than its mouth (catches an outer corner that is taken for an inner one)" $
     map (drop 3) (rows "mill hollow left { approach (-10, 20) rapid  rest allowed  retract (60, 20) rapid }") `shouldBe` [["3.999", "mm", "narrow", "place,", "with", "the", "cutter's", "centre", "here"]]
 
@@ -44,6 +46,7 @@ rows milling = case Result.output (Compile.analyse [] (Compile.alone "p.part" te
           "}",
           "curve crest = spline(crests)",
           "contour wavy open { line((0, 0), (20, 0)) crest }",
+          "contour ridge closed { crest line((80, 12), (80, -20)) line((80, -20), (0, -20)) line((0, -20), (0, 0)) line((0, 0), (20, 0)) }",
           "contour hollow open { line((0, 0), (20, 0)) ccw circle((22, 0), 2) line((24, 0), (40, 0)) }",
           milling
         ]
