@@ -12,6 +12,7 @@ import Base.Region (Region)
 import Checked.Syntax (Builtin (..), Choice (..), Operator (..))
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
+import Data.Vector qualified as Vector
 import Geometry.Construct (Touched (..))
 import Geometry.Construct qualified as Construct
 import Geometry.Contour qualified as Contour
@@ -120,7 +121,7 @@ apply region builtin arguments = case (builtin, arguments) of
   (Reversed, [Plain (LineValue l)]) -> pure (LineValue (Line (to l) (from l)))
   (Reversed, [Plain (CurveValue c)]) -> pure (CurveValue (Curve.reversed c))
   (Reversed, [Plain (ContourValue c)]) -> pure (ContourValue (backwards c))
-  (Reversed, [Plain (ListValue vs)]) -> pure (ListValue (reverse vs))
+  (Reversed, [Plain (ListValue vs)]) -> pure (ListValue (Vector.reverse vs))
   (Moved, ps) -> transformed region ps $ \case
     [Spatial v] -> pure (Similarity.translation v)
     _ -> wrong
@@ -137,6 +138,7 @@ apply region builtin arguments = case (builtin, arguments) of
     _ -> wrong
   (Row, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n)]) -> do
     count <- whole region "the number of points in a row" n
+    Eval.spend region count
     points [Vec.shift (Vec.scale (fromIntegral k) v) (place p) | k <- [0 .. count - 1]]
   (Grid, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n), Plain (Spatial w), Plain (Quantity m)]) -> do
     count <- whole region "the number of points in a row" n
@@ -146,10 +148,10 @@ apply region builtin arguments = case (builtin, arguments) of
   (Around, [Plain (CircleValue c), Plain (Quantity n)]) -> around c n 0 Nothing
   (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a)]) -> around c n a Nothing
   (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a), Plain (Quantity b)]) -> around c n a (Just b)
-  (Count, [Plain (ListValue vs)]) -> pure (Quantity (fromIntegral (length vs)))
+  (Count, [Plain (ListValue vs)]) -> pure (Quantity (fromIntegral (Vector.length vs)))
   (ItemOf, [Plain (ListValue vs), Plain (Quantity n)]) -> do
     k <- whole region "the number of an item" n
-    if k > length vs then Eval.mistake (NoSuchItem region k (length vs)) else pure (vs !! (k - 1))
+    maybe (Eval.mistake (NoSuchItem region k (Vector.length vs))) pure (vs Vector.!? (k - 1))
   (Lift, [Plain (Spatial p), Plain (Quantity z)]) -> lifted region (place p) (Mm z)
   (Sin, [Plain (Quantity a)]) -> pure (Quantity (sin a))
   (Cos, [Plain (Quantity a)]) -> pure (Quantity (cos a))
@@ -175,7 +177,7 @@ apply region builtin arguments = case (builtin, arguments) of
       _ -> False
     wrong = bug "a function applied to values of other types"
     at = spatial region . offset
-    points ps = ListValue <$> traverse at ps
+    points ps = ListValue . Vector.fromList <$> traverse at ps
     measured (Mm d) = finite region d
     apart l p = let Mm d = Shape.signedDistance l p in Mm (abs d)
     angled (Rad a) = pure (Quantity a)
@@ -191,6 +193,7 @@ apply region builtin arguments = case (builtin, arguments) of
     -- Points on a circle: all round, or from one angle to another, both included.
     around (Circle c r) n a b = do
       count <- whole region "the number of points" n
+      Eval.spend region count
       let step = case b of
             Nothing -> 2 * pi / fromIntegral count
             Just end -> if count == 1 then 0 else (end - a) / fromIntegral (count - 1)

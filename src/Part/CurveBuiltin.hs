@@ -54,13 +54,13 @@ apply region builtin arguments = case (builtin, arguments) of
     pieced region table points chosen
   (Sections, [t, Plain (ListValue lists)]) -> Just $ do
     table <- tableOf t
-    chosen <- traverse (traverse (rowNumber region table) . numbers) lists
+    chosen <- traverse (traverse (rowNumber region table) . numbers) (Vector.toList lists)
     points <- ordered region table (Piece.table (pointsOf table))
     fitted region table (Fit.sections points chosen) >>= pieced region table points
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
-    chosen <- traverse (rowNumber region t) [n | Quantity n <- ns]
+    chosen <- traverse (rowNumber region t) [n | Quantity n <- Vector.toList ns]
     pure (TableValue t {rows = Rows.picked (map (subtract 1) chosen) (rows t)})
-  (PointsOf, [t@(Plain (TableValue _))]) -> Just (tableOf t >>= fmap ListValue . traverse at . pointsOf)
+  (PointsOf, [t@(Plain (TableValue _))]) -> Just (tableOf t >>= fmap (ListValue . Vector.fromList) . traverse at . pointsOf)
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
     [] -> let (low, high) = Curve.abscissas (exact c) in Eval.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
     us -> picked Tolerance.nearTie region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
@@ -91,14 +91,14 @@ apply region builtin arguments = case (builtin, arguments) of
     Mm slack = Tolerance.coincident
     written l = Decimal.mm (Mm l)
     numbers v = case v of
-      ListValue ns -> [n | Quantity n <- ns]
+      ListValue ns -> [n | Quantity n <- Vector.toList ns]
       _ -> []
     positive d
       | d > 0 = within region d
       | otherwise = Eval.mistake (NotPositive region "the tolerance of a curve" (Decimal.mm (Mm d)))
     tableOf t = case t of
       Plain (TableValue table) -> table <$ Eval.spend region (Rows.count (rows table))
-      Plain (ListValue ps) -> Table {rows = Rows.fromList [(region, coordinates (place p)) | Spatial p <- ps], names = []} <$ Eval.spend region (length ps)
+      Plain (ListValue ps) -> Table {rows = Rows.fromList [(region, coordinates (place p)) | Spatial p <- Vector.toList ps], names = []} <$ Eval.spend region (Vector.length ps)
       _ -> Eval.absent
     coordinates p = PrimArray.primArrayFromListN 2 [Vec.x p, Vec.y p]
     made t make = do

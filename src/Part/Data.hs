@@ -20,6 +20,7 @@ import Checked.Syntax (Choice (..), Rank (..))
 import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
+import Data.Vector (Vector)
 import Geometry.Shape (Circle (..), Line (..))
 import Geometry.Shape qualified as Shape
 import Geometry.Similarity (Similarity)
@@ -43,7 +44,7 @@ data Value
   | CircleValue Circle
   | LineValue Line
   | ContourValue Contour
-  | ListValue [Value]
+  | ListValue (Vector Value)
   | PlacementValue Similarity
   | TableValue Table
   | CurveValue Curve
@@ -86,7 +87,7 @@ offset = Vec.to (Vec.point 0 0)
 whole :: Region -> Text -> Double -> Eval Int
 whole region what x
   | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Eval.mistake (NotWhole region what "from 1 to 10000000" x)
-  | otherwise = n <$ Eval.spend region n
+  | otherwise = pure n
   where
     n = if abs x > 1e8 then 0 else round x :: Int
 

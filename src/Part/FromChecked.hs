@@ -22,6 +22,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Vector qualified as Vector
 import Geometry.Similarity (Similarity)
 import Geometry.Tolerance qualified as Tolerance
 import Part.Builtin qualified as Builtin
@@ -329,7 +330,7 @@ pocketing state at e step' settings = do
       ContourValue c -> Pocket.Named (region i) c
       _ -> bug "a value that is no contour where one was checked"
     namedIn i v = case v of
-      ListValue vs -> map (contourAt i) vs
+      ListValue vs -> map (contourAt i) (Vector.toList vs)
       _ -> [contourAt i v]
     upright c = case swivel c of
       Just _ -> Eval.mistake (WrongCutter (let Region begin _ = at in Region begin (begin + 6)) "pocket" "a mill" "a blade that swivels")
@@ -352,13 +353,13 @@ drilling state at points depth settings = do
   pecked <- traverse (Walks.lengthOf env "the depth of a peck") (Checked.peck settings)
   plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
   let places' = case v of
-        ListValue vs -> length vs
+        ListValue vs -> Vector.length vs
         _ -> 1
       pecks = maybe 1 (\(Mm p) -> ceiling (min 1e9 (d / p) - Tolerance.equal)) pecked :: Int
   when (pecks > 1000) (Eval.mistake (NotWhole (region depth) "the number of pecks" "up to 1000" (fromIntegral pecks)))
   Eval.spend at (places' * pecks)
   let places = case v of
-        ListValue vs -> map Value.point vs
+        ListValue vs -> map Value.point (Vector.toList vs)
         _ -> [Value.point v]
   case NonEmpty.nonEmpty places of
     Nothing -> Eval.mistake (NothingToDrill (region points))

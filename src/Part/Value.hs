@@ -27,6 +27,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
+import Data.Vector qualified as Vector
 import Geometry.Contour qualified as Contour
 import Geometry.Curve qualified as Exact
 import Geometry.Shape (Circle (..), Line (..))
@@ -93,10 +94,10 @@ evaluate env (Located region e) =
       b <- number <$> evaluate env y
       c <- number <$> evaluate env z
       Data.lifted region (Vec.point a b) (Mm c)
-    List es -> ListValue <$> traverse (evaluate env) es
+    List es -> ListValue . Vector.fromList <$> traverse (evaluate env) es
     Each inner name list -> do
       vs <- items <$> evaluate env list
-      ListValue <$> traverse (\v -> evaluate (bind name v env) inner) vs
+      ListValue . Vector.fromList <$> traverse (\v -> evaluate (bind name v env) inner) vs
   where
     -- Most coordinates are numbers as they are written.
     numberOf x = case x of
@@ -114,7 +115,7 @@ evaluate env (Located region e) =
       | otherwise = do
         let count = floor ((b - a) / by + Tolerance.equal) + 1 :: Integer
         Eval.spend region (fromInteger (max 0 (min 100000000 count)))
-        pure (ListValue [Quantity (a + fromInteger k * by) | k <- [0 .. count - 1]])
+        pure (ListValue (Vector.generate (max 0 (fromInteger count)) (\k -> Quantity (a + fromIntegral k * by))))
 
 -- | A checked number.
 number :: Value -> Double
@@ -137,7 +138,7 @@ isTrue v = case v of
 -- | The items of a checked list.
 items :: Value -> [Value]
 items v = case v of
-  ListValue vs -> vs
+  ListValue vs -> Vector.toList vs
   _ -> bug "a value that is no list where a list was checked"
 
 -- | A value for a reader; the dimension is that of its quantities.
@@ -152,7 +153,7 @@ written dimension v = case v of
   CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
   LineValue (Line p q) -> "from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
   ContourValue c -> "length " <> Decimal.mm (Contour.length (outline c))
-  ListValue vs -> Decimal.whole (length vs) <> (if length vs == 1 then " item" else " items")
+  ListValue vs -> Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
   TableValue t -> Decimal.whole (Rows.count (Curve.rows t)) <> " rows"
   CurveValue c -> "length " <> Decimal.mm (Exact.length (Curve.exact c))
