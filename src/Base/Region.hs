@@ -22,6 +22,7 @@ module Base.Region
     position,
     offset,
     lineText,
+    pieces,
   )
 where
 
@@ -146,3 +147,12 @@ lineIndex File {starts} at = Search.lastBelow (Vector.length starts) at starts
 -- | The line in which an offset lies, without its line end.
 lineText :: Source -> Int -> Text
 lineText source at = let found = fileAt source at in contents found Boxed.! lineIndex found (max 0 (min (at - base found) (length found)))
+
+-- | What lies in a region of each of its lines, without their line ends.
+pieces :: Source -> Region -> [Text]
+pieces source (Region from to) = [part (starts found Vector.! i) (contents found Boxed.! i) | i <- [lineIndex found a .. lineIndex found b]]
+  where
+    found = fileAt source from
+    (a, b) = (within from, within to)
+    within at = max 0 (min (at - base found) (length found))
+    part begin line = Text.take (b - max a begin) (Text.drop (a - begin) line)

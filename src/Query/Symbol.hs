@@ -65,4 +65,4 @@ symbol source (Located whole s) = case s of
 
 -- | A piece of the text on one line.
 slice :: Source -> Region -> Text
-slice source (Region from to) = Text.unwords (Text.words (Text.take (to - from) (Text.drop from (Region.text source))))
+slice source place = Text.unwords (concatMap Text.words (Region.pieces source place))
