@@ -129,9 +129,13 @@ examine machine flat toolOf traces nearby isOwn pocket isFirst pass = (passage, 
     (inside, outside) = Deviation.allowedOff (any Part.continues (Part.elements (Part.contour (milling pocket)))) (milling pocket)
     mayGouge = plus inside pulse
     mayLeave = plus (plus (max inside outside) pulse) margin
-    atHeight = filter (\t -> (flat || Deviation.isAt machine (level pass) t) && toolOf t >= Part.radius (milling pocket)) traces
+    -- Where a stroke begins in the pocket, none is nearer to a place of it than those as far around it as it is wide.
+    atHeight = let near = filter isThere (nearby (Box.inflate (across (about pocket)) (about pocket))) in if any (isWithin (about pocket) . Segment.start . line) near then near else filter isThere traces
+    isThere t = (flat || Deviation.isAt machine (level pass) t) && toolOf t >= Part.radius (milling pocket)
+    across (Box left bottom right top) = Mm (Vec.norm (Vec.vec (right - left) (top - bottom)))
+    isWithin around p = Box.meets around (Box.ofPoints p [])
     strokes = Nearest.index box atHeight
-    looked = filter belowTop (if isFirst then nearby (Box.inflate (reach pass) (about pocket)) else filter isOwn traces)
+    looked = filter (\t -> belowTop t && (isFirst || isOwn t)) (nearby (Box.inflate (reach pass) (about pocket)))
     belowTop t = fst (heights t) <= Mm 0 || snd (heights t) <= Mm 0
     spared t = let d = if isOwn t then reach pass else toolOf t in Spared {upTo = d, most = d, required = \_ _ -> d}
     gouges = mapMaybe (\t -> Deviation.gougeOf (spared t) (walls pocket) t) looked

@@ -23,6 +23,7 @@ import Base.Region (Located (..))
 import Control.Compensation qualified as Compensation
 import Control.Walk qualified as Control
 import Data.Either (fromRight)
+import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (foldl', sortOn)
@@ -87,11 +88,17 @@ compared machine path program frames tools traces ownTraces unkept =
     lastFrame n = (\(Frames _ b) -> b) <$> IntMap.lookup n framesOfPasses
     framesOfPasses = IntMap.fromListWith wider [(n, Frames k k) | (k, p) <- zip [1 ..] (Frame.planned program), Just n <- [Frame.passOf (Frame.role p)]]
     isOwn pass t = sameCount && maybe False (\(Frames a b) -> a <= number t && number t <= b) (IntMap.lookup (Clearing.order pass) framesOfPasses)
-    ownTo p t = any (`isOwn` t) (Clearing.passes p)
+    -- The strokes of each pocket, by its number from 0.
+    ownTo :: IntMap [Trace]
+    ownTo = foldr (\t known -> maybe known (\k -> IntMap.insertWith (<>) k [t] known) (pocketAt (number t))) IntMap.empty traces
+    pocketAt n = case IntMap.lookupLE n pocketFrames of
+      Just (_, (b, k)) | n <= b -> Just k
+      _ -> Nothing
+    pocketFrames = IntMap.fromList [(a, (b, k)) | (k, p) <- zip [0 ..] pockets, pass <- NonEmpty.toList (Clearing.passes p), Just (Frames a b) <- [IntMap.lookup (Clearing.order pass) framesOfPasses]]
     pockets = Clearing.pocketsOf (Path.blocks path)
     (emptied, foundIn) = unzip [Clearing.examine machine flat toolOf traces nearby (isOwn pass) p isFirst pass | p <- pockets, (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Clearing.passes p))]
     -- On a foreign tape, the strokes in each pass of a pocket.
-    inPockets = [(p, pass, [t | t <- traces, flat || Deviation.isAt machine (Clearing.level pass) t, Clearing.holds p (Segment.at 0.5 (line t))]) | p <- pockets, pass <- NonEmpty.toList (Clearing.passes p)]
+    inPockets = [(p, pass, [t | t <- Nearest.within (Clearing.about p) strokesByPlace, flat || Deviation.isAt machine (Clearing.level pass) t, Clearing.holds p (Segment.at 0.5 (line t))]) | p <- pockets, pass <- NonEmpty.toList (Clearing.passes p)]
     clearedIn = [(p, (number t, number (fromMaybe t (lastOf ts)))) | (p, _, t : ts) <- inPockets]
     -- The strokes that may touch what lies in a box, in the order of the tape, or more. An index pays where they are asked for often.
     nearby about = if often then Nearest.within (Box.inflate largestTool about) strokesByPlace else traces
@@ -103,7 +110,7 @@ compared machine path program frames tools traces ownTraces unkept =
     findings =
       concat found
         <> concat foundIn
-        <> [NotInOrder (Clearing.statement p) | not flat, p <- pockets, not (Clearing.isInOrder machine p (if sameCount then filter (ownTo p) traces else traces))]
+        <> [NotInOrder (Clearing.statement p) | not flat, (k, p) <- zip [0 ..] pockets, not (Clearing.isInOrder machine p (if sameCount then IntMap.findWithDefault [] k ownTo else traces))]
         <> [OffPlane n | flat, Just n <- [firstRisen run]]
         <> missingHoles machine path traces
         <> take 1 [CutsElsewhere n p | not flat, isJust (firstDifference run), (n, p) <- strangers machine path ownTraces traces]

@@ -1,11 +1,16 @@
 -- | The proof of a pocket.
 module Verify.ClearingSpec (spec) where
 
+import Base.Decimal qualified as Decimal
 import Base.Lattice (V3 (..))
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Result qualified as Result
+import Compile (Analysis (path))
+import Compile qualified
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
 import Frame.Frame (Frame (increment), Program)
 import Frame.Frame qualified as Frame
 import Frame.FromPath qualified as FromPath
@@ -84,13 +89,43 @@ spec = modifyMaxSuccess (const 60) $ do
            in counterexample (show (less, deeper)) ("excess" `elem` less && (length (bare other) /= length (bare program) || "gouge" `elem` deeper))
         _ -> property False
       _ -> discard
+  it "of several pockets each is looked at by itself (catches strokes that are taken for those of another one)" $ do
+    let asked = three (replicate 3 right)
+        wrong k what = three [if j == k then what else right | j <- [0 .. 2 :: Int]]
+        found other = case (framesOf iso asked, framesOf iso other) of
+          (Just program, Just others) -> map kind (findings (Verify.prove iso asked program (bare others)))
+          _ -> ["no frames"]
+    found asked `shouldBe` []
+    [filter (== "order") (found (wrong k "pocket c step 3 { depth 2 }\n pocket c step 3 { depth 1 }")) | k <- [0 .. 2]] `shouldBe` replicate 3 ["order"]
+    [take 1 (filter (`elem` ["floor", "excess"]) (found (wrong k "pocket smaller step 3 { depth 2 step 1 }"))) | k <- [0 .. 2]] `shouldBe` replicate 3 ["excess"]
+    [take 1 (filter (== "gouge") (found (wrong k "pocket larger step 3 { depth 2 step 1 }"))) | k <- [0 .. 2]] `shouldBe` replicate 3 ["gouge"]
   where
+    right = "pocket c step 3 { depth 2 step 1 }"
     more = oneof [pure [], pure [Mm 0.5], pure [Mm 2, Mm 0.3]]
     anywhere p = let Box l b r t = foldr1 Box.union (fmap Box.ofSegment (walls (Generate.roomOf p))) in Vec.point <$> choose (l, r) <*> choose (b, t)
     -- There is more in it than a loop at the walls and what it sweeps.
     roomy d p = let Box l b r t = foldr1 Box.union (fmap Box.ofSegment (walls (Generate.roomOf p))) in Mm (min (r - l) (t - b)) > plus (times 4 (cutter p)) (plus (times 2 (left p)) (times 2 (plus d (Mm 2))))
     isBelow (V3 _ _ z) = z < 0
     moved k f = f {increment = increment f + V3 k k 0}
+
+-- | Three pockets beside one another, by what is asked in each.
+three :: [Text] -> Path
+three pockets = maybe (error "no path") path (Result.output (Compile.analyse [] (Compile.alone "p.part" text)))
+  where
+    text =
+      Text.unlines
+        ( [ "part p",
+            "tool mill(diameter 6 mm)",
+            "feed 60 mm/min",
+            "tolerance 0.02 mm",
+            "clearance 5 mm",
+            "from (-20, -20, 5)",
+            "contour c closed { ccw circle((0, 0), 10) }",
+            "contour smaller closed { ccw circle((0, 0), 9.5) }",
+            "contour larger closed { ccw circle((0, 0), 10.5) }"
+          ]
+            <> ["with moved((" <> Decimal.whole (22 * k) <> ", 0)) {\n" <> p <> "\n}" | (k, p) <- zip [0 ..] pockets]
+        )
 
 machines :: [Machine]
 machines = [iso, Machines.named "lkp-01f", Machines.named "n55"]
