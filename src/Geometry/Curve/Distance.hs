@@ -12,6 +12,7 @@ module Geometry.Curve.Distance
     marks,
     knots,
     Below (..),
+    vanishes,
     series,
     scaled,
     reversed,
@@ -104,6 +105,16 @@ knots base distance = case distance of
   Square mu _ -> Column.knots base mu
   Joggled _ -> []
 
+-- | Whether a distance is 0 about a spot.
+vanishes :: Distance -> Spot -> Bool
+vanishes distance spot = case distance of
+  Joggled Joggle {begins, ends} -> not (spot `isPast` begins) || spot `isPast` ends
+  Square _ inner -> vanishes inner spot
+  Constant h -> h == Mm 0
+  Pointwise _ -> False
+  Bevelled {} -> False
+  Growing _ -> False
+
 -- | What is known of the curve that is shifted: the base under all layers, the way along it (worked out only for
 -- distances that depend on it), its place near the spot.
 data Below = Below {under :: Base, along :: ~Ruler, near :: Jet}
@@ -164,11 +175,13 @@ run n below spot = case n of
 
 -- | How many of the marks lie before the spot.
 passed :: Spot -> [Double] -> Int
-passed spot = length . filter before
-  where
-    before mark = case approach spot of
-      After -> mark <= parameter spot
-      Before -> mark < parameter spot
+passed spot = length . filter (spot `isPast`)
+
+-- | Whether a mark lies before a spot.
+isPast :: Spot -> Double -> Bool
+isPast spot mark = case approach spot of
+  After -> mark <= parameter spot
+  Before -> mark < parameter spot
 
 -- | The distance of a curve that is larger by a factor, on its new base. Angles stay.
 scaled :: Base -> Double -> Distance -> Distance

@@ -99,11 +99,13 @@ ruler curve = case curve of
 spot :: Approach -> Double -> Curve -> Spot
 spot approach u curve = Base.spot approach u (base curve)
 
--- | The power series of the place up to an order. Every shift asks the curve under it for one order more.
+-- | The power series of the place up to an order. Every shift asks the curve under it for one order more, but where there is none.
 jetAt :: Int -> Curve -> Spot -> Jet
 jetAt n curve s = case curve of
   Plain b -> Base.jet n b s
-  Shifted layer lower _ -> let near = jetAt (n + 1) lower s in Jet.moved (distanceAt n layer lower near s) near
+  Shifted layer lower _
+    | Distance.vanishes (distance layer) s -> jetAt n lower s
+    | otherwise -> let near = jetAt (n + 1) lower s in Jet.moved (distanceAt n layer lower near s) near
 
 -- | The power series of a shift's distance to the left up to an order, given the curve below near the spot.
 distanceAt :: Int -> Layer -> Curve -> Jet -> Spot -> Series
