@@ -2,6 +2,7 @@
 module Draw.Node
   ( dots,
     labels,
+    most,
   )
 where
 
@@ -76,8 +77,12 @@ labels cut
     near = [1.2, 2, 3, 4]
 
 -- | Whether a node has its number drawn, by the number of the last node: both ends, and of those
--- between as many as can be read, which is about sixty.
+-- between as many as can be read.
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
-    every = if final <= 60 then 1 else round (1 / Sheet.round125 (60 / fromIntegral final)) :: Int
+    every = if final <= most then 1 else round (1 / Sheet.round125 (fromIntegral most / fromIntegral final)) :: Int
+
+-- | About so many numbers can be read on a drawing, or things told from one another by them.
+most :: Int
+most = 60

@@ -174,7 +174,7 @@ numbers :: Scene -> [Svg]
 numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p words' | (p, words') <- Label.settle Sheet.field index labels]
   where
     style = Style {size = Label.size, ink = Sign.blue, bold = False}
-    labels = concatMap Node.labels (if length marked > 60 then filter readable marked else marked)
+    labels = concatMap Node.labels (if length marked > Node.most then filter readable marked else marked)
     marked = filter numbered cuts
     -- Of many ways only those have numbers that are larger than these.
     readable cut = let Box {left, bottom, right, top} = foldr1 Box.union (fmap Box.ofSegment (Scene.lines cut)) in max (right - left) (top - bottom) > Label.size
