@@ -39,6 +39,7 @@ import Path.Clearing qualified as Clearing
 import Path.Compensation (Ways (Ways))
 import Path.Compensation qualified as Compensation
 import Path.Error (Error (..), Unsent (..), Warning (..))
+import Path.Error qualified as Error
 import Path.Obstacle qualified as Obstacle
 import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
@@ -61,9 +62,11 @@ lay part = case (Part.start part, Part.operations part) of
        in Result (staying path) (intrusions path) (Just path)
     (errors, _) -> Result [] errors Nothing
 
--- | What stays beside milled contours.
+-- | What stays beside milled contours; what one cutter leaves at a statement that is gone through several times is one warning.
 staying :: Path -> [Warning]
-staying path = [Leaves word tool (map fst (NonEmpty.toList places)) | Remaining {word, tool, places} <- Remaining.ofPath path]
+staying path = [Leaves word tool (concatMap (map fst . NonEmpty.toList . places) (r : more)) | r@Remaining {word, tool} :| more <- Map.elems statements]
+  where
+    statements = Map.fromListWith (<>) (reverse [((word, Error.radius tool, Error.leaves tool), r :| []) | r@Remaining {word, tool} <- Remaining.ofPath path])
 
 -- | The radius of the cutter with which a program begins.
 firstTool :: [Operation] -> Mm
