@@ -135,15 +135,13 @@ bandChords machine toward away s = case s of
       step = if count == 0 then 0 else (abs angle - 2 * first) / fromIntegral count
       corner a = Vec.shift (Vec.scale (outer / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p))) centre
 
--- | How many frames a run needs, or one less for each chord: its chords, each split to fit the fields of a frame.
--- Chords of a curve are counted up to so many.
-frameCount :: Int -> Machine -> Allowed -> NonEmpty Move -> Int
-frameCount most machine allowed ms = case allowed of
+-- | How many frames a run needs, or one less for each chord: its chords, each split to fit the fields of a frame. Where the chords of
+-- a curve end is given.
+frameCount :: Machine -> Allowed -> NonEmpty Move -> [Place] -> Int
+frameCount machine allowed ms stops = case allowed of
   Sagitta y -> alone y
   BandOf a b -> alone (max a b)
-  Along bounds ->
-    let stops = map fst (take (most + 1) (Run.chordEnds most bounds ms))
-     in sum (zipWith (\p q -> parts (let Mm d = Vec.distance p q in d)) (Segment.start only : stops) stops)
+  Along _ -> let points = map fst stops in sum (zipWith (\p q -> parts (let Mm d = Vec.distance p q in d)) (Segment.start only : points) points)
   where
     only = segment (NonEmpty.head ms)
     alone y = let n = chordCount machine y only; Mm l = Segment.length only in n * parts (l / fromIntegral n)

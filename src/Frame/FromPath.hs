@@ -37,6 +37,7 @@ import Frame.Frame qualified as Frame
 import Frame.FrameCheck qualified as FrameCheck
 import Frame.Order (Told, Waiting (..))
 import Frame.Order qualified as Order
+import Frame.Pulses (Place)
 import Frame.Pulses qualified as Pulses
 import Frame.Task (Drive (..), Task (..))
 import Frame.Task qualified as Task
@@ -157,11 +158,15 @@ next looks@Looks {machine, grid, early} made task = case task of
   Run {run}
     | TaskCheck.isBounded looked' ->
       let final = NonEmpty.last run
-          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine grid (at made) task)
+          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine grid (at made) task stops)
        in walked {at = Pulses.rounded machine (Segment.end (segment final), snd (heights final)), here = origin final}
     | otherwise -> made {looked = looked'}
   where
-    looked' = TaskCheck.see early task (looked made)
+    looked' = TaskCheck.see early task stops (looked made)
+    -- They are counted before they become frames.
+    stops = case task of
+      Order _ _ -> []
+      Run {allowed, run} -> chordStops machine allowed run
 
 -- | Behind the last move commands stand in a frame of their own, and then comes what always ends a program.
 ended :: Looks -> Making -> Making
@@ -209,15 +214,15 @@ frameOf machine drive pace at Step {stop, about} = case about of
       (Asked, Rapid) -> f {speed = Machine.rapidCode machine}
       (Asked, At (Located _ v)) -> f {speed = Feed.nearest machine v f}
 
--- | Where the frames of a run end and how they get there.
-stepsOf :: Machine -> Arc.Grid -> V3 -> Task -> [Step]
-stepsOf machine grid begin task = case task of
+-- | Where the frames of a run end and how they get there, given where its chords end.
+stepsOf :: Machine -> Arc.Grid -> V3 -> Task -> [Place] -> [Step]
+stepsOf machine grid begin task stops = case task of
   Order _ _ -> []
   Run {allowed, run = m :| []}
     | Straight a b <- segment m, isByItself allowed -> map alone (Pulses.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
   Run {allowed, run} -> case Machine.arcs machine of
     Arcs {} | Pulses.isLevel machine run -> arcSteps machine grid begin allowed run
-    _ -> map alone (chordStops machine (Chord.rounding machine allowed) begin run)
+    _ -> map alone (chordSteps machine begin run stops)
   where
     isByItself allowed = case allowed of
       Along _ -> False
@@ -239,19 +244,22 @@ arcSteps machine grid begin allowed run = case allowed of
     m = NonEmpty.head run
     level = fst (heights m)
     pulse = Machine.pulse machine
-    steps room chordsOff = Arc.steps grid room (\at s -> chordStops machine chordsOff at (m {segment = s} :| [])) level
+    steps room chordsOff = Arc.steps grid room (\at s -> let chord = m {segment = s} :| [] in chordSteps machine at chord (Chord.ends TaskCheck.mostFrames machine chordsOff chord)) level
     partSteps bounds at part = case part of
-      Curve.Chords ms -> let stops = chordStops machine (Chord.rounding machine allowed) at ms in (fromMaybe at (listToMaybe (reverse stops)), map alone stops)
+      Curve.Chords ms -> let stops = chordSteps machine at ms (chordStops machine allowed ms) in (fromMaybe at (listToMaybe (reverse stops)), map alone stops)
       Curve.Arcs segments ->
         let left = Curve.remainder machine bounds
             ends = map (\s -> Pulses.rounded machine (Segment.end s, level)) (NonEmpty.toList segments)
             walked = zipWith (steps (Arc.Room left left left) (Sagitta (Chord.remainder machine left))) (at : ends) (NonEmpty.toList segments)
          in (fromMaybe at (listToMaybe (reverse ends)), concat walked)
 
--- | The stops of a run's chords.
-chordStops :: Machine -> Allowed -> V3 -> NonEmpty Move -> [V3]
-chordStops machine allowed begin run = concat (zipWith (Pulses.split machine) (begin : map (Pulses.rounded machine) points) (zip (first : points) points))
+-- | Where the chords of a run end, with their heights.
+chordStops :: Machine -> Allowed -> NonEmpty Move -> [Place]
+chordStops machine allowed = Chord.ends TaskCheck.mostFrames machine (Chord.rounding machine allowed)
+
+-- | The ends of the steps along a run's chords from a position on.
+chordSteps :: Machine -> V3 -> NonEmpty Move -> [Place] -> [V3]
+chordSteps machine begin run stops = concat (zipWith (Pulses.split machine) (begin : map (Pulses.rounded machine) stops) (zip (first : stops) stops))
   where
     m = NonEmpty.head run
     first = (Segment.start (segment m), fst (heights m))
-    points = Chord.ends TaskCheck.mostFrames machine allowed run

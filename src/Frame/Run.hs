@@ -15,7 +15,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), times)
 import Data.List (minimumBy, sortOn)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Data.Tuple (swap)
@@ -43,50 +43,61 @@ data Bounds = Bounds
 -- | The ends of the chords of a run with their heights, the last one its end. When there are more than so many, at
 -- least so many of them.
 chordEnds :: Int -> Bounds -> NonEmpty Move -> [(Point, Mm)]
-chordEnds most bounds run
-  | null pieces = [(Segment.end (Path.segment final), snd (Path.heights final))]
-  | otherwise = map (\p -> (place p, Mm (level p))) (if count > most then widest else evened)
+chordEnds most bounds run = map (\p -> (place p, Mm (level p))) (maybe [final] (\pieces -> ends most bounds pieces final) (NonEmpty.nonEmpty (map piece long)))
   where
-    final = NonEmpty.last run
-    pieces = [Piece (Path.segment m) 0 (a, b) | m <- NonEmpty.toList run, let (Mm a, Mm b) = Path.heights m, Segment.length (Path.segment m) > Mm 0]
-    (widest, walk)
-      | n <- counted (fst quick), n > 2, n <= min few most, bendsBack pieces, counted (fst thorough) < n = thorough
+    long = NonEmpty.filter (\m -> Segment.length (Path.segment m) > Mm 0) run
+    piece m = let (Mm a, Mm b) = Path.heights m in Piece (Path.segment m) 0 (a, b)
+    final = let m = NonEmpty.last run; Mm z = snd (Path.heights m) in Place (Segment.end (Path.segment m)) z []
+
+-- | The ends of the chords of pieces, whose own end is given.
+ends :: Int -> Bounds -> NonEmpty Piece -> Place -> [Place]
+ends most bounds pieces final = if count > most then widest chosen else kept <> evenest evenings (1 - 1 / fromIntegral (length others)) 1 others
+  where
+    chosen
+      | n <- counted quick, n > 2, n <= min few most, bendsBack pieces, counted thorough < n = thorough
       | otherwise = quick
     quick = fewest (walks AtEnds bounds pieces id)
     thorough = fewest (walks Anywhere bounds pieces id <> walks Anywhere (mirrored bounds) (turned pieces) back)
-    back places = drop 1 (reverse places) <> [Place (Segment.end (Path.segment final)) (let Mm z = snd (Path.heights final) in z) []]
-    fewest = minimumBy (comparing (counted . fst))
-    count = counted widest
-    counted = length . take (most + 1)
-    evened = evenest evenings (1 - 1 / fromIntegral count) 1 widest
+    back places = drop 1 (reverse places) <> [final]
+    fewest = minimumBy (comparing counted)
+    counted = length . take (most + 1) . widest
+    count = counted chosen
+    (kept, others) = splitAt (count - mostEvened) (widest chosen)
     -- The tightest limits that need no more chords make the last one as long as the others.
     evenest :: Int -> Double -> Double -> [Place] -> [Place]
     evenest tries low high best
       | tries <= 0 || count == 1 = best
-      | null (drop count tighter) = evenest (tries - 1) low middle tighter
+      | null (drop (length others) tighter) = evenest (tries - 1) low middle tighter
       | otherwise = evenest (tries - 1) middle high best
       where
         middle = (low + high) / 2
-        tighter = walk middle
+        tighter = walk chosen middle (NonEmpty.last (begin chosen :| kept))
 
 -- | Of no more chords than so many, one less makes a difference: where a run bends to both sides they are looked for
 -- thoroughly, and from its end as well.
 few :: Int
 few = 16
 
+-- | The chords of a run are made as long as one another; of more than so many, only the last ones.
+mostEvened :: Int
+mostEvened = 256
+
 -- | Whether a run bends to both sides. On one that does not, no chords are fewer than those that reach furthest.
-bendsBack :: [Piece] -> Bool
+bendsBack :: NonEmpty Piece -> Bool
 bendsBack pieces = any (> 0) sweeps && any (< 0) sweeps
   where
-    sweeps = [s | Piece {segment = Arc {sweep = Rad s}} <- pieces]
+    sweeps = [s | Piece {segment = Arc {sweep = Rad s}} <- NonEmpty.toList pieces]
 
--- | The chords of pieces by how tight the limits are, first with those at which they are widest: upon the run, and beside
--- it where that may help.
-walks :: Search -> Bounds -> [Piece] -> ([Place] -> [Place]) -> [([Place], Double -> [Place])]
-walks search bounds pieces onto = [(walk 1, walk) | walk <- upon : [between | left bounds /= right bounds]]
+-- | Chords along pieces: where they begin, where they end when they are widest, and where they do by how tight the limits are and from which place on.
+data Walk = Walk {begin :: Place, widest :: [Place], walk :: Double -> Place -> [Place]}
+
+-- | The walks along pieces: upon the run, and beside it where that may help.
+walks :: Search -> Bounds -> NonEmpty Piece -> ([Place] -> [Place]) -> [Walk]
+walks search bounds pieces onto = [Walk {begin, widest = walk 1 begin, walk} | walk <- upon : [between | left bounds /= right bounds]]
   where
-    between tightness = onto (chords (limits tightness) pieces)
-    upon tightness = onto (chords (limits tightness) {aside = 0} pieces)
+    begin = let p = NonEmpty.head pieces in Place {place = Segment.at 0 (segment p), level = levelAt 0 p, rest = NonEmpty.toList pieces}
+    between tightness from = onto (chords (limits tightness) from)
+    upon tightness from = onto (chords (limits tightness) {aside = 0} from)
     limits tightness = (limitsOf bounds tightness) {search}
 
 -- | The bounds of a run walked the other way.
@@ -94,8 +105,8 @@ mirrored :: Bounds -> Bounds
 mirrored bounds = bounds {left = right bounds, right = left bounds}
 
 -- | Whole pieces walked the other way.
-turned :: [Piece] -> [Piece]
-turned pieces = reverse [Piece (Segment.reverse (segment p)) 0 (swap (heights p)) | p <- pieces]
+turned :: NonEmpty Piece -> NonEmpty Piece
+turned pieces = NonEmpty.reverse (fmap (\p -> Piece (Segment.reverse (segment p)) 0 (swap (heights p))) pieces)
 
 -- | How often the limits are halved.
 evenings :: Int
@@ -136,15 +147,11 @@ data Piece = Piece {segment :: Segment, from :: Double, heights :: (Double, Doub
 -- | A place on the run, its height in mm, and what lies behind it.
 data Place = Place {place :: Point, level :: Double, rest :: [Piece]}
 
--- | The ends of the chords along pieces.
-chords :: Limits -> [Piece] -> [Place]
-chords limits pieces = case pieces of
-  [] -> []
-  first : _ -> go Place {place = Segment.at (from first) (segment first), level = levelAt (from first) first, rest = pieces}
-  where
-    go begin
-      | null (rest begin) = []
-      | otherwise = let next = furthest limits begin in next : go next
+-- | The ends of the chords from a place on.
+chords :: Limits -> Place -> [Place]
+chords limits begin
+  | null (rest begin) = []
+  | otherwise = let next = furthest limits begin in next : chords limits next
 
 -- | A place at a fraction of the first of some pieces, where chords can meet.
 placeOn :: Limits -> Piece -> Double -> [Piece] -> Place
@@ -181,7 +188,9 @@ data Sight = Sight
     -- | the way so far in mm
     gone :: Double,
     -- | how a chord to this place misses them
-    missed :: Missed
+    missed :: Missed,
+    -- | how far it does, in radians or as a rise; no more than 0 within
+    beyond :: Double
   }
 
 -- | On which side of what is allowed the direction of a chord is, and its rise; 'EQ' is within.
@@ -190,7 +199,7 @@ data Missed = Missed Ordering Ordering
 
 -- | Whether a chord to the place stays within the limits.
 fits :: Sight -> Bool
-fits sight = missed sight == Missed EQ EQ
+fits sight = beyond sight <= 0
 
 -- | Where the longest chord from a place ends. A place behind one that no chord reaches may be reached again, as long
 -- as there is any direction left.
@@ -201,7 +210,7 @@ furthest limits begin = case rest begin of
     Just (way, p) | way >= least limits -> p
     _ -> onward limits (least limits) begin
   where
-    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, missed = Missed EQ EQ}
+    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, missed = Missed EQ EQ, beyond = -1}
     reached eye best before pieces = case pieces of
       [] -> best
       piece : more
@@ -215,7 +224,7 @@ furthest limits begin = case rest begin of
           better = maybe best found $ case search limits of
             AtEnds
               | fits after -> Just t
-              | fits before, share <- lastWhere (fits . seen) (from piece) t, share > from piece -> Just share
+              | fits before, share <- lastWithin (beyond . seen) (from piece, beyond before) (t, beyond after), share > from piece -> Just share
               | otherwise -> Nothing
             Anywhere -> lastFit seen ((t, after) : [(u, seen u) | u <- standstills limits eye piece t] <> [(from piece, before)])
           found u = Just (gone before + lengthBetween (from piece) u piece, placeOn limits piece u pieces)
@@ -242,7 +251,7 @@ lastFit seen marks = case marks of
     where
       crossings =
         [lastWhere (\u -> missed (seen u) /= missed atHigh) low high | missed atLow /= missed atHigh]
-          <> [lastWhere (fits . seen) low high | fits atLow]
+          <> [lastWithin (beyond . seen) (low, beyond atLow) (high, beyond atHigh) | fits atLow]
   _ -> Nothing
 
 -- | The last fraction of which something holds, between one of which it does and one of which it does not.
@@ -255,6 +264,21 @@ lastWhere holds = go (40 :: Int)
       | otherwise = go (tries - 1) low middle
       where
         middle = (low + high) / 2
+
+-- | The same of what is no more than 0 at the first one and more at the last one, given both. Where a straight line between the two says,
+-- of an end that stays with half of what it is there (the rule of Illinois); every fourth time in the middle.
+lastWithin :: (Double -> Double) -> (Double, Double) -> (Double, Double) -> Double
+lastWithin excess (first, atFirst) (final, atFinal) = go (160 :: Int) EQ first atFirst final atFinal
+  where
+    finest = (final - first) / 2 ^ (40 :: Int)
+    go tries moved low a high b
+      | tries <= 0 || high - low <= finest = low
+      | e <= 0 = go (tries - 1) LT next e high (if moved == LT then b / 2 else b)
+      | otherwise = go (tries - 1) GT low (if moved == GT then a / 2 else a) next e
+      where
+        e = excess next
+        next = if tries `mod` 4 /= 0 && straight > low && straight < high then straight else (low + high) / 2
+        straight = low + (high - low) * (a / (a - b))
 
 -- | The fractions up to one at which the direction of a chord to a piece turns back: where the piece heads away from the
 -- eye or towards it. The last one first.
@@ -315,13 +339,15 @@ see limits eye before piece tangents t on goal =
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
       gone = way,
-      missed = if Vec.norm chord > 0 && way > 0 then Missed (beside low high along) (beside flat steep climb) else Missed LT LT
+      missed = if isChord then Missed (beside low high along) (beside flat steep climb) else Missed LT LT,
+      beyond = if isChord then max (max (low - along) (along - high)) (max (flat - climb) (climb - steep)) else 1
     }
   where
     way = gone before + lengthBetween (from piece) t piece
     end = Vec.to (standing eye) on
     distance = Vec.norm end
     chord = Vec.to (standing eye) goal
+    isChord = Vec.norm chord > 0 && way > 0
     Rad along = if goal == on then Rad direction else Vec.turn (out eye) chord
     Rad direction = Vec.turn (out eye) end
     climb = (levelAt t piece - standingAt eye) / way

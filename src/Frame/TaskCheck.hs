@@ -26,6 +26,7 @@ import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
 import Frame.Chord (Allowed)
 import Frame.Chord qualified as Chord
 import Frame.Error (Error (..), Warning (..))
+import Frame.Pulses (Place)
 import Frame.Pulses qualified as Pulses
 import Frame.Task (Drive (..), Task (..))
 import Geometry.Box qualified as Box
@@ -96,11 +97,11 @@ boundless seen = reverse (distant seen) <> maybeToList (overlong seen)
 unsure :: Seen -> [Warning]
 unsure = maybeToList . rising
 
--- | Look at the next task.
-see :: Look -> Task -> Seen -> Seen
-see look task before = case task of
+-- | Look at the next task, given where the chords of its run end; they are asked for only along a curve on a machine that walks no arcs.
+see :: Look -> Task -> [Place] -> Seen -> Seen
+see look task stops before = case task of
   Order _ _ -> before
-  Run {drive, allowed, run} -> counted look allowed run (reached look run (risen look run (fed look drive run before)))
+  Run {drive, allowed, run} -> counted look allowed run stops (reached look run (risen look run (fed look drive run before)))
 
 fed :: Look -> Drive -> NonEmpty Move -> Seen -> Seen
 fed look drive moves before = case (drive, asked) of
@@ -143,8 +144,8 @@ beyond region p = if isWithin 0 p then Nothing else Just (OutOfReach region p To
 
 -- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
 -- are no more than the moves.
-counted :: Look -> Allowed -> NonEmpty Move -> Seen -> Seen
-counted look allowed moves before = case overlong before of
+counted :: Look -> Allowed -> NonEmpty Move -> [Place] -> Seen -> Seen
+counted look allowed moves stops before = case overlong before of
   Just _ -> before
   Nothing
     | now > mostFrames -> before {overlong = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
@@ -153,4 +154,4 @@ counted look allowed moves before = case overlong before of
     !now =
       count before + case Machine.arcs (machine look) of
         Arcs {} | Pulses.isLevel (machine look) moves -> 1
-        _ -> Chord.frameCount mostFrames (machine look) (Chord.rounding (machine look) allowed) moves
+        _ -> Chord.frameCount (machine look) (Chord.rounding (machine look) allowed) moves (take (mostFrames + 1) stops)
