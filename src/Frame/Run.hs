@@ -272,7 +272,7 @@ lastWithin excess (first, atFirst) (final, atFinal) = go (160 :: Int) EQ first a
   where
     finest = (final - first) / 2 ^ (40 :: Int)
     go tries moved low a high b
-      | tries <= 0 || high - low <= finest = low
+      | tries <= 0 || high - low <= finest || next <= low || next >= high = low
       | e <= 0 = go (tries - 1) LT next e high (if moved == LT then b / 2 else b)
       | otherwise = go (tries - 1) GT low (if moved == GT then a / 2 else a) next e
       where
