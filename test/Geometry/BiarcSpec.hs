@@ -398,12 +398,13 @@ arcsLaw w@(Tracked c tolerance) = forAll (vectorOf 40 ((,) <$> choose (0, length
     ss = chain w
 
 -- | The distance from a point to a curve, and where: about the nearest of many points on each strand nearby, more
--- points.
+-- points; before and behind each corner, too.
 nearest :: Track -> Point -> (Double, Double)
-nearest t = \p -> minimum [closer p (14 :: Int) step u | (_, u) <- take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))]
+nearest t = \p -> minimum [closer p (14 :: Int) step (held u) | u <- map snd (take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))) <> besideCorners]
   where
     known = map (\u -> (u, place t u)) (parameters 3000 t)
     step = (NonEmpty.last (breaks t) - begin t) / 3000
+    besideCorners = concat [[u - step, u + step] | u <- toList (breaks t)]
     valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
     closer p k h u
       | k == 0 = (away p (place t u), u)

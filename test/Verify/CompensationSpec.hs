@@ -58,7 +58,7 @@ spec = do
                 leaves = most > 0.022 + 0.01 / (2 * let Mm r = Part.radius job in r)
              in tabulate "change" [takeWhile (/= '(') what] $
                   classify (not gouges && not leaves) "within" $
-                    counterexample (show (what, deepest, most, found)) ((not gouges || any isGouge found) && (not leaves || any isExcess found))
+                    counterexample (show (what, deepest, most, found)) ((not gouges || any isGouge found) && (not leaves || any (\f -> isExcess f || isLost f) found))
   it "a wrong diameter is found by what it does, too, to the tolerance (catches a proof with the diameter that was meant)" $
     property $
       forAll (tolerant =<< ByControl.cases) $ \job -> forAll (elements [60, -60]) $ \d -> case made job of
