@@ -29,7 +29,7 @@ spec = do
     it "distance, open contours (catches a corner arc at an end that has no corner)" $
       property $
         forAll Generate.openCase distanceLaw
-    it "clearance: no piece comes nearer to any element, by closed form (catches a collision that is not found)" $
+    it "clearance: no piece comes nearer to any element, by closed form (catches ways that are not shortened where they meet)" $
       property $
         forAll Generate.closedCase clearanceLaw
     it "continuity: every piece begins where the one before ends, a closed path closes (catches a missing corner arc)" $
