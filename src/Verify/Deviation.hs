@@ -90,9 +90,10 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     missed = if mayStay && not isFirst then [] else concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (if mayStay then concatMap (touchable (plus (reach job) more)) es else es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     -- What the cutter cannot touch may stay, where that is allowed.
     touchable distance e = case (Part.rest (milling job), side job) of
-      (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance elementSegments (Part.segment (element e))]
+      (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance kept (Part.segment (element e))]
       _ -> [e]
-    elementSegments = Nearest.index Box.ofSegment (map (Part.segment . element) (Nearest.toList (edges job)))
+    -- The distances that the cutter's centre keeps from elements.
+    kept = [(plus (reach job) more, Nearest.index Box.ofSegment (map (Part.segment . element) es)) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     mayStay = Part.rest (milling job) == Part.Allowed
     milledIndex = Nearest.indexOf (length milled) box milled
     strayed = reverse strays

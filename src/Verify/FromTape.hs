@@ -214,13 +214,13 @@ follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip
       [] -> []
     standing t = (Segment.end (line t), snd (heights t))
 
--- | Whether each block is one of several cuts of a pass.
+-- | Whether each block is one of several cuts of a pass: only where material may stay are there any.
 areOfSeveral :: [Block] -> [Bool]
 areOfSeveral blocks = zipWith3 (\before own next -> isJust own && (own == before || own == next)) (Nothing : passes) passes (drop 1 passes <> [Nothing])
   where
     passes = map passOf blocks
     passOf b = case b of
-      Path.Cutting {Path.pass = Path.Pass {Path.number, Path.left, Path.atHeight}} -> Just (number, left, atHeight)
+      Path.Cutting {Path.job = Located _ milling, Path.pass = Path.Pass {Path.number, Path.left, Path.atHeight}} | Part.rest milling == Part.Allowed -> Just (number, left, atHeight)
       _ -> Nothing
 
 lastOf :: [a] -> Maybe a

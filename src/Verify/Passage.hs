@@ -43,7 +43,7 @@ import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Verify.Course (Course)
 import Verify.Course qualified as Course
-import Verify.Trace (Trace, line)
+import Verify.Trace (Trace (number), line)
 import Verify.Trace qualified as Trace
 
 -- | A contour to be found on the tape.
@@ -158,9 +158,16 @@ staysNear job p t = endsNear job p t && not (isWhole (line t))
       Straight _ _ -> False
       Arc {start, end} -> start == end
 
+-- | The first of some strokes, as far as they follow one another on the tape: of those at one height others may have been left out between them.
+unbroken :: [Trace] -> [Trace]
+unbroken traces = case traces of
+  t : rest@(next : _) | number next <= number t + 1 -> t : unbroken rest
+  t : _ -> [t]
+  [] -> []
+
 -- | The strokes up to the next arrival at the end.
 untilExit :: Job -> [Trace] -> [Trace]
-untilExit job traces = leaving <> along <> takeWhile (endsNear job (exit job)) back
+untilExit job traces = leaving <> along <> takeWhile (endsNear job (exit job)) (unbroken back)
   where
     (leaving, away) = span (\t -> staysNear job (entry job) t && isNear job (entry job) (Segment.at 0.5 (line t))) traces
     (along, back) = break (endsNear job (exit job)) away
@@ -262,32 +269,33 @@ measure job blurs = Ruler {whole = Nearest.foldl' (\_ e -> before e + long e) 0 
 -- | How many of the strokes follow the contour to its end; none when they stray from it, turn back on
 -- it, or end before.
 follows :: Job -> Ruler -> [Trace] -> Maybe Int
-follows job ruler strokes = go 0 0 0 (entry job) strokes (closeToEach job strokes)
+follows job ruler strokes = go 0 0 0 (entry job) [] strokes (closeToEach job strokes)
   where
-    go :: Int -> Double -> Double -> Point -> [Trace] -> [[Edge]] -> Maybe Int
-    go !count !gone !mark at traces close
+    -- Given the last stroke, if there is one.
+    go :: Int -> Double -> Double -> Point -> [Trace] -> [Trace] -> [[Edge]] -> Maybe Int
+    go !count !gone !mark at final traces close
       | isNear job (exit job) at && gone + furthest places >= whole ruler - slack ruler =
         -- Where something between is not touched the contour only comes by its own end, if it goes on.
         if areNeighbours places then ended else onwards <|> ended
       | otherwise = onwards
       where
         places = ahead mark at
-        ended = Just (count + length (takeWhile (staysNear job (exit job)) traces))
+        ended = Just (count + length (takeWhile (staysNear job (exit job)) (drop (length final) (unbroken (final <> traces)))))
         onwards = case (traces, close) of
-          (t : rest, near : others) -> along (count + 1) (line t) (Trace.pieces t) 1 near gone mark rest others
+          (t : rest, near : others) -> along (count + 1) t (Trace.pieces t) 1 near gone mark rest others
           _ -> Nothing
     -- From place to place of a stroke.
-    along :: Int -> Segment -> Int -> Int -> [Edge] -> Double -> Double -> [Trace] -> [[Edge]] -> Maybe Int
-    along !count s !n !k near !gone !mark rest others
-      | k > n = go count gone mark (Segment.end s) rest others
+    along :: Int -> Trace -> Int -> Int -> [Edge] -> Double -> Double -> [Trace] -> [[Edge]] -> Maybe Int
+    along !count t !n !k near !gone !mark rest others
+      | k > n = go count gone mark (Segment.end (line t)) [t] rest others
       | isInfinite delta = Nothing
-      | otherwise = along count s n (k + 1) near (gone + delta) (mark + delta) rest others
+      | otherwise = along count t n (k + 1) near (gone + delta) (mark + delta) rest others
       where
-        delta = step near mark (Segment.at (fromIntegral k / fromIntegral n) s)
+        delta = step near mark (Segment.at (fromIntegral k / fromIntegral n) (line t))
     -- How far on the places are that the cutter touches, the nearest first, and the numbers of their elements.
     ahead mark p = sortOn fst [(d, n) | (n, s) <- touched job (around job p) p, let d = difference mark s, d >= negate (slack ruler)]
     furthest places = maximum (0 : map fst places)
-    areNeighbours places = and (zipWith (\(_, m) (_, n) -> n == m || n == m + 1 || m + 1 == Nearest.size (edges job) && n == 0) places (drop 1 places))
+    areNeighbours places = and (zipWith (\(_, m) (_, n) -> abs (n - m) <= 1 || abs (n - m) == Nearest.size (edges job) - 1) places (drop 1 places))
     -- Of several places that the cutter touches at once the one that it reaches by the smallest step.
     step near mark p = foldTouched job near p smaller (1 / 0)
       where

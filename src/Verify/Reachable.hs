@@ -10,6 +10,7 @@ module Verify.Reachable
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, times)
+import Data.List (foldl', sort)
 import Geometry.Box qualified as Box
 import Geometry.Distance qualified as Distance
 import Geometry.Nearest (Nearest)
@@ -20,15 +21,25 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | The parts of a segment that a cutter touches with its centre at a distance on a side, among all segments of the contour.
-parts :: Side -> Mm -> Nearest Segment -> Segment -> [Segment]
-parts side distance all' segment = case beside side distance segment of
+-- | The parts of a segment that a cutter touches with its centre at a distance on a side, among all segments of the contour by the distances that the
+-- centre keeps from them. Where more is kept from another one than from this one, that counts square above it: beside its ends the way steps back.
+parts :: Side -> Mm -> [(Mm, Nearest Segment)] -> Segment -> [Segment]
+parts side distance others segment = case beside side distance segment of
   Nothing -> []
-  Just centres ->
-    let near = Nearest.within (Box.inflate distance (Box.ofSegment centres)) all'
-        -- Half of what the path takes for room in which the cutter just fits.
-        free = Distance.uncovered (minus distance (times 0.5 Tolerance.clearance)) near centres
-     in [piece segment a b | (a, b) <- free, b - a > Tolerance.hair]
+  Just centres -> [piece segment a b | (a, b) <- foldl' (without centres) [(0, 1)] others, b - a > Tolerance.hair]
+  where
+    without centres free (kept, all') =
+      let near = Nearest.within (Box.inflate kept (Box.ofSegment centres)) all'
+          open = common free (Distance.uncovered (less (min kept distance)) near centres)
+       in if kept > distance then concatMap (outside centres kept near) open else open
+    common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
+    -- Half of what the path takes for room in which the cutter just fits.
+    less d = minus d (times 0.5 Tolerance.clearance)
+    outside centres kept near (a, b) =
+      let borders = [c | s <- near, c <- maybe [] (\c -> [c, Straight (Segment.start s) (Segment.start c), Straight (Segment.end s) (Segment.end c)]) (beside side kept s)]
+          marks = sort [t | c <- borders, p <- Distance.crossings centres c, let t = Segment.fraction centres p, t > a, t < b]
+          isAbove p s = Segment.spans s p && Distance.toPoint p s < less kept
+       in [(from, to) | (from, to) <- zip (a : marks) (marks <> [b]), not (any (isAbove (Segment.at ((from + to) / 2) centres)) near)]
 
 -- | Where the centre can be at a distance to the left of closed walks, or to the right: beside their segments and round their outer corners, with the place
 -- of the segment in all of them; none of these is nearer.
