@@ -40,6 +40,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Nearest qualified as Nearest
 import Geometry.Offset (Side (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
@@ -200,7 +201,8 @@ follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip
             edges = case before of
               Just Pass {job = Job {edges = same}, passNumber = m} | m == n -> same
               _ -> Passage.edgesOf milling
-            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine), isOneOfSeveral, edges}
+            allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine)
+            job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance, exitWithin = plus allowance (unsureExit machine milling reach), isOneOfSeveral, edges}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
             found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then rest else filter (Deviation.isAt machine atHeight) rest)
             final = lastOf (Passage.stretch found)
@@ -234,6 +236,12 @@ exitByControl milling (Mm reach) = case (Part.byControl milling, Path.leadingSid
   _ -> Nothing
   where
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
+
+-- | How far from there it may arrive: the direction of the last move is off by what rounding makes of the shortest one.
+unsureExit :: Machine -> Milling -> Mm -> Mm
+unsureExit machine milling reach = case Part.byControl milling of
+  Just _ -> let Mm pulse = Machine.pulse machine; Mm shortest = Tolerance.controlLength in times (2 * pulse / shortest) reach
+  Nothing -> Mm 0
 
 -- | How far the cutter's centre goes from a contour at most, on whose elements so much is left at most.
 furthestOut :: Milling -> Mm -> Mm -> Mm

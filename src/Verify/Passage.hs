@@ -60,6 +60,8 @@ data Job = Job
     outreach :: Mm,
     -- | how far the chords may be off on one side or the other, and one pulse
     allowance :: Mm,
+    -- | how far from its exit the cutter may seem to arrive there
+    exitWithin :: Mm,
     -- | it is one of several cuts of a pass: none of them goes along all of the contour
     isOneOfSeveral :: Bool,
     edges :: Nearest Edge
@@ -150,13 +152,18 @@ isNear job p q = Vec.distance p q <= allowance job
 endsNear :: Job -> Point -> Trace -> Bool
 endsNear job p = isNear job p . Segment.end . line
 
--- | Whether a stroke goes to a place nearby. A whole circle goes round something, however small it is.
-staysNear :: Job -> Point -> Trace -> Bool
-staysNear job p t = endsNear job p t && not (isWhole (line t))
-  where
-    isWhole s = case s of
-      Straight _ _ -> False
-      Arc {start, end} -> start == end
+-- | Whether the cutter is at its exit, and whether a stroke ends there.
+isOut :: Job -> Point -> Bool
+isOut job p = Vec.distance (exit job) p <= exitWithin job
+
+endsOut :: Job -> Trace -> Bool
+endsOut job = isOut job . Segment.end . line
+
+-- | Whether a stroke goes round something, however small it is: a whole circle.
+isWhole :: Trace -> Bool
+isWhole t = case line t of
+  Straight _ _ -> False
+  Arc {start, end} -> start == end
 
 -- | The first of some strokes, as far as they follow one another on the tape: of those at one height others may have been left out between them.
 unbroken :: [Trace] -> [Trace]
@@ -167,10 +174,10 @@ unbroken traces = case traces of
 
 -- | The strokes up to the next arrival at the end.
 untilExit :: Job -> [Trace] -> [Trace]
-untilExit job traces = leaving <> along <> takeWhile (endsNear job (exit job)) (unbroken back)
+untilExit job traces = leaving <> along <> takeWhile (endsOut job) (unbroken back)
   where
-    (leaving, away) = span (\t -> staysNear job (entry job) t && isNear job (entry job) (Segment.at 0.5 (line t))) traces
-    (along, back) = break (endsNear job (exit job)) away
+    (leaving, away) = span (\t -> endsNear job (entry job) t && not (isWhole t) && isNear job (entry job) (Segment.at 0.5 (line t))) traces
+    (along, back) = break (endsOut job) away
 
 -- | A contour as a ruler: its length, and how far back a step of the cutter may seem to go by rounding alone.
 data Ruler = Ruler {whole :: Double, slack :: Double, closed :: Bool}
@@ -274,13 +281,13 @@ follows job ruler strokes = go 0 0 0 (entry job) [] strokes (closeToEach job str
     -- Given the last stroke, if there is one.
     go :: Int -> Double -> Double -> Point -> [Trace] -> [Trace] -> [[Edge]] -> Maybe Int
     go !count !gone !mark at final traces close
-      | isNear job (exit job) at && gone + furthest places >= whole ruler - slack ruler =
+      | isOut job at && gone + furthest places >= whole ruler - slack ruler =
         -- Where something between is not touched the contour only comes by its own end, if it goes on.
         if areNeighbours places then ended else onwards <|> ended
       | otherwise = onwards
       where
         places = ahead mark at
-        ended = Just (count + length (takeWhile (staysNear job (exit job)) (drop (length final) (unbroken (final <> traces)))))
+        ended = Just (count + length (takeWhile (\t -> endsOut job t && not (isWhole t)) (drop (length final) (unbroken (final <> traces)))))
         onwards = case (traces, close) of
           (t : rest, near : others) -> along (count + 1) t (Trace.pieces t) 1 near gone mark rest others
           _ -> Nothing

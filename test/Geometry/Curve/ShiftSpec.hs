@@ -78,7 +78,8 @@ spec = do
           derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
     it "the curvature is that of a circle through three near places (catches a sign of the bend)" $
       property $
-        forAll (Generate.layered 2 Generate.gentle) $ \c -> forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c)) $ \(a, b) ->
+        forAll (Generate.layered 2 Generate.gentle) $ \c -> forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c) `suchThat` \(a, b) -> b - a > 0.01) $ \(a, b) ->
+          -- On a shorter stretch three places do not tell.
           let u = a + (b - a) * share
               e = 1e-3 * (b - a)
               k = throughThree (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
