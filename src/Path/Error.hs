@@ -256,7 +256,8 @@ toReport err = case err of
     (at (origin element) "E0419" ("an element of " <> Decimal.mm length' <> " is too short for a control to follow"))
       { label = shape element,
         others = [Label asked "asked here"],
-        message = ["Rounded to pulses it could seem to turn into the part. Elements have to be " <> Decimal.mm Tolerance.controlLength <> " long."]
+        message = ["Rounded to pulses it could seem to turn into the part. Elements have to be " <> Decimal.mm Tolerance.controlLength <> " long."],
+        hints = [if ofCurve element then "A curve is cut where the cutter begins on it, which leaves such a piece here. Begin elsewhere: start near …" else "Leave it out, or let a neighbour take its place."]
       }
   SlightForControl asked first second (Rad turned) deep ->
     (at (origin first) "E0419" ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element"))
