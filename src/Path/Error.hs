@@ -91,14 +91,14 @@ data Warning
     Leaves Region Tool [Stay]
   deriving stock (Eq, Show)
 
--- | A place where material stays because the cutter does not get there; and the largest cutter that would.
+-- | A place where material stays because the cutter does not get there; and the largest cutter that would, which is looked for when it is told.
 data Stay
   = -- | in a corner between two elements
     InCorner Element Element Point
   | -- | in a concave arc of this radius
-    InHollow Element Mm (Maybe Mm)
+    InHollow Element Mm ~(Maybe Mm)
   | -- | behind where the cutter, with its centre there, touches two elements
-    Between Element Element Point (Maybe Mm)
+    Between Element Element Point ~(Maybe Mm)
   deriving stock (Eq, Show)
 
 -- | The words for a warning.
