@@ -52,6 +52,8 @@ spec = do
                 ==> counterexample (show (n, fewest))
                 $ classify (fewest >= 4) "four and more" $
                   fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
+    it "pass over bends to both sides that are within what is allowed (catches chords that stop where the curve changes its bending)" $
+      length (chordsOf (evenly 0.1) (Curve.bent (take 40 (cycle [(5, 0.02), (5, -0.02)])))) `shouldBe` 1
     it "end within an arc of which they reach neither end (catches a search at the ends of the arcs only)" $
       length (chordsOf (evenly 0.038) (Curve.bent [(3.2041, -0.0001), (2.7333, -0.0125), (8.0266, 0.0057), (5.6682, -0.0206), (5.5173, -0.025)])) `shouldBe` 4
     it "are looked for from the end as well (catches a first chord that takes what the second would need)" $
