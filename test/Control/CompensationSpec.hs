@@ -68,8 +68,8 @@ compared close change =
     flat f = case motion f of
       Round _ -> not (Walk.isRound f)
       _ -> False
-    -- LinuxCNC takes now this radius of an arc and now that one; the proof refuses such an arc as it stands.
-    spirals s = maybe False (\(a, b) -> max (minus a b) (minus b a) >= close) (Walk.radii iso6983 s)
+    -- LinuxCNC takes now this radius of an arc and now that one; the proof refuses such an arc as it stands. No tape of the compiler's own has one.
+    spirals s = maybe False (\(a, b) -> max (minus a b) (minus b a) >= Mm 0.03) (Walk.radii iso6983 s)
 
 -- | The frames of a milling, from where.
 programOf :: Part.Milling -> Maybe (V3, [Frame])
