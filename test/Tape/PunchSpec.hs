@@ -55,7 +55,7 @@ randomMachines = do
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       ByteString.pack (map Layout.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
   it "one row changed is refused or gives frames that are written just so (catches a reader that guesses)" $
-    withMaxSuccess 1000 . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+    withMaxSuccess 5000 . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       let rows = rowsOf (Punch.write m at fs)
        in not (ByteString.null rows) ==> forAll (choose (0, ByteString.length rows - 1)) $ \k ->
             forAll (oneof [arbitrary, elements [0, 0xFF], elements (ByteString.unpack rows)]) $ \w ->
