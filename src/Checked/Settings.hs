@@ -20,6 +20,7 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
@@ -123,7 +124,7 @@ check expect stop statement written = do
       before : _ -> Infer.mistake (RepeatedSetting at (subject s) before)
       [] -> pure ()
     one (Located at s) = do
-      unless (name s `elem` "" : settingsOf statement) (Infer.mistake (ForeignSetting at (name s) statement (settingsOf statement)))
+      unless (name s `elem` "" : Keyword.settingsOf statement) (Infer.mistake (ForeignSetting at (name s) statement (Keyword.settingsOf statement)))
       case s of
         Surface.Approach stops -> (\ps sol o -> o {approach = approach o <> map ($ sol) ps}) <$> mapM stop (NonEmpty.toList stops)
         Surface.Retract stops -> (\ps sol o -> o {retract = retract o <> map ($ sol) ps}) <$> mapM stop (NonEmpty.toList stops)
@@ -203,14 +204,3 @@ subject :: Surface.Setting_ -> Text
 subject s = case s of
   Surface.CutBy _ -> "climb or conventional"
   _ -> name s
-
--- | The settings that a statement takes.
-settingsOf :: Text -> [Text]
-settingsOf statement = case statement of
-  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge", "compensation", "rest"]
-  "pocket" -> ["islands", "approach", "retract", "climb", "conventional", "allowance", "depth", "plunge", "rest"]
-  "turn" -> ways <> passes
-  _ -> ["peck", "plunge"]
-  where
-    ways = ["approach", "retract", "lead in", "lead out"]
-    passes = ["allowance", "corners"]

@@ -39,6 +39,8 @@ data Error
     OneForSeveral Text
   | -- | the program punches nothing
     NothingToPunch
+  | -- | nothing of a tape is in the range that was asked for: what is counted, and how much of it there is
+    NothingInRange Text Int
   | -- | a value for a parameter of an input sheet
     SheetAssigned Text
   | -- | an input sheet to be laid out as a program
@@ -91,6 +93,10 @@ toReport err = case err of
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]
+      }
+  NothingInRange counted count ->
+    (wrong "E0812" InFile ("the tape has no such " <> counted))
+      { hints = ["It has " <> Decimal.whole count <> " " <> counted <> (if count == 1 then "." else "s.")]
       }
   SheetAssigned name ->
     (wrong "E0913" InFile ("an input sheet has no parameters, so ‘" <> name <> "’ cannot be set"))

@@ -326,7 +326,9 @@ decode reporter target tapeFile = withTape reporter target tapeFile $ \machine f
 
 -- | Draw a tape, or some of it.
 drawTape :: Reporter -> Maybe Text -> Punched.Range -> FilePath -> IO Exit
-drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine fs -> printed reporter (Punched.picture machine range (Tape.rows machine 0 fs))
+drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine fs ->
+  let rows = Tape.rows machine 0 fs
+   in maybe (complain reporter (displayName tapeFile) (uncurry NothingInRange (Punched.extent machine range rows))) (printed reporter) (Punched.picture machine range rows)
 
 -- | Read a tape for itself: the cutter is taken to stand at zero before it.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit

@@ -3,11 +3,13 @@
 module Draw.Punched
   ( Range (..),
     picture,
+    extent,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Data.Bits (testBit)
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, mapMaybe)
@@ -23,17 +25,29 @@ import Tape.Plan (Sense (..))
 data Range = Everything | Frames Int Int | Rows Int Int
   deriving stock (Eq, Show)
 
--- | The picture of the rows of a tape.
-picture :: Machine -> Range -> [Row] -> Text
-picture machine range rows = Text.unlines (pictureLines machine range rows)
+-- | The picture of the rows of a tape; nothing if none of them is in the range.
+picture :: Machine -> Range -> [Row] -> Maybe Text
+picture machine range rows = case (Machine.pitch (Machine.medium machine), found) of
+  (_, []) -> Nothing
+  (Just _, _) -> Just (Text.unlines (heading (Machine.tracks (Machine.medium machine)) : found))
+  (Nothing, _) -> Just (Text.unlines found)
+  where
+    found = pictureLines machine range rows
 
--- | Its lines, as they are wanted: a tape may be long.
+-- | Its lines without the heading.
 pictureLines :: Machine -> Range -> [Row] -> [Text]
 pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
-  Just _ -> heading (Machine.tracks (Machine.medium machine)) : concatMap (holed machine) (folded (chosen range (zip [1 ..] rows)))
+  Just _ -> concatMap (holed machine) (folded (chosen range (zip [1 ..] rows)))
   Nothing -> mapMaybe (printed machine) (chosen' range (zip [1 ..] (textLines rows)))
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
+
+-- | What a range counts, and how much of that a tape has whose rows are these: frames; rows with holes, or lines of a text.
+extent :: Machine -> Range -> [Row] -> (Text, Int)
+extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
+  (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
+  (_, Just _) -> ("row", length rows)
+  (_, Nothing) -> ("line", length (textLines rows))
 
 -- | A row with its number.
 type Numbered = (Int, Row)

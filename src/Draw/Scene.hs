@@ -51,8 +51,8 @@ data Scene = Scene
     feeds :: [Segment],
     rapids :: [Segment],
     start :: Point,
-    -- | the radii of all cutters, in mm of the part
-    tools :: [Mm]
+    -- | what all tools do, and the radii of the cutters or noses in mm of the part
+    tools :: [(Part.Work, Mm)]
   }
 
 -- | A contour of the part, or a hole in it.
@@ -99,7 +99,7 @@ set part path =
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
       start = Sheet.place sheet begin,
-      tools = nubOrd (map radius millings)
+      tools = nubOrd [(Part.work m, radius m) | m <- millings]
     }
   where
     begin = Part.plane (value (Path.start path))

@@ -20,7 +20,7 @@ import Draw.Svg qualified as Svg
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Part)
+import Part.Part (Part, Work (..))
 import Part.Part qualified as Part
 
 -- | The part's name and its title on one line.
@@ -90,7 +90,7 @@ scaleBar sheet = zipWith step [0 ..] [Sign.black, "white", Sign.black, "white"] 
     mark fraction unit =
       Svg.text Sign.small Middle (Vec.point (left + width * fraction) (y + 5)) (Decimal.short 4 (total * fraction) <> unit)
 
--- | The title block: the part, the scale and the cutters.
+-- | The title block: the part, the scale, the cutters and noses.
 title :: Part -> Scene -> [Svg]
 title part Scene {sheet, tools} =
   [ fitted Style {size = 4, ink = Sign.black, bold = True} (Vec.point left (y + 5.6)) (name part),
@@ -102,10 +102,10 @@ title part Scene {sheet, tools} =
     left = titleEdge + 3
     y = upper Sheet.strip
     plain = Style {size = 3, ink = Sign.black, bold = False}
-    cutters = case tools of
-      [] -> ""
-      _ -> "cutter Ø " <> Text.intercalate ", " (map diameter tools) <> " mm"
-    diameter r = let Mm d = times 2 r in Decimal.short 4 d
+    cutters = Text.intercalate "; " (sized "cutter Ø " (times 2) Milled <> sized "nose R " id Turned)
+    sized word measure work = case [Decimal.short 4 d | (w, r) <- tools, w == work, Mm d <- [measure r]] of
+      [] -> []
+      sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
 
 -- | A text made to end before the right edge of the strip: smaller first, then cut short.
 fitted :: Style -> Point -> Text -> Svg

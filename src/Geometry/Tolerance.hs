@@ -13,6 +13,7 @@ module Geometry.Tolerance
     smoothGap,
     smoothTurn,
     slightRest,
+    smallestCutter,
     equal,
     resolution,
     reach,
@@ -94,6 +95,10 @@ smoothTurn = Rad 1.75e-3
 -- | A corner towards the cutter in which no more than this is left standing counts as none.
 slightRest :: Mm
 slightRest = Mm 1e-5
+
+-- | No cutter has a smaller radius: one that would fit where only those do is not offered.
+smallestCutter :: Mm
+smallestCutter = Mm 0.05
 
 -- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm, radians,
 -- minutes, none).

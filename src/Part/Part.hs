@@ -198,7 +198,7 @@ data Pocketing = Pocketing
   deriving stock (Eq, Show)
 
 data Work = Milled | Turned
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | The chord error allowed.
 data Accuracy

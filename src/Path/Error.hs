@@ -147,11 +147,11 @@ toReport err = case err of
         hints = [fits tool largest]
       }
   InnerCorner region tool first second p largest ->
-    (at (origin first) "E0403" "no round cutter reaches into this inner corner")
+    (at (origin first) "E0403" ((if any (>= Tolerance.smallestCutter) largest then cutter tool <> " does not reach" else "no round cutter reaches") <> " into this inner corner"))
       { label = shape first,
         others = second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
-        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius tool) (leaves tool)) <> ".") : [fits tool largest | Just _ <- [largest]]
+        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius tool) (leaves tool)) <> ".") : [fits tool largest | any (>= Tolerance.smallestCutter) largest]
       }
   Collision region tool first second p largest ->
     (at (origin first) "E0404" (cutter tool <> " cannot follow this element without cutting another one"))

@@ -6,6 +6,7 @@ module Surface.Keyword
     softStatements,
     blocks,
     beginsItem,
+    settingsOf,
     isReserved,
     reservedWords,
   )
@@ -36,6 +37,17 @@ beginsItem :: Text -> Bool
 beginsItem word = word `elem` (["for", "if", "cw", "ccw", "approach", "retract"] <> settings)
   where
     settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "compensation", "start", "plunge", "peck", "islands", "rest"]
+
+-- | How the settings begin that may stand in the block of a statement.
+settingsOf :: Text -> [Text]
+settingsOf statement = case statement of
+  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge", "compensation", "rest"]
+  "pocket" -> ["islands", "approach", "retract", "climb", "conventional", "allowance", "depth", "plunge", "rest"]
+  "turn" -> ways <> passes
+  _ -> ["peck", "plunge"]
+  where
+    ways = ["approach", "retract", "lead in", "lead out"]
+    passes = ["allowance", "corners"]
 
 -- | Whether a word can not be the name of a value.
 isReserved :: Text -> Bool

@@ -272,14 +272,15 @@ machining word make = make <$> expr <*> located (Parsec.choice [s <$ keyword k |
     sides = [("outside", Outside), ("inside", Inside), ("left", LeftSide), ("right", RightSide), ("on", On)]
 
 settings :: Text -> Parser [Setting]
-settings word = block ("the block of " <> quoted (Name word)) (const BrokenSetting) setting
+settings word = block ("the block of " <> quoted (Name word)) (const BrokenSetting) (setting (concatMap (take 1 . Text.words) (Keyword.settingsOf word)))
 
-setting :: Parser Setting_
-setting = do
+-- | A setting. Those of a statement are offered; what another one has is read, too, and refused with its name.
+setting :: [Text] -> Parser Setting_
+setting offered = do
   begin <- Parsec.lookAhead Parsec.anySingle
   case shape begin of
     Word word | Just rest <- lookup word settingForms -> keyword word *> rest
-    _ -> Parsec.choice [(Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest | (word, rest) <- settingForms]
+    _ -> Parsec.choice [(Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest | (word, rest) <- settingForms, word `elem` offered]
 
 -- | The rest of a setting by its first word.
 settingForms :: Grammar p => [(Text, p Setting_)]

@@ -8,6 +8,7 @@ import Draw.Punched qualified as Punched
 import Machine.Machine (Machine)
 import Machines (iso6983, kontur3p, lkp01f, n55)
 import Tape.Journey (journey, start)
+import Tape.Layout qualified as Layout
 import Tape.Punch qualified as Punch
 import Test.Hspec
 
@@ -33,8 +34,18 @@ spec = do
     filter (not . Text.isInfixOf "frame ") frames `shouldBe` []
     (any (Text.isInfixOf "frame 2:") frames, any (Text.isInfixOf "frame 3:") frames, any (Text.isInfixOf "frame 4:") frames) `shouldBe` (True, True, False)
     length (drawn kontur3p (Rows 26 29)) `shouldBe` 5
+  it "behind the end there is nothing, and it is told where that is (catches a picture of nothing)" $ do
+    let (frames, rows) = (length (journey kontur3p), rowsOf kontur3p)
+        beyond machine range = (Punched.picture machine range (rowsOf machine), Punched.extent machine range (rowsOf machine))
+    beyond kontur3p (Frames (frames + 1) 999) `shouldBe` (Nothing, ("frame", frames))
+    beyond kontur3p (Rows (length rows + 1) 9999) `shouldBe` (Nothing, ("row", length rows))
+    length (drawn kontur3p (Frames frames 999)) `shouldSatisfy` (> 1)
+    beyond iso6983 (Rows 999 999) `shouldBe` (Nothing, ("line", length (drawn iso6983 Everything)))
   it "a text line by line with its words" $
     take 1 (drop 2 (drawn iso6983 Everything)) `shouldBe` ["     3  G41.1 D0.001                                  frame 1: command left 0.001"]
 
 drawn :: Machine -> Range -> [Text]
-drawn machine range = Text.lines (Punched.picture machine range (Punch.rows machine start (journey machine)))
+drawn machine range = maybe [] Text.lines (Punched.picture machine range (rowsOf machine))
+
+rowsOf :: Machine -> [Layout.Row]
+rowsOf machine = Punch.rows machine start (journey machine)

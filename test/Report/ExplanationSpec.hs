@@ -32,7 +32,7 @@ raisedElsewhere =
     ("a program that is to become a sheet", ["E0921", "E0922", "E0923", "E0924", "E0925", "E0926", "E0927"]),
     ("the description of a machine", ["E1001", "E1002", "E1003", "E1004", "E1005", "E1006", "E1007", "E1008", "E1009", "E1010", "E1011", "E1012", "E1013", "E1014"]),
     ("a tape and its program", ["E0701", "E0702", "E0703", "E0704", "E0705", "E0706", "E0707", "E0708", "E0709", "E0710", "E0711", "E0712", "E0713", "E0714", "E0715"]),
-    ("files and the command line", ["E0112", "E0113", "E0114", "E0115", "E0117", "E0118", "E0119", "E0801", "E0802", "E0803", "E0804", "E0805", "E0806", "E0807", "E0808", "E0809", "E0810", "E0811", "W0801"])
+    ("files and the command line", ["E0112", "E0113", "E0114", "E0115", "E0117", "E0118", "E0119", "E0801", "E0802", "E0803", "E0804", "E0805", "E0806", "E0807", "E0808", "E0809", "E0810", "E0811", "E0812", "W0801"])
   ]
 
 -- | Where the Minsk-22 system stopped, an explanation says so just as the report does.

@@ -3,9 +3,11 @@ module Geometry.Offset.KernelSpec (spec) where
 
 import Base.Quantity (Mm (..))
 import Data.List (tails)
+import Data.Primitive.PrimArray (sizeofPrimArray)
 import Generate.Outline (Case (..), Family (..), turned)
 import Generate.Outline qualified as Generate
 import Geometry.Contour (Ends (..))
+import Geometry.Offset.Chain qualified as Chain
 import Geometry.Offset.Judge (Verdict (..), consistent, identity, judge, rounds, stays, uncrossed)
 import Geometry.Offset.Kernel (Corners (..), Fault (..), Side (..), Task (..))
 import Geometry.Offset.Kernel qualified as Kernel
@@ -47,8 +49,10 @@ spec = do
          in fmap (sum . map Outline.area) (loopsOf RightOf r [o] >>= loopsOf LeftOf r) `nearly` Right (Outline.area o)
     it "crossed: two sides that cross are named (catches a source that is taken for simple)" $
       property (forAll bowTie crossedLaw)
-    it "far out: short arcs that go over into lines leave no corners (catches directions that are compared more finely than they are known)" $
-      fmap (map Outline.size) (loopsOf RightOf 3 [lobes 10000]) `shouldBe` Right [20000]
+    it "far out: short arcs that go over into lines leave no corners, nor are any made and cut off again (catches directions that are compared more finely than they are known)" $ do
+      let made = Kernel.offset (Kernel.plain RightOf (Mm 3)) [lobes 10000]
+      fmap (map Outline.size . found) made `shouldBe` Right [20000]
+      fmap (\reach -> sizeofPrimArray (Chain.xs (Kernel.raw reach))) made `shouldBe` Right (20000 + 1)
     it "comes upon everything that degenerates: repeated vertices, spikes, sides along one another, touching outlines, whole numbers, arcs of next to nothing and of nearly a whole turn" $
       [name | (name, has) <- degenerate, length (filter has (take 3000 [unGen Generate.problem (mkQCGen seed) 30 | seed <- [1 ..]])) < 20] `shouldBe` []
   describe "slots, pockets and islands" $ do
