@@ -135,10 +135,14 @@ find job at traces = case if fits blurs && not (isOneOfSeveral job) then mapMayb
       Straight _ _ -> [1]
       Arc {} -> Trace.places t
     -- The strokes that set out from the beginning, with the one that arrived there: none when the cutter stood
-    -- there already, or came from another height.
+    -- there already, or came from another height. A straight one that ends nearer to the beginning is still on its way there: the end of a
+    -- way in may be braked.
     begun before ts = case ts of
       [] -> [([t], []) | Just t <- [before], endsNear job (entry job) t] <> [([], []) | Nothing <- [before], Just p <- [at], isNear job (entry job) p]
-      t : rest -> [([b | Just b <- [before], endsNear job (entry job) b], ts) | isNear job (entry job) (Segment.start (line t))] <> begun (Just t) rest
+      t : rest -> [([b | Just b <- [before], endsNear job (entry job) b], ts) | isNear job (entry job) (Segment.start (line t)), not (arrives t)] <> begun (Just t) rest
+    arrives t = case line t of
+      Straight a b -> Vec.distance b (entry job) < Vec.distance a (entry job)
+      Arc {} -> False
 
 -- | Whether the cutter with its centre at a point touches the contour at all, of which all elements are given that it may touch there.
 beside :: Job -> [Edge] -> Point -> Bool
