@@ -20,11 +20,12 @@ newtype Name = Name {text :: Text}
 -- | The candidates near enough to a misspelt name to be worth suggesting, the nearest first:
 -- one edit for every three letters.
 nearest :: Text -> [Text] -> [Text]
-nearest wanted candidates =
-  map fst (sortOn snd [(c, d) | c <- candidates, abs (Text.length c - size) <= allowed, let d = distance wanted c, d <= allowed])
+nearest wanted candidates = map fst (sortOn snd [(c, d) | c <- candidates, abs (Text.length c - size) <= allowed, Just d <- [distance allowed small (lower c)]])
   where
     size = Text.length wanted
     allowed = size `div` 3
+    small = lower wanted
+    lower = Text.unpack . Text.toLower
 
 -- | The candidates that look the same but are written with letters of another alphabet.
 lookAlike :: Text -> [Text] -> [Text]
@@ -37,15 +38,16 @@ lookAlike wanted candidates = [c | c <- candidates, Text.compareLength c size ==
 latin :: Char -> Char
 latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
--- | The edit distance of Levenshtein, letter case ignored.
-distance :: Text -> Text -> Int
-distance a b = case foldl step [0 .. Text.length b] (Text.unpack (Text.toLower a)) of
-  [] -> 0
-  row -> last row
+-- | The edit distance of Levenshtein, if it is no more than so much. Most words differ by more in their first letters.
+distance :: Int -> String -> String -> Maybe Int
+distance most a b = go [0 .. length b] a
   where
-    other = Text.unpack (Text.toLower b)
-    step row c = case row of
+    -- From the distances of what came before to each beginning of the other word.
+    go row rest = case rest of
+      _ | all (> most) row -> Nothing
+      [] -> let d = last row in if d <= most then Just d else Nothing
+      c : more -> go (next c row) more
+    next c row = case row of
       [] -> []
-      first : rest -> scanl (cell c) (first + 1) (zip3 other row rest)
-    cell c left (d, diagonal, above) =
-      minimum [left + 1, above + 1, if c == d then diagonal else diagonal + 1]
+      first : others -> scanl (cell c) (first + 1) (zip3 b row others)
+    cell c left (d, diagonal, above) = min (min left above + 1) (if c == d then diagonal else diagonal + 1)

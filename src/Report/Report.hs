@@ -57,8 +57,8 @@ data Report = Report
     others :: [Label],
     -- | whole sentences
     message :: [Text],
-    -- | what to do
-    hints :: [Text]
+    -- | what to do; looked for when it is told
+    hints :: ~[Text]
   }
   deriving stock (Eq, Show)
 

@@ -1,0 +1,49 @@
+-- | Names that a misspelt one may mean.
+module Base.NameSpec (spec) where
+
+import Base.Name qualified as Name
+import Data.List (sort)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  it "suggests what is one edit away for every three letters, the nearest first (catches words that are given up too early)" $
+    property . forAll word $ \wanted -> forAll (listOf (oneof [word, edited wanted])) $ \known ->
+      let found = Name.nearest wanted known
+          allowed = Text.length wanted `div` 3
+       in cover 50 (not (null found)) "some" $
+            sort found === sort [k | k <- known, edits wanted k <= allowed]
+              .&&. map (edits wanted) found === sort (map (edits wanted) found)
+  it "does not mind capitals" $
+    Name.nearest "Bolts" ["bolt", "BOLTS", "nuts"] `shouldBe` ["BOLTS", "bolt"]
+  it "finds what looks the same in another alphabet, and only that" $
+    Name.lookAlike "сора" ["copa", "сора", "cope", "cop"] `shouldBe` ["copa"]
+
+word :: Gen Text
+word = do
+  n <- choose (1, 8)
+  Text.pack <$> vectorOf n (elements "abcж")
+
+-- | A word with up to three letters left out, put in or exchanged.
+edited :: Text -> Gen Text
+edited w = choose (0, 3 :: Int) >>= go w
+  where
+    go t n
+      | n == 0 = pure t
+      | otherwise = do
+        k <- choose (0, Text.length t)
+        c <- elements ["", "a", "b", "ж"]
+        gone <- choose (0, 1)
+        go (Text.take k t <> c <> Text.drop (k + gone) t) (n - 1)
+
+-- | How many letters have to be left out, put in or exchanged, by the definition.
+edits :: Text -> Text -> Int
+edits a b = case (Text.uncons a, Text.uncons b) of
+  (Nothing, _) -> Text.length b
+  (_, Nothing) -> Text.length a
+  (Just (c, a'), Just (d, b'))
+    | c == d -> edits a' b'
+    | otherwise -> 1 + minimum [edits a' b, edits a b', edits a' b']
