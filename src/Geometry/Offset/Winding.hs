@@ -17,6 +17,7 @@ import Geometry.Offset.Boxes (Boxes)
 import Geometry.Offset.Boxes qualified as Boxes
 import Geometry.Offset.Chain (Chain)
 import Geometry.Offset.Chain qualified as Chain
+import Geometry.Tolerance qualified as Tolerance
 
 -- | How often the chain goes round a point that is not on it, counter-clockwise.
 at :: Chain -> Boxes -> Double -> Double -> Int
@@ -45,7 +46,8 @@ passed c px py i = crossed + between
 {-# INLINE passed #-}
 
 -- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on the left of the walk
--- beside what there is outside: 1 or 0; nothing if it runs back along itself there.
+-- beside what there is outside: 1 or 0; nothing if it runs back along itself there. A walk may turn back at a cusp: where the way beside an arc that is
+-- too narrow, which is walked backwards, goes over into the next one.
 data Extreme = Extreme {segment :: Int, place :: Double, x :: Double, y :: Double, leftMore :: Maybe Int}
 
 data Outward = Leftmost | Rightmost
@@ -84,9 +86,11 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
                     cy = indexPrimArray (Chain.ys c) i + 0.5 * dy + co / (4 * b) * dx
                     ex = sign * cx - r
                     t' = (dx * (sign * ex - indexPrimArray (Chain.xs c) i) + dy * (cy - indexPrimArray (Chain.ys c) i)) / (l * l)
-                 in if out < 0 && into > 0 && ex < least1 && t' > 0 && t' < 1 then go (i + 1) i t' ex else go (i + 1) best1 t1 least1
+                 in if out < 0 && into > 0 && ex < least1 && t' > hair && t' < 1 - hair then go (i + 1) i t' ex else go (i + 1) best1 t1 least1
       where
         edge = Boxes.leaf bs i outermost
+    -- Nearer to an end an arc is outermost at that end: its vertex knows what goes on there.
+    hair = Tolerance.hair
     -- The outermost vertex of the run that reaches furthest out: what does not reach as far is left out.
     bound =
       let i = furthest start start 1e300
@@ -103,12 +107,14 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
       | otherwise = Extreme i 0 (sign * least) (indexPrimArray (Chain.ys c) i) (atVertex i)
       where
         b = indexPrimArray (Chain.bulges c) i
+    -- To the left, in 1/mm.
+    bend i = Chain.chord c i (\dx dy -> let b = indexPrimArray (Chain.bulges c) i in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy)))
     dyOf i = Chain.chord c i (\_ dy -> dy)
     heightOf i = Chain.chord c i (\dx _ -> let b = indexPrimArray (Chain.bulges c) i in (1 - b * b) / (4 * b) * dx)
     -- The walk turns left at its outermost vertex: its inside is on its left.
     atVertex i
       | abs turning > 1e-9 * size = Just (if turning > 0 then 1 else 0)
-      | ix * ox + iy * oy < 0 = Nothing
+      | ix * ox + iy * oy < 0 = if abs bent > alike * (abs (bend previous) + abs (bend i)) then Just (if bent < 0 then 1 else 0) else Nothing
       | otherwise = Just (if sign * oy < 0 then 1 else 0)
       where
         previous = if i == start then end - 1 else i - 1
@@ -119,4 +125,8 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
         ox = Chain.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
         oy = Chain.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
         turning = ix * oy - iy * ox
+        -- Seen from a cusp, what leads away from it lies to the left of what leads to it when it bends more to the left.
+        bent = bend previous + bend i
+        -- Two that bend alike to this part of both may be one that is walked there and back.
+        alike = 1e-3
         size = sqrt ((ix * ix + iy * iy) * (ox * ox + oy * oy))

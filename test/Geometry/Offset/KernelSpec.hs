@@ -53,6 +53,10 @@ spec = do
       let made = Kernel.offset (Kernel.plain RightOf (Mm 3)) [lobes 10000]
       fmap (map Outline.size . found) made `shouldBe` Right [20000]
       fmap (\reach -> sizeofPrimArray (Chain.xs (Kernel.raw reach))) made `shouldBe` Right (20000 + 1)
+    it "round a cusp, wherever the walk begins: outside it as it is (catches an arc that seems outermost just before its end)" $
+      let horn = [(-20.625495970237296, -11.829756256299746, 0), (-20.625495970237296, -10.329756256299746, 0), (-19.625495970237296, -10.329756256299746, 0), (-19.625495970237296, -10.829756256299746, 0.4142135623730951)]
+          areaFrom k = areaOf LeftOf 0.5 [Generate.loop (drop k horn <> take k horn)]
+       in mapM_ (\k -> areaFrom k `nearly` areaFrom 0) [1 .. 3]
     it "comes upon everything that degenerates: repeated vertices, spikes, sides along one another, touching outlines, whole numbers, arcs of next to nothing and of nearly a whole turn" $
       [name | (name, has) <- degenerate, length (filter has (take 3000 [unGen Generate.problem (mkQCGen seed) 30 | seed <- [1 ..]])) < 20] `shouldBe` []
   describe "slots, pockets and islands" $ do

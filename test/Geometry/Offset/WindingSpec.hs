@@ -34,6 +34,14 @@ spec = do
         let chain = Chain.fromOutlines 1e-14 [o]
             bs = Boxes.boxes 1e-14 chain
          in map (\w -> leftMore (Winding.extreme w chain bs 0)) [Leftmost, Rightmost] === [Just 1, Just 1]
+    it "and also where its outermost place is a cusp (catches a walk that is taken to go back along itself, a cusp's side)" $
+      checkCoverage . forAll horn $ \o ->
+        let chain = Chain.fromOutlines 1e-14 [o]
+            bs = Boxes.boxes 1e-14 chain
+            ends = map (\w -> Winding.extreme w chain bs 0) [Leftmost, Rightmost]
+            atTip e = abs (x e) + abs (y e) < 1e-9
+         in cover 30 (any atTip ends) "at the tip" $
+              map leftMore ends === (if Outline.area o > 0 then [Just 1, Just 1] else [Just 0, Just 0])
     it "a circle is leftmost in the middle of an arc" $
       let chain = Chain.fromOutlines 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
           e = Winding.extreme Leftmost chain (Boxes.boxes 0 chain) 0
@@ -60,6 +68,21 @@ spec = do
       numbersOf [Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)], Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]] `shouldBe` Just (0, 2)
   where
     places = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
+
+-- | Between two arcs that touch one another at the origin, and a line: from any vertex, in any direction, walked either way.
+horn :: Gen Outline
+horn = do
+  low <- oneof [pure 0, choose (-0.8, 0.7)]
+  high <- oneof [pure 0, choose (-0.7, 0.8)] `suchThat` (\k -> abs (k - low) > 0.05)
+  angle <- oneof [elements [0, pi / 2, pi, 3 * pi / 2], choose (0, 2 * pi)]
+  start <- choose (0, 2)
+  back <- arbitrary
+  let sweep k = asin k
+      height k = if k == 0 then 0 else (1 - cos (sweep k)) / k
+      place (px, py, b) = (px * cos angle - py * sin angle, px * sin angle + py * cos angle, b)
+      corners = map place [(0, 0, tan (sweep low / 4)), (1, height low, 0), (1, height high, negate (tan (sweep high / 4)))]
+      o = Generate.loop (drop start corners <> take start corners)
+  pure (if back then Outline.reverse o else o)
 
 numbersOf :: [Outline] -> Maybe (Int, Int)
 numbersOf os = Arrangement.numbers <$> Arrangement.arrange 1e-12 chain (Boxes.boxes 1e-12 chain)
