@@ -37,8 +37,8 @@ import System.Directory (canonicalizePath, removeFile, renameFile)
 import System.Environment (lookupEnv)
 import System.FilePath (takeDirectory, takeFileName)
 import System.IO (Handle, hClose, hFlush, hIsTerminalDevice, openBinaryTempFileWithDefaultPermissions, stderr, stdout)
-import System.IO.Error (ioeGetErrorString, isDoesNotExistError, isFullError, isPermissionError)
-import System.Posix.Files (FileStatus, fileMode, getFileStatus, isDirectory, isRegularFile, setFileMode)
+import System.IO.Error (ioeGetErrorString, isDoesNotExistError, isFullError, isPermissionError, mkIOError, permissionErrorType)
+import System.Posix.Files (FileStatus, fileAccess, fileMode, getFileStatus, isDirectory, isRegularFile, setFileMode)
 
 -- | How reports are written.
 data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
@@ -158,7 +158,12 @@ writeFileWhole path bytes = either problem Right <$> try write
       before <- try (getFileStatus path) :: IO (Either IOException FileStatus)
       case before of
         Right status | not (isRegularFile status || isDirectory status) -> ByteString.writeFile path bytes
-        _ -> canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) before)
+        -- Whoever may write in the folder could replace a file that is write-protected.
+        Right status | isRegularFile status -> do
+          allowed <- fileAccess path False True False
+          if allowed then replacing before else ioError (mkIOError permissionErrorType "writeFile" Nothing (Just path))
+        _ -> replacing before
+    replacing before = canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) before)
     replace mode place = do
       (temporary, handle) <- openBinaryTempFileWithDefaultPermissions (takeDirectory place) (takeFileName place <> ".new")
       flip onException (hClose handle *> removeFile temporary) $ do

@@ -54,9 +54,10 @@ fileOf source place = Region.file (Region.position source (start place))
 -- | The offset of a position in the program's own file. A position behind its line counts as the line's end,
 -- one in the middle of a character as the beginning of the character.
 offset :: Source -> Position -> Int
-offset source Position {line, character} = Region.offset source (line + 1) (1 + charactersIn character content)
+offset source Position {line, character} = Region.offset source ordinal (1 + charactersIn character content)
   where
-    content = Region.lineText source (Region.offset source (line + 1) 1)
+    ordinal = min line (maxBound - 1) + 1
+    content = Region.lineText source (Region.offset source ordinal 1)
 
 -- | The region of a range in the program's own file; the ends may come in either order.
 region :: Source -> Range -> Region

@@ -59,7 +59,7 @@ loop host received session = case Wire.next received of
         ready <- inputWithin host (time `after` now)
         if ready then receive host missing else pure (Just "")
     case arrived of
-      Nothing -> pure Abrupt
+      Nothing -> pure (Session.leaving session)
       Just "" -> handle host Due session >>= continue host received
       Just bytes -> loop host (received <> bytes) session
 

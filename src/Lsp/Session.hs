@@ -5,6 +5,7 @@
 module Lsp.Session
   ( Session,
     start,
+    leaving,
     Milliseconds (..),
     Event (..),
     Effect (..),
@@ -137,6 +138,7 @@ step now event session = case event of
     Reply -> (session, [])
     Malformed failure -> (session, [Send (Refusal Null failure)])
 
+-- | How the conversation ends when the client leaves now.
 leaving :: Session -> Ending
 leaving session = case phase session of
   Closing -> Orderly

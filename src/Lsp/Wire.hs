@@ -10,6 +10,7 @@ import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Char8 qualified as Char8
 import Data.Char (toLower)
+import Data.List (isSuffixOf)
 import Data.Maybe (listToMaybe)
 
 -- | What the bytes received so far begin with.
@@ -35,11 +36,11 @@ next received = case ByteString.breakSubstring "\r\n\r\n" received of
         where
           body = ByteString.drop 4 rest
 
--- | The number behind @Content-Length:@, if it can be one.
+-- | The number behind @Content-Length:@, if it can be one. Before that may stand a message whose own header did not say how long it was.
 contentLength :: ByteString -> Maybe Int
-contentLength header = listToMaybe [n | line <- Char8.lines header, (key, rest) <- [Char8.break (== ':') line], isKey key, Just (n, "") <- [Char8.readInt (Char8.strip (Char8.drop 1 rest))], n >= 0, n <= longest]
+contentLength header = listToMaybe [n | line <- Char8.lines header, (key, rest) <- [Char8.breakEnd (== ':') line], isKey key, Just (n, "") <- [Char8.readInt (Char8.strip rest)], n >= 0, n <= longest]
   where
-    isKey key = map toLower (Char8.unpack (Char8.strip key)) == "content-length"
+    isKey key = "content-length:" `isSuffixOf` filter (/= ' ') (map toLower (Char8.unpack key))
 
 -- | No client sends longer messages; a larger number is a damaged stream.
 longest :: Int

@@ -9,7 +9,7 @@ module Path.FromPart
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus)
+import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.Bifunctor (first)
@@ -27,7 +27,7 @@ import Geometry.Contour qualified as Contour
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Offset qualified as Offset
-import Geometry.Segment (Segment (Straight))
+import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Shape (Turn (..))
 import Geometry.Tolerance qualified as Tolerance
@@ -380,8 +380,21 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
           element <- NonEmpty.take some group,
           Box.meets reach (Box.ofSegment (Part.segment element)),
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
-          plus d (plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance) < tool
+          let allowed = plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance,
+          plus d allowed < tool || d <= Tolerance.coincident && goesThrough allowed (Path.segment m) (Part.segment element)
       ]
+    -- A point of a tool cuts nothing beside it.
+    goesThrough most way wall = case wall of
+      Straight a b ->
+        let aside q = Mm (Vec.cross (Vec.unit (Vec.to a b)) (Vec.to a q))
+         in opposite most (aside (Segment.start way)) (aside (Segment.end way))
+      Arc from _ centre _ ->
+        let r = Segment.radius centre from
+            beyond q = minus (Vec.distance centre q) r
+            ends = (beyond (Segment.start way), beyond (Segment.end way))
+         in uncurry (opposite most) ends || fst ends > Mm 0 && snd ends > Mm 0 && minus r (Distance.toPoint centre way) > most
+    opposite :: Mm -> Mm -> Mm -> Bool
+    opposite most p q = min p q < times (-1) most && max p q > most
     deepest found = minimumBy (comparing depth) (map snd found)
     depth e = case e of
       CutsPart _ _ _ (Mm d) _ _ -> -d

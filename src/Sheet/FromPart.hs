@@ -6,7 +6,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (Name))
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Checked.Syntax qualified as Checked
@@ -16,7 +16,12 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Vector qualified as Vector
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
 import Geometry.Shape qualified as Shape
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Curve
 import Part.Joint qualified as Joint
@@ -111,10 +116,11 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at "the outside of a contour")
   Part.Inside -> refused (NoNumbers at "the inside of a contour")
 
--- | Diameter, bevel in degrees and height of the tool: those of the program's cone, if it touches at this radius.
+-- | Diameter, bevel in degrees and height of the tool: those of the program's cone, if it touches at this radius. Without a bevel it is a
+-- cylinder.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) = case [(d, mu, h) | Located _ (Checked.Tool (Located _ (Checked.ConeCutter a b c))) <- Checked.statements written, Just d <- [literal a], Just mu <- [literal b], Just h <- [literal c]] of
-  (d, mu, h) : _ | d / 2 + h * tan mu == radius -> (d, FromCurve.degreesOf mu, h)
+  (d, mu, h) : _ | mu /= 0, d / 2 + h * tan mu == radius -> (d, FromCurve.degreesOf mu, h)
   _ -> (2 * radius, 0, 0)
   where
     literal (Located _ e) = case e of
@@ -221,24 +227,29 @@ pieceOf m leg = case Part.source leg of
   Just curve -> do
     mapM_ (\f -> refused (NoFeed (region f) "an element with a feed of its own" "On a sheet all pieces of an array have one feed.")) (Part.ownFeed (Part.asked leg))
     made <- FromCurve.piece at (Curve.exact curve) (Part.asked leg)
-    mapM_ (const (swivelling at made leans)) (Part.gear m)
+    mapM_ (const (swivelling at curve made leans)) (Part.gear m)
     pure made
   where
     at = Part.spot leg
-    leans = [b | e <- toList (Part.elements (Part.contour m)), Part.origin e == at, Just b <- [Part.bevel e]]
+    leans = [(Part.segment e, b) | e <- toList (Part.elements (Part.contour m)), Part.origin e == at, Just b <- [Part.bevel e]]
 
--- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all.
-swivelling :: Region -> Piece -> [(Double, Double)] -> Result w Unfit ()
-swivelling at made leans
+-- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all: on each element by what the bevels of
+-- the rows come to at its ends.
+swivelling :: Region -> Curve.Curve -> Piece -> [(Segment, (Double, Double))] -> Result w Unfit ()
+swivelling at curve made leans
   | surfaced made && null leans = refused (NoCipher at "the blade does not swivel by the bevel of its cipher" "Behind an element with a 4 write: bevel mu")
-  | any (\b -> b < low - slack || b > high + slack) (concat [[a, b] | (a, b) <- leans]) = refused (NoCipher at "the blade swivels by another bevel than that of its cipher" "Behind an element with a 4 write: bevel mu; behind another one: bevel 0")
+  | any differs (concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- leans]) = refused (NoCipher at "the blade swivels by another bevel than that of its cipher" "Behind an element with a 4 write: bevel mu; behind another one: bevel 0")
   | otherwise = pure ()
   where
-    bevels = [value (mu s) * pi / 180 | r <- toList (rows made), Just s <- [surface r]]
-    low = minimum (0 : bevels)
-    high = maximum (0 : bevels)
-    -- A spline goes a little beyond its points.
-    slack = 0.2 * (high - low) + 1e-9
+    bevels = [maybe 0 (\w -> value (mu w) * pi / 180) (surface r) | r <- toList (rows made)]
+    marks = Curve.along curve (Vector.fromList bevels)
+    differs (p, b) = let Mm s = Polyarc.station (Curve.laid curve) p; Rad slack = Tolerance.bevel in abs (b - between s marks) > 2 * slack
+    between s known = case known of
+      (a, x) : more@((b, y) : _)
+        | s <= b || null (drop 1 more) -> if b > a then x + (y - x) * max 0 (min 1 ((s - a) / (b - a))) else y
+        | otherwise -> between s more
+      [(_, x)] -> x
+      [] -> 0
 
 linkOf :: Part.Leg -> Result w Unfit (Located Link)
 linkOf leg = case Part.link leg of

@@ -114,18 +114,20 @@ separatorOf header = case filter (`Text.any` header) [(== ';'), (== '\t')] of
   _ : _ -> '\t'
   [] -> ','
 
--- | What stands between the separators, without the spaces and the quotation marks around it.
+-- | What stands between the separators, without the spaces around it and a pair of quotation marks. A single one stays: it belongs to nothing.
 fields :: Char -> Located Text -> NonEmpty (Located Text)
 fields separator (Located (Region at _) line) = NonEmpty.zipWith field starts parts
   where
     parts = NonEmpty.fromList (Text.split (== separator) line)
     starts = NonEmpty.scanl (\a p -> a + Text.length p + 1) at (NonEmpty.toList parts)
     field from part =
-      let inside = Text.dropAround around part
-          before = Text.length (Text.takeWhile around part)
+      let spaced = Text.dropAround isSpace part
+          inside = maybe spaced (Text.dropAround isSpace) (Text.stripPrefix "\"" spaced >>= Text.stripSuffix "\"")
+          before = Text.length (Text.takeWhile isSpace part) + (if Text.length inside == Text.length spaced then 0 else quotedFrom spaced)
           size = Text.length inside
        in Located (if size == 0 then Region from (from + Text.length part) else Region (from + before) (from + before + size)) inside
-    around c = isSpace c || c == '"'
+    -- Behind the quotation mark and the spaces that follow it.
+    quotedFrom spaced = 1 + Text.length (Text.takeWhile isSpace (Text.drop 1 spaced))
 
 headings :: Char -> Located Text -> ([Error], Line)
 headings separator line = case partitionEithers (map heading (NonEmpty.toList (fields separator line))) of

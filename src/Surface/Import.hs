@@ -9,6 +9,7 @@ module Surface.Import
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -67,7 +68,7 @@ imported reader stack path = fmap concat . mapM one
       _ -> pure [s]
     bring at file name
       | file `elem` stack = mistake at (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))
-      | length stack > deepest = mistake at (ImportCycle at [Text.pack file])
+      | length stack > deepest = mistake at (ImportMissing at name ("imports are nested more than " <> Decimal.whole deepest <> " deep"))
       | otherwise = do
         known <- gets (Set.member file . seen)
         if known then pure [] else readIn at file name

@@ -9,7 +9,7 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Either (isRight)
 import Data.List (isInfixOf, isPrefixOf)
 import Flange qualified
-import System.Directory (doesFileExist, listDirectory)
+import System.Directory (doesFileExist, getPermissions, listDirectory, setPermissions, writable)
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
 import System.Process (readCreateProcessWithExitCode, shell)
@@ -46,6 +46,28 @@ spec = do
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.tape") `shouldReturn` "keep"
+    it "leaves a file that is write-protected as it is" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        writeFile (folder </> "x.tape") "keep"
+        permissions <- getPermissions (folder </> "x.tape")
+        setPermissions (folder </> "x.tape") permissions {writable = False}
+        mayWrite <- writable <$> getPermissions (folder </> "x.tape")
+        -- An administrator may write everywhere.
+        if mayWrite
+          then pendingWith "run by someone who may write into protected files"
+          else do
+            (code, out, err) <- partc ["compile", folder </> "flange.part", "-o", folder </> "x.tape"]
+            (code, out) `shouldBe` (ExitFailure 1, "")
+            err `shouldSatisfy` isInfixOf "error[E0802]"
+            readFile (folder </> "x.tape") `shouldReturn` "keep"
+    it "names the limit of imports that import imports, which is no circle" $
+      inFolder $ \folder -> do
+        forM_ [0 .. 120 :: Int] $ \k -> writeFile (folder </> ("i" <> show k <> ".part")) (if k < 120 then "import \"i" <> show (k + 1) <> ".part\"\nlet a" <> show k <> " = 1\n" else "let a120 = 1\n")
+        writeFile (folder </> "x.part") "part x\nimport \"i0.part\"\n"
+        (code, _, err) <- partc ["check", folder </> "x.part"]
+        code `shouldBe` ExitFailure 1
+        (err, isInfixOf "error[E0112]" err && isInfixOf "more than 100 deep" err) `shouldSatisfy` snd
     it "writes no file for every bad program" $
       inFolder $ \folder ->
         forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do

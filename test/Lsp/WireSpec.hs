@@ -25,6 +25,10 @@ spec = do
   it "passes over a header without a length, or with one that cannot be" $
     map Wire.next ["X: 1\r\n\r\nrest", "Content-Length: -1\r\n\r\nrest", "Content-Length: 99999999999999\r\n\r\nrest", "Content-Length: x\r\n\r\nrest"]
       `shouldBe` replicate 4 (Headless "rest")
+  it "finds the next message behind one whose header does not say how long it is (catches a stream that stays deaf)" $
+    case Wire.next "X: 1\r\n\r\n{\"a\": 1}Content-Length: 2\r\n\r\n{}rest" of
+      Headless rest -> Wire.next rest `shouldBe` Complete "{}" "rest"
+      other -> expectationFailure (show other)
 
 -- | All messages of a stream that arrives in pieces.
 received :: ByteString -> [ByteString] -> [ByteString]

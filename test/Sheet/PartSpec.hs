@@ -87,6 +87,19 @@ spec = do
         tape' <- judged "x.sheet" text
         again <- traverse (judged "x.part" . ToSurface.text) (output (FromText.read text :: Result () Error Sheet))
         again `shouldBe` Just tape'
+    it "asks of a blade that it swivels as the cipher says, wherever the spline of that goes (catches bevels that only have to lie between those of the points)" $ do
+      blade <- readText "test/programs/sheet/good/blade.sheet"
+      let steep = Text.replace "\n50 4 1.5 8\n" "\n20 4 1.5 8\n" blade
+          programOf text = ToSurface.text <$> output (FromText.read text :: Result () Error Sheet)
+      steep `shouldNotBe` blade
+      forM_ [blade, steep] $ \sheet -> fmap (exported "x.part") (programOf sheet) `shouldBe` Just ([], meaning sheet)
+      forM_ ["bevel 2", "bevel mu / 2", "bevel 1.2 * mu"] $ \other ->
+        (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade)) `shouldBe` (other, Just [Code "E0924"])
+    it "takes a cone without a bevel for a cylinder" $ do
+      let program = "part p\nmachine lkp-01f\ntool cone(diameter 12 mm, bevel 0 deg, height 8 mm)\nfeed 60\ntolerance 0.1\nfrom (0, 0, 0)\ncontour c open { polyline([(10, 10), (60, 10)]) }\nmill c left { approach (10, 30) feed 60  retract (60, 30) feed 60 }\n"
+      case exported "x.part" program of
+        ([], Just sheet) -> exported "x.sheet" sheet `shouldBe` ([], Just sheet)
+        other -> expectationFailure (show other)
   describe "parts that no sheet can hold are refused" $ do
     files <- runIO (sort . filter ((== ".part") . takeExtension) <$> listDirectory "test/unfit")
     forM_ files $ \file -> it file $ do
