@@ -124,8 +124,8 @@ laws = do
                  ]
     lookup Corrected (filter (Text.isInfixOf "25 = " . snd) marks) `shouldBe` Just "feeds: table: 25 = 420 — manual, page 10: 42, between 300 and 600"
     -- Words with a mark of their own within a frame with another one.
-    within <- readText "machines/kontur-3p.machine"
-    [(mark, fact) | Just m <- [Result.settled (reading within)], Fact mark fact <- facts m, w <- ["\"Е\"", "\"Т\"", "\"П\""], ("frame: word " <> w) `Text.isPrefixOf` fact, "when" `Text.isInfixOf` fact]
+    kontur <- readText "machines/kontur-3p.machine"
+    [(mark, fact) | Just m <- [Result.settled (reading kontur)], Fact mark fact <- facts m, w <- ["\"Е\"", "\"Т\"", "\"П\""], ("frame: word " <> w) `Text.isPrefixOf` fact, "when" `Text.isInfixOf` fact]
       `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
                    (Reconstructed, "frame: word \"Т\" along z: when needed"),
                    (Reconstructed, "frame: word \"П\" feed: when moving — П stands in the frames of the example")
