@@ -111,11 +111,13 @@ arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length
   where
     ss = arcsOf tolerance c
     -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the other.
-    known = [between 400 (a, b) | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
+    known = [(span', between 400 span') | span' <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
     between :: Int -> (Double, Double) -> [(Double, Vec.Point)]
     between count (a, b) = [(u, Curve.at c u) | k <- [0 .. count], let u = a + (b - a) * fromIntegral k / fromIntegral count]
     -- Where it turns sharply the curve may come near twice between two places.
-    nearest p = minimum [closer p (60 :: Int) a b | (_, about) <- take 8 (sort (concatMap (valleys p) known)), (_, (a, b)) <- take 3 (sort (valleys p (between 40 about)))]
+    nearest p = minimum [closer p (60 :: Int) a b | (_, about) <- take 8 (sort [(d, wider span' about) | (span', us) <- known, (d, about) <- valleys p us]), (_, (a, b)) <- take 3 (sort (valleys p (between 80 about)))]
+    -- In a sharp turn the nearer branch may begin behind the next place.
+    wider (from, to) (a, b) = let w = (b - a) / 2 in (max from (a - w), min to (b + w))
     -- About the places of a span that are nearer than those beside them.
     valleys p us =
       let ds = [(away p q, u) | (u, q) <- us]
