@@ -34,6 +34,7 @@ module Geometry.Offset.Chain
     power,
     gradient,
     diameter,
+    curvature,
     part,
   )
 where
@@ -282,6 +283,11 @@ gradient c i px py k = k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py -
     b = indexPrimArray (bulges c) i
     kappa = (b * b - 1) / (2 * b)
 {-# INLINE gradient #-}
+
+-- | The curvature of a segment, to the left, in 1/mm: with a chord c and a bulge b it is @4·b / ((1 + b²)·c)@.
+curvature :: Chain -> Int -> Double
+curvature c i = chord c i $ \dx dy -> let b = indexPrimArray (bulges c) i in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy))
+{-# INLINE curvature #-}
 
 -- | The diameter of an arc's circle.
 diameter :: Chain -> Int -> Double

@@ -114,15 +114,13 @@ walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx 
     markSmooth i j = case j of
       Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + Chain.smooth)
       _ -> pure ()
-    -- To the left, in 1/mm.
-    curvature i = Chain.chord c i $ \dx dy -> let b = bulge i in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy))
     -- From the end of segment i into segment j: the kind of joint, tan(θ/4) of an outer one, and by how much lines are cut
     -- that are so long at least. The direction of a chord is known to the rounding of its ends; no corner is made of that where
     -- the ways beside it are not moved sideways, by the turn or with an arc, by more than rounding either.
     joint i j ax ay bx by shorter restI restJ k
       | dt > 0 && (abs cr <= smoothness || abs cr * shorter <= tolerance && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance) = k (if di == dj then Smooth else Step) 0 0
       -- Into a cusp that opens to this side nothing reaches; at one distance, what goes round it is blocked all the same.
-      | dt < 0 && abs (cr * d) <= tolerance = k (if uneven && d * (curvature i + curvature j) > smoothness then Over else Outer) (signum d) 0
+      | dt < 0 && abs (cr * d) <= tolerance = k (if uneven && d * (Chain.curvature c i + Chain.curvature c j) > smoothness then Over else Outer) (signum d) 0
       | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
       | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ = k Trimmed 0 cut
       | otherwise = k Over 0 0

@@ -107,8 +107,7 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
       | otherwise = Extreme i 0 (sign * least) (indexPrimArray (Chain.ys c) i) (atVertex i)
       where
         b = indexPrimArray (Chain.bulges c) i
-    -- To the left, in 1/mm.
-    bend i = Chain.chord c i (\dx dy -> let b = indexPrimArray (Chain.bulges c) i in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy)))
+    bend = Chain.curvature c
     dyOf i = Chain.chord c i (\_ dy -> dy)
     heightOf i = Chain.chord c i (\dx _ -> let b = indexPrimArray (Chain.bulges c) i in (1 - b * b) / (4 * b) * dx)
     -- The walk turns left at its outermost vertex: its inside is on its left.
