@@ -45,7 +45,6 @@ import Part.Part qualified as Part
 import Path.FromPart qualified as Path (leadingSide)
 import Path.Path (Block)
 import Path.Path qualified as Path
-import Verify.Course (Course)
 import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
 import Verify.Deviation (Spared (..))
@@ -88,7 +87,7 @@ pocketOf found@((_, Located statement job, _, _) :| _) = Pocket {statement, mill
     side = fromMaybe LeftOf (fromRight Nothing (Path.leadingSide milling))
     contours = map (NonEmpty.toList . Part.elements) (Part.contour milling : Part.islands job)
     elements = Vector.fromList (concat contours)
-    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.rank = i, Passage.before = 0, Passage.long = 0, Passage.left = Mm 0, Passage.continues = False, Passage.course = Course.ofSegment (Part.segment e)} | (i, e) <- Vector.toList (Vector.indexed elements)]
+    walls = Nearest.index (Box.ofSegment . Part.segment . element) [Edge {element = e, Passage.rank = i, Passage.before = 0, Passage.long = 0, Passage.left = Mm 0, Passage.continues = False, Passage.course = Part.segment e} | (i, e) <- Vector.toList (Vector.indexed elements)]
     about = foldr1 Box.union (fmap (Box.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
     away = plus (plus (Part.radius milling) (NonEmpty.last (Part.allowances milling))) margin
     -- Where contours nearly touch, a place beside one of them may lie within the other.
@@ -168,7 +167,7 @@ unreached allowance strokes = go (Mm 0)
             let nearest = minimumBy (comparing (Cover.distanceTo p . Trace.ways)) around
                 next = if most' > allowance then least else most'
              in Witness {amount = most', frame = number nearest, Verify.Proof.element = Part.origin e, place = p} : go next rest
-    surely least@(Mm d) s = Course.isCovered d courses (const True) (Nearest.within (Box.inflate least (Box.ofSegment s)) strokes) (Course.ofSegment s)
+    surely least@(Mm d) s = Course.isCovered d courses (const True) (Nearest.within (Box.inflate least (Box.ofSegment s)) strokes) s
     others = Cover.Others {Cover.index = strokes, Cover.lines = Trace.ways, Cover.counts = const True, Cover.reach = Mm 0, Cover.allowance = allowance}
 
 -- The floor
@@ -180,7 +179,7 @@ uncleared pocket (Mm r) strokes = listToMaybe (look Nothing False ((left + right
     Box left bottom right top = about pocket
     Mm d = away pocket
     -- A square about a place, half as wide; a stroke that may well cover it, and whether it is known to lie in the pocket.
-    look :: Maybe [Course] -> Bool -> Double -> Double -> Double -> [Point]
+    look :: Maybe [Segment] -> Bool -> Double -> Double -> Double -> [Point]
     look hint known x y half
       | corner < r, Just cs <- hint, rangeOf x y cs + corner <= r' = []
       | corner < r, Just cs <- stroke', rangeOf x y cs + corner <= r' || isBetween cs = []

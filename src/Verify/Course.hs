@@ -6,10 +6,7 @@
 -- The proof is about whole strokes and whole elements. Of nearly all of them a few products tell that they are far enough
 -- from one another, or near enough; what is not told here, to 'unsure', is left to the exact comparison.
 module Verify.Course
-  ( Course,
-    ofSegment,
-    segment,
-    spot,
+  ( spot,
     isLine,
     distance,
     mayLieWithin,
@@ -40,12 +37,19 @@ import Data.List (foldl', sort)
 import Geometry.Box (Box (Box))
 import Geometry.Box qualified as Box
 import Geometry.Segment (Segment (..))
-import Geometry.Vec qualified as Vec
+import Geometry.Vec (Point (Point))
 
--- | A line by its ends, or an arc by its ends, its centre, its radius and its sweep in radians.
-data Course
+-- | A segment as bare numbers: a line by its ends, or an arc by its ends, its centre, its radius and its sweep in radians. Nothing of it is
+-- ever made: whoever asks takes the numbers that are needed from the segment.
+data Bare
   = Line Double Double Double Double
   | Bow Double Double Double Double Double Double Double Double
+
+bare :: Segment -> Bare
+bare s = case s of
+  Straight (Point ax ay) (Point bx by) -> Line ax ay bx by
+  Arc (Point ax ay) (Point bx by) (Point cx cy) (Rad angle) -> Bow ax ay bx by cx cy (hypotenuse (cx - ax) (cy - ay)) angle
+{-# INLINE bare #-}
 
 -- | What is nearer to a bound than this is not decided here, in mm. Products of coordinates are exact to less than a hundredth of it.
 unsure :: Double
@@ -55,30 +59,18 @@ unsure = 1e-8
 never :: Double
 never = 1 / 0
 
-ofSegment :: Segment -> Course
-ofSegment s = case s of
-  Straight a b -> Line (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b)
-  Arc {start = a, end = b, centre = c, sweep = Rad angle} ->
-    let Mm r = Vec.distance c a in Bow (Vec.x a) (Vec.y a) (Vec.x b) (Vec.y b) (Vec.x c) (Vec.y c) r angle
-
--- | The same as a segment.
-segment :: Course -> Segment
-segment course = case course of
-  Line ax ay bx by -> Straight (Vec.point ax ay) (Vec.point bx by)
-  Bow ax ay bx by cx cy _ angle -> Arc {start = Vec.point ax ay, end = Vec.point bx by, centre = Vec.point cx cy, sweep = Rad angle}
-
 -- | A single point.
-spot :: Double -> Double -> Course
-spot x y = Line x y x y
+spot :: Double -> Double -> Segment
+spot x y = Straight (Point x y) (Point x y)
 
-isLine :: Course -> Bool
-isLine course = case course of
+isLine :: Segment -> Bool
+isLine course = case bare course of
   Line {} -> True
   Bow {} -> False
 
 -- | From a point.
-distance :: Course -> Double -> Double -> Double
-distance course !px !py = case course of
+distance :: Segment -> Double -> Double -> Double
+distance course !px !py = case bare course of
   Line ax ay bx by ->
     let ux = bx - ax
         uy = by - ay
@@ -94,8 +86,8 @@ distance course !px !py = case course of
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
 
 -- | Whether a point may lie within a distance of a course of such a length, or a little more: no point of it is further from its beginning.
-mayLieWithin :: Double -> Double -> Course -> Double -> Double -> Bool
-mayLieWithin most long course !px !py = case course of
+mayLieWithin :: Double -> Double -> Segment -> Double -> Double -> Bool
+mayLieWithin most long course !px !py = case bare course of
   Line ax ay _ _ -> about (px - ax) (py - ay)
   Bow ax ay _ _ _ _ _ _ -> about (px - ax) (py - ay)
   where
@@ -104,23 +96,23 @@ mayLieWithin most long course !px !py = case course of
 {-# INLINE mayLieWithin #-}
 
 -- | A box about it, that of its ends grown by the most that an arc may bulge: @r·(1 − cos(φ/2)) ≤ r·φ²/8@.
-box :: Course -> Box
-box course = case course of
+box :: Segment -> Box
+box course = case bare course of
   Line ax ay bx by -> Box (min ax bx) (min ay by) (max ax bx) (max ay by)
   Bow ax ay bx by cx cy r s
     | abs s < pi -> Box.inflate (Mm (r * s * s / 8)) (Box (min ax bx) (min ay by) (max ax bx) (max ay by))
     | otherwise -> Box (cx - r) (cy - r) (cx + r) (cy + r)
 
 -- | By how much the radii of an arc differ at its ends.
-uneven :: Course -> Double
-uneven course = case course of
+uneven :: Segment -> Double
+uneven course = case bare course of
   Line {} -> 0
   Bow _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
 
 -- | Whether a course of such a length may come within a distance of what carries the second one, a line or a circle: no point of it is further from
 -- its beginning than that length.
-mayComeWithin :: Double -> Double -> Course -> Course -> Bool
-mayComeWithin most long e t = case t of
+mayComeWithin :: Double -> Double -> Segment -> Segment -> Bool
+mayComeWithin most long e t = case bare t of
   Line px py qx qy ->
     let ux = qx - px
         uy = qy - py
@@ -149,8 +141,8 @@ bearing ax ay bx by cx cy s px py k = k (sense * ((ax - cx) * vy - (ay - cy) * v
 {-# INLINE bearing #-}
 
 -- | Whether a point lies in the sector of an arc.
-inSector :: Course -> Double -> Double -> Bool
-inSector course !px !py = case course of
+inSector :: Segment -> Double -> Double -> Bool
+inSector course !px !py = case bare course of
   Line {} -> False
   Bow ax ay bx by cx cy _ s ->
     bearing ax ay bx by cx cy s px py $ \behind before along ->
@@ -159,19 +151,19 @@ inSector course !px !py = case course of
         else behind >= 0 && before >= 0 && (abs s > pi / 2 || along >= 0)
 
 -- | The least distance of two, or less than that by no more than rounding. Those that cross have none.
-apart :: Course -> Course -> Double
+apart :: Segment -> Segment -> Double
 apart a b
   | cross a b = 0
   | otherwise = min (ends a b) (min (ends b a) (min (normals a b) (normals b a)))
   where
-    ends c other = case c of
+    ends c other = case bare c of
       Line ax ay bx by -> min (distance other ax ay) (distance other bx by)
       Bow ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
 
 -- | No points of two courses are nearer to one another than this; it is exact where the second lies beside the first, and found sooner. What carries the first is
 -- nowhere further from a point than the first itself.
-apartAtLeast :: Course -> Course -> Double
-apartAtLeast t e = case t of
+apartAtLeast :: Segment -> Segment -> Double
+apartAtLeast t e = case bare t of
   Line px py qx qy -> case across px py qx qy e of
     Span low high
       | low > 0 -> low
@@ -187,8 +179,8 @@ apartAtLeast t e = case t of
 data Span = Span Double Double
 
 -- | How far a course is from a point at least and at most.
-spanFrom :: Double -> Double -> Course -> Span
-spanFrom !px !py e = case e of
+spanFrom :: Double -> Double -> Segment -> Span
+spanFrom !px !py e = case bare e of
   Line ax ay bx by -> Span (distance e px py) (max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py)))
   Bow ax ay bx by cx cy r _ ->
     let a = hypotenuse (ax - px) (ay - py)
@@ -202,10 +194,10 @@ spanFrom !px !py e = case e of
           else Span r r
 
 -- | How far to the left of a line a course lies at least and at most; 0 where the line has no length.
-across :: Double -> Double -> Double -> Double -> Course -> Span
+across :: Double -> Double -> Double -> Double -> Segment -> Span
 across px py qx qy e
   | l <= 0 = Span 0 0
-  | otherwise = case e of
+  | otherwise = case bare e of
     Line ax ay bx by -> let a = height ax ay; b = height bx by in Span (min a b) (max a b)
     Bow ax ay bx by cx cy r _ ->
       let a = height ax ay
@@ -221,8 +213,8 @@ across px py qx qy e
     height x y = ix * (y - py) - iy * (x - px)
 
 -- | From where a normal of the first course meets the second, an arc, at a right angle, too.
-normals :: Course -> Course -> Double
-normals a b = case (a, b) of
+normals :: Segment -> Segment -> Double
+normals a b = case (bare a, bare b) of
   (Line ax ay bx by, Bow _ _ _ _ cx cy _ _) ->
     let t = shareOf ax ay bx by cx cy
      in if t > 0 && t < 1 then distance b (ax + t * (bx - ax)) (ay + t * (by - ay)) else never
@@ -240,8 +232,8 @@ shareOf ax ay bx by px py = let ux = bx - ax; uy = by - ay; uu = ux * ux + uy * 
 {-# INLINE shareOf #-}
 
 -- | Whether two cross. What only touches has an end or a normal there.
-cross :: Course -> Course -> Bool
-cross a b = case (a, b) of
+cross :: Segment -> Segment -> Bool
+cross a b = case (bare a, bare b) of
   (Line ax ay bx by, Line cx cy dx dy) ->
     let side x y = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
         side' x y = (dx - cx) * (y - cy) - (dy - cy) * (x - cx)
@@ -273,30 +265,30 @@ cross a b = case (a, b) of
 
 -- | No point of the first course is further than this from the second. That is exact where the one runs beside the
 -- other, or about one of its ends.
-furthest :: Course -> Course -> Double
-furthest e t = min (beside e t) (case t of Line ax ay bx by -> fromEnds ax ay bx by; Bow ax ay bx by _ _ _ _ -> fromEnds ax ay bx by)
+furthest :: Segment -> Segment -> Double
+furthest e t = min (beside e t) (case bare t of Line ax ay bx by -> fromEnds ax ay bx by; Bow ax ay bx by _ _ _ _ -> fromEnds ax ay bx by)
   where
     fromEnds ax ay bx by = min (fromPoint e ax ay) (fromPoint e bx by)
 
 -- | No point of a course is further than this from any of some others; 'never' where an end of it is further from one of them than so much.
-furthestFrom :: Double -> Course -> [Course] -> Double
+furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
   | otherwise = never
   where
     enough t = let far = beside e t in if far <= most then far else furthest e t
-    endsNear t = case e of
+    endsNear t = case bare e of
       Line ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
       Bow ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
 -- | Whether no point of the first course is further from the second than so much. Mostly its beginning tells that it is.
-isWithin :: Double -> Course -> Course -> Bool
+isWithin :: Double -> Segment -> Segment -> Bool
 isWithin most e t = atBegin && (beside e t <= most || fromEnds)
   where
-    fromEnds = case t of
+    fromEnds = case bare t of
       Line ax ay bx by -> fromPoint e ax ay <= most || fromPoint e bx by <= most
       Bow ax ay bx by _ _ _ _ -> fromPoint e ax ay <= most || fromPoint e bx by <= most
-    atBegin = case e of
+    atBegin = case bare e of
       Line ax ay _ _ -> distance t ax ay <= most
       Bow ax ay _ _ _ _ _ _ -> distance t ax ay <= most
 
@@ -304,8 +296,8 @@ isWithin most e t = atBegin && (beside e t <= most || fromEnds)
 -- another without a gap are one curve. As seen from the line, or from the arc's centre, that comes past its beginning and past its end, so
 -- it comes past all between, and nowhere is it further above it, or out from it, or less so, than the distance. It is so short that it does not go
 -- round the centre.
-isAccompanied :: Double -> [Course] -> Course -> Bool
-isAccompanied most others t = case t of
+isAccompanied :: Double -> [Segment] -> Segment -> Bool
+isAccompanied most others t = case bare t of
   Line px py qx qy
     | l <- hypotenuse (qx - px) (qy - py),
       l > 0 ->
@@ -322,14 +314,14 @@ isAccompanied most others t = case t of
     most' = most - 2 * unsure
 
 -- | Whether of curves one behind the other some follow one another without a gap from past one end to past the other, and keep to what is asked.
-chain :: (Double -> Double -> Stand) -> (Course -> Span) -> (Span -> Double -> Bool) -> [Course] -> Bool
+chain :: (Double -> Double -> Stand) -> (Segment -> Span) -> (Span -> Double -> Bool) -> [Segment] -> Bool
 chain place spanOf fits = start
   where
     start es = case es of
       [] -> False
       e : _ -> let (x, y) = begin e in go (place x y) never (negate never) 0 x y es
     -- From where the curve is past one end, what it has kept to and how far it has gone since it was there.
-    go :: Stand -> Double -> Double -> Double -> Double -> Double -> [Course] -> Bool
+    go :: Stand -> Double -> Double -> Double -> Double -> Double -> [Segment] -> Bool
     go from !low !high !long !x !y es = case es of
       [] -> False
       e : more -> case (begin e, finish e) of
@@ -356,14 +348,14 @@ aCorner :: Double
 aCorner = 1
 
 -- | How long it is.
-lengthOf :: Course -> Double
-lengthOf e = case e of
+lengthOf :: Segment -> Double
+lengthOf e = case bare e of
   Line ax ay bx by -> hypotenuse (bx - ax) (by - ay)
   Bow _ _ _ _ _ _ r s -> r * abs s
 
 -- | How far the furthest point of a course is from a point.
-fromPoint :: Course -> Double -> Double -> Double
-fromPoint e px py = case e of
+fromPoint :: Segment -> Double -> Double -> Double
+fromPoint e px py = case bare e of
   Line ax ay bx by -> max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
   Bow ax ay bx by cx cy r _ ->
     let d = hypotenuse (cx - px) (cy - py)
@@ -372,8 +364,8 @@ fromPoint e px py = case e of
 
 -- | The same, where every point of the first course has its foot on the second, or beyond an end of it by no more than
 -- 'overlap'; else 'never'.
-beside :: Course -> Course -> Double
-beside e t = case (e, t) of
+beside :: Segment -> Segment -> Double
+beside e t = case (bare e, bare t) of
   (Line ax ay bx by, Line {}) -> max (distance t ax ay) (distance t bx by)
   (Line ax ay bx by, Bow _ _ _ _ cx cy r s)
     | abs s <= pi || isWhole s ->
@@ -429,8 +421,8 @@ overlap :: Double
 overlap = 0.1
 
 -- | How far a point lies beside the sector of an arc of at most half a turn, or of a whole turn; 'never' far away.
-pastArc :: Course -> Double -> Double -> Double
-pastArc t !px !py = case t of
+pastArc :: Segment -> Double -> Double -> Double
+pastArc t !px !py = case bare t of
   Line {} -> never
   Bow ax ay bx by cx cy r s
     | isWhole s -> 0
@@ -442,15 +434,15 @@ isWhole :: Double -> Bool
 isWhole s = abs s >= 2 * pi
 
 -- | The point at a share of the length.
-at :: Course -> Double -> (Double, Double)
-at e !t = case e of
+at :: Segment -> Double -> (Double, Double)
+at e !t = case bare e of
   Line ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
   Bow ax ay _ _ cx cy _ s -> let c = cos (t * s); n = sin (t * s); vx = ax - cx; vy = ay - cy in (cx + c * vx - n * vy, cy + n * vx + c * vy)
 {-# INLINE at #-}
 
 -- | Whether every point of a course surely has one of some others within a distance, all courses of that other; whether it
 -- counts is asked last.
-isCovered :: Double -> (a -> [Course]) -> (a -> Bool) -> [a] -> Course -> Bool
+isCovered :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> Bool
 isCovered reach coursesOf counts others e = any (covers e) others || go others (parts e (concatMap coursesOf others))
   where
     covers part other = all (isWithin (reach - 2 * unsure) part) (coursesOf other) && counts other
@@ -466,7 +458,7 @@ isCovered reach coursesOf counts others e = any (covers e) others || go others (
 
 -- | How far the point of a course is that is furthest from all of some others, of each from that of its courses from which it is
 -- furthest: surely further than the one, surely no further than the other.
-range :: [[Course]] -> Course -> (Double, Double)
+range :: [[Segment]] -> Segment -> (Double, Double)
 range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 2 * unsure)
   where
     pieces = case parts e (concat others) of
@@ -479,8 +471,8 @@ range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 
     most = foldl' max 0
 
 -- | Where a course may be furthest from another one, beside its ends: on the line of their centres, square above a line.
-summits :: Course -> Course -> [(Double, Double)]
-summits e t = case (e, t) of
+summits :: Segment -> Segment -> [(Double, Double)]
+summits e t = case (bare e, bare t) of
   (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy _ _) -> let d = hypotenuse (cx - dx) (cy - dy) in if d > 0 then both cx cy (r * (cx - dx) / d) (r * (cy - dy) / d) else []
   (Bow _ _ _ _ cx cy r _, Line ax ay bx by) -> let l = hypotenuse (bx - ax) (by - ay) in if l > 0 then both cx cy (r * (ay - by) / l) (r * (bx - ax) / l) else []
   (Line ax ay bx by, Bow _ _ _ _ dx dy _ _) -> let k = shareOf ax ay bx by dx dy in [at e k | k > 0, k < 1]
@@ -490,7 +482,7 @@ summits e t = case (e, t) of
 
 -- | The parts of a course between the places where what is nearest changes: there is an end of one of the others. None when it is
 -- not cut, or cut into more than 'mostParts'.
-parts :: Course -> [Course] -> [Course]
+parts :: Segment -> [Segment] -> [Segment]
 parts e others = case marks of
   [] -> []
   _ -> if null (drop mostParts marks) then zipWith (between e) (0 : marks) (marks <> [1]) else []
@@ -502,7 +494,7 @@ parts e others = case marks of
       t : u : more | (bx, by) <- finish t, (cx, cy) <- begin u, bx == cx && by == cy -> uncurry footInside (begin t) <> feet (u : more)
       t : more -> uncurry footInside (begin t) <> uncurry footInside (finish t) <> feet more
     footInside x y = [m | isAbout x y, let m = foot e x y, m > 0, m < 1]
-    isAbout x y = case e of
+    isAbout x y = case bare e of
       Line {} -> True
       Bow {} -> inSector e x y
     rising ms = case ms of
@@ -515,19 +507,19 @@ mostParts :: Int
 mostParts = 64
 
 -- | Its ends.
-begin, finish :: Course -> (Double, Double)
-begin t = case t of
+begin, finish :: Segment -> (Double, Double)
+begin t = case bare t of
   Line ax ay _ _ -> (ax, ay)
   Bow ax ay _ _ _ _ _ _ -> (ax, ay)
-finish t = case t of
+finish t = case bare t of
   Line _ _ bx by -> (bx, by)
   Bow _ _ bx by _ _ _ _ -> (bx, by)
 {-# INLINE begin #-}
 {-# INLINE finish #-}
 
 -- | Where the foot of a point lies on a course, as a share of its length; of an arc in its sense from its beginning on.
-foot :: Course -> Double -> Double -> Double
-foot e !x !y = case e of
+foot :: Segment -> Double -> Double -> Double
+foot e !x !y = case bare e of
   Line ax ay bx by -> shareOf ax ay bx by x y
   Bow ax ay _ _ cx cy _ s ->
     let vx = ax - cx
@@ -536,7 +528,7 @@ foot e !x !y = case e of
      in if turned < 0 then turned + 2 * pi / abs s else turned
 
 -- | The two parts of a course before and behind the foot of a point, if that lies on it.
-divided :: Double -> Double -> Course -> Maybe (Course, Course)
+divided :: Double -> Double -> Segment -> Maybe (Segment, Segment)
 divided x y e
   | isAbout, m > 0, m < 1 = Just (between e 0 m, between e m 1)
   | otherwise = Nothing
@@ -545,39 +537,40 @@ divided x y e
     isAbout = isLine e || inSector e x y
 
 -- | The part of a course between two shares of its length.
-between :: Course -> Double -> Double -> Course
-between e a b = case e of
-  Line {} -> Line px py qx qy
-  Bow _ _ _ _ cx cy r s -> Bow px py qx qy cx cy r (s * (b - a))
+between :: Segment -> Double -> Double -> Segment
+between e a b = case bare e of
+  Line {} -> Straight p q
+  Bow _ _ _ _ cx cy _ s -> Arc p q (Point cx cy) (Rad (s * (b - a)))
   where
-    (px, py) = at e a
-    (qx, qy) = at e b
+    p = pointAt a
+    q = pointAt b
+    pointAt t = let (x, y) = at e t in Point x y
 
 -- | Whether all of a course surely lies to the left of an element, or of the circle or line that carries it.
-isLeftOf :: Course -> Course -> Bool
-isLeftOf t e = case e of
+isLeftOf :: Segment -> Segment -> Bool
+isLeftOf t e = case bare e of
   Line ax ay bx by -> case across ax ay bx by t of Span low _ -> low > unsure
   Bow _ _ _ _ cx cy r s -> if s > 0 then isInside cx cy (r - unsure) t else isOutside cx cy (r + unsure) t
 
-isRightOf :: Course -> Course -> Bool
-isRightOf t e = case e of
+isRightOf :: Segment -> Segment -> Bool
+isRightOf t e = case bare e of
   Line ax ay bx by -> case across ax ay bx by t of Span _ high -> high < -unsure
   Bow _ _ _ _ cx cy r s -> if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
 -- | Whether all of a course lies within a distance of a point, or all of it beyond.
-isInside, isOutside :: Double -> Double -> Double -> Course -> Bool
+isInside, isOutside :: Double -> Double -> Double -> Segment -> Bool
 isInside cx cy r t = case spanFrom cx cy t of Span _ high -> high < r
 isOutside cx cy r t = case spanFrom cx cy t of Span low _ -> low > r
 
 -- | Whether the foot of a point may fall on a course rather than before or behind it.
-spansAbout :: Course -> Double -> Double -> Bool
-spansAbout e !px !py = case e of
+spansAbout :: Segment -> Double -> Double -> Bool
+spansAbout e !px !py = case bare e of
   Line ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
   Bow _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure
 
 -- | Where the foot of a point lies on a course, as a share of its length; of one before or behind it the nearer end.
-footOn :: Course -> Double -> Double -> Double
-footOn e !px !py = case e of
+footOn :: Segment -> Double -> Double -> Double
+footOn e !px !py = case bare e of
   Line ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
   Bow ax ay bx by _ _ _ _
     | inSector e px py -> max 0 (min 1 (foot e px py))

@@ -40,7 +40,6 @@ import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
-import Verify.Course (Course)
 import Verify.Course qualified as Course
 import Verify.Cover qualified as Cover
 import Verify.Passage (Edge (course, element, left, long, rank), Job (..))
@@ -49,7 +48,7 @@ import Verify.Pointed qualified as Pointed
 import Verify.Proof (Finding (..), Passage (..), Witness (Witness, amount, frame, place))
 import Verify.Proof qualified
 import Verify.Reachable qualified as Reachable
-import Verify.Trace (Trace (number, part), box, bridges, courses, fromHeight, heights, isUpright, line, toHeight, trail, ways)
+import Verify.Trace (Trace (number, part), box, bridges, courses, fromHeight, heights, isUpright, line, toHeight, ways)
 import Verify.Trace qualified as Trace
 import Prelude hiding (lines)
 
@@ -90,7 +89,7 @@ examine machine flat toolOf isFirst traces nearby Pass {job, level, found} = (pa
     missed = if mayStay && not isFirst then [] else concat [uncut job {reach = plus (reach job) more, allowance = mayLeave} covered milledIndex (if mayStay then concatMap (touchable (plus (reach job) more)) es else es) | (more, es) <- byAllowance (Nearest.toList (edges job))]
     -- What the cutter cannot touch may stay, where that is allowed.
     touchable distance e = case (Part.rest (milling job), side job) of
-      (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = Course.ofSegment s} | s <- Reachable.parts keeps distance kept (Part.segment (element e))]
+      (Part.Allowed, Just keeps) -> [e {element = (element e) {Part.segment = s}, course = s} | s <- Reachable.parts keeps distance kept (Part.segment (element e))]
       _ -> [e]
     -- The distances that the cutter's centre keeps from elements.
     kept = [(plus (reach job) more, Nearest.index Box.ofSegment (map (Part.segment . element) es)) | (more, es) <- byAllowance (Nearest.toList (edges job))]
@@ -133,7 +132,7 @@ data Spared = Spared {upTo :: Mm, most :: Mm, required :: Element -> Point -> Mm
 
 -- | What is seen along the strokes: the deepest cut, where they stray with the last one first, the first one on the wrong side; the courses of the stroke
 -- that was last seen to follow the contour.
-data Seen = Seen {cut :: Maybe Witness, strays :: [Witness], wrongly :: Maybe Finding, behind :: [Course]}
+data Seen = Seen {cut :: Maybe Witness, strays :: [Witness], wrongly :: Maybe Finding, behind :: [Segment]}
 
 -- | Look along the strokes that have to spare a contour and those that have to follow it, both in the order of the tape. Each
 -- asks once for the elements around it. With what is seen comes for each element, by its number, how far any point of it is at most from one of the strokes that
@@ -157,7 +156,7 @@ lookAlong job spared mayLeave looked0 within0 = runST $ do
         known <- PrimArray.readPrimArray ranges (rank e)
         -- Nearer than it has to be tells no more.
         when (known > enough) $ do
-          let far = furthestFrom known before (Course.begin (trail t)) ls e
+          let far = furthestFrom known before (Course.begin (line t)) ls e
           when (far < known && all (isSurelyOn job (course e)) ls) (PrimArray.writePrimArray ranges (rank e) far)
   seen <- go (Seen Nothing [] Nothing []) (views looked0) within0
   frozen <- PrimArray.unsafeFreezePrimArray ranges
@@ -192,7 +191,7 @@ lookAlong job spared mayLeave looked0 within0 = runST $ do
           }
 
 -- | A stroke with the elements that it may touch and its courses.
-data View = View {trace :: Trace, close :: [Edge], lines :: [Course]}
+data View = View {trace :: Trace, close :: [Edge], lines :: [Segment]}
 
 -- | The deeper one of two cuts, the first one if they are equally deep.
 deeper :: Maybe Witness -> Witness -> Maybe Witness
@@ -202,10 +201,10 @@ deeper best w = case best of
 
 -- | Whether a stroke of some courses may cut deeper than the deepest so far into elements around it, by what can be told without
 -- comparing exactly. The courses of an arc differ by as much as its radii.
-mayExceed :: Spared -> Maybe Witness -> Trace -> [Course] -> [Edge] -> Bool
-mayExceed spared best t lines' = any (\e -> Course.apartAtLeast (trail t) (course e) < least + off && Course.apart (trail t) (course e) < least + off && (off <= 0 || any (\c -> Course.apart c (course e) < least) (lines' <> bridges t)))
+mayExceed :: Spared -> Maybe Witness -> Trace -> [Segment] -> [Edge] -> Bool
+mayExceed spared best t lines' = any (\e -> Course.apartAtLeast (line t) (course e) < least + off && Course.apart (line t) (course e) < least + off && (off <= 0 || any (\c -> Course.apart c (course e) < least) (lines' <> bridges t)))
   where
-    off = Course.uneven (trail t)
+    off = Course.uneven (line t)
     least = let Mm d = most spared in d - maybe 0 (\w -> let Mm a = amount w in a) best + Course.unsure
 
 -- | How deep a stroke cuts into the contour, if it does: how much nearer it comes to an element than it may.
@@ -265,7 +264,7 @@ uncut job known index = go (Mm 0)
     others e = Cover.Others {Cover.index, Cover.lines = ways, Cover.counts = all (onLeadingSide job (Part.segment e)) . ways, Cover.reach = reach job, Cover.allowance = allowance job}
 
 -- | Whether all of a course surely lies on the side of an element on which the cutter has to stand.
-isSurelyOn :: Job -> Course -> Course -> Bool
+isSurelyOn :: Job -> Segment -> Segment -> Bool
 isSurelyOn job e c = case side job of
   Nothing -> True
   Just Offset.LeftOf -> Course.isLeftOf c e
@@ -307,7 +306,7 @@ wrongSide job View {trace = t, close} = case side job of
   Nothing -> Nothing
   Just keeps -> listToMaybe (mapMaybe (\p -> if mayBe keeps p then beside keeps p else Nothing) looked)
   where
-    looked = map (\k -> Segment.at k (line t)) (if Course.isLine (trail t) then [0.5] else let ks = Trace.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) ks)
+    looked = map (\k -> Segment.at k (line t)) (if Course.isLine (line t) then [0.5] else let ks = Trace.places t in zipWith (\a b -> (a + b) / 2) (0 : ks) ks)
     -- Of those that are nearest, to a hair, one may have the place on its wrong side.
     mayBe keeps p = least > a - Course.unsure && any (\e -> Course.mayLieWithin (least + Course.unsure) (long e) (course e) x y && Course.distance (course e) x y <= least + Course.unsure && Course.spansAbout (course e) x y && wrong e) near
       where

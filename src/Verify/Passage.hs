@@ -41,9 +41,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
-import Verify.Course (Course)
 import Verify.Course qualified as Course
-import Verify.Trace (Trace (number), line)
+import Verify.Trace (Trace (line, number))
 import Verify.Trace qualified as Trace
 
 -- | A contour to be found on the tape.
@@ -77,7 +76,7 @@ data Edge = Edge
     left :: Mm,
     -- | it goes on with the curve of the element before
     continues :: Bool,
-    course :: Course
+    course :: Segment
   }
 
 -- | The elements of a contour by their places.
@@ -92,7 +91,7 @@ edgesOf job = Nearest.indexOf (NonEmpty.length walked) (Course.box . course) (go
       element : more ->
         let Mm long = Segment.length (Part.segment element)
             behind = before + long
-            edge = Edge {element, rank, before, long, left = Part.allowance (Part.finish element), continues = Part.continues element, course = Course.ofSegment (Part.segment element)}
+            edge = Edge {element, rank, before, long, left = Part.allowance (Part.finish element), continues = Part.continues element, course = Part.segment element}
          in edge `seq` behind `seq` (edge : go (rank + 1) behind more)
 
 -- | The strokes of one contour.
@@ -333,9 +332,9 @@ closeToEach job = Nearest.each (Box.inflate (reaches job) . Trace.box) (isClose 
 
 -- | Whether a cutter whose centre goes along a stroke may touch an element.
 isClose :: Job -> Trace -> Edge -> Bool
-isClose job t = \e -> Course.mayComeWithin far (long e) (course e) (Trace.trail t)
+isClose job t = \e -> Course.mayComeWithin far (long e) (course e) (line t)
   where
-    far = let Mm r = reaches job in r + Course.uneven (Trace.trail t)
+    far = let Mm r = reaches job in r + Course.uneven (line t)
 {-# INLINE isClose #-}
 
 -- | The same, and some around it.

@@ -6,7 +6,6 @@ module Verify.Trace
   ( Trace (..),
     tracesOf,
     heights,
-    line,
     ways,
     courses,
     bridges,
@@ -28,7 +27,6 @@ import Geometry.Box (Box)
 import Geometry.Box qualified as Box
 import Geometry.Segment (Segment (..))
 import Machine.Machine (Machine)
-import Verify.Course (Course)
 import Verify.Course qualified as Course
 
 -- | In the plane a trace is without length when it goes straight up or down.
@@ -37,7 +35,7 @@ data Trace = Trace
     number :: Int,
     -- | which part of the stroke, from 0
     part :: Int,
-    trail :: Course,
+    line :: Segment,
     -- | the heights at its beginning and at its end
     fromHeight :: Mm,
     toHeight :: Mm
@@ -52,37 +50,34 @@ tracesOf machine m behind = go 0 (Compensation.legs m)
     go n (leg :| legs) = case legs of
       [] -> let t = trace n leg to in t `seq` (t : behind)
       next : more -> let t = trace n leg from in t `seq` (t : go (n + 1) (next :| more))
-    trace n leg end = Trace {number = Control.number s, part = n, trail = Course.ofSegment leg, fromHeight = from, toHeight = end}
+    trace n leg end = Trace {number = Control.number s, part = n, line = leg, fromHeight = from, toHeight = end}
 
 -- | At its beginning and at its end.
 heights :: Trace -> (Mm, Mm)
 heights t = (fromHeight t, toHeight t)
-
-line :: Trace -> Segment
-line = Course.segment . trail
 
 -- | The ways between which the control goes there.
 ways :: Trace -> NonEmpty Segment
 ways = Control.between . line
 
 -- | The same as bare numbers …
-courses :: Trace -> [Course]
+courses :: Trace -> [Segment]
 courses t
-  | Course.isLine (trail t) = [trail t]
-  | otherwise = map Course.ofSegment (NonEmpty.toList (ways t))
+  | Course.isLine (line t) = [line t]
+  | otherwise = NonEmpty.toList (ways t)
 
 -- | … and the ways across from one to another.
-bridges :: Trace -> [Course]
+bridges :: Trace -> [Segment]
 bridges t
-  | Course.isLine (trail t) = []
-  | otherwise = map Course.ofSegment (Control.across (ways t))
+  | Course.isLine (line t) = []
+  | otherwise = Control.across (ways t)
 
 -- | All of the ways lie in it.
 box :: Trace -> Box
-box t = case Course.uneven (trail t) of
-  0 -> Course.box (trail t)
+box t = case Course.uneven (line t) of
+  0 -> Course.box (line t)
   -- The ends of a way lie beside those of the stroke, and its bow is higher by no more.
-  off -> Box.inflate (Mm (2 * off)) (Course.box (trail t))
+  off -> Box.inflate (Mm (2 * off)) (Course.box (line t))
 
 -- | Whether two are the same part of the same stroke.
 isSame :: Trace -> Trace -> Bool

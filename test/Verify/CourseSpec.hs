@@ -17,18 +17,18 @@ spec = do
     property $
       forAll ((,) <$> point <*> segment) $ \(p, s) ->
         let Mm d = Distance.toPoint p s
-            found = Course.distance (Course.ofSegment s) (Vec.x p) (Vec.y p)
+            found = Course.distance s (Vec.x p) (Vec.y p)
          in counterexample (show (d, found)) (abs (d - found) <= 1e-9)
   it "two are as far apart as they are, or not told to be further (catches a crossing or a normal that is forgotten)" $
     property $
       forAll pair $ \(a, b) ->
         let Distance.Nearest (Mm d) _ = Distance.segments a b
-            found = Course.apart (Course.ofSegment a) (Course.ofSegment b)
+            found = Course.apart a b
          in counterexample (show (d, found)) (found <= d + 1e-9 && found >= d - 1e-6)
   it "no point of one is further from the other than is told (catches an arc that bulges between its ends)" $
     property $
       forAll pair $ \(a, b) ->
-        let told = Course.furthest (Course.ofSegment a) (Course.ofSegment b)
+        let told = Course.furthest a b
             sampled = maximum [d | k <- [0 .. 200 :: Int], let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 200) a) b]
          in classify (told < sampled + 1e-3) "tight" $ counterexample (show (told, sampled)) (told >= sampled - 1e-9)
   it "what is surely covered is covered (catches a part between two that belongs to neither)" $
@@ -37,14 +37,14 @@ spec = do
         forAll (beside r others) $ \s ->
           forAll (choose (0.9, 1.3)) $ \share ->
             let reach = share * r
-                surely = Course.isCovered reach (pure . Course.ofSegment) (const True) others (Course.ofSegment s)
+                surely = Course.isCovered reach pure (const True) others s
                 gaps = Distance.uncovered (Mm reach) others s
              in classify surely "covered" $ counterexample (show gaps) (not surely || all (\(from, to) -> to - from < 1e-6) gaps)
   it "two are as far apart as is told at least (catches a bulge that comes nearer than both ends)" $
     property $
       forAll pair $ \(a, b) ->
         let Distance.Nearest (Mm d) _ = Distance.segments a b
-            told = Course.apartAtLeast (Course.ofSegment a) (Course.ofSegment b)
+            told = Course.apartAtLeast a b
          in classify (told > d - 1e-6) "tight" $ counterexample (show (d, told)) (told <= d + 1e-9)
   it "what may come near is not left out (catches a length that is not added)" $
     property $
@@ -53,22 +53,21 @@ spec = do
             Mm long = Segment.length a
             p = Segment.start b
             Mm e = Distance.toPoint p a
-         in counterexample (show (d, e)) ((d > r || Course.mayComeWithin r long (Course.ofSegment a) (Course.ofSegment b)) && (e > r || Course.mayLieWithin r long (Course.ofSegment a) (Vec.x p) (Vec.y p)))
+         in counterexample (show (d, e)) ((d > r || Course.mayComeWithin r long a b) && (e > r || Course.mayLieWithin r long a (Vec.x p) (Vec.y p)))
   it "what is surely accompanied is covered (catches a curve that goes round the other way, and one with a gap)" $
     property $
       forAll ((,,) <$> chain <*> choose (0.5, 12) <*> arbitrary) $ \(others, r, backwards) ->
         forAll (oneof [beside r others, wayAlong r others]) $ \s -> forAll (sublistOf others) $ \some ->
           let reach = 1.1 * r
-              surely ss = Course.isAccompanied reach (map Course.ofSegment ss) (Course.ofSegment (if backwards then Segment.reverse s else s))
+              surely ss = Course.isAccompanied reach ss (if backwards then Segment.reverse s else s)
               gaps ss = filter (\(from, to) -> to - from > 1e-6) (Distance.uncovered (Mm reach) ss s)
            in classify (surely others) "accompanied" $ counterexample (show (gaps others, gaps some)) (all (\ss -> not (surely ss) || null (gaps ss)) [others, some])
   it "is divided where the foot of a point lies (catches parts that do not meet, or that make less than the whole)" $
     property $
-      forAll ((,) <$> point <*> segment) $ \(p, s) -> case Course.divided (Vec.x p) (Vec.y p) (Course.ofSegment s) of
+      forAll ((,) <$> point <*> segment) $ \(p, s) -> case Course.divided (Vec.x p) (Vec.y p) s of
         Nothing -> property True
-        Just (a, b) ->
-          let (q, r) = (Course.segment a, Course.segment b)
-              apart u v = let Mm d = Vec.distance u v in d
+        Just (q, r) ->
+          let apart u v = let Mm d = Vec.distance u v in d
               Mm away = Distance.toPoint p s
               Mm far = Distance.toPoint (Segment.end q) s
            in counterexample (show (q, r)) $
@@ -79,8 +78,7 @@ spec = do
     property $
       forAll pair $ \(t, e) ->
         let points = [Segment.at (fromIntegral k / 200) t | k <- [0 .. 200 :: Int]]
-            (c, d) = (Course.ofSegment t, Course.ofSegment e)
-         in counterexample (show (Course.isLeftOf c d, Course.isRightOf c d)) ((not (Course.isLeftOf c d) || all (isLeft e) points) && (not (Course.isRightOf c d) || not (any (isLeft e) points)))
+         in counterexample (show (Course.isLeftOf t e, Course.isRightOf t e)) ((not (Course.isLeftOf t e) || all (isLeft e) points) && (not (Course.isRightOf t e) || not (any (isLeft e) points)))
   where
     isLeft e p = case e of
       Straight a b -> Vec.cross (Vec.to a b) (Vec.to a p) > 0
