@@ -6,10 +6,12 @@ import Cli.Options qualified as Options
 import Cli.Output (Exit (..))
 import Cli.Run qualified as Run
 import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException)
+import Data.Text qualified as Text
 import Data.Version (showVersion)
 import GHC.IO.Encoding (mkTextEncoding, setFileSystemEncoding, setLocaleEncoding, utf8)
 import Options.Applicative qualified as Opt
 import Paths_partc (version)
+import System.Environment (getArgs, getProgName)
 import System.Exit (ExitCode (..), exitWith)
 import System.IO (hPutStrLn, hSetEncoding, stderr, stdin, stdout)
 
@@ -24,8 +26,12 @@ main = do
 
 work :: IO ExitCode
 work = do
-  invocation <- Opt.customExecParser (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version))
-  statusOf <$> Run.run invocation
+  parsed <- Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version)) <$> getArgs
+  name <- getProgName
+  statusOf <$> case parsed of
+    -- The help and the version are results as well.
+    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Run.told (Text.pack text <> "\n")
+    _ -> Opt.handleParseResult parsed >>= Run.run
 
 statusOf :: Exit -> ExitCode
 statusOf end = case end of

@@ -47,6 +47,7 @@ table checker name written = case written of
   Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
     mapM_ twice (zip [0 ..] columns)
+    mapM_ meant (map called columns)
     mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing at (Name n)))) ["x", "y"]
     rows' <- rowsOf checker columns rows
     let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
@@ -63,6 +64,8 @@ table checker name written = case written of
         [] -> pure ()
         where
           columnsBefore = [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
+      -- In what is asked along a curve of the table a column stands by its bare name, as a constant does.
+      meant (Located place n@(Name text)) = when (maybe False Builtin.isConstant (Builtin.lookup text)) (Infer.mistake (NameTaken place n))
   Located _ Surface.BrokenLine : _ -> missing <$ Infer.taint
   _ -> missing <$ Infer.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
   where

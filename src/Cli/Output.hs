@@ -3,6 +3,7 @@ module Cli.Output
   ( Format (..),
     ColourChoice (..),
     Settings (..),
+    plainly,
     Exit (..),
     Reporter (settings),
     reporting,
@@ -24,7 +25,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Data.Text.IO qualified as Text
-import Foreign.C.Error (Errno (Errno), ePIPE)
+import Foreign.C.Error (Errno (Errno), eBADF, ePIPE)
 import GHC.IO.Exception (IOErrorType (..), IOException (ioe_errno, ioe_type))
 import Report.Explanation qualified as Explanation
 import Report.Human qualified as Human
@@ -59,6 +60,10 @@ data Settings = Settings
   }
   deriving stock (Eq, Show)
 
+-- | Where nothing was asked.
+plainly :: Settings
+plainly = Settings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
+
 -- | How a command ended.
 data Exit
   = Done
@@ -74,10 +79,13 @@ ioProblem e
   | isDoesNotExistError e = "there is no such file or folder"
   | isPermissionError e = "permission denied"
   | isFullError e = "the disk is full"
+  | ioe_errno e == Just closed = "it is closed"
   | otherwise = case ioe_type e of
     InappropriateType -> "it is not a file"
     InvalidArgument -> "this is not a possible file name"
     _ -> Text.pack (ioeGetErrorString e)
+  where
+    Errno closed = eBADF
 
 -- | How a run reports. A format with one log for all is kept until the end, the latest first.
 data Reporter = Reporter {settings :: Settings, kept :: IORef [Filed]}

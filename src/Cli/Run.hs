@@ -3,6 +3,7 @@
 -- | The commands.
 module Cli.Run
   ( run,
+    told,
     checked,
   )
 where
@@ -64,6 +65,10 @@ import Tape.Tape (Tape (..))
 -- | Run a command.
 run :: Invocation -> IO Exit
 run (Invocation settings command) = Output.reporting settings (`perform` command)
+
+-- | Print what the command line says of itself.
+told :: Text -> IO Exit
+told text = Output.reporting Output.plainly (`printed` text)
 
 perform :: Reporter -> Command -> IO Exit
 perform reporter command = case command of

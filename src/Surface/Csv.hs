@@ -134,10 +134,12 @@ headings separator line = case partitionEithers (map heading (NonEmpty.toList (f
   ([], h : hs) -> ([], Located (region line) (Header (h :| hs)))
   (wrong, _) -> (wrong, Located (region line) BrokenLine)
   where
-    heading (Located at text) = case Text.words (Text.map (\c -> if c `elem` ("[]()" :: String) then ' ' else c) text) of
+    heading (Located at text) = case if isHollow text then [] else Text.words (Text.map (\c -> if c `elem` ("[]()" :: String) then ' ' else c) text) of
       [word] | isName word -> Right (Heading (Located at (Name word)) Nothing)
       [word, unit] | isName word, u : _ <- [u | u <- columnUnits, unitName u == unit] -> Right (Heading (Located (Region (start at) (start at + Text.length word)) (Name word)) (Just u))
       _ -> Left (BadHeading at text)
+    -- Brackets without a unit say nothing.
+    isHollow text = any (`Text.isInfixOf` Text.filter (not . isSpace) text) ["[]", "()"]
     isName word = Text.all (\c -> isAlphaNum c || c == '_') word && Text.any isAlpha (Text.take 1 word) && not (Keyword.isReserved word)
 
 -- | A row, which has its number from 1, with a cell for each column, if those are known.

@@ -205,6 +205,18 @@ spec = do
       (code, _, err) <- readCreateProcessWithExitCode (shell "partc report examples/flange.part > /dev/full") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "the disk is full"
+    it "what the command line says of itself is not lost on it either" $
+      mapM_
+        ( \command -> do
+            (code, _, err) <- readCreateProcessWithExitCode (shell ("partc " <> command <> " > /dev/full")) ""
+            code `shouldBe` ExitFailure 1
+            err `shouldSatisfy` isInfixOf "the disk is full"
+        )
+        ["--help", "--version", "compile --help"]
+    it "standard output that is closed is a report" $ do
+      (code, _, err) <- readCreateProcessWithExitCode (shell "partc report examples/flange.part >&-") ""
+      code `shouldBe` ExitFailure 1
+      err `shouldSatisfy` isInfixOf "cannot write to standard output: it is closed"
     it "Cyrillic comes through under any locale" $ do
       (code, out, _) <- readCreateProcessWithExitCode (shell "LC_ALL=C partc report examples/flange.part") ""
       code `shouldBe` ExitSuccess
