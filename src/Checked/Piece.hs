@@ -47,7 +47,7 @@ table checker name written = case written of
   Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
     mapM_ twice (zip [0 ..] columns)
-    mapM_ meant (map called columns)
+    mapM_ (meant . called) columns
     mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing at (Name n)))) ["x", "y"]
     rows' <- rowsOf checker columns rows
     let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
