@@ -14,12 +14,14 @@ module Geometry.Box
     within,
     select,
     pairs,
+    closest,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -119,6 +121,36 @@ pairs i = inside i []
       (Node p a a', Node q b b') -> if meets p q then across a b (across a b' (across a' b (across a' b' rest))) else rest
       (Empty, _) -> rest
       (_, Empty) -> rest
+
+-- | What a measure makes of two things, one of each index, that are nearest to one another; of several it is one of them. The
+-- distance that the measure tells is no less than that of their boxes, but for 'Tolerance.coincident': both are rounded.
+closest :: (a -> b -> c) -> (c -> Mm) -> Index a -> Index b -> Maybe c
+closest measure distanceOf = go Nothing
+  where
+    go best one other
+      | Just c <- best, minus (apart (around one) (around other)) Tolerance.coincident > distanceOf c = best
+      | otherwise = case (one, other) of
+        (Leaf _ a, Leaf _ b) -> better best (measure a b)
+        (Leaf _ _, Node _ b b') -> nearer best (one, b) (one, b')
+        (Node _ a a', Leaf _ _) -> nearer best (a, other) (a', other)
+        (Node p a a', Node q b b')
+          | size p > size q -> nearer best (a, other) (a', other)
+          | otherwise -> nearer best (one, b) (one, b')
+        (Empty, _) -> best
+        (_, Empty) -> best
+    better best c = case best of
+      Just b | distanceOf b <= distanceOf c -> best
+      _ -> Just c
+    nearer best (a, b) (a', b')
+      | apart (around a) (around b) <= apart (around a') (around b') = go (go best a b) a' b'
+      | otherwise = go (go best a' b') a b
+    size (Box l b r t) = (r - l) + (t - b)
+
+-- | The distance of two boxes, none if they meet.
+apart :: Box -> Box -> Mm
+apart (Box l b r t) (Box l' b' r' t') = Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
+  where
+    gap low high low' high' = max 0 (max (low' - high) (low - high'))
 
 -- | The distance of a point from a box, none inside.
 distance :: Point -> Box -> Mm

@@ -27,6 +27,7 @@ import Data.Containers.ListUtils (nubOrd)
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
@@ -141,21 +142,21 @@ stretch p a b = [piece i | i <- [i1 .. i2], let Mm l = Segment.length (piece i),
 -- as both are off; where they touch they may cross twice, and that is one point.
 meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 meetings a b = case touching (crossings a b) of
-  [] | gap a b <= slack -> [place (minimumBy (comparing distance) [Distance.segments s g | s <- NonEmpty.toList a, g <- NonEmpty.toList b])]
+  [] | closest <- nearest a b, distance closest <= slack -> [place closest]
   ps -> ps
   where
     slack = plus Tolerance.curve Tolerance.curve
     whole = fromSegments a
     touching ps = case ps of
       p : q : rest
-        | toOther middle <= slack && Vec.distance p q < closest -> touching (middle : rest)
+        | toOther middle <= slack && Vec.distance p q < touch -> touching (middle : rest)
         where
           middle = at whole (let (Mm s, Mm t) = (station whole p, station whole q) in Mm ((s + t) / 2))
       p : rest -> p : touching rest
       [] -> []
     toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
     -- Curves that run along one another for longer do not just touch.
-    closest = Mm 0.5
+    touch = Mm 0.5
 
 -- | The points where two chains cross, in the order of the first one.
 crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
@@ -171,4 +172,10 @@ crossings a b = apart (concatMap (\s -> concatMap (inOrder s . Distance.crossing
 
 -- | The least distance of two chains.
 gap :: NonEmpty Segment -> NonEmpty Segment -> Mm
-gap a b = minimum [distance (Distance.segments s g) | s <- NonEmpty.toList a, g <- NonEmpty.toList b]
+gap a b = distance (nearest a b)
+
+-- | Where two chains come nearest to one another.
+nearest :: NonEmpty Segment -> NonEmpty Segment -> Nearest
+nearest a b = fromMaybe (Distance.segments (NonEmpty.head a) (NonEmpty.head b)) (Box.closest Distance.segments distance (indexOf a) (indexOf b))
+  where
+    indexOf = Box.index Box.ofSegment . NonEmpty.toList

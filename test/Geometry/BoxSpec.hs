@@ -25,5 +25,11 @@ spec = describe "an index" $ do
         let numbered = zip [0 :: Int ..] ss
             meet (_, s) (_, t) = Box.meets (Box.ofSegment s) (Box.ofSegment t)
          in sort (map (bimap fst fst) (Box.pairs (Box.index (Box.ofSegment . snd) numbered))) === [(fst a, fst b) | a <- numbered, b <- numbered, fst a < fst b, meet a b]
+  it "finds the two things that are nearest to one another (catches a nearer one behind a box that is further)" $
+    property $
+      forAll ((,) <$> curve <*> curve) $ \(ss, others) ->
+        let indexed = Box.index Box.ofSegment
+            found = Box.closest Distance.segments Distance.distance (indexed ss) (indexed others)
+         in fmap Distance.distance found === Just (minimum [Distance.distance (Distance.segments s o) | s <- ss, o <- others])
   where
     curve = oneof [Curve.open, Curve.closed]
