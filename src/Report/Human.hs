@@ -12,7 +12,7 @@ import Base.Region qualified as Region
 import Data.List (sortOn)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Excerpt (Excerpt (indent, shown, width))
+import Report.Excerpt (Excerpt (indent, isSame, shown, width))
 import Report.Excerpt qualified as Excerpt
 import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..))
 import Report.Report qualified as Report
@@ -40,7 +40,7 @@ render colour path source report = Text.unlines (heading : location <> body <> a
       InTape _ -> map (False,) (others r)
       InFile -> map (False,) (others r)
     ordered = sortOn (\(_, Label region _) -> start region) marks
-    excerpts = [(isMain, Excerpt.excerpt source region, words') | (isMain, Label region words') <- ordered]
+    excerpts = [(isMain, e, words') | ((isMain, Label _ words'), e) <- zip ordered (Excerpt.excerpts source [region | (_, Label region _) <- ordered])]
     gutter = maximum (1 : [Text.length (number' e) | (_, e, _) <- excerpts])
     bar = Text.replicate (gutter + 1) " " <> paint' Frame "|"
     location = [Text.replicate gutter " " <> paint' Frame "--> " <> where' | where' /= ""]
@@ -52,15 +52,11 @@ render colour path source report = Text.unlines (heading : location <> body <> a
     body = concat (zipWith shownAt (Nothing : map Just excerpts) excerpts)
     -- Nothing between two marks of one line; a heading where another file begins.
     shownAt before (isMain, e, words') =
-      [bar | not joined]
+      [bar | not (isSame e)]
         <> [Text.replicate gutter " " <> paint' Frame "::: " <> written (Excerpt.place e) | fileOf e /= fileBefore]
-        <> [ paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
-             | not joined
-           ]
+        <> [paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e | not (isSame e)]
         <> [bar <> " " <> Text.replicate (indent e) " " <> mark isMain e words']
       where
-        at = Excerpt.place e
-        joined = maybe False (\(_, b, _) -> fileOf b == fileOf e && line (Excerpt.place b) == line at) before
         fileBefore = maybe mainPlace (\(_, b, _) -> fileOf b) before
     fileOf e = let Position {file} = Excerpt.place e in file
     -- The excerpts begin in the file that the heading names.
