@@ -14,7 +14,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Contour (Contour (Contour), Ends (..))
 import Geometry.Contour qualified as Contour
-import Geometry.Offset (Rest (..))
+import Geometry.Offset (Rest (..), Standing (..))
 import Geometry.Vec qualified as Vec
 import Part.Part qualified as Part
 import Path.Error (Stay (..), Tool)
@@ -43,6 +43,9 @@ row tool (stay, rest) = case stay of
   InHollow _ radius largest -> at (middle rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
   Between _ _ p largest -> at p (fitting largest) "narrow place, with the cutter's centre here"
   where
-    at p largest why = [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), maybe "" area (NonEmpty.nonEmpty (standing rest)), largest, why]
+    at p largest why = case standing rest of
+      Within outline -> from p (Decimal.fixed 3 (abs (Contour.signedArea (Contour Closed outline)))) largest why
+      SameAs q -> from p "" largest (why <> ", part of what stays at " <> Vec.written 3 q)
+      Unbounded -> from p "" largest why
+    from p area largest why = [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), area, largest, why]
     fitting = maybe "none" (Error.fitting tool)
-    area outline = Decimal.fixed 3 (abs (Contour.signedArea (Contour Closed outline)))

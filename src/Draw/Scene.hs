@@ -134,7 +134,11 @@ millingOf operation = case operation of
 restsOf :: Path -> [[Segment]]
 restsOf path = nubOrd (concatMap drawn (Remaining.ofPath path))
   where
-    drawn Remaining {beside, places} = [if null outline then spot (Offset.middle f) beside else outline | (_, f) <- NonEmpty.toList places, let outline = Offset.standing f]
+    drawn Remaining {beside, places} = concatMap (\(_, f) -> material beside f) (NonEmpty.toList places)
+    material beside f = case Offset.standing f of
+      Offset.Within outline -> [NonEmpty.toList outline]
+      Offset.SameAs _ -> []
+      Offset.Unbounded -> [spot (Offset.middle f) beside]
     spot p (Mm r) = [Segment.fullCircle CounterClockwise (Circle p (Mm (r / 4))) (Vec.shift (Vec.vec (r / 4) 0) p)]
 
 -- | The holes that are drilled.

@@ -20,6 +20,7 @@ module Geometry.Offset
     styled,
     Way (..),
     Rest (..),
+    Standing (..),
     reachable,
     reachableFitting,
   )
@@ -43,7 +44,8 @@ import Geometry.Contour (Contour (..), Ends (..))
 import Geometry.Contour qualified as Contour
 import Geometry.Distance (Nearest (..))
 import Geometry.Distance qualified as Distance
-import Geometry.Offset.Way (Origin (..), Piece (..), Side (..), Style (..), Way (Way), numberOf, radiusAt)
+import Geometry.Offset.Standing (Standing (..), standings)
+import Geometry.Offset.Way (Origin (..), Piece (..), Side (..), Style (..), Way (Way), leftward, numberOf, radiusAt)
 import Geometry.Offset.Way qualified as Way
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -231,12 +233,6 @@ along side (Mm r) number s = case s of
         moved p = Vec.shift (Vec.scale (after / before) (Vec.to centre p)) centre
      in Piece (Along number) Arc {start = moved start, end = moved end, centre, sweep}
 
--- | +1 when the cutter is on the left.
-leftward :: Side -> Double
-leftward side = case side of
-  LeftOf -> 1
-  RightOf -> -1
-
 -- | What is behind a segment.
 data Corner
   = -- | a way round it, or none is needed
@@ -333,9 +329,8 @@ largestOf fits low high = fst (Search.turningPoint Tolerance.resolution fits low
 
 -- What can be reached --------------------------------------------------------------------------------
 
--- | Material that stays because the cutter cannot get at it: what stops the cutter, the place of its centre then, and what
--- bounds the material, if it is all that lies along the contour there.
-data Rest = Rest {stop :: Obstacle, middle :: Point, standing :: [Segment]}
+-- | Material that stays because the cutter cannot get at it: what stops the cutter, the place of its centre then, and the material.
+data Rest = Rest {stop :: Obstacle, middle :: Point, standing :: Standing}
   deriving stock (Eq, Show)
 
 -- | The ways beside a contour that the centre can go, in the order of the contour; and for every place where a stretch of it is cut
@@ -346,18 +341,10 @@ reachable style side radius contour = (if sharp style then map (sharpened style 
     -- Round corners reach furthest.
     rolling = style {sharp = False}
     ways = Way.along rolling side radius contour
-    whole = Vector.fromList (NonEmpty.toList (segments contour))
-    onWays = IntMap.fromListWith (<>) [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
     stops = cuts contour (radiusAt style radius) ways
     past = largestPast rolling side radius contour [cause | (cause, _, _, _) <- stops]
-    rest k (cause, o, o', at) = Rest {stop = Obstacle {cause, largest = past k}, middle = at, standing = maybe [] (closedBy at) (stretchBetween onWays (Contour.ends contour) whole o o' at)}
-    -- The cutter's own edge bounds it on the other side: seen along the walk, the centre is on the cutter's side. What lies beyond the
-    -- contour, where the cutter touches it from behind, does not stay.
-    closedBy at stretch
-      | Contour.signedArea (Contour Closed (stretch <> (edge :| []))) * leftward side > 0 = NonEmpty.toList stretch <> [edge]
-      | otherwise = []
-      where
-        edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise) at (Segment.end (NonEmpty.last stretch)) (Segment.start (NonEmpty.head stretch))
+    material = standings side contour ways [(o, o', at) | (_, o, o', at) <- stops]
+    rest k (cause, _, _, at) = Rest {stop = Obstacle {cause, largest = past k}, middle = at, standing = IntMap.findWithDefault Unbounded k material}
 
 -- | A way with sharp corners instead of round ones wherever these are whole and nothing is in the way.
 sharpened :: Style -> Side -> Mm -> Contour -> Way -> Way
@@ -386,26 +373,6 @@ reachableFitting style side radius contour
     own = reachable style side radius contour
     smaller = reachable style side less contour
     longAll (ways, _) = total [Segment.length (segment p) | w <- ways, p <- NonEmpty.toList (Way.pieces w)]
-
--- | The contour from where a cutter touches one segment to where it touches a later one; nothing when a way goes along what lies
--- between, when it touches both at one point, or when an open contour ends between them.
-stretchBetween :: IntMap.IntMap [Piece] -> Ends -> Vector.Vector Segment -> Origin -> Origin -> Point -> Maybe (NonEmpty Segment)
-stretchBetween onWays ends whole o o' at
-  | i == j || any (`IntMap.member` onWays) between || (ends == Open && j < i) = Nothing
-  | any (passes i (> from)) (on i) || any (passes j (< to)) (on j) = Nothing
-  | otherwise = NonEmpty.nonEmpty ([snd (Segment.cutAt from (whole Vector.! i)) | from < 1] <> map (whole Vector.!) between <> [fst (Segment.cutAt to (whole Vector.! j)) | to > 0])
-  where
-    (i, j) = (numberOf o, numberOf o')
-    (from, to) = (touched o, touched o')
-    n = Vector.length whole
-    between = takeWhile (/= j) (drop 1 (take n (iterate (\k -> (k + 1) `mod` n) i)))
-    on k = IntMap.findWithDefault [] k onWays
-    passes k beyond p = beyond (case origin p of Around _ -> 1; Along _ -> foot k (Segment.at 0.5 (segment p)))
-    touched origin' = case origin' of
-      Around _ -> 1
-      Along k -> foot k at
-    -- The place of a segment next to a point, as a part of its length.
-    foot k p = let s = whole Vector.! k in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
 
 -- | What is in the way wherever a way goes over from one segment to another that does not follow it, or ends before the contour
 -- does; what the cutter touches on both sides, and where its centre then is.

@@ -23,18 +23,23 @@ about p chains = round (seen / (2 * pi)) + extra
   where
     (seen, extra) = foldl add (0, 0) chains
     add (angle, count) s = let angle' = angle + chord s in angle' `seq` (angle', count + bow s) :: (Double, Int)
-    chord s = let Rad t = angleBetween (Vec.to p (start s)) (Vec.to p (end s)) in t
-    angleBetween a b
-      | Vec.norm a == 0 || Vec.norm b == 0 = Rad 0
-      | otherwise = Vec.turn a b
+    chord s = case s of
+      _ | Vec.norm (from s) == 0 || Vec.norm (to s) == 0 -> 0
+      -- The arc tells on which side of its chord it goes past a point on that.
+      Arc {sweep = Rad w} | side s == 0 && Vec.dot (from s) (to s) < 0 -> signum w * pi
+      _ -> let Rad t = Vec.turn (from s) (to s) in t
     bow s = case s of
       Straight _ _ -> 0
       Arc {start = a, end = b, centre, sweep = Rad w}
         | Vec.distance centre p >= Segment.radius centre a -> 0
         | a == b -> round (signum w)
-        | w > 0 && Vec.cross (Vec.to a b) (Vec.to a p) < 0 -> 1
-        | w < 0 && Vec.cross (Vec.to a b) (Vec.to a p) > 0 -> -1
+        | w > 0 && side s < 0 -> 1
+        | w < 0 && side s > 0 -> -1
         | otherwise -> 0
+    from = Vec.to p . start
+    to = Vec.to p . end
+    -- Both ask for the side of the chord, and get the same answer.
+    side s = Vec.cross (from s) (to s)
 
 -- | Whether a point lies inside a closed contour, whichever way that is walked.
 encloses :: Contour -> Point -> Bool

@@ -133,7 +133,7 @@ resting :: Region -> Pocketing -> Either Error [Offset.Rest]
 resting word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (Obstacle.refusal word tool (elementsOf pocket) o)
   (Part.Refused, []) -> Right []
-  (Part.Allowed, _) -> Right (concat (zipWith rests starts contours) <> [Offset.Rest {Offset.stop = g, Offset.middle = p, Offset.standing = []} | g@Offset.Obstacle {Offset.cause = Offset.Collision _ _ p} <- gaps])
+  (Part.Allowed, _) -> Right (concat (zipWith rests starts contours) <> [Offset.Rest {Offset.stop = g, Offset.middle = p, Offset.standing = Offset.Unbounded} | g@Offset.Obstacle {Offset.cause = Offset.Collision _ _ p} <- gaps])
   where
     milling = wall pocket
     left = NonEmpty.last (Part.allowances milling)

@@ -43,7 +43,18 @@ spec = do
   describe "mill" $
     it "leaves what it cannot reach when that is allowed" $
       [Part.rest m | Mill (Located _ m) <- operations ["mill edge inside { rest allowed }", "mill edge inside { }"]] `shouldBe` [Part.Allowed, Part.Refused]
-  describe "winding" $
+  describe "winding" $ do
+    prop "is the same on the chord of an arc as beside it (catches an arc that goes past a point of its chord on the wrong side)" $
+      forAll ((,,) <$> choose (-9, 9 :: Int) <*> choose (0, 3 :: Int) <*> arbitrary) $ \(k, turns, isReversed) ->
+        let turned q = iterate (\v -> Vec.point (negate (Vec.y v)) (Vec.x v)) q !! turns
+            place x y = turned (Vec.point x y)
+            walk =
+              [ Segment.Arc {Segment.start = place 0 (-10), Segment.end = place 0 10, Segment.centre = place 0 0, Segment.sweep = Rad pi},
+                Segment.Straight (place 0 10) (place (-10) 10),
+                Segment.Straight (place (-10) 10) (place (-10) (-10)),
+                Segment.Straight (place (-10) (-10)) (place 0 (-10))
+              ]
+         in Winding.about (place 0 (fromIntegral k)) (if isReversed then map Segment.reverse walk else walk) === if isReversed then -1 else 1
     -- The bug: an arc that counts like its chord.
     prop "is that of a chain of many chords (catches the bow of an arc forgotten, or on the wrong side)" $
       forAll closedCase $ \c -> forAll ((,,,) <$> choose (0, 1000) <*> choose (0, 1) <*> choose (-8, 8) <*> choose (-8, 8)) $ \(k, t, a, b) ->

@@ -4,6 +4,7 @@ module Geometry.Offset.Way
   ( Side (..),
     Style (..),
     radiusAt,
+    leftward,
     Piece (..),
     Origin (..),
     numberOf,
@@ -48,6 +49,12 @@ data Style = Style
 -- | How far the centre stays from a segment.
 radiusAt :: Style -> Mm -> Int -> Mm
 radiusAt style radius i = plus radius (extra style i)
+
+-- | +1 when the cutter is on the left.
+leftward :: Side -> Double
+leftward side = case side of
+  LeftOf -> 1
+  RightOf -> -1
 
 -- | A segment of the equidistant, and what it belongs to.
 data Piece = Piece {origin :: Origin, segment :: Segment}
