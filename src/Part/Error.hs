@@ -158,6 +158,8 @@ data Fact
     OpenBegins Region Name
   | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
     WrongCutter Region Text Text Text
+  | -- | several depths with a cutter that is widest at its tip: the depth
+    StepsUndercut Region
   | -- | the points of a curve: the call, what they stand in, the row, why
     NoCurve Region Listing (Maybe Region) Trouble
   | -- | a shift of a curve beyond its radius of curvature: the cipher, the place, the distance, the largest there
@@ -450,6 +452,11 @@ toReport (Error fact calls) = addCalls $ case fact of
     (at region "E0344" (quote statement <> " needs " <> needed))
       { message = ["The tool is " <> there <> "."],
         hints = ["Change it first: change 2 " <> (if statement == "pocket" then "mill" else statement) <> (if statement == "turn" then "(nose 0.4 mm)" else "(diameter 5 mm)")]
+      }
+  StepsUndercut region ->
+    (at region "E0360" "a cutter that is widest at its tip cannot go down in steps")
+      { message = ["Above the last depth its tip would cut into what leans over that."],
+        hints = ["Give the depth without a step, or clear the way before with an upright mill."]
       }
   CrossesItself contour first second p fillets ->
     (at first "E0325" "the contour crosses or touches itself")

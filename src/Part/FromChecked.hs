@@ -16,6 +16,7 @@ import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Control.Monad (when)
+import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -207,11 +208,11 @@ cutter env (Located _ c) = case c of
     when (abs mu >= pi / 2 - 1e-6) (Eval.mistake (SteepBevel (region lean) Nothing (Rad mu)))
     let a = d / 2 + height' * tan mu
     when (a <= 0) (Eval.mistake (NotPositive (region lean) "the radius of the cutter at this height" (Decimal.mm (Mm a))))
-    pure (rigid MillingCutter (Mm a))
+    pure (rigid (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
   Checked.BladeCutter e g -> do
     d <- Walks.lengthOf env "the blade's diameter" e
     wheel <- Walks.lengthOf env "the diameter of the wheel" g
-    pure (Cutter MillingCutter (times 0.5 d) (Just wheel))
+    pure (Cutter BladeCutter (times 0.5 d) (Just wheel))
   Checked.TurningCutter e -> do
     x <- Value.number <$> Value.evaluate env e
     when (x < 0) (Eval.mistake (Negative (region e) "the radius of the nose" (Decimal.mm (Mm x))))
@@ -256,6 +257,7 @@ milling state work at e side settings = do
     (ContourValue contour, Just place) | ends contour == Open -> Eval.mistake (OpenBegins (region place) (value (contourName contour)))
     _ -> pure ()
   levels <- maybe (pure []) (levelsOf env) (Checked.depth settings)
+  mapM_ (\c' -> when (kind c' == DovetailCutter && length levels > 1) (Eval.mistake (StepsUndercut (maybe at (region . fst) (Checked.depth settings))))) (cutter' state)
   plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)
   leadOut <- traverse lead (Checked.leadOut settings)
@@ -301,7 +303,7 @@ milling state work at e side settings = do
       Just (Located _ Checked.ByCompiler) -> Nothing
       Nothing -> Nothing
     needed = case work of
-      Milled -> [MillingCutter]
+      Milled -> [MillingCutter, ConeCutter, DovetailCutter, BladeCutter]
       Turned -> [TurningCutter]
     lead (form, x) = (form,) <$> Walks.lengthOf env "the lead" x
     allowance x = do
@@ -313,7 +315,6 @@ milling state work at e side settings = do
 pocketing :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Pocketing)
 pocketing state at e step' settings = do
   mapM_ (rightCutter at "pocket" [MillingCutter]) (cutter' state)
-  mapM_ upright (cutter' state)
   wall <- milling state Milled at e (Located (region e) Inside) settings
   outline' <- contourAt e <$> Value.evaluate env e
   islands <- concat <$> Eval.gather (map (\i -> namedIn i <$> Value.evaluate env i) (Checked.islands settings))
@@ -332,9 +333,6 @@ pocketing state at e step' settings = do
     namedIn i v = case v of
       ListValue vs -> map (contourAt i) (Vector.toList vs)
       _ -> [contourAt i v]
-    upright c = case swivel c of
-      Just _ -> Eval.mistake (WrongCutter (let Region begin _ = at in Region begin (begin + 6)) "pocket" "a mill" "a blade that swivels")
-      Nothing -> pure ()
 
 -- | The heights of the passes: equal ones, none deeper than is asked.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
@@ -375,14 +373,22 @@ drilling state at points depth settings = do
 rightCutter :: Region -> Text -> [CutterKind] -> Cutter -> Eval ()
 rightCutter at statement needed c
   | kind c `elem` needed = pure ()
-  | otherwise = Eval.mistake (WrongCutter keyword statement (Text.intercalate " or " (map word needed)) (word (kind c)))
+  | otherwise = Eval.mistake (WrongCutter keyword statement (Text.intercalate " or " (nubOrd (map word needed))) (described (kind c)))
   where
     Region begin _ = at
     keyword = Region begin (begin + Text.length statement)
     word cutterKind = case cutterKind of
       MillingCutter -> "a mill"
+      ConeCutter -> "a mill"
+      DovetailCutter -> "a mill"
+      BladeCutter -> "a mill"
       DrillingCutter -> "a drill"
       TurningCutter -> "a turning tool"
+    described cutterKind = case cutterKind of
+      ConeCutter -> "a cone"
+      DovetailCutter -> "a cone"
+      BladeCutter -> "a blade that swivels"
+      _ -> word cutterKind
 
 stopsOf :: State -> [Checked.Stop] -> Eval (Maybe [Stop])
 stopsOf state stops = fmap sequence (Eval.gather (map stop stops))

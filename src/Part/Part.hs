@@ -242,7 +242,17 @@ data Command
 data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm, swivel :: Maybe Mm}
   deriving stock (Eq, Show)
 
-data CutterKind = MillingCutter | DrillingCutter | TurningCutter
+data CutterKind
+  = -- | upright
+    MillingCutter
+  | -- | with a flank that leans, narrowest at the tip …
+    ConeCutter
+  | -- | … or widest
+    DovetailCutter
+  | -- | swivels as it goes along
+    BladeCutter
+  | DrillingCutter
+  | TurningCutter
   deriving stock (Eq, Show)
 
 -- | A point to go to; without a height it is that at which the cutter stands.
