@@ -215,11 +215,19 @@ partOf at operation =
       Part.title = Nothing,
       Part.machine = Nothing,
       Part.start = Just (Located (Region 0 0) (Part.Spot at (Mm 0))),
+      Part.firstCutter = cutter,
       Part.contours = [],
       Part.operations = [operation],
       Part.fittings = [],
       Part.readings = []
     }
+  where
+    cutter = case operation of
+      Part.Mill (Located _ m) -> Just (Part.Cutter Part.MillingCutter (Part.radius m) Nothing)
+      Part.Pocket (Located _ p) -> Just (Part.Cutter Part.MillingCutter (Part.radius (Part.wall p)) Nothing)
+      Part.Drill (Located _ d) -> Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d) Nothing)
+      Part.Travel _ -> Nothing
+      Part.Command _ -> Nothing
 
 -- | One move from the zero point.
 straightPath :: Double -> Double -> Path

@@ -45,6 +45,8 @@ import Part.Walks qualified as Walks
 -- | What is known between two statements. A setting without a value is missing because of a mistake.
 data State = State
   { environment :: Environment,
+    -- | with which the program begins
+    first' :: Maybe Cutter,
     cutter' :: Maybe Cutter,
     tolerance' :: Maybe Accuracy,
     feed' :: Maybe (Located Feed),
@@ -67,6 +69,7 @@ evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked
     begin =
       State
         { environment = Value.empty,
+          first' = Nothing,
           cutter' = Nothing,
           tolerance' = Nothing,
           feed' = Nothing,
@@ -86,6 +89,7 @@ evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked
           title = titled,
           machine = wanted,
           start = start' final,
+          firstCutter = first' final,
           contours = reverse (contours' final),
           operations = reverse (operations' final),
           fittings = reverse (fittings' final),
@@ -94,7 +98,7 @@ evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked
 
 step :: State -> Checked.Statement -> State
 step state (Located at s) = case s of
-  Checked.Tool c -> keep (cutter env c) (\c' -> state {cutter' = Just c'})
+  Checked.Tool c -> keep (cutter env c) (\c' -> state {first' = Just c', cutter' = Just c'})
   Checked.Feed e -> keep (Walks.feedOf env e) (\f -> state {feed' = Just f})
   Checked.Tolerance accuracy -> keep (accuracyOf env accuracy) (\t -> state {tolerance' = Just t})
   Checked.Clearance e -> keep (Walks.lengthOf env "the clearance height" e) (\z -> state {clearance' = Just z})

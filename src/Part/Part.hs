@@ -59,6 +59,8 @@ data Part = Part
     machine :: Maybe (Located MachineRef),
     -- | where the cutter stands before the first frame
     start :: Maybe (Located Spot),
+    -- | the cutter in the spindle then
+    firstCutter :: Maybe Cutter,
     contours :: [Contour],
     -- | in the order of the tape
     operations :: [Operation],

@@ -56,7 +56,7 @@ lay part = case (Part.start part, Part.operations part) of
   (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Spot (Vec.point 0 0) (Mm 0))) []))
   (Nothing, _) -> Result [] [] Nothing
   -- Of the operations nothing is held behind their blocks.
-  (Just begin, operations) | !tool <- firstTool operations -> case collect 0 tool (value begin) operations of
+  (Just begin, operations) | !tool <- maybe (Mm 0) Part.cutterRadius (Part.firstCutter part) -> case collect 0 tool (value begin) operations of
     ([], blocks) ->
       let path = Path begin blocks
        in Result (staying path) (intrusions path) (Just path)
@@ -67,20 +67,6 @@ staying :: Path -> [Warning]
 staying path = [Leaves word tool (concatMap (map fst . NonEmpty.toList . places) (r : more)) | r@Remaining {word, tool} :| more <- Map.elems statements]
   where
     statements = Map.fromListWith (<>) (reverse [((word, Error.radius tool, Error.leaves tool), r :| []) | r@Remaining {word, tool} <- Remaining.ofPath path])
-
--- | The radius of the cutter with which a program begins.
-firstTool :: [Operation] -> Mm
-firstTool operations = fromMaybe (Mm 0) (listToMaybe (mapMaybe tool (takeWhile (not . changes) operations)))
-  where
-    tool o = case o of
-      Mill (Located _ m) -> Just (radius m)
-      Pocket (Located _ p) -> Just (radius (Part.wall p))
-      Drill (Located _ d) -> Just (Part.drillRadius d)
-      Travel _ -> Nothing
-      Command _ -> Nothing
-    changes o = case o of
-      Command (Located _ (Part.ChangeTool _ _)) -> True
-      _ -> False
 
 -- | The blocks one after the other; an operation without a path leaves the cutter where it was.
 collect :: Int -> Mm -> Spot -> [Operation] -> ([Error], [Block])
@@ -262,11 +248,14 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
 -- | What a statement asks has to make sense on its contour.
 possible :: Region -> Milling -> Either Error ()
 possible region milling
-  | e : _ <- [e | Part.work milling == Turned, e <- list, let Box.Box _ bottom _ _ = Box.ofSegment (Part.segment e); Mm slack = Tolerance.coincident, bottom < -slack] = Left (BelowAxis (keyword region) e)
+  | e : _ <- [e | Part.work milling == Turned, let Mm slack = Tolerance.coincident, e <- list, lowest (Part.segment e) < -slack] = Left (BelowAxis (keyword region) e)
   | value (side milling) == On && (any (> Mm 0) (Part.allowances milling) || any ((> Mm 0) . Part.allowance . Part.finish) list) = Left (AllowanceOnContour (keyword region))
   | otherwise = Right ()
   where
     list = NonEmpty.toList (elements (contour milling))
+    lowest s = case s of
+      Arc from _ centre _ | Mm r <- Segment.radius centre from, Segment.spans s (Vec.point (Vec.x centre) (Vec.y centre - r)) -> Vec.y centre - r
+      _ -> min (Vec.y (Segment.start s)) (Vec.y (Segment.end s))
 
 -- | The contour walked so that the teeth meet the material as is asked: a spindle that turns clockwise cuts
 -- climb with the material on the right of the walk.
@@ -365,8 +354,10 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       CutsPart at way element deep _ _ -> HoleCuts at (Segment.end way) element deep
       _ -> e
     intrusion tool own m
-      | fst (Path.heights m) > Mm 0 && snd (Path.heights m) > Mm 0 = []
+      | fst (Path.heights m) > top && snd (Path.heights m) > top = []
       | otherwise = nubBy samePlace (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits tool own m))))
+    -- The axis of a blade may stand above the top of the part while the blade is in it.
+    top = maximum (Mm 0 : [Swivel.highest milling | (_, milling, _) <- jobs])
     -- A contour that is milled several times is cut once.
     samePlace e f = case (e, f) of
       (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.near p q

@@ -6,6 +6,7 @@
 -- that of the one behind it, evenly along its length.
 module Path.Swivel
   ( axis,
+    highest,
     bevels,
   )
 where
@@ -40,6 +41,10 @@ axis region milling side pieces = case Part.gear milling of
       LeftOf -> 1
       RightOf -> -1
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
+
+-- | By how much the axis may stand above its middle position along a contour at most.
+highest :: Milling -> Mm
+highest milling = Mm (maximum (0 : [abs angle * gear / 2 | Just (Mm gear) <- [Part.gear milling], Just leans <- [bevels (Part.contour milling)], (a, b) <- Vector.toList leans, angle <- [a, b]]))
 
 -- | The bevels of all elements at their beginnings and ends, in radians; none when no element has one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
