@@ -83,11 +83,13 @@ compared machine path program frames tools traces ownTraces unkept =
     run = sumOf begin (Frame.planned program) frames
     sameCount = Vector.length tools == count run
     flat = Path.isFlat path
-    located = follow machine flat (if sameCount then lastFrame else const Nothing) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
+    located = follow machine flat (if sameCount then lastFrame else const Nothing) (if isJust (firstDifference run) then const Nothing else (`IntMap.lookup` cutFrames)) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
     toolOf = if sameCount then toolAt tools . number else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
     -- The last frame of a pass, by its number among all passes.
     lastFrame n = (\(Frames _ b) -> b) <$> IntMap.lookup n framesOfPasses
     framesOfPasses = IntMap.fromListWith wider [(n, Frames k k) | (k, p) <- zip [1 ..] (Frame.planned program), Just n <- [Frame.passOf (Frame.role p)]]
+    -- Those along its contour.
+    cutFrames = IntMap.fromListWith wider [(n, Frames k k) | (k, p) <- zip [1 ..] (Frame.planned program), Frame.Cutting n <- [Frame.role p]]
     isOwn pass t = sameCount && maybe False (\(Frames a b) -> a <= number t && number t <= b) (IntMap.lookup (Clearing.order pass) framesOfPasses)
     -- The strokes of each pocket, by its number from 0.
     ownTo :: IntMap [Trace]
@@ -189,13 +191,14 @@ sumOf begin@(V3 _ _ z0) = go 0 begin 0 Nothing Nothing
 -- Where the passes are on the tape
 
 -- | The passes along contours one after the other, from where the cutter stands; each begins on the tape behind the
--- end of the one before, and behind pockets, if their last frames are known by the numbers of their passes. A flat path is looked for whatever the height.
-follow :: Machine -> Bool -> (Int -> Maybe Int) -> (Point, Mm) -> [Trace] -> [Block] -> [Pass]
-follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip3 (Path.passNumbers blocks) (areOfSeveral blocks) blocks)
+-- end of the one before, and behind pockets, if their last frames are known by the numbers of their passes; so are the frames along each contour, which may
+-- lie as near to those of the next pass as is allowed. A flat path is looked for whatever the height.
+follow :: Machine -> Bool -> (Int -> Maybe Int) -> (Int -> Maybe Frames) -> (Point, Mm) -> [Trace] -> [Block] -> [Pass]
+follow machine flat lastFrame cutFrames begin traces blocks = go begin traces Nothing (zip3 (Path.passNumbers blocks) (areOfSeveral blocks) blocks)
   where
     -- The cuts of a pass have its elements in common.
     go at rest before numbered = case numbered of
-      (_, isOneOfSeveral, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
+      (k, isOneOfSeveral, Path.Cutting {Path.job = Located region milling, Path.pass = Path.Pass {Path.number = n, Path.reach, Path.atHeight}, Path.cut}) : more ->
         let entry = Segment.start (Path.segment (NonEmpty.head cut))
             exit = fromMaybe (Segment.end (Path.segment (NonEmpty.last cut))) (exitByControl milling reach)
             edges = case before of
@@ -204,7 +207,8 @@ follow machine flat lastFrame begin traces blocks = go begin traces Nothing (zip
             allowance = plus (uncurry max (Deviation.allowedOff (Passage.isCurved edges) milling)) (Machine.pulse machine)
             job = Job {milling, statement = region, side = fromRight Nothing (Path.leadingSide milling), entry, exit, reach, outreach = furthestOut milling (Passage.mostLeft edges) reach, allowance, exitWithin = plus allowance (unsureExit machine milling reach), isOneOfSeveral, edges}
             standsThere = flat || Deviation.atLevel machine atHeight (snd at)
-            found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then rest else filter (Deviation.isAt machine atHeight) rest)
+            found = Passage.find job (if standsThere then Just (fst at) else Nothing) (if flat then own else filter (Deviation.isAt machine atHeight) own)
+            own = maybe rest (\(Frames a b) -> takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) rest)) (cutFrames k)
             final = lastOf (Passage.stretch found)
             behind = maybe rest (\t -> drop 1 (dropWhile (not . Trace.isSame t) rest)) final
             next = maybe at standing final
