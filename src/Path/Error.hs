@@ -79,6 +79,8 @@ data Error
     SlightForControl Region Element Element Rad Mm
   | -- | there is no path that clears a pocket: the statement's first word, the outline, what the pass leaves at the walls
     NoPathInPocket Region Contour Mm
+  | -- | nor one along a contour of which not all has to be reached
+    NoPathAlong Region Contour Mm
   | -- | a pocket in which the cutter has to be lifted, without a depth: the statement's first word, from where, to where
     HasToRise Region Point Point
   | -- | more is to be left on an element of a pocket's walls than the pocket leaves: the statement's first word
@@ -266,13 +268,8 @@ toReport err = case err of
         message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc that leads out behind it may then be refused."],
         hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
       }
-  NoPathInPocket region outline left ->
-    let Located there (Name name) = contourName outline
-     in (at region "E0420" "no path clears this pocket")
-          { others = [Label there ("its outline is ‘" <> name <> "’")],
-            message = ["Nowhere in it the cutter has room" <> (if left > Mm 0 then " for a pass that leaves " <> Decimal.mm left else "") <> "."],
-            hints = ["Take a smaller cutter" <> (if left > Mm 0 then ", or leave less." else ".")]
-          }
+  NoPathInPocket region outline left -> noRoom region "no path clears this pocket" "its outline is" "in" outline left
+  NoPathAlong region along left -> noRoom region "no path goes along this contour" "it is" "beside" along left
   HasToRise region p q ->
     (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")
       { message = ["On the straight way from " <> Vec.written 3 p <> " to " <> Vec.written 3 q <> " a wall is in the way."],
@@ -306,6 +303,17 @@ inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
 at :: Region -> Code -> Text -> Report
 at region code = report Report.Error code (InSource region)
+
+-- | The cutter has no room in a pocket, or beside a contour, for a pass that leaves so much.
+noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
+noRoom region title called side contour left =
+  (at region "E0420" title)
+    { others = [Label there (called <> " ‘" <> name <> "’")],
+      message = ["Nowhere " <> side <> " it the cutter has room" <> (if left > Mm 0 then " for a pass that leaves " <> Decimal.mm left else "") <> "."],
+      hints = ["Take a smaller cutter" <> (if left > Mm 0 then ", or leave less." else ".")]
+    }
+  where
+    Located there (Name name) = contourName contour
 
 second' :: Element -> Element -> [Label]
 second' first second = [Label (origin second) (shape second) | origin second /= origin first]

@@ -204,8 +204,11 @@ along (Located region milling) side' numbered allowance = case side' of
   Just s -> case (Offset.styled style s r outline, Part.rest milling) of
     (Right pieces, _) -> Right (pieces :| [], [])
     (Left _, Part.Allowed) | Just asked <- Part.byControl milling -> Left (NotForControl asked Unreached)
-    (Left o, Part.Allowed) | (w : ws, rests) <- Offset.reachableFitting style s r outline -> if null rests then Left (refusal o) else Right (fmap Offset.pieces (w :| ws), rests)
-    (Left o, _) -> Left (refusal o)
+    (Left o, Part.Allowed) -> case Offset.reachableFitting style s r outline of
+      ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
+      (_, []) -> Left (refusal o)
+      (w : ws, rests) -> Right (fmap Offset.pieces (w :| ws), rests)
+    (Left o, Part.Refused) -> Left (refusal o)
   where
     outline = Part.outline (contour milling)
     r = plus (radius milling) allowance
