@@ -29,17 +29,19 @@ code given s = do
   made <-
     Code name
       <$> (Map.map value <$> required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width) section)
-      <*> optional "weights" Map.empty weightsFrom section
+      <*> (Map.map value <$> optional "weights" Map.empty weightsFrom section)
       <*> track "parity-track" section
       <*> track "service-track" section
       <*> optional "skip" [] (skipsFrom width) section
       <* known ["symbols", "weights", "parity-track", "service-track", "skip"] [] section
-  Result.failing (maybe [] (check (most width) section made) (output (required "symbols" "" (symbolsFrom width) section))) made
+  Result.failing (maybe [] (\given' -> check (most width) section made given' <> unknown section given') (output (required "symbols" "" (symbolsFrom width) section))) made
   where
     width = maybe (Width 1 8) (\n -> Width (max 1 (n - 1)) n) given
     named args = case map value args of
       [Quoted n] -> Just (pure n)
       _ -> Nothing
+    -- A weight of a symbol that there is not, such as a letter of another alphabet that looks like it.
+    unknown section symbols' = [NotInCode r "the weight" [c] | Just weights' <- [output (optional "weights" Map.empty weightsFrom section)], (c, Located r _) <- Map.toList weights', Map.notMember c symbols']
     track word = optional word Nothing (plain [word <> " 5"] (single (fmap (fmap Just) . wholeIn "the track" 1 (most width))))
 
 single :: (Argument -> Maybe (Result w Error a)) -> [Argument] -> Maybe (Result w Error a)
@@ -105,11 +107,12 @@ skipsFrom width = plain ["skip 00000 11111"] rows
       Number t _ -> Just (if Text.length t < most width then Result.failed (BadHoles (region a) (WrongWidth (most width) (most width))) else holesOf width (Located (region a) t))
       _ -> Nothing
 
-weightsFrom :: Statement -> Result w Error (Map Char Int)
+-- | The weights, each with where it is given.
+weightsFrom :: Statement -> Result w Error (Map Char (Located Int))
 weightsFrom s = do
   ((), section) <- opened ["weights { digits … }"] "the weights" (\args -> if null args then Just (pure ()) else Nothing) s
   given <- concat . catMaybes <$> traverse (tried . weight) (entries section)
-  Result.failing (repeated "the weight of " [(c, r) | (c, Located r _) <- given]) (Map.fromListWith (\_ first -> first) [(c, value w) | (c, w) <- given])
+  Result.failing (repeated "the weight of " [(c, r) | (c, Located r _) <- given]) (Map.fromListWith (\_ first -> first) given)
   where
     weight e
       | keyWord e == Just "digits" && null (arguments e) && isNothing (formula e) = pure [(c, Located (told e) n) | (c, n) <- zip ['0' .. '9'] [0 ..]]
