@@ -353,15 +353,26 @@ foldTouched job near p with = go near
     go es b = case es of
       [] -> b
       e : more
-        | mayLie far e, Course.distance (course e) x y <= far -> let b' = with b (rank e) (before e + Course.footOn (course e) x y * long e) in b' `seq` go more b'
+        | far <- farthest e, Course.mayLieWithin far (long e) (course e) x y, Course.distance (course e) x y <= far -> let b' = with b (rank e) (before e + Course.footOn (course e) x y * long e) in b' `seq` go more b'
         | otherwise -> go more b
     !x = Vec.x p
     !y = Vec.y p
     !(Mm most) = reaches job
     !(Mm a) = allowance job
-    !far = min most (leastDistance most near x y + 2 * a)
-    mayLie d e = Course.mayLieWithin d (long e) (course e) x y
+    -- An element with an allowance is touched from further away.
+    !least = leastBeside most near x y
+    farthest e = let Mm l = left e in min most (least + l + 2 * a)
 {-# INLINE foldTouched #-}
+
+-- | By how much the nearest of some elements is further from a point than its allowance, if none that is further than so much counts; else so much.
+leastBeside :: Double -> [Edge] -> Double -> Double -> Double
+leastBeside most near !x !y = go most near
+  where
+    go !d es = case es of
+      [] -> d
+      e : more
+        | Mm l <- left e, far <- min most (d + l), Course.mayLieWithin far (long e) (course e) x y, gap <- Course.distance (course e) x y, gap <= far -> go (gap - l) more
+        | otherwise -> go d more
 
 -- | How far the nearest of some elements is from a point, if it is no further than so much; else that.
 leastDistance :: Double -> [Edge] -> Double -> Double -> Double
