@@ -83,11 +83,13 @@ compared machine path program frames tools traces ownTraces unkept =
     run = sumOf begin (Frame.planned program) frames
     sameCount = Vector.length tools == count run
     flat = Path.isFlat path
-    located = follow machine flat (if sameCount then lastFrame else const Nothing) (if isJust (firstDifference run) then const Nothing else (`IntMap.lookup` cutFrames)) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
+    located = follow machine flat (if sameCount then lastFrame else const Nothing) (if isOnly || isJust (firstDifference run) then const Nothing else (`IntMap.lookup` cutFrames)) (Frame.position machine begin, Frame.height machine begin) traces (Path.blocks path)
     toolOf = if sameCount then toolAt tools . number else supposedTool ([(begin', end', Part.radius (Clearing.milling p)) | (p, (begin', end')) <- clearedIn]) located
     -- The last frame of a pass, by its number among all passes.
     lastFrame n = (\(Frames _ b) -> b) <$> IntMap.lookup n framesOfPasses
     framesOfPasses = IntMap.fromListWith wider [(n, Frames k k) | (k, p) <- zip [1 ..] (Frame.planned program), Just n <- [Frame.passOf (Frame.role p)]]
+    -- There is nothing to confuse a single way along a contour with.
+    isOnly = null (drop 1 [() | Path.Cutting {} <- Path.blocks path])
     -- Those along its contour.
     cutFrames = IntMap.fromListWith wider [(n, Frames k k) | (k, p) <- zip [1 ..] (Frame.planned program), Frame.Cutting n <- [Frame.role p]]
     isOwn pass t = sameCount && maybe False (\(Frames a b) -> a <= number t && number t <= b) (IntMap.lookup (Clearing.order pass) framesOfPasses)
