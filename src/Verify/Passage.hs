@@ -360,26 +360,21 @@ foldTouched job near p with = go near
     !(Mm most) = reaches job
     !(Mm a) = allowance job
     -- An element with an allowance is touched from further away.
-    !least = leastBeside most near x y
+    !least = leastBeyond left most near x y
     farthest e = let Mm l = left e in min most (least + l + 2 * a)
 {-# INLINE foldTouched #-}
 
--- | By how much the nearest of some elements is further from a point than its allowance, if none that is further than so much counts; else so much.
-leastBeside :: Double -> [Edge] -> Double -> Double -> Double
-leastBeside most near !x !y = go most near
-  where
-    go !d es = case es of
-      [] -> d
-      e : more
-        | Mm l <- left e, far <- min most (d + l), Course.mayLieWithin far (long e) (course e) x y, gap <- Course.distance (course e) x y, gap <= far -> go (gap - l) more
-        | otherwise -> go d more
-
 -- | How far the nearest of some elements is from a point, if it is no further than so much; else that.
 leastDistance :: Double -> [Edge] -> Double -> Double -> Double
-leastDistance most near !x !y = go most near
+leastDistance = leastBeyond (const (Mm 0))
+
+-- | The same of how much further it is than what is left on it.
+leastBeyond :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
+leastBeyond leaves most near !x !y = go most near
   where
     go !d es = case es of
       [] -> d
       e : more
-        | Course.mayLieWithin d (long e) (course e) x y -> go (min d (Course.distance (course e) x y)) more
+        | Mm l <- leaves e, far <- min most (d + l), Course.mayLieWithin far (long e) (course e) x y -> go (min d (Course.distance (course e) x y - l)) more
         | otherwise -> go d more
+{-# INLINE leastBeyond #-}
