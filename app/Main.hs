@@ -6,7 +6,6 @@ import Cli.Options qualified as Options
 import Cli.Output (Exit (..))
 import Cli.Run qualified as Run
 import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException)
-import Data.Text qualified as Text
 import Data.Version (showVersion)
 import GHC.IO.Encoding (mkTextEncoding, setFileSystemEncoding, setLocaleEncoding, utf8)
 import Options.Applicative qualified as Opt
@@ -30,7 +29,7 @@ work = do
   name <- getProgName
   statusOf <$> case parsed of
     -- The help and the version are results as well.
-    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Run.told (Text.pack text <> "\n")
+    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Run.told text
     _ -> Opt.handleParseResult parsed >>= Run.run
 
 statusOf :: Exit -> ExitCode

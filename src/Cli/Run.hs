@@ -67,8 +67,8 @@ run :: Invocation -> IO Exit
 run (Invocation settings command) = Output.reporting settings (`perform` command)
 
 -- | Print what the command line says of itself.
-told :: Text -> IO Exit
-told text = Output.reporting Output.plainly (`printed` text)
+told :: String -> IO Exit
+told text = Output.reporting Output.plainly (`printed` (Text.pack text <> "\n"))
 
 perform :: Reporter -> Command -> IO Exit
 perform reporter command = case command of
