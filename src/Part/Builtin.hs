@@ -163,8 +163,8 @@ apply region builtin arguments = case (builtin, arguments) of
   (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> Eval.mistake (OutOfRange region "atan2" "0 and 0" "two values that are not both 0")
   (Atan2, [Plain (Quantity y), Plain (Quantity x)]) -> pure (Quantity (atan2 y x))
   (Sqrt, [Plain (Quantity x)])
-    | x < 0 -> Eval.mistake (OutOfRange region "sqrt" (Decimal.short 6 x) "values from 0 upwards")
-    | otherwise -> pure (Quantity (sqrt x))
+    | x < negate Tolerance.equal -> Eval.mistake (OutOfRange region "sqrt" (Decimal.short 9 x) "values from 0 upwards")
+    | otherwise -> pure (Quantity (sqrt (max 0 x)))
   (Abs, [Plain (Quantity x)]) -> pure (Quantity (abs x))
   (Min, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (min a b))
   (Max, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (max a b))
@@ -188,8 +188,8 @@ apply region builtin arguments = case (builtin, arguments) of
       | k <= 0 = Eval.mistake (NotPositive region "the factor of a scaling" (Decimal.short 6 k))
       | otherwise = pure (Similarity.scaling k p)
     inverse name f x
-      | abs x > 1 = Eval.mistake (OutOfRange region name (Decimal.short 6 x) "values from −1 to 1")
-      | otherwise = pure (Quantity (f x))
+      | abs x > 1 + Tolerance.equal = Eval.mistake (OutOfRange region name (Decimal.short 9 x) "values from −1 to 1")
+      | otherwise = pure (Quantity (f (max (-1) (min 1 x))))
     -- Points on a circle: all round, or from one angle to another, both included.
     around (Circle c r) n a b = do
       count <- whole region "the number of points" n
