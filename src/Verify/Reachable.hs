@@ -31,7 +31,15 @@ parts side distance others segment = case beside side distance segment of
     without centres free (kept, all') =
       let near = Nearest.within (Box.inflate kept (Box.ofSegment centres)) all'
           open = common free (Distance.uncovered (less (min kept distance)) near centres)
-       in if kept > distance then concatMap (outside centres kept near) open else open
+       in case compare kept distance of
+            GT -> concatMap (outside centres kept near) open
+            EQ -> open
+            LT -> concatMap (onThisSide centres (Nearest.within (Box.union (Box.ofSegment segment) (Box.ofSegment centres)) all')) open
+    -- Over an element from which less is kept a centre might be far enough from it on its other side.
+    onThisSide centres near (a, b) =
+      let marks = sort [t | s <- near, t <- [Segment.fraction segment p | p <- [Segment.start s, Segment.end s] <> Distance.crossings segment s] <> [Segment.fraction centres p | p <- Distance.crossings centres s], t > a, t < b]
+          isBehind t s = let foot = Segment.at t segment in any (\p -> Vec.distance foot p > Tolerance.clearance) (Distance.crossings (Straight foot (Segment.at t centres)) s)
+       in [(from, to) | (from, to) <- zip (a : marks) (marks <> [b]), not (any (isBehind ((from + to) / 2)) near)]
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
     -- Half of what the path takes for room in which the cutter just fits.
     less d = minus d (times 0.5 Tolerance.clearance)
