@@ -144,6 +144,10 @@ spec = do
                 .&&. conjoin [counterexample (show (a, b, found)) (any (\u -> u >= a - 1e-9 && u <= b + 1e-9) found) | (a, b) <- steps, side a /= side b]
     it "just beside a corner that turns back there are two places, however close (catches two crossings taken for one)" $
       length (Curve.atX (-3.9999) (Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 15, Vec.point (-4) 0, Vec.point 1 19])))) `shouldBe` 2
+    it "of a stretch that runs straight up its ends are told (catches samples between them)" $
+      fmap (Curve.atX 0) (Curve.polyline (Exts.fromList [Vec.point (-3) 2, Vec.point 0 0, Vec.point 0 10, Vec.point 5 10])) `shouldSatisfy` \case
+        Right [a, b] -> abs (a - 1) < 1e-6 && abs (b - 2) < 1e-6
+        _ -> False
     it "just short of a turn there are two places (catches a turn between two samples)" $
       property $
         forAll Generate.ring $ \c -> forAll (choose (0.001, 0.02)) $ \short ->

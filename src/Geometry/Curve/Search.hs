@@ -92,11 +92,14 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
         roots _ = []
     -- What is as near as doubles can tell is there.
     off v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
-    -- Touching samples that follow one another closely are one place, but not crossings between which the curve goes away and comes back.
-    distinct (a : b : rest)
-      | b - a <= same && isThere ((a + b) / 2) = distinct (a : rest)
-      | otherwise = a : distinct (b : rest)
-    distinct us = us
+    -- Touching samples that follow one another are one place, or the ends of a stretch, but not crossings between which the curve goes away and
+    -- comes back.
+    distinct us = case us of
+      [] -> []
+      a : rest -> let (final, others) = onwards a rest in [a] <> [final | final - a > same] <> distinct others
+    onwards a us = case us of
+      b : rest | isThere ((a + b) / 2) -> onwards b rest
+      _ -> (a, us)
     same = 1e-3 / fromIntegral steps
     isThere u = let Jet a _ = Layered.jetAt 0 curve (Layered.spot After u curve) in off (Series.value a) == 0
 
