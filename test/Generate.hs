@@ -223,9 +223,9 @@ partOf at operation =
     }
   where
     cutter = case operation of
-      Part.Mill (Located _ m) -> Just (Part.Cutter Part.MillingCutter (Part.radius m) Nothing)
-      Part.Pocket (Located _ p) -> Just (Part.Cutter Part.MillingCutter (Part.radius (Part.wall p)) Nothing)
-      Part.Drill (Located _ d) -> Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d) Nothing)
+      Part.Mill (Located _ m) -> Just (Part.Cutter Part.MillingCutter (Part.radius m))
+      Part.Pocket (Located _ p) -> Just (Part.Cutter Part.MillingCutter (Part.radius (Part.wall p)))
+      Part.Drill (Located _ d) -> Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d))
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
 

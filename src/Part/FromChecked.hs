@@ -16,7 +16,6 @@ import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Control.Monad (when)
-import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -202,8 +201,8 @@ accuracyOf env accuracy = case accuracy of
 
 cutter :: Environment -> Checked.Cutter -> Eval Cutter
 cutter env (Located _ c) = case c of
-  Checked.MillCutter e -> rigid MillingCutter . times 0.5 <$> Walks.lengthOf env "the cutter's diameter" e
-  Checked.DrillCutter e -> rigid DrillingCutter . times 0.5 <$> Walks.lengthOf env "the drill's diameter" e
+  Checked.MillCutter e -> Cutter MillingCutter . times 0.5 <$> Walks.lengthOf env "the cutter's diameter" e
+  Checked.DrillCutter e -> Cutter DrillingCutter . times 0.5 <$> Walks.lengthOf env "the drill's diameter" e
   -- The flank of a cone touches what is H high at @a = R + H·tan μ@ from the axis (Kolsanova, section 3).
   Checked.ConeCutter e lean h -> do
     Mm d <- Walks.lengthOf env "the cutter's diameter" e
@@ -212,17 +211,15 @@ cutter env (Located _ c) = case c of
     when (abs mu >= pi / 2 - 1e-6) (Eval.mistake (SteepBevel (region lean) Nothing (Rad mu)))
     let a = d / 2 + height' * tan mu
     when (a <= 0) (Eval.mistake (NotPositive (region lean) "the radius of the cutter at this height" (Decimal.mm (Mm a))))
-    pure (rigid (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
+    pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
   Checked.BladeCutter e g -> do
     d <- Walks.lengthOf env "the blade's diameter" e
     wheel <- Walks.lengthOf env "the diameter of the wheel" g
-    pure (Cutter BladeCutter (times 0.5 d) (Just wheel))
+    pure (Cutter (BladeCutter wheel) (times 0.5 d))
   Checked.TurningCutter e -> do
     x <- Value.number <$> Value.evaluate env e
     when (x < 0) (Eval.mistake (Negative (region e) "the radius of the nose" (Decimal.mm (Mm x))))
-    pure (rigid TurningCutter (Mm x))
-  where
-    rigid kind' r = Cutter kind' r Nothing
+    pure (Cutter TurningCutter (Mm x))
 
 -- | Compare what the program says has to hold.
 assert :: Region -> Environment -> Checked.Assertion -> Eval ()
@@ -253,7 +250,7 @@ assert at env assertion = case assertion of
 milling :: State -> Work -> Region -> Expr -> Located Side -> Checked.Settings -> Eval (Maybe Milling)
 milling state work at e side settings = do
   c <- Value.evaluate env e
-  mapM_ (rightCutter at (case work of Milled -> "mill"; Turned -> "turn") needed) (cutter' state)
+  mapM_ (case work of Milled -> rightCutter at "mill" "a mill" isMill; Turned -> rightCutter at "turn" "a turning tool" (== TurningCutter)) (cutter' state)
   before <- stopsOf state (Checked.approach settings)
   after <- stopsOf state (Checked.retract settings)
   near <- traverse (fmap Value.point . Value.evaluate env) (Checked.startNear settings)
@@ -282,7 +279,7 @@ milling state work at e side settings = do
               work,
               side,
               radius = cutterRadius tool,
-              gear = swivel tool,
+              gear = case kind tool of BladeCutter wheel -> Just wheel; _ -> Nothing,
               tolerance,
               feed,
               approach,
@@ -306,9 +303,6 @@ milling state work at e side settings = do
       Just (Located asked Checked.ByController) -> Just asked
       Just (Located _ Checked.ByCompiler) -> Nothing
       Nothing -> Nothing
-    needed = case work of
-      Milled -> [MillingCutter, ConeCutter, DovetailCutter, BladeCutter]
-      Turned -> [TurningCutter]
     lead (form, x) = (form,) <$> Walks.lengthOf env "the lead" x
     allowance x = do
       v <- Value.number <$> Value.evaluate env x
@@ -318,7 +312,7 @@ milling state work at e side settings = do
 -- | A pocket: its outline milled inside, and islands. Nothing as for 'milling'.
 pocketing :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Pocketing)
 pocketing state at e step' settings = do
-  mapM_ (rightCutter at "pocket" [MillingCutter]) (cutter' state)
+  mapM_ (rightCutter at "pocket" "a mill" (== MillingCutter)) (cutter' state)
   wall <- milling state Milled at e (Located (region e) Inside) settings
   outline' <- contourAt e <$> Value.evaluate env e
   islands <- concat <$> Eval.gather (map (\i -> namedIn i <$> Value.evaluate env i) (Checked.islands settings))
@@ -350,7 +344,7 @@ levelsOf env (depth, most) = do
 drilling :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Drilling)
 drilling state at points depth settings = do
   v <- Value.evaluate env points
-  mapM_ (rightCutter at "drill" [DrillingCutter, MillingCutter]) (cutter' state)
+  mapM_ (rightCutter at "drill" "a drill or a mill" (`elem` [DrillingCutter, MillingCutter])) (cutter' state)
   Mm d <- Walks.lengthOf env "the depth" depth
   pecked <- traverse (Walks.lengthOf env "the depth of a peck") (Checked.peck settings)
   plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
@@ -373,26 +367,31 @@ drilling state at points depth settings = do
   where
     env = environment state
 
--- | A statement needs one of some cutters.
-rightCutter :: Region -> Text -> [CutterKind] -> Cutter -> Eval ()
-rightCutter at statement needed c
-  | kind c `elem` needed = pure ()
-  | otherwise = Eval.mistake (WrongCutter keyword statement (Text.intercalate " or " (nubOrd (map word needed))) (described (kind c)))
+-- | A statement needs a cutter of a kind, which is said in words.
+rightCutter :: Region -> Text -> Text -> (CutterKind -> Bool) -> Cutter -> Eval ()
+rightCutter at statement needed isRight c
+  | isRight (kind c) = pure ()
+  | otherwise = Eval.mistake (WrongCutter keyword statement needed there)
   where
     Region begin _ = at
     keyword = Region begin (begin + Text.length statement)
-    word cutterKind = case cutterKind of
+    there = case kind c of
       MillingCutter -> "a mill"
-      ConeCutter -> "a mill"
-      DovetailCutter -> "a mill"
-      BladeCutter -> "a mill"
-      DrillingCutter -> "a drill"
-      TurningCutter -> "a turning tool"
-    described cutterKind = case cutterKind of
       ConeCutter -> "a cone"
       DovetailCutter -> "a cone"
-      BladeCutter -> "a blade that swivels"
-      _ -> word cutterKind
+      BladeCutter _ -> "a blade that swivels"
+      DrillingCutter -> "a drill"
+      TurningCutter -> "a turning tool"
+
+-- | Whether a cutter cuts with its flank along a contour.
+isMill :: CutterKind -> Bool
+isMill cutterKind = case cutterKind of
+  MillingCutter -> True
+  ConeCutter -> True
+  DovetailCutter -> True
+  BladeCutter _ -> True
+  DrillingCutter -> False
+  TurningCutter -> False
 
 stopsOf :: State -> [Checked.Stop] -> Eval (Maybe [Stop])
 stopsOf state stops = fmap sequence (Eval.gather (map stop stops))

@@ -240,8 +240,8 @@ data Command
     ChangeTool Int Cutter
   deriving stock (Eq, Show)
 
--- | A tool, its radius where it cuts, and of a blade the diameter of the wheel that swivels it.
-data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm, swivel :: Maybe Mm}
+-- | A tool, and its radius where it cuts.
+data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
   deriving stock (Eq, Show)
 
 data CutterKind
@@ -251,8 +251,8 @@ data CutterKind
     ConeCutter
   | -- | … or widest
     DovetailCutter
-  | -- | swivels as it goes along
-    BladeCutter
+  | -- | swivels as it goes along, by a wheel of this diameter
+    BladeCutter Mm
   | DrillingCutter
   | TurningCutter
   deriving stock (Eq, Show)

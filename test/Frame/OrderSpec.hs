@@ -66,7 +66,7 @@ spec = do
     c = Left
     go = Right (1 :: Double)
     stay = Right 0
-    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1) Nothing)
+    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1))
     kontur = Machines.named "kontur-3p"
     iso = Machines.named "iso6983"
 
