@@ -14,6 +14,7 @@ import Checked.Syntax (Settings (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
+import Control.Applicative ((<|>))
 import Control.Monad (unless)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -45,15 +46,16 @@ flat inBlock s = case s of
   Located _ (Surface.With _ body) -> concatMap (flat True) body
   _ -> [(inBlock, s)]
 
-step :: Map Setting Region -> (Bool, Statement) -> (Map Setting Region, [Error])
+-- | From the places at which settings were first given, none for one that was missed before.
+step :: Map Setting (Maybe Region) -> (Bool, Statement) -> (Map Setting (Maybe Region), [Error])
 step seen (inBlock, Located at s) = (seen', misplaced <> missing <> twice)
   where
     Use {word, given, needed, global} = use s
     keyword = at {end = start at + word}
     misplaced = [NotInBlock keyword (firstWord s) | inBlock && global]
     missing = maybe [] (\some -> [SettingsMissing keyword some]) (NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed))
-    twice = [SettingTwice at one before | Just one <- [given], one `notElem` [FeedSetting, ClearanceSetting], not (isChange s), null misplaced, Just before <- [Map.lookup one seen]]
-    seen' = foldr (\one before -> if Map.member one before then before else Map.insert one at before) seen (needed <> maybe [] pure given)
+    twice = [SettingTwice at one before | Just one <- [given], one `notElem` [FeedSetting, ClearanceSetting], not (isChange s), null misplaced, Just (Just before) <- [Map.lookup one seen]]
+    seen' = Map.unionWith (<|>) seen (Map.fromList ([(one, Nothing) | one <- needed] <> [(one, Just at) | Just one <- [given]]))
     isChange statement' = case statement' of
       Surface.Change _ _ -> True
       Surface.Broken (Just "change") _ -> True

@@ -26,7 +26,7 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Part.Part qualified as Part
-import Path.Path (Block (..), Move (..), Pass (..))
+import Path.Path (Block (..), Move (..), Pass (..), heights, pace)
 import Path.Path qualified as Path
 import Tape.Tape qualified as Tape
 

@@ -21,7 +21,7 @@ import Frame.Task qualified as Task
 import Machine.Machine (Braking (..), BrakingForm (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
-import Path.Path (Move (pace))
+import Path.Path (Move, pace)
 import Path.Path qualified as Path
 
 -- | The tasks, cut where the cutter begins to slow down.
@@ -105,7 +105,7 @@ onTime machine least tasks = concatMap cut marked
 
 -- | What slows down at its end does so once, however many arcs stand for it.
 atTheEnd :: NonEmpty Move -> [Move]
-atTheEnd ms = map (\m -> m {Path.braked = False}) (NonEmpty.init ms) <> [NonEmpty.last ms]
+atTheEnd ms = map Path.unbraked (NonEmpty.init ms) <> [NonEmpty.last ms]
 
 -- | How a move ends, given what lies ahead of it; and what that makes lie ahead of the move before.
 mark :: Machine -> Double -> Ahead -> Move -> (Ahead, (Move, Mark))

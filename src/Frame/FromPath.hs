@@ -50,7 +50,7 @@ import Machine.Machine qualified as Machine
 import Part.Part (Pace (..), Spot (..))
 import Part.Part qualified as Part
 import Path.FromPart qualified as Path
-import Path.Path (Move (..), Path (Path))
+import Path.Path (Move (..), Path (Path), heights)
 import Path.Path qualified as Path
 
 -- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an increment is
@@ -180,11 +180,11 @@ commanding looks made Waiting {place, given} = put looks Rapid (at made) (Planne
 stepped :: Looks -> Task -> Making -> Step -> Making
 stepped looks@Looks {machine} task made s = case task of
   Order _ _ -> made
-  Run {role, tool, drive, run = m :| _} -> case frameOf machine drive (pace m) (at made) s of
+  Run {role, tool, drive, run = m :| _} -> case frameOf machine drive (Path.pace m) (at made) s of
     Nothing -> made {at = stop s}
     Just f ->
       let f' = maybe f (\w -> f {orders = given w}) (waiting made)
-       in put looks (if drive == Asked then pace m else Part.Rapid) (stop s) (Planned f' role (origin m) tool) made {waiting = Nothing}
+       in put looks (if drive == Asked then Path.pace m else Part.Rapid) (stop s) (Planned f' role (origin m) tool) made {waiting = Nothing}
 
 -- | A frame behind the others: how fast the program asks it to be, where it ends.
 put :: Looks -> Pace -> V3 -> Planned -> Making -> Making

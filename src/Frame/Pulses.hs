@@ -20,7 +20,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (..), Machine, Measure (..))
 import Machine.Machine qualified as Machine
-import Path.Path (Move (..))
+import Path.Path (Move (..), heights)
 
 -- | In the plane, and the height.
 type Place = (Point, Mm)

@@ -22,7 +22,7 @@ import Frame.Pulses qualified as Pulses
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
 import Part.Part qualified as Part
-import Path.Path (Move (..), Path)
+import Path.Path (Move (..), Path, heights, pace)
 import Path.Path qualified as Path
 
 -- | Moves along one line, arc or curve with their role and what is allowed to their chords, or a command.
@@ -84,7 +84,7 @@ wayOf m = Mm (sqrt (l * l + h * h))
 
 -- | A move in two, so many mm before its end; the way is longer.
 cutBefore :: Double -> Move -> (Move, Move)
-cutBefore stretch m = (m {segment = front, heights = (fst (heights m), z), braked = False}, m {segment = back, heights = (z, snd (heights m))})
+cutBefore stretch m = (Path.unbraked (Path.atHeights (fst (heights m), z) m) {segment = front}, (Path.atHeights (z, snd (heights m)) m) {segment = back})
   where
     Mm way = wayOf m
     share = 1 - stretch / way

@@ -38,7 +38,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
-import Path.Path (Move (..))
+import Path.Path (Move (..), heights, pace)
 
 -- | More frames than this are 38 km of tape.
 mostFrames :: Int

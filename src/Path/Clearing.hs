@@ -30,7 +30,7 @@ import Path.Error (Error (..), Tool (Tool))
 import Path.Error qualified
 import Path.Inset qualified as Inset
 import Path.Obstacle qualified as Obstacle
-import Path.Path (Block (..), Move (Move), Pass (..))
+import Path.Path (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Path.Path qualified as Path
 import Path.Pocket (Leg (..), Room (..))
 import Path.Pocket qualified as Pocket
@@ -94,8 +94,8 @@ passOf visit clear (left, z) legsFrom = do
 -- | The moves of a leg at a height; over what is in the way, at another one.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> Leg -> [Move]
 moves word milling z clear leg = case leg of
-  Over p q | Just c <- clear -> [Move (Straight p p) (z, c) Part.Rapid False word False | c /= z] <> [Move (Straight p q) (c, c) Part.Rapid False word False] <> [Move (Straight q q) (c, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False word False | c /= z]
-  _ -> [Move s (z, z) (Part.At (feed milling)) False word False | s <- Pocket.segments leg]
+  Over p q | Just c <- clear -> [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z] <> [Move (Straight p q) (Manner (c, c) Part.Rapid False) word False] <> [Move (Straight q q) (Manner (c, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False) word False | c /= z]
+  _ -> [Move s (Manner (z, z) (Part.At (feed milling)) False) word False | s <- Pocket.segments leg]
 
 -- | For each allowance the legs from where the cutter goes down.
 laid :: Pocketing -> NonEmpty (Maybe Point -> [Leg])

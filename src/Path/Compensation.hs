@@ -31,7 +31,7 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Path.Error (Error (..), Unsent (..))
-import Path.Path (Move (..), Sent (Sent))
+import Path.Path (Manner (..), Move (..), Sent (Sent), unbraked)
 import Path.Path qualified as Path
 
 -- | The moves of the centre in one pass: the way to the beginning, the lead in, those along the contour, the lead out, the way
@@ -109,7 +109,7 @@ programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
   where
     lead m = m {segment = uncovered (Part.radius milling) side (segment m)}
     elements = NonEmpty.zipWith element (False :| repeat True) (Part.elements (Part.contour milling))
-    element isLater e = Move {segment = Part.segment e, heights = heights (NonEmpty.head cut), pace = maybe (Part.At (Part.feed milling)) Part.At (Part.ownFeed (Part.finish e)), braked = Part.slow (Part.finish e), origin = Part.origin e, continues = isLater && Part.continues e}
+    element isLater e = Move {segment = Part.segment e, manner = Manner (Path.heights (NonEmpty.head cut)) (maybe (Part.At (Part.feed milling)) Part.At (Part.ownFeed (Part.finish e))) (Part.slow (Part.finish e)), origin = Part.origin e, continues = isLater && Part.continues e}
     followedBy (e :| es) more = e :| es <> more
 
 -- | What a cutter touches whose centre moves along a segment.
@@ -133,7 +133,7 @@ endsAround milling pieces = case Part.byControl milling of
 -- | Behind such a contour, a little further along its first element: a control goes round a corner only when something
 -- follows.
 onward :: Region -> Milling -> Segment -> [Move]
-onward keyword milling first = [Move (fst (Segment.cutAt share first)) (Mm 0, Mm 0) (Part.At (Part.feed milling)) False keyword False | l > 0]
+onward keyword milling first = [Move (fst (Segment.cutAt share first)) (Manner (Mm 0, Mm 0) (Part.At (Part.feed milling)) False) keyword False | l > 0]
   where
     Mm l = Segment.length first
     share = min 1 (l / 2) / l
@@ -144,13 +144,13 @@ onward keyword milling first = [Move (fst (Segment.cutAt share first)) (Mm 0, Mm
 -- arrives. A long way in is divided: near the contour its direction is surely another than that of the edge.
 entering :: Region -> Region -> Milling -> Side -> [Move] -> NonEmpty Move -> Either Error ([Move], Move, NonEmpty Move)
 entering keyword asked milling side ways edge = case reverse ways of
-  m@Move {segment = Straight from to', heights = (z, z')} : earlier
+  m@Move {segment = Straight from to', manner = Manner {between = (z, z')}} : earlier
     | z == z',
       Vec.distance from to' > Tolerance.coincident -> do
       let whole@(Mm long) = Vec.distance from to'
           on = if whole > times 3 radius then Vec.between (1 - 2 * r / long) from to' else from
       begin <- meeting m on to'
-      let way = [m {segment = Straight from on, braked = False} | on /= from]
+      let way = [(unbraked m) {segment = Straight from on} | on /= from]
       Right (reverse earlier <> way, m {segment = Straight on begin}, beginningAt begin)
   _ -> Left (ShortForControl keyword asked True (Mm 0) radius)
   where
@@ -176,7 +176,7 @@ entering keyword asked milling side ways edge = case reverse ways of
       Arc {} -> let Mm l = Tolerance.controlLength in 2 * atan2 l r
     beginningAt begin = case segment first of
       Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
-      Arc {start} -> first {segment = Straight begin start, braked = False, continues = False} :| NonEmpty.toList edge
+      Arc {start} -> (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge
 
 -- | A way in turns by no more onto the first element: 175°. There that is lengthened backwards by 23 radii.
 furthestTurn :: Double
@@ -185,7 +185,7 @@ furthestTurn = 35 / 36 * pi
 -- | The straight on which compensation is switched off, and the moves behind it.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
 leaving keyword asked milling final ways = case ways of
-  m@Move {segment = Straight _ to', heights = (z, z')} : later | z == z' -> do
+  m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do
     let l = Vec.distance from to'
     when (l <= plus radius Tolerance.byControl) (Left (ShortForControl (origin m) asked False l radius))
     Right (m {segment = Straight from to'}, later)

@@ -18,7 +18,7 @@ import Data.List (foldl', groupBy, minimumBy, nubBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
@@ -41,7 +41,7 @@ import Path.Compensation qualified as Compensation
 import Path.Error (Error (..), Unsent (..), Warning (..))
 import Path.Error qualified as Error
 import Path.Obstacle qualified as Obstacle
-import Path.Path (Block (..), Move (Move), Pass (..), Path (Path))
+import Path.Path (Block (..), Manner (Manner), Move (Move), Pass (..), Path (Path))
 import Path.Path qualified as Path
 import Path.Remaining (Remaining (Remaining, places, tool, word))
 import Path.Remaining qualified as Remaining
@@ -125,8 +125,9 @@ passOf :: Int -> Located Milling -> Maybe Offset.Side -> Vector Part.Element -> 
 passOf number job@(Located region milling) side' numbered isFirst isLast at allowance z pieces rests = do
   swivels <- Swivel.axis (keyword region) milling side' pieces
   let pace = Part.At (feed milling)
-      -- Most pieces lie at one height, and share it.
       level' = (plus z (Mm 0), plus z (Mm 0))
+      -- Most pieces go alike, and share it.
+      plainly = Manner level' pace False
       raised = maybe (NonEmpty.repeat level') (fmap (\(a, b) -> (plus z a, plus z b))) swivels
       cut = move False (NonEmpty.head raised) (NonEmpty.head pieces) :| following pieces (NonEmpty.tail raised)
       following (previous :| rest) hs = case (rest, hs) of
@@ -144,7 +145,7 @@ passOf number job@(Located region milling) side' numbered isFirst isLast at allo
             slows = case Offset.origin piece of
               Offset.Along _ -> Part.slow (Part.finish e)
               Offset.Around _ -> False
-         in Move (Offset.segment piece) heights (maybe pace Part.At own) slows (Part.origin e) continues
+         in Move (Offset.segment piece) (if isNothing own && not slows && null swivels then plainly else Manner heights (maybe pace Part.At own) slows) (Part.origin e) continues
       -- Behind an arc in which the cutter stands still there may be a corner.
       goesOn previous piece = case (Offset.origin previous, Offset.origin piece) of
         (Offset.Along i, Offset.Along j) -> j == i + 1 && Part.continues (numbered Vector.! j)
@@ -165,7 +166,7 @@ passOf number job@(Located region milling) side' numbered isFirst isLast at allo
       finish = maybe exit (Segment.end . Path.segment) (listToMaybe (reverse leadOut))
       -- The axis of a blade stands higher or lower.
       (inZ, outZ) = if null swivels then level' else (fst (NonEmpty.head raised), snd (NonEmpty.last raised))
-      level h m = m {Path.heights = (h, h)}
+      level h = Path.atHeights (h, h)
       visit = Visit {Way.word = keyword region, Way.milling, Way.isFirst, Way.isLast, Way.from = at}
       (before, behind') = case (Part.levels milling, Part.clearance milling) of
         (_ : _, Just clear) -> Way.deep visit clear (inZ, outZ) begin finish
@@ -192,7 +193,7 @@ leading region milling side' which direction p = case if which == LeadingIn then
   where
     back = if which == LeadingIn then -1 else 1
     pair onto off = if which == LeadingIn then onto else off
-    lead s = Move s (Mm 0, Mm 0) (Part.At (feed milling)) False (keyword region) False
+    lead s = Move s (Manner (Mm 0, Mm 0) (Part.At (feed milling)) False) (keyword region) False
     free = case side' of
       Just Offset.RightOf -> -1
       _ -> 1 :: Double
@@ -220,6 +221,8 @@ along (Located region milling) side' numbered allowance = case side' of
     !plain = all ((== Mm 0) . allowanceOf) numbered
     allowanceOf = Part.allowance . Part.finish
     refusal = Obstacle.refusal region (Remaining.toolOf milling allowance) numbered
+-- Else the outline is shared by all passes, and kept as long.
+{-# NOINLINE along #-}
 
 -- | The distance of the cutter's centre from the contour when nothing is left standing.
 touchedRadius :: Milling -> Mm
@@ -289,7 +292,7 @@ holing at (Located region d) = Way.rise at clear (keyword region) <> go (Spot (p
       [] -> []
       Located place p : rest ->
         let over = Way.ways from [Part.Stop (Located place p) (Just clear) Part.Rapid]
-         in over <> [Move down heights pace False place False | let { down = Straight p p }, (heights, pace) <- strokes] <> go (Spot p clear) rest
+         in over <> [Move down (Manner heights pace False) place False | let { down = Straight p p }, (heights, pace) <- strokes] <> go (Spot p clear) rest
     -- Down and up, the same at each hole.
     strokes = concat (zipWith stroke (Nothing : map Just depths) depths)
     stroke before z =

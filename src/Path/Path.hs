@@ -7,6 +7,12 @@ module Path.Path
     Pass (..),
     Sent (..),
     Move (..),
+    Manner (..),
+    heights,
+    pace,
+    braked,
+    unbraked,
+    atHeights,
     moves,
     passNumbers,
     runs,
@@ -91,16 +97,41 @@ data Sent = Sent
 -- down has a segment without length.
 data Move = Move
   { segment :: Segment,
-    -- | at its beginning and at its end
-    heights :: (Mm, Mm),
-    pace :: Pace,
-    -- | slow down at its end
-    braked :: Bool,
+    manner :: Manner,
     origin :: Region,
     -- | it goes on, without a corner, with the curve of the move before
     continues :: Bool
   }
   deriving stock (Eq, Show)
+
+-- | How a move goes. Most moves along a contour go alike, and share it.
+data Manner = Manner
+  { -- | at the beginning and at the end of the move
+    between :: (Mm, Mm),
+    at :: Pace,
+    -- | slow down at the end
+    slowing :: Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | The heights of a move at its beginning and at its end.
+heights :: Move -> (Mm, Mm)
+heights = between . manner
+
+pace :: Move -> Pace
+pace = at . manner
+
+-- | Whether a move slows down at its end.
+braked :: Move -> Bool
+braked = slowing . manner
+
+-- | The same move between other heights.
+atHeights :: (Mm, Mm) -> Move -> Move
+atHeights zs m = m {manner = (manner m) {between = zs}}
+
+-- | The same move without slowing down.
+unbraked :: Move -> Move
+unbraked m = m {manner = (manner m) {slowing = False}}
 
 -- | The moves of a block in order.
 moves :: Block -> [Move]

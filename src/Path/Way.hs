@@ -19,7 +19,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Milling (feed), Spot (..), Stop)
 import Part.Part qualified as Part
-import Path.Path (Move (Move))
+import Path.Path (Manner (Manner), Move (Move))
 import Path.Path qualified as Path
 
 -- | One pass of a statement: the statement's first word, what it asks, whether the pass is the first one and the last one,
@@ -29,7 +29,7 @@ data Visit = Visit {word :: Region, milling :: Milling, isFirst :: Bool, isLast 
 -- | The ways before and behind a pass without depth, which keep the height at which the cutter stands: where the pass begins, where it
 -- ends, the heights at both and that of the pass.
 flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish = (before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace], behind <> if null behind then [Move (Straight finish finish) (outZ, z) pace False word False | outZ /= z] else [])
+flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish = (before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace], behind <> if null behind then [Move (Straight finish finish) (Manner (outZ, z) pace False) word False | outZ /= z] else [])
   where
     pace = Part.At (feed milling)
     before = if isFirst || isOpen then ways from (Part.approach milling) else []
@@ -50,7 +50,7 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
     stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
     over = ways (arriving from up) (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
     above = arriving (arriving from up) over
-    down = [Move (Straight (plane above) (plane above)) (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False word False | height above /= inZ]
+    down = [Move (Straight (plane above) (plane above)) (Manner (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False) word False | height above /= inZ]
     (beside, further) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
@@ -62,7 +62,7 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
 
 -- | Straight up to a height, if the cutter stands below it.
 rise :: Spot -> Mm -> Region -> [Move]
-rise (Spot p z) clear word = [Move (Straight p p) (z, clear) Part.Rapid False word False | z < clear]
+rise (Spot p z) clear word = [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
 
 -- | Straight moves from stop to stop; a stop where the cutter already stands needs none.
 ways :: Spot -> [Stop] -> [Move]
@@ -70,7 +70,7 @@ ways at stops = case stops of
   [] -> []
   Part.Stop (Located region p) level pace : rest
     | Vec.near (plane at) p && z == height at -> ways at rest
-    | otherwise -> Move (Straight (plane at) p) (height at, z) pace False region False : ways (Spot p z) rest
+    | otherwise -> Move (Straight (plane at) p) (Manner (height at, z) pace False) region False : ways (Spot p z) rest
     where
       z = fromMaybe (height at) level
 

@@ -17,7 +17,7 @@ import Machine.Machine (FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
 import Part.Part (Pace (..), Spot (Spot))
-import Path.Path (Block (..), Move (Move), Path (Path))
+import Path.Path (Block (..), Manner (Manner), Move (Move), Path (Path))
 import Path.Path qualified as Path
 import Test.Hspec
 import Test.QuickCheck
@@ -57,7 +57,7 @@ spec = do
     brief f = (pulses f, code f, braking f)
     pulses f = let V3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
     code f = let FeedCode n = speed f in n
-    to a b pace slow = Move (Straight (Vec.point a 0) (Vec.point b 0)) (Mm 0, Mm 0) pace slow (Region 0 0) False
+    to a b pace slow = Move (Straight (Vec.point a 0) (Vec.point b 0)) (Manner (Mm 0, Mm 0) pace slow) (Region 0 0) False
 
 here :: Double -> Located Feed
 here = Located (Region 0 0) . Feed
@@ -100,7 +100,7 @@ moving = do
         s <- oneof [line p, arcFrom p]
         pace <- frequency [(4, At . here . (10 **) <$> choose (1, 2.99)), (1, pure Rapid)]
         slow <- frequency [(4, pure False), (1, pure True)]
-        (Move s (Mm 0, Mm 0) pace slow (Region 0 0) False :) <$> go (n - 1) (Segment.end s)
+        (Move s (Manner (Mm 0, Mm 0) pace slow) (Region 0 0) False :) <$> go (n - 1) (Segment.end s)
     line p = do
       l <- (10 **) <$> choose (-0.5, 1.8)
       a <- choose (-pi, pi)

@@ -26,7 +26,7 @@ import Machine.Machine (FeedCode (..), Machine)
 import Machines qualified
 import Part.Part qualified as Part
 import Path.FromPart qualified as FromPart
-import Path.Path (Move (..))
+import Path.Path (Move (segment), heights)
 import Path.Path qualified as Path
 import Test.Hspec
 import Test.QuickCheck
@@ -74,7 +74,7 @@ spec = do
       property $
         forAll ((,,) <$> Curve.open <*> bounds <*> vectorOf 130 (choose (-0.2, 0.2))) $ \(ss, b, rises) ->
           let zs = scanl (+) 0 rises
-              moves = NonEmpty.zipWith (\(z, z') m -> m {heights = (Mm z, Mm z')}) (NonEmpty.fromList (zip zs (drop 1 zs))) (Curve.run ss)
+              moves = NonEmpty.zipWith (\(z, z') -> Path.atHeights (Mm z, Mm z')) (NonEmpty.fromList (zip zs (drop 1 zs))) (Curve.run ss)
               ends = [(p, z) | (p, Mm z) <- Run.chordEnds 100000 b moves]
            in counterexample (show (length ends)) (worstHeight b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
     it "slow down as far before the end of a curve as anywhere (catches a brake on the last of its arcs only)" $

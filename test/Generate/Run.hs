@@ -30,7 +30,7 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element (..), Milling)
 import Part.Part qualified as Part
-import Path.Path (Move (Move))
+import Path.Path (Manner (Manner), Move (Move))
 import Test.QuickCheck hiding (elements)
 import Test.QuickCheck qualified as QuickCheck
 
@@ -131,7 +131,7 @@ elements = concatMap (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (
 
 -- | A chain as the moves of one run at a height.
 run :: [Segment] -> NonEmpty Move
-run = NonEmpty.fromList . zipWith (\k s -> Move s (Mm 0, Mm 0) Part.Rapid False (Region 0 0) (k > 0)) [0 :: Int ..]
+run = NonEmpty.fromList . zipWith (\k s -> Move s (Manner (Mm 0, Mm 0) Part.Rapid False) (Region 0 0) (k > 0)) [0 :: Int ..]
 
 -- | A closed curve with a cutter that fits on one of its sides, and that is left a way to go: of one whose path is hardly
 -- more than a point, shorter than the way of braking (1.6 mm) or narrower than a tolerance, the laws do not hold.
