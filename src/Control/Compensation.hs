@@ -144,7 +144,7 @@ walked machine at strokes = case strokes of
         length' = Vec.distance (Segment.start entry) (Segment.end entry)
         wrong = [RoundEntry (number s) | isArc entry] <> [ShortEntry (number s) length' (Mm (radius k)) | length' <= Mm (radius k)]
         -- The centre stands where the frames say.
-        section = beside k at Nothing False [(t, Walk.segment machine t) | t <- s : map snd kept]
+        section = beside k at Nothing [(t, Walk.segment machine t) | t <- s : map snd kept]
         left' = case reverse section of
           (m, _) : _ -> endOf m
           [] -> at
@@ -175,27 +175,26 @@ data Joint
   | Meeting Point
   | NoMeeting
 
--- | Strokes beside what their frames say, from where the centre stands; a corner that is to be gone round first; whether the
--- one before has been shortened.
-beside :: Keep -> Point -> Maybe Segment -> Bool -> [(Stroke, Segment)] -> [(Moved, [Unkept])]
-beside k at corner shortened strokes = case strokes of
+-- | Strokes beside what their frames say, from where the centre stands; a corner that is to be gone round first.
+beside :: Keep -> Point -> Maybe Segment -> [(Stroke, Segment)] -> [(Moved, [Unkept])]
+beside k at corner strokes = case strokes of
   [] -> []
   (s, way) : rest
-    | isStill way -> (Moved s (Straight at at :| []), []) : beside k at corner shortened rest
+    | isStill way -> (Moved s (Straight at at :| []), []) : beside k at corner rest
     | otherwise ->
       let next = listToMaybe [w | (_, w) <- rest, not (isStill w)]
           joint = fmap (jointOf k way) next
           from' = maybe at Segment.end corner
-          (finish, corner', cut) = case joint of
-            Just (Around arc) -> (Segment.start arc, Just arc, False)
-            Just (Meeting p) -> (p, Nothing, True)
-            _ -> (asideAtEnd k way, Nothing, False)
+          (finish, corner') = case joint of
+            Just (Around arc) -> (Segment.start arc, Just arc)
+            Just (Meeting p) -> (p, Nothing)
+            _ -> (asideAtEnd k way, Nothing)
           leg = along from' finish way
           back = case joint of
             Just Smooth -> False
             _ -> goesBack leg way
-          problems = tight s way <> [Unreached (number s) | back || (cut || shortened) && wraps leg way || noMeeting joint]
-       in (Moved s (maybe (leg :| []) (:| [leg]) corner), problems) : beside k finish corner' cut rest
+          problems = tight s way <> [Unreached (number s) | back || wraps leg way || noMeeting joint]
+       in (Moved s (maybe (leg :| []) (:| [leg]) corner), problems) : beside k finish corner' rest
   where
     noMeeting joint = case joint of
       Just NoMeeting -> True
@@ -225,10 +224,10 @@ goesBack leg way = case way of
   where
     Mm slack = Tolerance.coincident
 
--- | Whether an arc that was shortened has become longer: its end lies before its beginning.
+-- | Whether an arc turns further than it was programmed. One that was shortened to less than nothing does, almost all the way round.
 wraps :: Segment -> Segment -> Bool
 wraps leg way = case (leg, way) of
-  (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.smoothAngle
+  (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
   _ -> False
 
 asideAtEnd, asideAtStart :: Keep -> Segment -> Point

@@ -24,6 +24,9 @@ module Geometry.Tolerance
     still,
     straight,
     byControl,
+    controlArc,
+    controlTurn,
+    controlRounding,
     controlLength,
     controlBend,
     controlCut,
@@ -180,6 +183,19 @@ curve = Mm 1e-5
 -- by this.
 byControl :: Mm
 byControl = Mm 0.01
+
+-- | The centre rolls about the inside of an arc on an arc of its own. If that is smaller, what rounding to pulses adds to it may be
+-- more than 'controlTurn': of 1500 arcs with 0.06 mm LinuxCNC refuses none, of those with 0.05 mm one.
+controlArc :: Mm
+controlArc = Mm 0.08
+
+-- | LinuxCNC refuses an arc of the centre that turns further than it was programmed, by more than this.
+controlTurn :: Rad
+controlTurn = Rad 0.0254
+
+-- | The ends of a line that a control is sent are rounded, to 0.001 mm mostly: one may be off by so much beside the other.
+controlRounding :: Mm
+controlRounding = Mm 1.5e-3
 
 -- | A shorter element, rounded to pulses, might seem to a control to turn towards the cutter.
 controlLength :: Mm

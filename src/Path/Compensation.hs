@@ -18,7 +18,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Base.Region (Region)
-import Control.Monad (when)
+import Control.Monad (when, zipWithM_)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Contour qualified as Contour
@@ -64,33 +64,60 @@ possible asked milling
 
 -- | Every element and lead is one that a control can follow.
 followable :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
-followable keyword asked milling side ways = mapM_ long elements >> mapM_ wide elements >> mapM_ wideLead (inwards ways <> outwards ways) >> mapM_ bent (Contour.joints (Part.outline (Part.contour milling)))
+followable keyword asked milling side ways = mapM_ long elements >> mapM_ wide edge >> mapM_ bent (Contour.joints (Part.outline (Part.contour milling))) >> zipWithM_ rolled edge (drop 1 edge)
   where
     elements = NonEmpty.toList (Part.elements (Part.contour milling))
     radius@(Mm r) = Part.radius milling
-    long e = let l = Segment.length (Part.segment e) in when (l < Tolerance.controlLength) (Left (TinyForControl asked e l))
-    wide e = mapM_ (\old -> Left (TightForControl keyword asked (Just e) old radius)) (tooTight radius side (Part.segment e))
-    wideLead m = mapM_ (\old -> Left (TightForControl keyword asked Nothing old radius)) (tooTight radius side (uncovered radius side (segment m)))
+    edge = map lead (inwards ways) <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements] <> map lead (outwards ways)
+    lead m = (Nothing, uncovered radius side (segment m))
+    long e = let l = Segment.length (Part.segment e) in when (l < Tolerance.controlLength) (Left (TinyForControl keyword asked (Just e) l Tolerance.controlLength))
+    wide (i, s) = mapM_ (\old -> Left (TightForControl keyword asked (fmap element i) old radius)) (tooTight radius side s)
     bent (i, a, b) =
       let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
-          Rad least = Tolerance.controlBend
           deep = Mm (r * (1 - cos turned))
-          -- Behind a slight corner LinuxCNC takes the arc of a lead out for one in a hollow.
-          ledOut = (i + 1) `mod` length elements == 0 && any (isArc . segment) outwards' && Rad (abs turned) > Tolerance.kink
-       in when (abs turned < least && (deep > Tolerance.controlCut || ledOut)) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
-    outwards' = outwards ways
-    isArc s = case s of
-      Arc {} -> True
-      Straight _ _ -> False
+       in when (isNone turned && deep > Tolerance.controlCut) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+    -- Behind a corner that turns away from the cutter, and that a control takes for none, the centre sets out too early on an arc, and so it does where
+    -- the end of what is before the arc is rounded.
+    rolled (i, a) (_, b) =
+      let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+          needed = neededBefore (Mm r) side (Rad (max 0 (-(turned * leftward side)))) b
+       in if not (isNone turned) || needed <= lasting a
+            then Right ()
+            else Left $ case i of
+              Just n | abs turned > smooth -> SlightForControl asked (element n) (element (n + 1)) (Rad turned) (Mm (r * (1 - cos turned)))
+              _ -> TinyForControl keyword asked (fmap element i) (lasting a) needed
+    Rad smooth = Tolerance.smoothAngle
+    isNone turned = let Rad least = Tolerance.controlBend in abs turned < least
     element :: Int -> Element
     element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
+
+-- | How long a line has to be, or how large the radius of an arc, before an arc that turns away from it by an angle, so that the centre goes no further round that than LinuxCNC
+-- puts up with.
+neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
+neededBefore (Mm r) side (Rad away) s = case s of
+  Straight _ _ -> Mm 0
+  Arc {start, centre, sweep = Rad angle}
+    | left > 0 -> Mm (r * rounding / left)
+    | otherwise -> Mm (1 / 0)
+    where
+      left = most * (old - signum angle * leftward side * r - least) - r * away
+      Mm old = Segment.radius centre start
+      Mm least = Tolerance.controlArc
+      Mm rounding = Tolerance.controlRounding
+      Rad most = Tolerance.controlTurn
+
+-- | What tells how well the direction at the end of a segment is kept when its points are rounded: the length of a line, the radius of an arc.
+lasting :: Segment -> Mm
+lasting s = case s of
+  Straight a b -> Vec.distance a b
+  Arc {start, centre} -> Segment.radius centre start
 
 -- | The radius of an arc about whose inside the cutter has no room to roll.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == leftward side, old <- Segment.radius centre start, old < plus radius Tolerance.byControl -> Just old
+    | signum angle == leftward side, old <- Segment.radius centre start, old < plus radius Tolerance.controlArc -> Just old
     | otherwise -> Nothing
 
 -- | +1 when the cutter is on the left.
@@ -173,7 +200,7 @@ entering keyword asked milling side ways edge = case reverse ways of
     -- Before an arc the line is an element of its own, which must not be too short for a control.
     leastOntoArc = case segment first of
       Straight _ _ -> 0
-      Arc {} -> let Mm l = Tolerance.controlLength in 2 * atan2 l r
+      arc@Arc {} -> let Mm l = max Tolerance.controlLength (neededBefore radius side (Rad 0) arc) in 2 * atan2 l r
     beginningAt begin = case segment first of
       Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
       Arc {start} -> (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge

@@ -73,8 +73,8 @@ data Error
     WrongWayForControl Region Region Point
   | -- | a control cannot follow a concave arc of this radius; a lead has no element
     TightForControl Region Region (Maybe Element) Mm Mm
-  | -- | an element of this length, too short for a control
-    TinyForControl Region Element Mm
+  | -- | a line of this length, or an arc of this radius, too short for a control, and how much it has to be; a lead has no element
+    TinyForControl Region Region (Maybe Element) Mm Mm
   | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
     SlightForControl Region Element Element Rad Mm
   | -- | there is no path that clears a pocket: the statement's first word, the outline, what the pass leaves at the walls
@@ -251,21 +251,25 @@ toReport err = case err of
     (at (maybe region origin element) "E0419" ("a control cannot keep a cutter of diameter " <> Decimal.mm (times 2 radius') <> " in a concave radius of " <> Decimal.mm old))
       { label = maybe "the lead" shape element,
         others = [Label asked "asked here"],
-        message = ["The radius has to be larger than the cutter's by " <> Decimal.mm Tolerance.byControl <> "."],
+        message = ["The radius has to be larger than the cutter's by " <> Decimal.mm Tolerance.controlArc <> "."],
         hints = ["Take a smaller cutter" <> maybe ", or a larger lead." (const ".") element]
       }
-  TinyForControl asked element length' ->
-    (at (origin element) "E0419" ("an element of " <> Decimal.mm length' <> " is too short for a control to follow"))
-      { label = shape element,
+  TinyForControl region asked element length' needed ->
+    (at (maybe region origin element) "E0419" ("an element of " <> Decimal.mm length' <> " is too short for a control to follow"))
+      { label = maybe "the lead" shape element,
         others = [Label asked "asked here"],
-        message = ["Rounded to pulses it could seem to turn into the part. Elements have to be " <> Decimal.mm Tolerance.controlLength <> " long."],
-        hints = [if ofCurve element then "A curve is cut where the cutter begins on it, which leaves such a piece here. Begin elsewhere: start near …" else "Leave it out, or let a neighbour take its place."]
+        message =
+          [ if needed > Tolerance.controlLength
+              then "Rounded to pulses it could seem to turn aside, and about the arc behind it the cutter has little room. Before that arc a line has to be " <> Decimal.mm needed <> " long, an arc as large in radius."
+              else "Rounded to pulses it could seem to turn into the part. Elements have to be " <> Decimal.mm Tolerance.controlLength <> " long."
+          ],
+        hints = [if maybe False ofCurve element then "A curve is cut where the cutter begins on it, which leaves such a piece here. Begin elsewhere: start near …" else "Leave it out, or let a neighbour take its place."]
       }
   SlightForControl asked first second (Rad turned) deep ->
     (at (origin first) "E0419" ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element"))
       { label = shape first,
         others = second' first second <> [Label asked "asked here"],
-        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc that leads out behind it may then be refused."],
+        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc behind it may then be refused."],
         hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
       }
   NoPathInPocket region outline left -> noRoom region "no path clears this pocket" "its outline is" "in" outline left

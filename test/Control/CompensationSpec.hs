@@ -141,6 +141,8 @@ refusals =
     ("an arc to begin with", [RoundEntry 1], (begun 40) {motion = Round CounterClockwise, centre = V2 20000 0} : drop 1 good),
     ("an arc to end with", [RoundExit 4], take 3 good <> [(straight (-40) 0) {motion = Round Clockwise, centre = V2 (-20000) 0, orders = [(OrderName "release", 0)]}]),
     ("an arc as tight as the cutter", [TightArc 3 (Mm 10) (Mm 10)], take 2 good <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = V2 (-10000) 0}] <> drop 3 good),
+    ("an arc behind a corner of 0.02 that is taken for none, which makes it longer by as much", [], take 2 good <> [onArc 400] <> drop 3 good),
+    ("by more than a control puts up with", [Unreached 3], take 2 good <> [onArc 600] <> drop 3 good),
     ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
     ("on twice", [OnTwice 2], [begun 40, (straight 0 50) {orders = [(OrderName "left", 20000)]}] <> drop 2 good),
     ("on twice at once", [OnTwice 1], (begun 40) {orders = [(OrderName "left", 20000), (OrderName "right", 20000)]} : map (\f -> f {orders = []}) (drop 1 good)),
@@ -151,6 +153,8 @@ refusals =
   where
     good = [begun 40, straight 0 50, straight 50 0, off]
     begun x = (straight x 0) {orders = [(OrderName "left", 20000)]}
+    -- A quarter of a circle behind a corner to the right.
+    onArc aside = (straight 0 0) {motion = Round CounterClockwise, increment = V3 (-20000) (20000 + aside) 0, centre = V2 (-20000) aside}
     off = (straight 0 40) {orders = [(OrderName "release", 0)]}
     straight x y = (Frame.still []) {motion = Straightway, increment = V3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0}
       where

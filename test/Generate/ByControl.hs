@@ -11,12 +11,15 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result qualified as Result
+import Data.List (sort)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe)
 import Generate (Case (..))
 import Generate qualified
+import Geometry.Contour (segments)
 import Geometry.Offset (Side (..))
-import Geometry.Segment (Segment)
+import Geometry.Offset qualified as Offset
+import Geometry.Segment (Segment (Arc))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -30,7 +33,8 @@ import Test.QuickCheck
 -- | A contour with a way in that comes from its beginning's free side, and a way out.
 cases :: Gen (Case, Milling)
 cases = do
-  c <- oneof [Generate.closedCase, Generate.openCase, Generate.smoothCase]
+  drawn <- oneof [Generate.closedCase, Generate.openCase, Generate.smoothCase]
+  c <- frequency [(3, pure drawn), (1, snug drawn <$> choose (0.081, 0.2))]
   far <- choose (1.2, 9)
   angle <- choose (-0.4, 2)
   lead <- elements [Nothing, Just (Part.LeadLine, Mm 3), Just (Part.LeadArc, Mm 2)]
@@ -47,6 +51,12 @@ cases = do
        in (c, plain {Part.approach = [stop from], Part.retract = [stop to'], Part.byControl = Just nowhere})
   where
     stop p = Part.Stop (Located nowhere p) Nothing Part.Rapid
+
+-- | With a cutter that is so much smaller than the smallest arc about whose inside it rolls, if that fits.
+snug :: Case -> Double -> Case
+snug c less = case sort [old - less | Arc from _ centre (Rad a) <- NonEmpty.toList (segments (contour c)), (a > 0) == (side c == LeftOf), let Mm old = Segment.radius centre from, old > less + 0.1, old < 20] of
+  r : _ | Right pieces <- Offset.equidistant (side c) (Mm r) (contour c) -> c {radius = Mm r, pieces}
+  _ -> c
 
 -- | The first and the last move of the cutter beside a contour, leads included.
 firstAndLast :: Milling -> Maybe (Segment, Segment)
