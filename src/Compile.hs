@@ -21,6 +21,7 @@ module Compile
     punch,
     readTape,
     readBack,
+    readOwn,
     prove,
 
     -- * Machines
@@ -159,6 +160,10 @@ readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tap
 -- | The same of a tape on which the frames of a program should stand.
 readBack :: Machine -> Program -> Tape -> Result Report Report [Frame]
 readBack machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
+
+-- | The same of a tape that was punched just now: it has to hold the frames of the program, one by one.
+readOwn :: Machine -> Program -> Tape -> Result Report Report [Frame]
+readOwn machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readOwn machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
 
 -- | Compare a tape's frames with the part; errors when it is not proven.
 prove :: Machine -> Path -> Program -> [Frame] -> Result Report Report Proof

@@ -231,7 +231,7 @@ partOf at operation =
 
 -- | One move from the zero point.
 straightPath :: Double -> Double -> Path
-straightPath x y = Path.Path (Located nowhere (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [Path.Move (Straight (Vec.point 0 0) (Vec.point x y)) (Path.Manner (Mm 0, Mm 0) Part.Rapid False) nowhere False]]
+straightPath x y = Path.Path (Located nowhere (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [Path.Move (Straight (Vec.point 0 0) (Vec.point x y)) (Path.Manner (Mm 0, Mm 0) Part.Rapid False) nowhere False]] False
   where
     nowhere = Region 0 0
 

@@ -185,7 +185,7 @@ proven unproven' path machine =
     if unproven'
       then Result.warned [Cli.warningReport Unproven]
       else do
-        read' <- Compile.readBack machine (program punched) (tape punched)
+        read' <- Compile.readOwn machine (program punched) (tape punched)
         _ <- Compile.prove machine asked (program punched) read'
         pure ()
     pure (machine, punched)

@@ -237,6 +237,8 @@ asideAtStart k s = Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segme
 jointOf :: Keep -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
+  -- What almost turns back is taken for a corner towards the cutter, whichever way it turns.
+  | abs turned > pi - least = NoMeeting
   | turned * leftward k < 0 = Around (Segment.arc (if leftward k > 0 then Clockwise else CounterClockwise) corner (asideAtEnd k a) (asideAtStart k b))
   | otherwise = case meetings k a b of
     [] -> NoMeeting

@@ -141,7 +141,7 @@ warningReport machine warning = case warning of
       }
   SpeedDiffers region asked given ->
     (report Report.Warning "W0505" (InSource region) (machineName machine <> " turns the spindle at " <> turns given))
-      { message = ["Asked is " <> turns asked <> "; the machine has no step nearer to it."]
+      { message = ["Asked is " <> turns asked <> "; the machine can be told none nearer to it."]
       }
   SpeedUnsaid region ->
     (report Report.Warning "W0506" (InSource region) (machineName machine <> " is told of the spindle by its speed, and none is given"))

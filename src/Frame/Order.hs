@@ -53,8 +53,10 @@ told machine (Located region c) = case wordsFor (Machine.orders machine) c of
       Part.Auxiliary _ -> Nothing
       Part.ChangeTool _ _ -> Nothing
     stepWarning Order {value} = case (value, speed) of
-      (Step table, Just turns) -> [SpeedDiffers region turns got | Just (_, got) <- [nearestStep table turns], abs (got - turns) > stepSlack * turns]
+      (Step table, Just turns) -> [SpeedDiffers region turns got | Just (_, got) <- [nearestStep table turns], isOff turns got]
+      (Argument, Just turns) | isOff turns (fromIntegral (round turns :: Int)) -> [SpeedDiffers region turns (fromIntegral (round turns :: Int))]
       _ -> []
+    isOff turns got = abs (got - turns) > stepSlack * turns
 
 -- | The words that tell the control to keep a cutter of this radius on a side of the contour, with the diameter in their decimals. On a machine whose plane is
 -- mirrored left is right.

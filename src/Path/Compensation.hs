@@ -76,6 +76,7 @@ followable keyword asked milling side ways = mapM_ long elements >> mapM_ wide e
       let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
           deep = Mm (r * (1 - cos turned))
        in when (isNone turned && deep > Tolerance.controlCut) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+            >> when (isNone (pi - abs turned)) (Left (BackForControl asked (element i) (element (i + 1)) (Rad turned)))
     -- Behind a corner that turns away from the cutter, and that a control takes for none, the centre sets out too early on an arc, and so it does where
     -- the end of what is before the arc is rounded.
     rolled (i, a) (_, b) =

@@ -1,6 +1,7 @@
 -- | What can be wrong with the way of a cutter around a part.
 module Path.Error
   ( Error (..),
+    Intrusion (..),
     Tool (..),
     Unsent (..),
     toReport,
@@ -39,8 +40,8 @@ data Error
     InnerCorner Region Tool Element Element Point (Maybe Mm)
   | -- | on its way along the first element the cutter cuts the second
     Collision Region Tool Element Element Point (Maybe Mm)
-  | -- | a move that cuts into an element, how deep, and whether it even crosses it
-    CutsPart Region Segment Element Mm Bool Point
+  | -- | a move that cuts into an element, how deep, and in what way
+    CutsPart Region Segment Element Mm Intrusion Point
   | -- | a hole that cuts into a contour: where it is, the element, how deep
     HoleCuts Region Point Element Mm
   | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
@@ -77,6 +78,8 @@ data Error
     TinyForControl Region Region (Maybe Element) Mm Mm
   | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
     SlightForControl Region Element Element Rad Mm
+  | -- | a corner at which the contour almost turns back, which a control refuses: how far it turns
+    BackForControl Region Element Element Rad
   | -- | there is no path that clears a pocket: the statement's first word, the outline, what the pass leaves at the walls
     NoPathInPocket Region Contour Mm
   | -- | nor one along a contour of which not all has to be reached
@@ -87,10 +90,23 @@ data Error
     KeepsMore Region Element
   deriving stock (Eq, Show)
 
+-- | What a way does that it should not.
+data Intrusion
+  = CuttingIn
+  | -- | it goes through the contour itself
+    Crossing
+  | -- | it takes what the statement leaves on the contour
+    Taking
+  deriving stock (Eq, Show)
+
 -- | What is to be known of a path, though nothing is wrong with it.
 data Warning
   = -- | the statement, the cutter, the places where it leaves material on the contour
     Leaves Region Tool [Stay]
+  | -- | a rapid move through the part, below its top: the stop, the way, the contour that encloses it
+    Through Region Segment (Located Name)
+  | -- | a change of the tool behind which the spindle is not said to turn
+    Standing Region
   deriving stock (Eq, Show)
 
 -- | A place where material stays because the cutter does not get there; and the largest cutter that would, which is looked for when it is told.
@@ -111,6 +127,17 @@ warningReport warning = case warning of
       { others = take 6 (distinct (concatMap labels stays)),
         message = map (stayWords tool) (take shown stays) <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
         hints = ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
+      }
+  Through region way (Located named contour) ->
+    (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
+      { others = [Label named "inside this contour"],
+        message = ["It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> " inside " <> text contour <> ", not above the top of the part. That it was cleared there is not known."],
+        hints = ["Lift the cutter first: a third coordinate is a height."]
+      }
+  Standing region ->
+    (report Report.Warning "W0403" (InSource region) "behind this change nothing lets the spindle turn again")
+      { message = ["A spindle stands while its tool is changed; what turned it before holds no longer."],
+        hints = ["Say it again behind the change, for example: spindle cw 800 rpm"]
       }
   where
     shown = 8
@@ -162,8 +189,8 @@ toReport err = case err of
         message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
         hints = [fits tool largest]
       }
-  CutsPart region way element depth crosses p ->
-    (at region "E0405" (if crosses then "this move crosses the contour of the part" else "this move cuts into the part by " <> Decimal.mm depth))
+  CutsPart region way element depth intrusion p ->
+    (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
         message = [if Vec.near (Segment.start way) (Segment.end way) then "It goes up or down at " <> Vec.written 3 p <> "." else "It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
@@ -272,6 +299,13 @@ toReport err = case err of
         message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc behind it may then be refused."],
         hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
       }
+  BackForControl asked first second (Rad turned) ->
+    (at (origin first) "E0419" "a control cannot follow the corner behind this element")
+      { label = shape first,
+        others = second' first second <> [Label asked "asked here"],
+        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of more than " <> inDegrees (let Rad b = Tolerance.controlBend in pi - b) <> " for one in which it cannot move."],
+        hints = ["Round the tip, for instance with a fillet."]
+      }
   NoPathInPocket region outline left -> noRoom region "no path clears this pocket" "its outline is" "in" outline left
   NoPathAlong region along left -> noRoom region "no path goes along this contour" "it is" "beside" along left
   HasToRise region p q ->
@@ -357,6 +391,13 @@ worked :: Tool -> Text
 worked tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
+
+-- | So deep.
+intruding :: Intrusion -> Mm -> Text
+intruding intrusion depth = case intrusion of
+  CuttingIn -> "cuts into the part by " <> Decimal.mm depth
+  Crossing -> "crosses the contour of the part"
+  Taking -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"
 
 shape :: Element -> Text
 shape element = case segment element of

@@ -35,10 +35,11 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (elements), Drilling, Milling (contour, feed, radius, side), Operation (..), Part, Side (..), Spot (..), Work (..))
 import Part.Part qualified as Part
+import Path.Caution qualified as Caution
 import Path.Clearing qualified as Clearing
 import Path.Compensation (Ways (Ways))
 import Path.Compensation qualified as Compensation
-import Path.Error (Error (..), Unsent (..), Warning (..))
+import Path.Error (Error (..), Intrusion (..), Unsent (..), Warning (..))
 import Path.Error qualified as Error
 import Path.Obstacle qualified as Obstacle
 import Path.Path (Block (..), Manner (Manner), Move (Move), Pass (..), Path (Path))
@@ -53,14 +54,25 @@ import Path.Way qualified as Way
 -- unknown, which is reported already; a part that is only drawn has a path without moves.
 lay :: Part -> Result Warning Error Path
 lay part = case (Part.start part, Part.operations part) of
-  (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Spot (Vec.point 0 0) (Mm 0))) []))
+  (Nothing, []) -> Result [] [] (Just (Path (Located (Region 0 0) (Spot (Vec.point 0 0) (Mm 0))) [] False))
   (Nothing, _) -> Result [] [] Nothing
   -- Of the operations nothing is held behind their blocks.
   (Just begin, operations) | !tool <- maybe (Mm 0) Part.cutterRadius (Part.firstCutter part) -> case collect 0 tool (value begin) operations of
     ([], blocks) ->
-      let path = Path begin blocks
-       in Result (staying path) (intrusions path) (Just path)
+      let path = Path begin blocks (turns part)
+          wrong = intrusions path
+       in Result (staying path <> (if null wrong then Caution.warnings path else [])) wrong (Just path)
     (errors, _) -> Result [] errors Nothing
+
+-- | Whether the part is turned on a lathe: something is turned, or there is a tool for it.
+turns :: Part -> Bool
+turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (Part.operations part)
+  where
+    asks operation = case operation of
+      Mill (Located _ milling) -> Part.work milling == Turned
+      Command (Located _ (Part.ChangeTool _ c)) -> isTurning c
+      _ -> False
+    isTurning c = Part.kind c == Part.TurningCutter
 
 -- | What stays beside milled contours; what one cutter leaves at a statement that is gone through several times is one warning.
 staying :: Path -> [Warning]
@@ -345,7 +357,7 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
       Holing (Located _ d) ms -> map hole (concatMap (intrusion (Part.drillRadius d) Nothing) ms)
       Cutting {job = Located at milling, pass, approach, cut, retract} ->
-        concatMap (intrusion (radius milling) Nothing) (approach <> retract)
+        concatMap (intrusionLeaving (number pass, minimum (Part.allowances milling)) (radius milling) Nothing) (approach <> retract)
           <> take 1 (concatMap (map (another (keyword at)) . intrusion (radius milling) (Just (number pass))) (if isAlone (number pass) then [] else NonEmpty.toList cut))
       Clearing {pocket = Located at p, approach, cleared, retract} ->
         let tool = radius (Part.wall p)
@@ -359,18 +371,20 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
     hole e = case e of
       CutsPart at way element deep _ _ -> HoleCuts at (Segment.end way) element deep
       _ -> e
-    intrusion tool own m
+    intrusion = intrusionLeaving (-1, Mm 0)
+    -- On the contour of one pass so much is left in the end.
+    intrusionLeaving leaving tool own m
       | fst (Path.heights m) > top && snd (Path.heights m) > top = []
-      | otherwise = nubBy samePlace (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits tool own m))))
+      | otherwise = nubBy samePlace (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits leaving tool own m))))
     -- The axis of a blade may stand above the top of the part while the blade is in it.
     top = maximum (Mm 0 : [Swivel.highest milling | (_, milling, _) <- jobs])
     -- A contour that is milled several times is cut once.
     samePlace e f = case (e, f) of
       (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.near p q
       _ -> False
-    hits tool own m =
-      [ (n, CutsPart (Path.origin m) (Path.segment m) element (minus tool d) (d <= Tolerance.coincident) p)
-        | let reach = Box.inflate tool (Box.ofSegment (Path.segment m)),
+    hits (leaver, left) tool own m =
+      [ (n, CutsPart (Path.origin m) (Path.segment m) element (minus (if how == Taking then kept else tool) d) how p)
+        | let reach = Box.inflate (plus tool left) (Box.ofSegment (Path.segment m)),
           ((n, milling), walls) <- Box.within reach index,
           Just n /= own,
           group <- Box.within reach walls,
@@ -378,8 +392,14 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
           Box.meets reach (Box.ofSegment (Part.segment element)),
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
           let allowed = plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance,
-          plus d allowed < tool || d <= Tolerance.coincident && goesThrough allowed (Path.segment m) (Part.segment element)
+          let kept = if n == leaver then plus tool left else tool,
+          let how = intrusionAt d (plus d allowed < tool),
+          plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed (Path.segment m) (Part.segment element)
       ]
+    intrusionAt d isDeep
+      | d <= Tolerance.coincident = Crossing
+      | isDeep = CuttingIn
+      | otherwise = Taking
     -- A point of a tool cuts nothing beside it.
     goesThrough most way wall = case wall of
       Straight a b ->

@@ -18,7 +18,6 @@ module Path.Path
     runs,
     isCurve,
     isFlat,
-    isTurned,
     end,
     withoutCuts,
   )
@@ -28,6 +27,7 @@ import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isNothing)
 import Geometry.Offset (Side)
 import Geometry.Offset qualified as Offset
 import Geometry.Segment (Segment)
@@ -36,7 +36,12 @@ import Part.Part (Command, Drilling, Milling, Pace, Pocketing, Spot (..))
 import Part.Part qualified as Part
 
 -- | Where the cutter starts, and what it does then.
-data Path = Path {start :: Located Spot, blocks :: [Block]}
+data Path = Path
+  { start :: Located Spot,
+    blocks :: [Block],
+    -- | the part is turned on a lathe
+    isTurned :: Bool
+  }
   deriving stock (Eq, Show)
 
 -- | What one statement, or one pass of it, asks of the machine.
@@ -179,22 +184,19 @@ isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
     z = height' (start path)
     height' (Located _ (Spot _ h)) = h
 
--- | Whether the part is turned on a lathe.
-isTurned :: Path -> Bool
-isTurned path = or [Part.work milling == Part.Turned | Cutting {job = Located _ milling} <- blocks path]
-
 -- | Where the cutter stands at the end.
 end :: Path -> Spot
 end path = foldl (\_ m -> Spot (Segment.end (segment m)) (snd (heights m))) (value (start path)) (concatMap moves (blocks path))
 
 -- | With no more of each way along a contour or in a pocket than its first and its last move: the rest of a large path need not be held by
--- those who do not ask for it. A cut keeps its height.
+-- those who do not ask for it. Such a cut keeps its height; that of a blade stays whole.
 withoutCuts :: Path -> Path
 withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
   where
     brief = map shortened (blocks path)
     shortened block = case block of
-      Cutting {cut} -> let !ends = endsOf cut in block {cut = ends}
+      Cutting {job = Located _ milling, cut} | isNothing (Part.gear milling) -> let !ends = endsOf cut in block {cut = ends}
+      Cutting {} -> block
       Clearing {cleared} -> let !ends = endsOf cleared in block {cleared = ends}
       Travelling _ _ -> block
       Holing _ _ -> block

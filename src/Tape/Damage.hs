@@ -84,6 +84,8 @@ data Reason
     Rule Broken
   | -- | the machine would write the frame otherwise: what should stand there
     Otherwise Text
+  | -- | what was punched as one frame is read as another
+    Misread
   deriving stock (Eq, Show)
 
 -- | The words for a damaged tape.
@@ -107,6 +109,7 @@ explanation why = case why of
         <> ": frames are missing, or the tape is torn."
     ]
   NoClosing _ -> ["Frames are missing, or the tape is torn."]
+  Misread -> ["The machine's description lets frames be read in two ways. Look at what stands between words, and at words that may be left out."]
   _ -> []
 
 reasonWord :: Reason -> Text
@@ -144,6 +147,7 @@ reasonWord why = case why of
   SpeedRepeated s -> "the speed " <> Decimal.whole s <> " was said before"
   IdleFrame -> "the frame moves nothing and commands nothing"
   Rule broken -> brokenWord broken
+  Misread -> "it is read as another than was punched"
   Otherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
 
 brokenWord :: Broken -> Text

@@ -72,7 +72,7 @@ data Plan = Plan
     keepsFeed :: Bool,
     -- | whether frames have a check digit
     isChecked :: Bool,
-    -- | whether a number and how many digits it has are all that can differ in a word
+    -- | whether a number and how many digits it has are all that can differ in a word, and a word of another kind of frame is not the last thing in it
     isPlain :: Bool
   }
 
@@ -112,9 +112,14 @@ fromMachine machine =
       motions = listToMaybe [(w, codes) | w <- ws, Motion codes <- [content w]],
       keepsFeed = or [presence w == WhenChanged | w <- ws, content w == FeedWord],
       isChecked,
-      isPlain = not isChecked && all (plainForm . form) ws
+      isPlain = not isChecked && endsSurely && all (plainForm . form) ws
     }
   where
+    endsSurely = all isBareStep (takeWhile (not . standsAlways) (reverse steps))
+    standsAlways s = case s of
+      Fixed cs -> not (null cs)
+      Worded w _ _ -> presence w == Always
+      Checked _ -> True
     steps = map step (NonEmpty.toList (Machine.items (Machine.layout machine)))
     isChecked = not (null [() | Checked _ <- steps])
     between = text (Machine.separator (Machine.layout machine))

@@ -7,6 +7,7 @@ module Tape.Punch
     rows,
     read,
     readBack,
+    readOwn,
     Damage (..),
     Reason (..),
     toReport,
@@ -142,6 +143,12 @@ readBack :: Machine -> V3 -> [Frame] -> Tape -> Either Damage [Frame]
 readBack machine start wanted tape
   | holds machine start wanted tape = Right wanted
   | otherwise = read machine start tape
+
+-- | Read a tape that was punched with these frames: anything else than them is a damage.
+readOwn :: Machine -> V3 -> [Frame] -> Tape -> Either Damage [Frame]
+readOwn machine start wanted tape
+  | holds machine start wanted tape = Right wanted
+  | otherwise = read machine start tape >>= \frames -> Left (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) wanted frames)))) Nothing Misread)
 
 -- | Whether these frames are read from a tape. If it says where the cutter is, they tell whether it says heights.
 holds :: Machine -> V3 -> [Frame] -> Tape -> Bool

@@ -6,6 +6,7 @@ module Verify.Feeds
   ( asPlanned,
     asAsked,
     alongAt,
+    downwards,
     tooFast,
   )
 where
@@ -15,6 +16,7 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Control.Walk (Stroke (..))
 import Control.Walk qualified as Control
+import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, mapMaybe)
 import Frame.Frame (Frame, Motion (..), Program)
 import Frame.Frame qualified as Frame
@@ -53,6 +55,22 @@ alongAt machine asked finishes strokes =
     own = [f | finish <- finishes, Just (Located _ f) <- [Part.ownFeed finish]]
     slowed = [fst (Machine.slowest machine) | any Part.slow finishes]
     worth = fromMaybe 0 . Machine.valueOf machine
+
+-- | Strokes straight down into the material, deeper than the tape has been at their places, at a speed at which no such stroke of the program's own goes.
+downwards :: Program -> [Frame] -> [Finding]
+downwards program frames = case plunges (map Frame.frame (Frame.planned program)) of
+  [] -> []
+  own@(s : _) -> [WrongFeed (number f) (speedOf (frame f)) (speedOf (frame s)) (Frame.origin (Frame.planned program !! (number s - 1))) | f <- plunges frames, speedOf (frame f) `notElem` map (speedOf . frame) own]
+  where
+    plunges = deeper Map.empty . Control.run (Frame.start program)
+    deeper known strokes = case strokes of
+      [] -> []
+      s : more
+        | x == x', y == y', z' < min 0 (min z (Map.findWithDefault 0 (x, y) known)) -> s : deeper reached more
+        | otherwise -> deeper reached more
+        where
+          (V3 x y z, V3 x' y' z') = (from s, to s)
+          reached = Map.insertWith min (x', y') z' known
 
 -- | The code for a feed along the path in a stroke, if the machine has one: the feed itself, or the pulses a second
 -- @v/60·n/L@ of the axis that goes n of them on the way L, the most of all axes.

@@ -119,16 +119,18 @@ compared machine path program frames tools traces ownTraces unkept =
         <> [OffPlane n | flat, Just n <- [firstRisen run]]
         <> missingHoles machine path traces
         <> take 1 [CutsElsewhere n p | not flat, isJust (firstDifference run), (n, p) <- strangers machine path ownTraces traces]
-        <> (if sameCount then unlessSame (Feeds.asPlanned program frames) else concatMap foreignFeeds located <> concatMap foreignPocket inPockets)
+        <> (if sameCount then unlessSame (Feeds.asPlanned program frames) else concatMap foreignFeeds located <> concatMap foreignPocket inPockets <> Feeds.downwards program frames)
         <> Feeds.tooFast machine begin frames
         <> unlessSame (Rules.wrongCommands program frames)
         <> Rules.refused machine begin frames
         <> map (Refused . NotKept) unkept
         <> [NotClosed closure | closure /= 0, not (any leaves (concat found <> concat foundIn))]
     foreignFeeds pass = case Deviation.found pass of
-      Passage.Followed _ along -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
-      Passage.Lost _ along -> Feeds.asAsked machine (Deviation.job pass) (strokesOf along)
+      Passage.Followed _ along -> asked pass along
+      Passage.Lost _ along -> asked pass along
       Passage.NeverBegun -> []
+    -- The way up or down at the end is none along the contour.
+    asked pass along = Feeds.asAsked machine (Deviation.job pass) (strokesOf (filter (not . Trace.isUpright) along))
     foreignPocket (p, pass, ts) = Feeds.alongAt machine (Part.feed (Clearing.milling p)) [] (strokesOf [t | t <- ts, not (Trace.isUpright t), not (any (isAlong (line t)) (Clearing.aside pass))])
     -- Few tapes are asked for them: they are run once more.
     strokesOf ts = let numbers = IntSet.fromList (map number ts) in filter (\s -> IntSet.member (Control.number s) numbers) (Control.run begin frames)

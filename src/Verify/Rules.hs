@@ -43,15 +43,23 @@ refused machine = go 1
         <> [NoSweep n | Frame.centre f /= 0, not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f]
     mostApart = times 2 (Machine.pulse machine)
 
--- | Frames with other commands than the program's own frame in the same place.
+-- | Frames with other commands than the program's own frame in the same place. On a tape with another number of frames commands are compared one
+-- after the other, wherever they stand.
 wrongCommands :: Program -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
-    | (n, wanted, found) <- differing 1 (map (Frame.orders . Frame.frame) (Frame.planned program)) (map Frame.orders frames),
+    | (n, wanted, found) <- if length frames == length commanded then differing 1 commanded told else inOrder (filter (not . null . snd) (zip [1 ..] commanded)) (filter (not . null . snd) (zip [1 ..] told)),
       name <- nub (map fst (wanted <> found)),
       lookup name wanted /= lookup name found
   ]
   where
+    commanded = map (Frame.orders . Frame.frame) (Frame.planned program)
+    told = map Frame.orders frames
+    inOrder own found = case (own, found) of
+      ((_, a) : as, (n, b) : bs) -> [(n, a, b) | a /= b] <> inOrder as bs
+      -- Nothing is left in which it might stand.
+      (_, []) -> [(max k (length frames), a, []) | (k, a) <- own]
+      ([], _) -> [(n, [], b) | (n, b) <- found]
     differing :: Int -> [[(OrderName, Int)]] -> [[(OrderName, Int)]] -> [(Int, [(OrderName, Int)], [(OrderName, Int)])]
     differing n own read' = case (own, read') of
       (a : as, b : bs) | a == b -> differing (n + 1) as bs

@@ -67,17 +67,24 @@ onLevel machine b t
     (low, high) = heights t
     -- An arc stays at its height, whatever the contour asks for between its ends.
     looked = case line t of
-      Straight _ _ -> [1]
+      -- Between corners that are gone round, at which it may stand anywhere between, in the middle as well.
+      Straight _ _ -> [0.5, 1]
       Arc {} -> Trace.places t
     -- What the tool touches is nearest to it.
-    fits p z = case [h | (d, i, s) <- beside p, d <= plus (nearest p) (times 2 off), Just h <- [axisAt b i s p]] of
+    fits p z = case [(minus h blur, plus h blur) | (d, i, s) <- beside p, d <= plus (nearest p) (times 2 off), let blur = blurAt i s p, Just h <- [axisAt b i s p]] of
       [] -> False
-      hs -> minus z (maximum hs) <= slack && minus (minimum hs) z <= slack
+      hs -> minus z (maximum (map snd hs)) <= slack && minus (minimum (map fst hs)) z <= slack
     beside p = [(d, i, s) | (i, s) <- Box.within (Box.inflate around (Box.ofPoints p [])) (elements b), let d = Distance.toPoint p s, d <= around]
     nearest p = minimum (around : [d | (d, _, _) <- beside p])
     off = plus (allowed b) (Machine.pulse machine)
     around = plus (furthest b) off
-    -- The place is off along the contour by the tolerance and a pulse as well.
+    -- The place is off by a pulse as well, about the inside of an arc by as much more as its radius is larger than that on which the centre goes.
+    blurAt i s p = case axes b Vector.!? i of
+      Just (from, to) | Mm l <- Segment.length s, l > 0 -> times (1.5 * lever s p / l * abs (let Mm rise = minus to from in rise)) (Machine.pulse machine)
+      _ -> Mm 0
+    lever s p = case s of
+      Arc {centre} | Mm r <- Segment.radius centre (Segment.start s), Mm own <- Vec.distance centre p, own > 0 -> max 1 (r / own)
+      _ -> 1
     slack = times 1.5 (max (Machine.pulse machine) (Machine.pulseOf machine Machine.Z))
 
 -- | The height of the axis beside a place of an element.

@@ -143,6 +143,8 @@ refusals =
     ("an arc as tight as the cutter", [TightArc 3 (Mm 10) (Mm 10)], take 2 good <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = V2 (-10000) 0}] <> drop 3 good),
     ("an arc behind a corner of 0.02 that is taken for none, which makes it longer by as much", [], take 2 good <> [onArc 400] <> drop 3 good),
     ("by more than a control puts up with", [Unreached 3], take 2 good <> [onArc 600] <> drop 3 good),
+    ("a tip at which the way turns back by 176 degrees", [], take 2 good <> [straight (0.07 * 40) (-40)] <> drop 3 good),
+    ("by 178 degrees", [Unreached 2], take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good),
     ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
     ("on twice", [OnTwice 2], [begun 40, (straight 0 50) {orders = [(OrderName "left", 20000)]}] <> drop 2 good),
     ("on twice at once", [OnTwice 1], (begun 40) {orders = [(OrderName "left", 20000), (OrderName "right", 20000)]} : map (\f -> f {orders = []}) (drop 1 good)),

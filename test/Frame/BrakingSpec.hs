@@ -63,7 +63,7 @@ here :: Double -> Located Feed
 here = Located (Region 0 0) . Feed
 
 framesOn :: Machine -> [Move] -> Maybe [Frame]
-framesOn m ms = fmap (filter Frame.isMoving . map frame . Frame.planned) (Made.program m (Path (Located (Region 0 0) (Spot (Segment.start (Path.segment (head ms))) (Mm 0))) [Travelling (Mm 0) ms]))
+framesOn m ms = fmap (filter Frame.isMoving . map frame . Frame.planned) (Made.program m (Path (Located (Region 0 0) (Spot (Segment.start (Path.segment (head ms))) (Mm 0))) [Travelling (Mm 0) ms] False))
 
 -- | The ways of the frames in mm with their feeds in mm/s; none in those that slow down.
 onMachine :: Testable t => [Move] -> (Machine -> [(Double, Maybe Double)] -> t) -> Property

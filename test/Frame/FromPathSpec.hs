@@ -120,7 +120,7 @@ spec = do
     fiveDigits i = case i of
       Machine.AWord w | Machine.Along _ <- Machine.content w -> Machine.AWord w {Machine.form = (Machine.form w) {Machine.digits = 5}}
       _ -> i
-    upAndDown = let down = Path.Move (Straight (Vec.point 0 0) (Vec.point 0 0)) (Path.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (Feed 60))) False) (Region 0 0) False in Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [down]]
+    upAndDown = let down = Path.Move (Straight (Vec.point 0 0) (Vec.point 0 0)) (Path.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (Feed 60))) False) (Region 0 0) False in Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [down]] False
 
 -- | The path around so many squares.
 contoursOf :: Int -> Path

@@ -52,7 +52,7 @@ pathOf text = need "path" (Path.lay part)
 along :: Pace -> [Segment] -> Path
 along pace segments = case segments of
   [] -> error "a path of nothing"
-  s : _ -> Path (Located nowhere (Spot (Segment.start s) (Mm 0))) [Travelling (Mm 0) [Move x (Path.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]]
+  s : _ -> Path (Located nowhere (Spot (Segment.start s) (Mm 0))) [Travelling (Mm 0) [Move x (Path.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]] False
   where
     nowhere = Region 0 0
 

@@ -5,6 +5,7 @@ module Generate.Curve
     anyCurve,
     smooth,
     gentle,
+    zigzag,
     ring,
     closedRing,
     winding,
@@ -26,6 +27,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Data.Either (fromRight)
+import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import GHC.Exts qualified as Exts
@@ -87,6 +89,14 @@ walked begin turns = do
   bent <- choose (-0.1, 0.1)
   ends <- elements [Natural, Clamped (Vec.polar (Mm 1) (Rad (begin + bent))) (Vec.polar (Mm 1) (Rad (final - bent)))]
   pure (Table ends points)
+
+-- | Splines through a few points anywhere, which bend back within a span.
+zigzag :: Gen Curve
+zigzag = do
+  ends <- elements [Natural, Periodic]
+  n <- choose (if ends == Periodic then 3 else 2, 6)
+  points <- vectorOf n (Vec.point <$> choose (0, 100) <*> choose (0, 100)) `suchThat` \ps -> and [Vec.distance p q > Mm 5 | p : rest <- tails ps, q <- rest]
+  pure (ok (splineOf (Table ends points)))
 
 -- | A closed spline about a centre.
 ring :: Gen Curve

@@ -154,6 +154,8 @@ lettered = do
   modulus <- choose (2, 10)
   checked <- elements [0, 1, 2 :: Int]
   spare <- elements [Counted, Skipped]
+  -- Where something stands at the beginning of a frame nothing need stand at its end.
+  ended <- if spare == Skipped then arbitrary else pure True
   let letterRows = zip letters (map (16 .|.) [0 .. 15])
       (begin, end, addresses) = case letters of
         a : b : more -> (Text.singleton a, Text.singleton b, map Text.singleton more)
@@ -173,7 +175,7 @@ lettered = do
               serviceTrack = Nothing,
               skips = [0x1F | spare == Skipped, isNothing evenTrack]
             },
-        layout = Layout {items = NonEmpty.fromList ([Literal begin | spare == Skipped] <> check 1 <> map AWord ws <> check 2 <> [Literal end]), measure = how s, separator = ""}
+        layout = Layout {items = NonEmpty.fromList ([Literal begin | spare == Skipped] <> check 1 <> map AWord ws <> check 2 <> [Literal end | ended]), measure = how s, separator = ""}
       }
   where
     digitSigns = do

@@ -1,7 +1,7 @@
 -- | Intersections, tangents and fillets: each is checked by what defines it.
 module Geometry.ConstructionSpec (spec) where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Geometry.Fillet (Fillet (..))
 import Geometry.Fillet qualified as Fillet
 import Geometry.Intersect (Meeting (..))
@@ -28,6 +28,14 @@ spec = do
             Crossing p q -> conjoin [on a p, on b p, on a q, on b q, property (apart p q > 0)]
             CrossingOnce _ -> property False
             Same -> property False
+    it "lie on both curves, be one of them as good as a line (catches places that are measured from a centre far away)" $
+      property $
+        forAll ((,,) <$> circle <*> choose (4, 8) <*> choose (-0.9, 0.9)) $ \(b@(Circle c (Mm r)), power, share) -> forAll (choose (0, 2 * pi)) $ \angle ->
+          let far = 10 ** power
+              away = Vec.shift (Vec.polar (Mm (far + share * r)) (Rad angle)) c
+              a = Circle away (Mm far)
+              near p = abs (apart c p - r) < 1e-9 && abs (apart away p - far) < 1e-6
+           in conjoin [counterexample (show (p, q)) (near p && near q) | (one, other) <- [(a, b), (b, a)], (p, q) <- case Intersect.circles one other of Crossing p q -> [(p, q)]; m -> error (show m)]
     it "of a line and a circle come in the order of the line (catches a lost sign)" $
       property $
         forAll ((,) <$> line <*> circle) $ \(l, c) -> case Intersect.lineCircle l c of

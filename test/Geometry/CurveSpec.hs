@@ -126,6 +126,12 @@ spec = do
               found = minimum [Vec.distance p (Curve.placeFrom approach c u) | approach <- [Before, After]]
               sampled = minimum [Vec.distance p (Curve.placeFrom approach c (Generate.parameterOf c (k / 1500))) | k <- [0 .. 1500], approach <- [Before, After]]
            in counterexample (show (found, sampled)) (minus found sampled <= Mm 1e-9)
+    it "nearest: a place on a spline that bends back lies on it (catches samples that pass over a bend)" $
+      property $
+        forAll Generate.zigzag $ \c -> forAll Generate.parameter $ \t ->
+          let p = Curve.at c (Generate.parameterOf c t)
+              u = Curve.nearest p c
+           in counterexample (show (p, u)) (Vec.distance p (Curve.at c u) <= Mm 1e-6)
     it "nearest: of a place on the curve it is that place (catches samples that are not made exact)" $
       property $
         forAll Generate.gentle $ \c -> forAll Generate.parameter $ \t ->

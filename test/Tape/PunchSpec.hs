@@ -3,6 +3,7 @@ module Tape.PunchSpec (spec) where
 
 import Base.Lattice (V2 (..), V3 (..))
 import Base.Quantity (Pulses (..))
+import Base.Result qualified as Result
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Short qualified as Short
@@ -11,10 +12,12 @@ import Data.Maybe (isJust, isNothing)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Data.Word (Word8)
+import Files (readText)
 import Frame.Frame (Frame (..), Motion (..))
 import Frame.Frame qualified as Frame
 import Generate.Machine qualified as Generate
 import Geometry.Shape (Turn (..))
+import Machine.FromText qualified as FromText
 import Machine.Machine (Arcs (..), AxisForm (..), FeedCode (..), Item (..), Machine, Measure (..), OrderName (..), Presence (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
@@ -42,6 +45,13 @@ spec = do
 
 randomMachines :: Spec
 randomMachines = do
+  it "a tape that was punched is read as its own frames or refused (catches a machine whose frames may be read in two ways)" $ do
+    description <- readText "test/machines/two-readings.machine"
+    machine <- maybe (fail "the description has errors") pure (Result.settled (FromText.read description))
+    let along x y = (Frame.still []) {motion = Straightway, increment = V3 x y 0, speed = FeedCode 60}
+        own fs = either (Left . Punch.reason) Right (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
+    own [along 1000 0, along 2000 1000] `shouldBe` Right [along 1000 0, along 2000 1000]
+    own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
   it "decode after encode gives the frames (catches a word that writer and reader see differently)" $
     checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)

@@ -166,7 +166,7 @@ long = quarter {increment = V3 (-1000) (-1000) 0}
 
 -- | Why a frame is refused.
 refusals :: Machine -> Frame -> [String]
-refusals machine f = [why r | Refused r <- findings machine (Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) []) (Frame.Program 0 []) [f]]
+refusals machine f = [why r | Refused r <- findings machine (Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) [] False) (Frame.Program 0 []) [f]]
   where
     why r = case r of
       UnequalRadii _ _ -> "radii"

@@ -62,7 +62,19 @@ spec = do
       -- 60 mm/min along (3, 4) mm of 5 mm: 80 Hz of 0.01 mm; straight along x 100 Hz.
       [[n | WrongFeed n _ _ _ <- prove kontur slanted [] [f]] | f <- [aslant 42, aslant 43, aslant 41]] `shouldBe` [[], [1], [1]]
       [[n | WrongFeed n _ _ _ <- prove kontur along [] [f]] | f <- [ahead 43, ahead 42]] `shouldBe` [[], [1]]
-  describe "commands" $
+    it "goes down into the material as the program does (catches a plunge in rapid on a tape with another number of frames)" $
+      [[n | WrongFeed n _ _ _ <- prove lki resting [over, down 15, up] fs] | fs <- [[over, down 15, up], halves <> [down 15, up], halves <> [down 40, up], halves <> [down 15, up, down 40, up]]]
+        `shouldBe` [[], [], [3], []]
+  describe "commands" $ do
+    it "are compared one after the other on a tape with another number of frames (catches places that are counted in frames)" $
+      [ [(n, o, a, b) | WrongCommand n (OrderName o) a b <- prove (Machines.named "n55") resting [go 60 10, Frame.still [(OrderName "M", 2)]] fs]
+        | fs <-
+            [ [go 60 5, go 60 5, Frame.still [(OrderName "M", 2)]],
+              [go 60 5, go 60 5, Frame.still [(OrderName "M", 3)]],
+              [go 60 5, go 60 5, go 60 1]
+            ]
+      ]
+        `shouldBe` [[], [(3, "M", Just 3, Just 2)], [(3, "M", Nothing, Just 2)]]
     it "are compared word by word, also those that are missing at the end (catches a lost word of the last frame)" $
       [ [(n, o, a, b) | WrongCommand n (OrderName o) a b <- prove (Machines.named "n55") resting [go 60 10, Frame.still [(OrderName "M", 2)]] fs]
         | fs <-
@@ -79,6 +91,10 @@ spec = do
     tooFast fs = [n | TooFast n _ _ <- prove lki resting [] fs]
     -- So many mm of pulses of 0.02.
     go code mm = Frame {motion = Straightway, increment = V3 (Pulses (round (mm / 0.02 :: Double))) 0 0, centre = 0, speed = FeedCode code, braking = False, orders = []}
+    over = go 40 10
+    halves = [go 40 5, go 40 5]
+    down code = (go code 0) {increment = V3 0 0 (-200)}
+    up = (go 40 0) {increment = V3 0 0 200}
     slower code mm = (go code mm) {braking = True}
     along = edge (Vec.point 30 0)
     slanted = edge (Vec.point 30 40)
@@ -96,7 +112,7 @@ prove machine path own fs = Proof.findings (Verify.prove machine path (Program b
 
 -- | A path without moves.
 resting :: Path
-resting = Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) []
+resting = Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) [] False
 
 -- | An edge from (0, 0) to a point with a cutter of radius 5 on its left, from where the cut begins.
 edge :: Point -> Path

@@ -1,7 +1,7 @@
 -- | Places on a curve: the nearest to a point, those at an abscissa, those where its direction jumps.
 --
--- Every smooth stretch of the curve is sampled at equal steps of the parameter, and places are made exact between
--- the samples. What a curve does twice between neighbouring samples may be overlooked.
+-- Every smooth stretch of the curve is sampled at equal steps of the parameter, more closely where it bends for the nearest place, and places
+-- are made exact between the samples. What a curve does twice between neighbouring samples may be overlooked.
 module Geometry.Curve.Search
   ( nearest,
     atX,
@@ -50,18 +50,17 @@ within (_, b) curve u = Layered.spot (if u >= b then Before else After) u curve
 nearest :: Point -> Curve -> Double
 nearest p curve = fst (minimumBy (comparing snd) (map (\(u, q, _) -> (u, Vec.distance p q)) (concatMap snd sampled) <> concatMap feet sampled))
   where
-    sampled = map (\stretch -> (stretch, map (sample stretch) (samples stretch))) (stretches curve)
+    sampled = map (\stretch -> (stretch, closely (sample stretch) (map (sample stretch) (samples stretch)))) (stretches curve)
     sample stretch u =
       let jet = Layered.jetAt 1 curve (within stretch curve u)
-          q = Jet.place jet
-       in (u, q, Vec.dot (Vec.to p q) (Jet.velocity jet))
+       in (u, Jet.place jet, Jet.velocity jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
     -- Where the way turns from towards the point to away from it, unless that is certainly further than a sample.
     feet (stretch, found) =
       [ (u, Vec.distance p (Jet.place (Layered.jetAt 0 curve (within stretch curve u))))
         | ((a, q, v), (b, r, w)) <- zip found (drop 1 found),
-          v < 0,
-          w > 0,
+          Vec.dot (Vec.to p q) v < 0,
+          Vec.dot (Vec.to p r) w > 0,
           min (Vec.distance p q) (Vec.distance p r) <= plus best (times 2 (Vec.distance q r)),
           let u = Root.zero (approaching stretch) a b
       ]
@@ -71,6 +70,19 @@ nearest p curve = fst (minimumBy (comparing snd) (map (\(u, q, _) -> (u, Vec.dis
         out = Vec.to p (Jet.place jet)
         v = Jet.velocity jet
         bend = Vec.vec (2 * Series.coefficient 2 x) (2 * Series.coefficient 2 y)
+
+-- | Samples, with more of them where the way turns much from one to the next.
+closely :: (Double -> (Double, Point, Vec)) -> [(Double, Point, Vec)] -> [(Double, Point, Vec)]
+closely sample = go
+  where
+    go found = case found of
+      a : rest@(b : _) -> a : (between halvings a b <> go rest)
+      _ -> found
+    between n a@(u, _, v) b@(w, _, v')
+      | n > 0, Rad turned <- Vec.turn v v', abs turned > most = let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
+      | otherwise = []
+    most = 0.3
+    halvings = 6 :: Int
 
 -- | The parameters at which the curve has an abscissa (mm), in rising order; of a stretch that runs straight up there,
 -- its ends.

@@ -1,0 +1,31 @@
+-- | The proof of a blade: how far it is turned along an element.
+module Verify.SwivelSpec (spec) where
+
+import Base.Lattice (V3 (..))
+import Base.Result qualified as Result
+import Compile (Analysis (..), Punched (..))
+import Compile qualified
+import Files (readText)
+import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
+import Machines (iso6983)
+import Test.Hspec
+import Verify.FromTape qualified as Verify
+import Verify.Proof qualified as Proof
+
+spec :: Spec
+spec =
+  it "an element between two outer corners has its own bevel (catches a proof that looks at its ends, where the blade may stand anywhere between two bevels)" $ do
+    text <- readText "test/programs/tool/good/blade-upright-ends.part"
+    (way, program) <-
+      maybe (fail "the program has errors") pure . Result.settled $
+        Compile.analyse [] (Compile.alone "blade-upright-ends.part" text) `Result.thenSound` \a -> Compile.punch iso6983 (path a) `Result.thenSound` \p -> pure (path a, program p)
+    let frames = map Frame.frame (Frame.planned program)
+        (onto, along) = break rises frames
+        rises f = let V3 _ _ z = increment f in z > 0
+        -- Not as far down before the element, and not as far up behind it.
+        risen d = case (reverse onto, along) of
+          (element : final : earlier, first : behind) -> reverse earlier <> [final `by` d, element, first `by` negate d] <> behind
+          _ -> frames
+        by f d = let V3 x y z = increment f in f {increment = V3 x y (z + d)}
+    [d | d <- [0, 500, 1000, 2000], Proof.isProven (Verify.prove iso6983 way program (risen d))] `shouldBe` [0]
