@@ -46,12 +46,14 @@ spec = do
 randomMachines :: Spec
 randomMachines = do
   it "a tape that was punched is read as its own frames or refused (catches a machine whose frames may be read in two ways)" $ do
-    description <- readText "test/machines/two-readings.machine"
-    machine <- maybe (fail "the description has errors") pure (Result.settled (FromText.read description))
-    let along x y = (Frame.still []) {motion = Straightway, increment = V3 x y 0, speed = FeedCode 60}
-        own fs = either (Left . Punch.reason) Right (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
+    machine <- machineOf "test/machines/two-readings.machine"
+    let own fs = either (Left . Punch.reason) Right (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
     own [along 1000 0, along 2000 1000] `shouldBe` Right [along 1000 0, along 2000 1000]
     own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
+  it "frames may end with a word that mostly is left out (catches a frame that is taken for finished before it)" $ do
+    machine <- machineOf "test/machines/no-end.machine"
+    let fs = [along 1000 0, (along 0 1000) {orders = [(OrderName "M", 8)]}, along 1000 1000]
+    Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
   it "decode after encode gives the frames (catches a word that writer and reader see differently)" $
     checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)
@@ -131,6 +133,13 @@ mirroredFrame f = f {increment = mirroredPlace (increment f), centre = V2 (negat
       Still -> Still
       Rapid -> Rapid
       Straightway -> Straightway
+
+-- | A straight frame of a feed of 60.
+along :: Pulses -> Pulses -> Frame
+along x y = (Frame.still []) {motion = Straightway, increment = V3 x y 0, speed = FeedCode 60}
+
+machineOf :: FilePath -> IO Machine
+machineOf file = readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
 
 pages :: Spec
 pages = do
