@@ -357,7 +357,7 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
       Travelling tool ms -> concatMap (intrusion tool Nothing) ms
       Holing (Located _ d) ms -> map hole (concatMap (intrusion (Part.drillRadius d) Nothing) ms)
       Cutting {job = Located at milling, pass, approach, cut, retract} ->
-        concatMap (intrusionLeaving (number pass, minimum (Part.allowances milling)) (radius milling) Nothing) (approach <> retract)
+        concatMap (intrusionLeaving (Just (number pass, minimum (Part.allowances milling))) (radius milling) Nothing) (approach <> retract)
           <> take 1 (concatMap (map (another (keyword at)) . intrusion (radius milling) (Just (number pass))) (if isAlone (number pass) then [] else NonEmpty.toList cut))
       Clearing {pocket = Located at p, approach, cleared, retract} ->
         let tool = radius (Part.wall p)
@@ -371,8 +371,8 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
     hole e = case e of
       CutsPart at way element deep _ _ -> HoleCuts at (Segment.end way) element deep
       _ -> e
-    intrusion = intrusionLeaving (-1, Mm 0)
-    -- On the contour of one pass so much is left in the end.
+    intrusion = intrusionLeaving Nothing
+    -- On the contour of one statement, by its number, so much is left in the end.
     intrusionLeaving leaving tool own m
       | fst (Path.heights m) > top && snd (Path.heights m) > top = []
       | otherwise = nubBy samePlace (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits leaving tool own m))))
@@ -382,9 +382,9 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
     samePlace e f = case (e, f) of
       (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.near p q
       _ -> False
-    hits (leaver, left) tool own m =
+    hits leaving tool own m =
       [ (n, CutsPart (Path.origin m) (Path.segment m) element (minus (if how == Taking then kept else tool) d) how p)
-        | let reach = Box.inflate (plus tool left) (Box.ofSegment (Path.segment m)),
+        | let reach = Box.inflate (plus tool (maybe (Mm 0) snd leaving)) (Box.ofSegment (Path.segment m)),
           ((n, milling), walls) <- Box.within reach index,
           Just n /= own,
           group <- Box.within reach walls,
@@ -392,7 +392,7 @@ intrusions path = worst (concatMap inBlock (Path.blocks path))
           Box.meets reach (Box.ofSegment (Part.segment element)),
           let Nearest d p = Distance.segments (Path.segment m) (Part.segment element),
           let allowed = plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance,
-          let kept = if n == leaver then plus tool left else tool,
+          let kept = case leaving of Just (leaver, left) | n == leaver -> plus tool left; _ -> tool,
           let how = intrusionAt d (plus d allowed < tool),
           plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed (Path.segment m) (Part.segment element)
       ]

@@ -16,6 +16,7 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Control.Walk (Stroke (..))
 import Control.Walk qualified as Control
+import Data.List (nub)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, mapMaybe)
 import Frame.Frame (Frame, Motion (..), Program)
@@ -60,7 +61,9 @@ alongAt machine asked finishes strokes =
 downwards :: Program -> [Frame] -> [Finding]
 downwards program frames = case plunges (map Frame.frame (Frame.planned program)) of
   [] -> []
-  own@(s : _) -> [WrongFeed (number f) (speedOf (frame f)) (speedOf (frame s)) (Frame.origin (Frame.planned program !! (number s - 1))) | f <- plunges frames, speedOf (frame f) `notElem` map (speedOf . frame) own]
+  own@(s : _) -> [WrongFeed (number f) (speedOf (frame f)) (speedOf (frame s)) (Frame.origin (Frame.planned program !! (number s - 1))) | f <- plunges frames, speedOf (frame f) `notElem` asked]
+    where
+      asked = nub (map (speedOf . frame) own)
   where
     plunges = deeper Map.empty . Control.run (Frame.start program)
     deeper known strokes = case strokes of

@@ -8,8 +8,8 @@ module Verify.Rules
   )
 where
 
-import Base.Lattice (V3)
-import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Lattice (V3 (..))
+import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
 import Control.Walk (Stroke (..))
 import Control.Walk qualified as Control
 import Data.List (nub)
@@ -44,11 +44,11 @@ refused machine = go 1
     mostApart = times 2 (Machine.pulse machine)
 
 -- | Frames with other commands than the program's own frame in the same place. On a tape with another number of frames commands are compared one
--- after the other, wherever they stand.
+-- after the other, each where the cutter stands then.
 wrongCommands :: Program -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
-    | (n, wanted, found) <- if length frames == length commanded then differing 1 commanded told else inOrder (filter (not . null . snd) (zip [1 ..] commanded)) (filter (not . null . snd) (zip [1 ..] told)),
+    | (n, wanted, found) <- if length frames == length commanded then differing 1 commanded told else inOrder (standing (map Frame.frame (Frame.planned program))) (standing frames),
       name <- nub (map fst (wanted <> found)),
       lookup name wanted /= lookup name found
   ]
@@ -56,10 +56,13 @@ wrongCommands program frames =
     commanded = map (Frame.orders . Frame.frame) (Frame.planned program)
     told = map Frame.orders frames
     inOrder own found = case (own, found) of
-      ((_, a) : as, (n, b) : bs) -> [(n, a, b) | a /= b] <> inOrder as bs
+      ((_, p, a) : as, (n, q, b) : bs) -> [(n, if isNear p q then a else [], b) | a /= b || not (isNear p q)] <> inOrder as bs
       -- Nothing is left in which it might stand.
-      (_, []) -> [(max k (length frames), a, []) | (k, a) <- own]
-      ([], _) -> [(n, [], b) | (n, b) <- found]
+      (_, []) -> [(max k (length frames), a, []) | (k, _, a) <- own]
+      ([], _) -> [(n, [], b) | (n, _, b) <- found]
+    -- Frames that command something, by their numbers, and where they begin.
+    standing fs = [(n, at, Frame.orders f) | (n, at, f) <- zip3 [1 ..] (scanl (+) 0 (map Frame.increment fs)) fs, not (null (Frame.orders f))]
+    isNear p q = let V3 x y z = abs (p - q) in maximum [x, y, z] <= Pulses 2
     differing :: Int -> [[(OrderName, Int)]] -> [[(OrderName, Int)]] -> [(Int, [(OrderName, Int)], [(OrderName, Int)])]
     differing n own read' = case (own, read') of
       (a : as, b : bs) | a == b -> differing (n + 1) as bs

@@ -71,10 +71,11 @@ spec = do
         | fs <-
             [ [go 60 5, go 60 5, Frame.still [(OrderName "M", 2)]],
               [go 60 5, go 60 5, Frame.still [(OrderName "M", 3)]],
-              [go 60 5, go 60 5, go 60 1]
+              [go 60 5, go 60 5, go 60 1],
+              [go 60 5, Frame.still [(OrderName "M", 2)], go 60 5]
             ]
       ]
-        `shouldBe` [[], [(3, "M", Just 3, Just 2)], [(3, "M", Nothing, Just 2)]]
+        `shouldBe` [[], [(3, "M", Just 3, Just 2)], [(3, "M", Nothing, Just 2)], [(2, "M", Just 2, Nothing)]]
     it "are compared word by word, also those that are missing at the end (catches a lost word of the last frame)" $
       [ [(n, o, a, b) | WrongCommand n (OrderName o) a b <- prove (Machines.named "n55") resting [go 60 10, Frame.still [(OrderName "M", 2)]] fs]
         | fs <-

@@ -81,6 +81,7 @@ closely sample = go
     between n a@(u, _, v) b@(w, _, v')
       | n > 0, Rad turned <- Vec.turn v v', abs turned > most = let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
       | otherwise = []
+    -- In radians, and how often a step is halved at most.
     most = 0.3
     halvings = 6 :: Int
 
