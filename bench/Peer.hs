@@ -4,7 +4,6 @@ module Peer
     Outcome (..),
     interleaved,
     command,
-    repeated,
     middle,
   )
 where
@@ -62,9 +61,3 @@ middle values = case drop ((length values - 1) `div` 2) (sort values) of
   low : high : _ | even (length values) -> (low + high) / 2
   m : _ -> m
   [] -> 0
-
--- | The same so many times; a failure ends it.
-repeated :: Int -> IO (Either Text Text) -> IO (Either Text [Text])
-repeated count action
-  | count <= 0 = pure (Right [])
-  | otherwise = action >>= either (pure . Left) (\out -> fmap (out :) <$> repeated (count - 1) action)

@@ -24,9 +24,7 @@ data Kind
     Rows
   | -- | the same with noise of 0.1 mm: every row bends it
     Wavy
-  | -- | the noisy table in a file of comma-separated values
-    WavyFile
-  | -- | closed arcs through the rows of such a file, 19 mm apart, with noise of 2 mm: each arc needs a frame of its own
+  | -- | closed arcs through the rows of a file of comma-separated values, 19 mm apart, with noise of 2 mm: each arc needs a frame of its own
     ArcsFile
   | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved: each line needs a frame of its own
     LinesFile
@@ -43,7 +41,6 @@ name kind = case kind of
   Statements -> "statements"
   Rows -> "smooth rows"
   Wavy -> "noisy rows"
-  WavyFile -> "noisy rows, csv"
   ArcsFile -> "arcs, csv"
   LinesFile -> "lines, csv"
   CornersFile -> "corners, csv"
@@ -52,7 +49,7 @@ name kind = case kind of
 -- | How many elements there are at most: ten times as many would take more than a million frames, or more room than a drawing has; and what is
 -- written by hand is no larger.
 most :: Kind -> Int
-most kind = if kind `elem` [Rows, Wavy, WavyFile, LinesFile] then 1000000 else 100000
+most kind = if kind `elem` [Rows, Wavy, LinesFile] then 1000000 else 100000
 
 -- | The text of a program, and the files beside it.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
@@ -65,15 +62,13 @@ written kind n = case kind of
   Statements -> Written (statements n) []
   Rows -> inline 0
   Wavy -> inline 0.1
-  WavyFile -> filed "closed_spline" 1 0.1
-  ArcsFile -> filed "closed_arcs" 6 2
+  ArcsFile -> Written (curved "closed_arcs" "outside" "" (6 * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 6 2))]
   LinesFile -> cornered "on" ""
   CornersFile -> cornered "outside" " rest allowed"
   HolesFile -> Written (header "holes" 2 (0.7 * fromIntegral n + 40) <> "clearance 5 mm\ntable t from \"rows.csv\"\ndrill at points_of(t) depth 3 mm\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
   where
     cornered side more = Written (curved "polyline" side more (fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
     inline noise = Written (curved "closed_spline" "outside" "" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
-    filed through scale noise = Written (curved through "outside" "" (scale * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n scale noise))]
 
 -- | Elements around a circle, so far apart that half of what lies between them is given.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text

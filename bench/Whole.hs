@@ -32,49 +32,64 @@ data Staged = Staged {stages :: [(Text, Double)], peak :: Double}
 -- the seconds that are allowed.
 staged :: Tools -> Int -> Double -> IO Text
 staged tools most allowed =
-  Table.table (["program", "machine", "size"] <> map fst names <> ["sum", "µs per element", "MB"]) . concat
+  Table.table (["program", "machine", "size"] <> names <> ["sum", "µs per element", "MB"]) . concat
     <$> forM [(k, m) | k <- [minBound ..], m <- ["lkp-01f", "iso6983"]] (ofKind tools most allowed)
   where
-    names = [(n, ()) | n <- ["parse", "check", "part", "path", "frames", "tape", "verify"]] :: [(Text, ())]
+    names = ["parse", "check", "part", "path", "frames", "tape", "verify"]
 
+-- | A size and its runs, or why there are none.
+type Size = (Int, Either Text [Staged])
+
+-- | The sizes take turns, so that a machine that becomes slower for a while does so for all of them: growth is told between what was measured side by side.
 ofKind :: Tools -> Int -> Double -> (Kind, Text) -> IO [Table.Row]
-ofKind tools most allowed (kind, machine) = reverse . fst <$> foldM size ([], Nothing) (takeWhile (<= min most (Programs.most kind)) [100, 1000, 10000, 100000, 1000000])
+ofKind tools most allowed (kind, machine) = do
+  once <- foldM first [] (takeWhile (<= min most largest) [100, 1000, 10000, 100000, 1000000])
+  sizes <- foldM (\sizes turn -> traverse (again turn) sizes) (reverse once) [2 .. 5]
+  let medians = [(n, middles <$> runs) | (n, runs) <- sizes]
+  forM_ medians $ \(n, s) -> Text.putStrLn (Programs.name kind <> " on " <> machine <> ", " <> Decimal.whole n <> ": " <> either id (\s' -> Table.number (total s') <> " ms") s)
+  hFlush stdout
+  pure (concatMap (rows [(n, s) | (n, Right s) <- medians, n == 1000]) medians)
   where
-    size (rows, before) n
-      | Just (_, Nothing) <- before = pure (rows, before)
-      | expected before > 1000 * allowed = pure (row n (replicate 10 "–") : rows, Just (n, Nothing))
-      | otherwise = do
-        found <- Peer.repeated (if expected before > 6000 then 1 else repeats n) (Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine])
-        let outcome = found >>= middles
-        Text.putStrLn (Programs.name kind <> " on " <> machine <> ", " <> Decimal.whole n <> ": " <> either id (\s -> Table.number (total s) <> " ms") outcome)
-        hFlush stdout
-        pure $ case outcome of
-          Left why -> (row n [Text.take 80 why] : rows, Just (n, Nothing))
-          Right s -> ([growth b s | Just (m, Just old) <- [before], b <- [(m, n, old)]] <> [row n (map (Table.number . snd) (stages s) <> [Table.number (total s), Table.number (1000 * total s / fromIntegral n), Table.number (peak s / 1024)])] <> rows, Just (n, Just s))
-    row n cells = [Programs.name kind, machine, Decimal.whole n] <> cells
-    growth (m, n, old) s = ["", "", "growth"] <> zipWith (\(_, a) (_, b) -> exponentOf (m, a) (n, b)) (stages old) (stages s) <> [exponentOf (m, total old) (n, total s), "", ""]
-    exponentOf a@(_, t) b@(_, t') = if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
+    -- A million rows on one machine are enough.
+    largest = if machine == "iso6983" then Programs.most kind else min 100000 (Programs.most kind)
+    first before n = (: before) . (n,) <$> (if expected before > 1000 * allowed then pure (Left "–") else fmap (: []) <$> run n)
+    again turn (n, runs) = case runs of
+      Right done | turn <= turns n (middles done) -> (\new -> (n, (: done) <$> new)) <$> run n
+      _ -> pure (n, runs)
+    run :: Int -> IO (Either Text Staged)
+    run n = (>>= parsed) <$> Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine]
     -- A program of ten times as many elements takes somewhat more than ten times as long.
+    expected :: [Size] -> Double
     expected before = case before of
-      Just (_, Just s) -> 15 * total s
-      _ -> 0
-    repeats n
-      | n <= 1000 = 5
-      | n <= 100000 = 3
-      | otherwise = 1
+      (_, Right runs) : _ -> 15 * total (middles runs)
+      (_, Left _) : _ -> 1 / 0
+      [] -> 0
+    -- Twelve seconds are enough for a size.
+    turns :: Int -> Staged -> Int
+    turns n s = min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
+    rows thousand (n, outcome) = case outcome of
+      Left why -> [start n <> (if why == "–" then replicate 10 why else [Text.take 80 why])]
+      Right s ->
+        (start n <> map (Table.number . snd) (stages s) <> [Table.number (total s), Table.number (1000 * total s / fromIntegral n), Table.number (peak s / 1024)]) :
+          [ ["", "", "growth"] <> zipWith (\(_, a) (_, b) -> growth (m, a) (n, b)) (stages old) (stages s) <> [growth (m, total old) (n, total s), "", ""]
+            | n > 1000,
+              (m, old) <- thousand
+          ]
+    start n = [Programs.name kind, machine, Decimal.whole n]
+    growth a@(_, t) b@(_, t') = if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
 
 total :: Staged -> Double
 total = sum . map snd . stages
 
--- | The medians of several runs.
-middles :: [Text] -> Either Text Staged
-middles outputs = case traverse parsed outputs of
-  Just runs@(first : _) -> Right Staged {stages = [(name, Peer.middle [t | r <- runs, (n, t) <- stages r, n == name]) | (name, _) <- stages first], peak = Peer.middle (map peak runs)}
-  _ -> Left "what was printed is not understood"
+-- | The medians of several runs, all of the same stages.
+middles :: [Staged] -> Staged
+middles runs = Staged {stages = [(name, Peer.middle [t | r <- runs, (n, t) <- stages r, n == name]) | (name, _) <- concatMap stages (take 1 runs)], peak = Peer.middle (map peak runs)}
+
+parsed :: Text -> Either Text Staged
+parsed out = do
+  numbers <- maybe (Left "what was printed is not understood") Right (traverse (pair . Text.words) (Text.lines out))
+  pure Staged {stages = filter ((/= "memory") . fst) numbers, peak = sum [v | ("memory", v) <- numbers]}
   where
-    parsed out = do
-      numbers <- traverse (pair . Text.words) (Text.lines out)
-      pure Staged {stages = filter ((/= "memory") . fst) numbers, peak = sum [v | ("memory", v) <- numbers]}
     pair line = case line of
       [name, value] -> (name,) <$> readMaybe (Text.unpack value)
       _ -> Nothing
@@ -93,11 +108,11 @@ besideInterpreter tools folder programs allowed = do
       | otherwise = do
         (fails, row) <- beside (kind, n)
         pure ([kind | fails] <> failed, row : rows)
-    -- A short one is asked more often, a long one not again.
+    -- Four seconds are enough for ours.
     turns done action = do
       turn <- action
       case fst turn of
-        Right (s, _) | done < (if s < 0.6 then 15 else if s < 4 then 5 else 1) -> (turn :) <$> turns (done + 1) action
+        Right (s, _) | done < min 7 (ceiling (4 / s)) -> (turn :) <$> turns (done + 1) action
         _ -> pure [turn]
     beside (kind, n) = do
       let Written {text, files} = Programs.written kind n

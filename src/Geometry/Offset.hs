@@ -36,7 +36,7 @@ import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
-import Data.Primitive.PrimArray (PrimArray, indexPrimArray, newPrimArray, unsafeFreezePrimArray, writePrimArray)
+import Data.Primitive.PrimArray (PrimArray, indexPrimArray, newPrimArray, sizeofPrimArray, unsafeFreezePrimArray, writePrimArray)
 import Data.Set qualified as Set
 import Data.Vector qualified as Vector
 import Geometry.Box qualified as Box
@@ -91,13 +91,13 @@ attempt style side radius contour = do
 -- | Segments and corners, each for itself. Whether there is a way is known first; its pieces come when they are asked for, and
 -- need not all be there at once.
 raw :: Style -> Side -> Mm -> Contour -> Either Cause (NonEmpty Piece)
-raw style side radius contour@(Contour ends ss@(first :| others)) = case causes style side radius contour turnings of
+raw style side radius contour@(Contour ends (first :| others)) = case causes style side radius contour turnings of
   cause : _ -> Left cause
   -- A cutter that just fits into an arc stands still there; a contour of such arcs alone is one point.
   [] -> Right (maybe (along side (radiusAt style radius 0) 0 first :| []) chained (NonEmpty.nonEmpty (from 0 (frontOf bends contour) first (way 0 first) others)))
   where
     turnings = turningsOf contour
-    bends = Bends {style, side, radius, turnings, whole = NonEmpty.length ss, isClosed = ends == Closed}
+    bends = Bends {style, side, radius, turnings, isClosed = ends == Closed}
     way = wayOf bends
     -- A segment, by how much its way is shortened at its beginning, that way, and what is behind it.
     from !i !front s p rest = real (shortened front back p) (corner <> next)
@@ -129,9 +129,13 @@ turningsOf (Contour ends ss@(first :| _)) = runST $ do
   where
     between s s' = let Rad turned = Vec.turn (Segment.endDirection s) (Segment.startDirection s') in turned
 
--- | What is to be known at every corner: what was asked, the turnings, how many segments there are, and whether there is a
+-- | What is to be known at every corner: what was asked, the turning behind each segment, and whether there is a
 -- corner behind the last one.
-data Bends = Bends {style :: Style, side :: Side, radius :: Mm, turnings :: PrimArray Double, whole :: Int, isClosed :: Bool}
+data Bends = Bends {style :: Style, side :: Side, radius :: Mm, turnings :: PrimArray Double, isClosed :: Bool}
+
+-- | How many segments there are.
+segmentCount :: Bends -> Int
+segmentCount = sizeofPrimArray . turnings
 
 -- | The way along a segment, by its number, before anything of it is cut.
 wayOf :: Bends -> Int -> Segment -> Piece
@@ -152,7 +156,7 @@ frontOf :: Bends -> Contour -> Double
 frontOf bends (Contour _ ss@(first :| _)) = front
   where
     Cuts _ front = cutsAt bends final (segment (wayOf bends final (NonEmpty.last ss))) (segment (wayOf bends 0 first))
-    final = whole bends - 1
+    final = segmentCount bends - 1
 
 -- | How far before the end of the one way and behind the beginning of the other they meet, in mm, given how far lines would. Arcs meet
 -- nearby: three of Newton's steps, which take both for straight, leave rounding only. Where they lead to no place on both ways, the ways
@@ -180,8 +184,8 @@ causes :: Style -> Side -> Mm -> Contour -> PrimArray Double -> [Cause]
 causes style side radius contour@(Contour ends ss@(first :| _)) turnings = concaves 0 list <> blocked 0 list <> overlong 0 (frontOf bends contour) list
   where
     list = NonEmpty.toList ss
-    count = NonEmpty.length ss
-    bends = Bends {style, side, radius, turnings, whole = count, isClosed = ends == Closed}
+    count = segmentCount bends
+    bends = Bends {style, side, radius, turnings, isClosed = ends == Closed}
     concaves !i rest = case rest of
       [] -> []
       s : more
@@ -245,7 +249,7 @@ data Corner
 
 cornerOf :: Bends -> Int -> Corner
 cornerOf bends@Bends {style, side, radius} number
-  | not (isClosed bends) && number + 1 == whole bends = Passed
+  | not (isClosed bends) && number + 1 == segmentCount bends = Passed
   | abs turned <= smooth = Passed
   | turned * leftward side > 0 && r1 == radiusAt style radius (following bends number), Just t <- bend r1 = Bent t
   | radius <= Mm 0 = Passed
@@ -259,7 +263,7 @@ cornerOf bends@Bends {style, side, radius} number
 
 -- | The segment behind a corner.
 following :: Bends -> Int -> Int
-following bends number = if number + 1 == whole bends then 0 else number + 1
+following bends number = if number + 1 == segmentCount bends then 0 else number + 1
 
 -- | The way round a corner that is passed, if there is one, and from one distance to another.
 cornerWay :: Bends -> Int -> Segment -> Segment -> [Piece]
@@ -351,7 +355,7 @@ sharpened :: Style -> Side -> Mm -> Contour -> Way -> Way
 sharpened style side radius contour = \way -> way {Way.pieces = corner =<< Way.pieces way}
   where
     whole = Vector.fromList (NonEmpty.toList (segments contour))
-    bends = Bends {style, side, radius, turnings = turningsOf contour, whole = Vector.length whole, isClosed = Contour.ends contour == Closed}
+    bends = Bends {style, side, radius, turnings = turningsOf contour, isClosed = Contour.ends contour == Closed}
     strikes = struck style radius contour
     corner p = case (origin p, segment p) of
       (Around i, Arc {start, end})

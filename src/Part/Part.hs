@@ -130,7 +130,13 @@ backwards c = c {elements = NonEmpty.reverse (snd (mapAccumR turned (continues (
 
 -- | The bare geometry of a contour.
 outline :: Contour -> Geometry.Contour
-outline contour = Geometry.Contour (ends contour) (fmap segment (elements contour))
+outline contour = Geometry.Contour (ends contour) (segment first :| segmentsOf others)
+  where
+    first :| others = elements contour
+    -- A segment that waited to be taken out of its element would need as much room again.
+    segmentsOf es = case es of
+      [] -> []
+      e : rest -> let s = segment e in s `seq` (s : segmentsOf rest)
 
 -- | A place and the height above the top of the part; negative in the material.
 data Spot = Spot {plane :: Point, height :: Mm}
