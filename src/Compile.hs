@@ -30,6 +30,7 @@ module Compile
     isDescription,
     machineFor,
     machineIn,
+    machineNamed,
     Unknown (..),
     onMachine,
   )
@@ -199,7 +200,11 @@ data Unknown
 machineFor :: Descriptions -> Text -> Either Unknown Machine
 machineFor descriptions name
   | isDescription name = machineIn descriptions name
-  | otherwise = maybe (Left NoSuchMachine) Right (BuiltIn.find (MachineName name))
+  | otherwise = machineNamed name
+
+-- | The machine of a name that is built in.
+machineNamed :: Text -> Either Unknown Machine
+machineNamed name = maybe (Left NoSuchMachine) Right (BuiltIn.find (MachineName name))
 
 -- | The machine of a description.
 machineIn :: Descriptions -> Text -> Either Unknown Machine

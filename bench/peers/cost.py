@@ -6,8 +6,10 @@ import resource
 import subprocess
 import sys
 
+# What was run to start this program counts as its children, too.
+before = resource.getrusage(resource.RUSAGE_CHILDREN)
 done = subprocess.run(sys.argv[1:], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 used = resource.getrusage(resource.RUSAGE_CHILDREN)
 if done.returncode != 0:
     sys.exit(done.stderr[:400] or f"status {done.returncode}")
-print(used.ru_utime + used.ru_stime, used.ru_maxrss)
+print(used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime, used.ru_maxrss)

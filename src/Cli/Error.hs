@@ -74,7 +74,10 @@ toReport err = case err of
   UnknownMachine place name known ->
     (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
-        hints = ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
+        hints =
+          if ".machine" `Text.isSuffixOf` name
+            then ["A description stands in quotation marks: machine \"" <> name <> "\"."]
+            else ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
       }
   DescriptionMissing place file why ->
     (wrong "E0806" (maybe InFile InSource place) ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why))

@@ -26,7 +26,7 @@ chosen descriptions targets Analysis {part, path} = Result.mapErrors id Cli.toRe
   where
     found = case (targets, Part.machine part) of
       ([], Nothing) -> Result.failed (NoMachine known)
-      ([], Just (Located region (Named n))) -> pure <$> look (Just region) n (Compile.machineFor descriptions n)
+      ([], Just (Located region (Named n))) -> pure <$> look (Just region) n (Compile.machineNamed n)
       ([], Just (Located region (Described file))) -> pure <$> look (Just region) file (Compile.machineIn descriptions file)
       (some, _) -> traverse (\n -> look Nothing n (Compile.machineFor descriptions n)) some
     look region n = either (Result.failed . unknown region n) pure

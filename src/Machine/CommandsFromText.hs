@@ -118,7 +118,12 @@ check machine given = concatMap one (each given)
     names = [n | w <- Machine.wordsOf machine, OrderName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)]]
     one (event, Located r (Order (OrderName n) v)) = case Machine.orderCapacity machine (OrderName n) of
       Nothing -> [BadCommand r (NoPlace n names)]
-      Just most -> fits r n most v <> means r event v
+      Just most -> fits r n most v <> means r event v <> [BadCommand r AsksNothing | asksZero v, not (Machine.canOrder machine (OrderName n) 0)]
+    asksZero v = case v of
+      Fixed k -> k == 0
+      Step t -> Map.member 0 t
+      Argument -> False
+      Diameter -> False
     fits r n most v = case v of
       Fixed k -> tooLarge r most [k] <> whole r n
       Argument -> whole r n

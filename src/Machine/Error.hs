@@ -81,6 +81,10 @@ data Unclear
     Prefix Text Text Region
   | -- | a number of any length, and what may follow it begins with a digit
     RunsOn Region
+  | -- | the same, and the closing symbols begin with a digit
+    RunsOnClosing
+  | -- | the same, and blank rows are skipped that read as this digit
+    RunsOnBlank Char
   | -- | nothing stands in every frame
     NothingFixed
   | -- | blank rows are skipped, and the frame may begin with one
@@ -155,6 +159,8 @@ data CommandFault
     NoSuchValue Text Text
   | -- | whole numbers in a word with decimals
     InDecimals
+  | -- | the number 0, where it stands when nothing is asked
+    AsksNothing
   deriving stock (Eq, Ord, Show)
 
 -- | The words for it.
@@ -265,6 +271,14 @@ unclearReport region unclear = case unclear of
       { others = [Label next "follows it"],
         hints = ["Give the number a fixed length: digits " <> "4", "Or give what follows an address."]
       }
+  RunsOnClosing ->
+    (because "The number has any length, and the symbols behind the last frame begin with a digit.")
+      { hints = ["Give the number a fixed length: digits 4", "Or end every frame with a symbol: symbols \"\\n\""]
+      }
+  RunsOnBlank digit ->
+    (because ("The number has any length, and a blank row, which is skipped behind the frame, reads as " <> quote (Text.singleton digit) <> "."))
+      { hints = ["Give the number a fixed length: digits 4", "Or let the blank rows be ‘counted’."]
+      }
   NothingFixed ->
     (because "No word and no symbol stands in every frame, so nothing tells one frame from the next.")
       { hints = ["End every frame with a symbol: symbols \"\\n\""]
@@ -343,6 +357,7 @@ commandReport region fault = case fault of
   TooLarge n largest -> (wrong ("the number " <> Decimal.whole n <> " does not fit")) {hints = ["Its place in the frame holds 0 to " <> Decimal.whole largest <> "."]}
   NoSuchValue value event -> (wrong (quote value <> " means nothing for " <> quote event)) {hints = ["Give it a number: set M 8"]}
   InDecimals -> (wrong "a whole number in a word with decimals") {hints = ["Only a diameter goes into a word with decimals."]}
+  AsksNothing -> (wrong "0 stands there when nothing is asked") {hints = ["Give it another number, or let the word stand only where it is needed: when needed"]}
   where
     wrong = at region "E1014"
 

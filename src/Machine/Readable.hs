@@ -30,6 +30,7 @@ check medium tape code' placed separator' =
       [Unreadable (fst separator') (LikeNumber (snd separator')) | beginsLikeNumber (snd separator')],
       pairs items',
       concatMap (runsOn (snd separator')) (followed items'),
+      concatMap (runsOut medium code') (followed items'),
       [Unreadable r NothingFixed | all (isOptional . snd) items', (r, _) <- take 1 items'],
       [Unreadable r (TwoChecks first) | (k, (r, CheckDigit _)) <- zip [0 ..] items', (first, CheckDigit _) <- take 1 [i | i@(_, CheckDigit _) <- take k items']],
       blankStart medium code' items',
@@ -127,6 +128,19 @@ runsOn between ((r, item), behind) = case item of
       CheckDigit _ -> Just (Unreadable r (RunsOn r'))
     beginsWithDigit f = sign f /= EitherSign
 
+-- | A number of any length at the end of a frame, before closing symbols or skipped rows that read like its next digit.
+runsOut :: Medium -> Code -> ((Region, Item), [(Bool, (Region, Item))]) -> [Error]
+runsOut medium code' ((r, item), behind) = case item of
+  AWord w
+    | not (padded (form w)) && digits (form w) > 0 && not (all fst behind) ->
+      [Unreadable r RunsOnClosing | Text.any (\c -> isDigit c || c == '.') (Text.take 1 (closing medium))]
+        <> [Unreadable r (RunsOnBlank d) | spare medium == Skipped, d <- ['0' .. '9'], isBlank medium code' d]
+  _ -> []
+
+-- | Whether a symbol is a row without holes.
+isBlank :: Medium -> Code -> Char -> Bool
+isBlank medium code' c = or [0 `elem` take 1 (CodeFromText.rowsOf (tracks medium) code' p) | Just p <- [Map.lookup c (symbols code')]]
+
 -- | The items with which a frame can begin.
 beginning :: [(Region, Item)] -> [(Region, Item)]
 beginning items' = let (may, fixed) = span (isOptional . snd) items' in may <> take 1 fixed
@@ -135,9 +149,8 @@ beginning items' = let (may, fixed) = span (isOptional . snd) items' in may <> t
 blankStart :: Medium -> Code -> [(Region, Item)] -> [Error]
 blankStart medium code' items' = case spare medium of
   Counted -> []
-  Skipped -> [Unreadable r BlankStart | (r, item) <- beginning items', any isBlank (firsts item)]
+  Skipped -> [Unreadable r BlankStart | (r, item) <- beginning items', any (isBlank medium code') (firsts item)]
   where
-    isBlank c = or [0 `elem` take 1 (CodeFromText.rowsOf (tracks medium) code' p) | Just p <- [Map.lookup c (symbols code')]]
     firsts item = case item of
       Literal t -> Text.unpack (Text.take 1 t)
       CheckDigit _ -> ['0' .. '9']

@@ -107,6 +107,16 @@ spec = do
         code' `shouldBe` ExitFailure 1
         err' `shouldSatisfy` isInfixOf "error[E0811]"
         listDirectory folder >>= (`shouldMatchList` ["flange.part", "same.machine"])
+    it "knows machines by name, and descriptions by their file, in quotation marks" $
+      inFolder $ \folder -> do
+        (_, description, _) <- partc ["machines", "iso6983", "--text"]
+        writeFile (folder </> "shop.machine") description
+        forM_ [("\"shop.machine\"", ""), ("shop.machine", "E0805"), ("lkp-02f", "E0805"), ("\"store.machine\"", "E0806")] $ \(named, report) -> do
+          writeFile (folder </> "x.part") (unlines ["part x", "machine " <> named, "tool mill(diameter 6)", "feed 60", "tolerance 0.02", "from (0, 0)", "move (10, 0)"])
+          (code, _, err) <- partc ["check", folder </> "x.part"]
+          (named, code) `shouldBe` (named, if null report then ExitSuccess else ExitFailure 1)
+          (named, err) `shouldSatisfy` (isInfixOf report . snd)
+          isInfixOf "in quotation marks: machine \"shop.machine\"" err `shouldBe` (named == "shop.machine")
     it "says so when it does not prove the tape" $
       inFolder $ \folder -> do
         copyFlange folder

@@ -171,19 +171,21 @@ furnished m = do
   let holed = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       finish' = [o NonEmpty.:| [] | Just o <- ends]
       orders' = case (listed, places) of
-        ([b, c, d, e, f, g, h], n : _) -> Orders b c (kept d) (kept e) (kept f) (unstepped g) (unstepped h) (Compensation (Order (OrderName n) Diameter) (Order (OrderName n) Diameter) (Order (OrderName n) (Fixed 0)) <$ beside) finish'
+        ([b, c, d, e, f, g, h], n : _) -> Orders b c (kept d) (kept e) (kept f) (unstepped g) (unstepped h) (Compensation (Order (OrderName n) Diameter) (Order (OrderName n) Diameter) (Order (OrderName n) (Fixed (least n))) <$ beside) finish'
         _ -> noOrders
   pure m {title = heading, braking = Braking a (if holed && measured == AlongPath then slow else ByControl), limits = Limits contours, feeds = (feeds m) {feedMeasure = measured, rule = nearest, rapidFeed = quick}, orders = orders'}
   where
-    places = nub [n | w <- wordsOf m, OrderName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)]]
+    places = nub [n | w <- wordsOf m, OrderName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)], least n <= most n]
     event = do
       chosen <- sublistOf places
       traverse order' chosen
     order' n = do
-      k <- choose (0, most n)
-      v <- elements [Fixed k, Argument, Step (Map.fromList [(k, 63), (0, 12.5)])]
+      k <- choose (least n, most n)
+      v <- elements [Fixed k, Argument, Step (Map.fromList [(k, 63), (least n, 12.5)])]
       pure (Order (OrderName n) v)
-    fixed n = if n == "" then pure Nothing else Just . Order (OrderName n) . Fixed <$> choose (0, most n)
+    fixed n = if n == "" then pure Nothing else Just . Order (OrderName n) . Fixed <$> choose (least n, most n)
+    -- In a word that stands in every frame, 0 is no command.
+    least n = if canOrder m (OrderName n) 0 then 0 else 1
     most n = fromMaybe 0 (orderCapacity m (OrderName n))
     kept os = [o | o@(Order _ (Fixed _)) <- os]
     unstepped os = [o | o@(Order _ v) <- os, isPlain v]
