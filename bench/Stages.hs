@@ -32,6 +32,7 @@ import Programs (Written (..))
 import Programs qualified
 import Report.Report (Report)
 import Report.Report qualified as Report
+import Surface.Import qualified as Import
 import Surface.Syntax qualified as Surface
 import System.CPUTime (getCPUTime)
 import System.Environment (getArgs)
@@ -59,7 +60,7 @@ stages :: Machine -> Written -> IO ()
 stages machine Written {text, files} = do
   _ <- evaluate (sum (map Text.length (text : map snd files)))
   performGC
-  surface <- stage "parse" (sum . map itemsOf . Surface.statements) (pure (reported (Compile.surface (runIdentity (Compile.load reader "bench.part" text)))))
+  surface <- stage "parse" (sum . map itemsOf . Surface.statements) (pure (reported (Compile.surface (runIdentity (Compile.load (Import.byName reader) "bench.part" text)))))
   checked <- stage "check" (round . sum . map weight . Checked.statements) (pure (plain (Checked.check surface)))
   part <- stage "part" (sum . map (round . contourLength) . Part.contours) (pure (plain (Part.evaluate checked)))
   path <- stage "path" (round . pathLength) (pure (plain (Path.lay part)))

@@ -97,7 +97,7 @@ load reader path text
         }
   | otherwise = do
     loaded <- Surface.load reader path text
-    descriptions <- traverse (described reader (takeDirectory path)) (maybe [] filesNamed (output (Surface.surface loaded)))
+    descriptions <- traverse (described (Surface.contents reader) (takeDirectory path)) (maybe [] filesNamed (output (Surface.surface loaded)))
     pure
       Loaded
         { source = Surface.source loaded,
@@ -110,7 +110,7 @@ load reader path text
 
 -- | A program of one text that can import nothing.
 alone :: Text -> Text -> Loaded
-alone path text = runIdentity (load (const (pure (Left "only one text is looked at"))) (Text.unpack path) text)
+alone path text = runIdentity (load (Surface.byName (const (pure (Left "only one text is looked at")))) (Text.unpack path) text)
 
 -- | Without the program itself, when only its places are asked for any more.
 withoutSurface :: Loaded -> Loaded
@@ -180,8 +180,8 @@ prove machine path program frames = asked `seq` Result.failing (Verify.toReports
 type Descriptions = [(Text, Either Text Text)]
 
 -- | Read a description beside a folder.
-described :: Monad m => Surface.Reader m -> FilePath -> Text -> m (Text, Either Text Text)
-described reader folder file = (file,) <$> reader (folder </> Text.unpack file)
+described :: Monad m => (FilePath -> m (Either Text Text)) -> FilePath -> Text -> m (Text, Either Text Text)
+described contents folder file = (file,) <$> contents (folder </> Text.unpack file)
 
 -- | Whether a name is that of a description file rather than of a machine that is built in.
 isDescription :: Text -> Bool

@@ -16,6 +16,7 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (takeExtension, (</>))
 
@@ -45,7 +46,7 @@ load file block = do
       isWhole = "part " `elem` map (Text.take 5) (Text.lines (program block))
       title = Maybe.fromMaybe "example" (picture block)
       named = Text.replace "part example \"One head for the examples\"" ("part " <> Text.replace "-" "_" title) head'
-  Compile.load reader file (if isWhole then program block else named <> program block)
+  Compile.load (Import.byName reader) file (if isWhole then program block else named <> program block)
   where
     reader there = first why <$> try (readText there)
     why :: IOException -> Text

@@ -21,6 +21,7 @@ import Machines qualified
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
+import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (dropExtension, takeExtension, (<.>), (</>))
 import Test.Hspec
@@ -34,7 +35,7 @@ spec = describe "examples are proven and give their frames" $ do
     let (file, values) = case Text.splitOn "," (Text.pack run) of
           [] -> (run, [])
           name : assigned -> ("examples" </> Text.unpack name <.> (if Text.unpack name `elem` sheets then "sheet" else "part"), map (fmap (Text.drop 1) . Text.breakOn "=") assigned)
-    texts <- Compile.load reader file =<< readText file
+    texts <- Compile.load (Import.byName reader) file =<< readText file
     let outcome = Compile.analyse values texts `Result.thenSound` \a -> let m = Machines.ownOr Machines.lkp01f texts a in Compile.punch m (path a) `Result.thenSound` \p -> pure (a, m, p)
         rendered reports = Text.concat [render r <> "\n" | r <- Report.sorted reports]
         render = Human.render Human.Plain (Text.pack file) (Compile.source texts) :: Report -> Text

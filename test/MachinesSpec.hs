@@ -21,6 +21,7 @@ import Machine.Machine qualified as Machine
 import Machines qualified
 import Report.Report (Code (..), Place (..), Report)
 import Report.Report qualified as Report
+import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (dropExtension, takeExtension, (<.>), (</>))
 import Tape.Layout qualified as Layout
@@ -43,7 +44,7 @@ everywhere = describe "every example on every machine" $ do
   files <- runIO (sort . filter ((`elem` [".part", ".sheet"]) . takeExtension) <$> listDirectory "examples")
   forM_ files $ \file -> it file $ do
     text <- readText ("examples" </> file)
-    loaded <- Compile.load (fmap Right . readText) ("examples" </> file) text
+    loaded <- Compile.load (Import.byName (fmap Right . readText)) ("examples" </> file) text
     outcomes <- forM Machines.known $ \machine -> do
       let outcome = Compile.analyse [] loaded `Result.thenSound` \a -> let m = Compile.onMachine (path a) machine in Compile.punch m (path a) `Result.thenSound` \p -> pure (a, m, p)
       case Result.settled outcome of

@@ -21,6 +21,7 @@ import Machines qualified
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
+import Surface.Import qualified as Import
 import System.Directory (doesFileExist)
 import System.FilePath (takeDirectory, takeExtension, takeFileName, (-<.>), (</>))
 import Test.Hspec
@@ -74,7 +75,7 @@ rendered source reports = Text.concat (map render (Report.sorted reports))
 loadedFrom :: FilePath -> IO ([(Text, Text)], Compile.Loaded)
 loadedFrom file = do
   text <- readText file
-  loaded <- Compile.load beside (takeFileName file) text
+  loaded <- Compile.load (Import.byName beside) (takeFileName file) text
   pure ([(Text.strip n, Text.drop 1 v) | line <- Text.lines text, Just rest <- [Text.stripPrefix "-- set: " line], let (n, v) = Text.breakOn "=" rest], loaded)
   where
     beside name = do

@@ -27,7 +27,7 @@ import Cli.ProofTable qualified as ProofTable
 import Cli.Target qualified as Target
 import Compile (Analysis (Analysis, part, path), Punched (..))
 import Compile qualified
-import Control.Exception (evaluate)
+import Control.Exception (IOException, catch, evaluate)
 import Control.Monad (filterM, void)
 import Data.ByteString (ByteString)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -56,6 +56,7 @@ import Sheet.FromText qualified as Sheet
 import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
 import Sheet.Unfit qualified as Unfit
+import Surface.Import qualified as Import
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
 import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeDirectory, takeFileName, (<.>), (</>))
 import System.IO (stdin, stdout)
@@ -104,12 +105,16 @@ withProgram reporter file targets continue = do
     Left e -> complain reporter (displayName file) e
     Right _ | Compile.isSheet file, (assigned, _) : _ <- given -> complain reporter (displayName file) (SheetAssigned assigned)
     Right t -> do
-      texts <- Compile.load imported (Text.unpack (displayName file)) t
+      texts <- Compile.load (fromDisk imported) (Text.unpack (displayName file)) t
       descriptions <- descriptionsFor targets (Compile.descriptions texts)
       continue Loaded {name = displayName file, texts = texts {Compile.descriptions}, values = given}
   where
     given = Output.values (Output.settings reporter)
     imported there = either (Left . Cli.whyNot) Right <$> readProgram there
+
+-- | Files whose texts are had so, and that are themselves however they are reached.
+fromDisk :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
+fromDisk contents = Import.Reader {Import.contents, Import.identity = \there -> canonicalizePath there `catch` \e -> const (pure there) (e :: IOException)}
 
 -- | The text of a program file.
 readProgram :: FilePath -> IO (Either Error Text)
@@ -276,7 +281,7 @@ checked values' texts' = Compile.analyse values' texts' `Result.thenSound` \a ->
 languageServer :: Reporter -> IO Exit
 languageServer reporter = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output = stdout, load, Lsp.check = checked (Output.values (Output.settings reporter))}
   where
-    load open path' text = Compile.load (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open (Text.pack there))) (Text.unpack path') text
+    load open path' = Compile.load (fromDisk (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open (Text.pack there)))) (Text.unpack path')
     statusOf ending = case ending of
       Orderly -> Done
       Abrupt -> Failed

@@ -17,6 +17,7 @@ module Geometry.Tolerance
     equal,
     resolution,
     reach,
+    crossing,
     curve,
     arcLength,
     arcLengthShare,
@@ -174,6 +175,10 @@ finestStep = 1e-6
 -- | A share of a segment too short to matter.
 hair :: Double
 hair = 1e-9
+
+-- | Where curves cross, their places are no further apart.
+crossing :: Mm
+crossing = Mm 1e-8
 
 -- | A curve is replaced by arcs that stay so near to it.
 curve :: Mm

@@ -17,6 +17,8 @@ import Data.Vector qualified as Vector
 import Geometry.Biarc qualified as Biarc
 import Geometry.Box qualified as Box
 import Geometry.Contour (Ends (..))
+import Geometry.Crossing (Foot)
+import Geometry.Crossing qualified as Crossing
 import Geometry.Curve qualified as Exact
 import Geometry.Fit qualified as Fit
 import Geometry.Piece qualified as Piece
@@ -192,19 +194,19 @@ rowAt table k
   | k >= 1 && k <= Rows.count (rows table) = Just (Rows.place (rows table) (k - 1))
   | otherwise = Nothing
 
--- | A line, a circle or a curve.
-walkedOf :: Value -> Maybe Walked
+-- | A line, a circle or a curve, and its exact places.
+walkedOf :: Value -> Maybe (Walked, Foot)
 walkedOf v = case v of
-  LineValue l -> Just (OnLine l)
-  CircleValue c -> Just (OnCircle CounterClockwise c)
-  CurveValue c -> Just (OnCurve (laid c))
+  LineValue l -> Just (OnLine l, Crossing.onLine l)
+  CircleValue c -> Just (OnCircle CounterClockwise c, Crossing.onCircle c)
+  CurveValue c -> Just (OnCurve (laid c), Crossing.onCurve (exact c))
   _ -> Nothing
 
 -- | The points that a curve has in common with something.
-intersection :: Region -> Walked -> Walked -> [Given] -> Eval Value
-intersection region a b choice = case Polyarc.meetings as bs of
+intersection :: Region -> (Walked, Foot) -> (Walked, Foot) -> [Given] -> Eval Value
+intersection region (a, footA) (b, footB) choice = case Polyarc.meetings as bs of
   [] -> Eval.mistake (NothingCommon region a b (Polyarc.gap as bs))
-  ps -> picked Tolerance.nearTie region "point" APoint id ways ps choice >>= spatial region . offset
+  ps -> picked Tolerance.nearTie region "point" APoint id ways ps choice >>= spatial region . offset . Crossing.exactly footA footB
   where
     as = Walked.within (extent b) a
     bs = Walked.within (extent a) b

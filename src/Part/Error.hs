@@ -215,7 +215,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   TooLarge region -> at region "E0303" "the result is too large for a number"
   OutOfReach region limit ->
     (at region "E0326" "this is further than any machine reaches")
-      { message = ["Coordinates and radii may be up to " <> Decimal.mm limit <> "."]
+      { message = ["A place is no further than " <> Decimal.mm limit <> " from zero, and no radius is longer."]
       }
   TooMuchWork region limit ->
     (at region "E0327" ("this takes more than " <> Decimal.whole limit <> " steps to compute"))
@@ -419,7 +419,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   ShiftsCorner region p angle ->
     (at region "E0351" ("the curve has a corner of " <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle) <> " deg at " <> Vec.written 3 p))
       { message = ["A shift would tear it open there, or let its parts cross."],
-        hints = ["Lay a spline through the points, or make a piece of each part and join them by a link."]
+        hints = ["Lay a spline through the points, a closed_spline if they close, or make a piece of each part and join them by a link."]
       }
   SteepBevel region row angle ->
     (at region "E0352" (Decimal.short 3 (degrees angle) <> " deg is no bevel"))

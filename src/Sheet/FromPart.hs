@@ -223,7 +223,7 @@ arrayOf (at, m) = do
 
 pieceOf :: Milling -> Part.Leg -> Result w Unfit Piece
 pieceOf m leg = case Part.source leg of
-  Nothing -> refused (NoPiece at "this element" "Elements of a sheet are curves: write a line as polyline([p, q]), and a curve as spline(table).")
+  Nothing -> refused (NoPiece at "this element" "Elements of a sheet are curves: write a line as polyline([p, q]), a curve as spline(table), and those of another contour once more.")
   Just curve -> do
     mapM_ (\f -> refused (NoFeed (region f) "an element with a feed of its own" "On a sheet all pieces of an array have one feed.")) (Part.ownFeed (Part.asked leg))
     made <- FromCurve.piece at (Curve.exact curve) (Part.asked leg)

@@ -3,7 +3,8 @@
 -- An imported file gives its definitions (@let@, @param@, @contour@, and what it imports itself); its
 -- settings and motions stay behind. Each file is read once, however often it is imported.
 module Surface.Import
-  ( Reader,
+  ( Reader (..),
+    byName,
     Loaded (..),
     load,
   )
@@ -24,8 +25,17 @@ import Surface.Parser qualified as Parser
 import Surface.Syntax (Line, Lines (..), Program (..), Statement, Statement_ (..))
 import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeDirectory, takeExtension, (</>))
 
--- | Reads a file, or says why it cannot be read.
-type Reader m = FilePath -> m (Either Text Text)
+-- | How files are read.
+data Reader m = Reader
+  { -- | the text of a file, or why it cannot be read
+    contents :: FilePath -> m (Either Text Text),
+    -- | a name that is the same for all paths to one file
+    identity :: FilePath -> m FilePath
+  }
+
+-- | Where each file has one path.
+byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
+byName contents = Reader {contents, identity = pure}
 
 -- | All texts, and one program of them; where each import stands, and the file that it names.
 data Loaded = Loaded {source :: Source, surface :: Result Error Error Program, imports :: [(Region, Text)]}
@@ -37,12 +47,13 @@ data Progress = Progress {texts :: Source, seen :: Set FilePath, found :: [Error
 -- others; its text.
 load :: Monad m => Reader m -> FilePath -> Text -> m Loaded
 load reader path text = do
+  itself <- identity reader (simple path)
   let Result {errors, output} = Parser.parse 0 text
-      begin = Progress {texts = Region.fromText (Text.pack path) text, seen = Set.singleton (simple path), found = [], named = []}
+      begin = Progress {texts = Region.fromText (Text.pack path) text, seen = Set.singleton itself, found = [], named = []}
   case output of
     Nothing -> pure Loaded {source = texts begin, surface = Result [] errors Nothing, imports = []}
     Just whole -> do
-      (statements', progress) <- runStateT (imported reader [simple path] path (statements whole)) begin
+      (statements', progress) <- runStateT (imported reader [(itself, simple path)] path (statements whole)) begin
       pure
         Loaded
           { source = texts progress,
@@ -51,44 +62,45 @@ load reader path text = do
           }
 
 -- | The statements of a file with its imports replaced by what they bring. The files that are being
--- read stand on a stack.
-imported :: Monad m => Reader m -> [FilePath] -> FilePath -> [Statement] -> StateT Progress m [Statement]
+-- read stand on a stack, by what they are and by the paths that they were named by.
+imported :: Monad m => Reader m -> [(FilePath, FilePath)] -> FilePath -> [Statement] -> StateT Progress m [Statement]
 imported reader stack path = fmap concat . mapM one
   where
     one s = case s of
       Located _ (Import (Located at name)) -> do
         let file = simple (takeDirectory path </> Text.unpack name)
         modify' (\p -> p {named = (at, Text.pack file) : named p})
-        bring at file name
+        itself <- lift (identity reader file)
+        bring at itself file name
       Located region (Table name (LinesOf (Located at file))) -> do
         let path' = simple (takeDirectory path </> Text.unpack file)
         modify' (\p -> p {named = (at, Text.pack path') : named p})
         rows <- linesIn reader at path' file
         pure [maybe (Located region (Broken (Just "table") (Just name))) (Located region . Table name . WrittenLines) rows]
       _ -> pure [s]
-    bring at file name
-      | file `elem` stack = mistake at (ImportCycle at (map Text.pack (reverse (file : takeWhile (/= file) stack <> [file]))))
+    bring at itself file name
+      | itself `elem` map fst stack = mistake at (ImportCycle at (map Text.pack (reverse (file : map snd (takeWhile ((/= itself) . fst) stack) <> [file]))))
       | length stack > deepest = mistake at (ImportMissing at name ("imports are nested more than " <> Decimal.whole deepest <> " deep"))
       | otherwise = do
-        known <- gets (Set.member file . seen)
-        if known then pure [] else readIn at file name
-    readIn at file name
+        known <- gets (Set.member itself . seen)
+        if known then pure [] else readIn at itself file name
+    readIn at itself file name
       | takeExtension file == ".sheet" = mistake at (ImportMissing at name "it is an input sheet, of which partc import makes a program")
-      | otherwise = readPart at file name
-    readPart at file name = do
-      content <- lift (reader file)
+      | otherwise = readPart at itself file name
+    readPart at itself file name = do
+      content <- lift (contents reader file)
       case content of
         Left why -> mistake at (ImportMissing at name why)
         Right text -> do
           progress <- get
           let Result {errors, output} = Parser.parse (Region.next (texts progress)) text
-          put progress {texts = Region.add (Text.pack file) text (texts progress), seen = Set.insert file (seen progress), found = reverse errors <> found progress}
-          filter defines <$> imported reader (file : stack) file (maybe [] statements output)
+          put progress {texts = Region.add (Text.pack file) text (texts progress), seen = Set.insert itself (seen progress), found = reverse errors <> found progress}
+          filter defines <$> imported reader ((itself, file) : stack) file (maybe [] statements output)
 
 -- | The lines of a table in a file. It may be read several times; each reading has places of its own.
 linesIn :: Monad m => Reader m -> Region -> FilePath -> Text -> StateT Progress m (Maybe [Line])
 linesIn reader at file name = do
-  content <- lift (reader file)
+  content <- lift (contents reader file)
   case content of
     Left why -> Nothing <$ modify' (\p -> p {found = LinesMissing at name why : found p})
     Right text -> do

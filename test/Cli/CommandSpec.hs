@@ -9,7 +9,7 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Either (isRight)
 import Data.List (isInfixOf, isPrefixOf)
 import Flange qualified
-import System.Directory (doesFileExist, getPermissions, listDirectory, setPermissions, writable)
+import System.Directory (createFileLink, doesFileExist, getPermissions, listDirectory, setPermissions, writable)
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
 import System.Process (readCreateProcessWithExitCode, shell)
@@ -68,6 +68,16 @@ spec = do
         (code, _, err) <- partc ["check", folder </> "x.part"]
         code `shouldBe` ExitFailure 1
         (err, isInfixOf "error[E0112]" err && isInfixOf "more than 100 deep" err) `shouldSatisfy` snd
+    it "reads a file once, whatever the paths to it" $
+      inFolder $ \folder -> do
+        writeFile (folder </> "size.part") "let r = 5 mm\n"
+        createFileLink "size.part" (folder </> "other.part")
+        writeFile (folder </> "x.part") (unlines ["part x", "import \"size.part\"", "import \"other.part\"", "import " <> show (folder </> "size.part"), "contour k closed { cw circle((0, 0), r) }"])
+        partc ["check", folder </> "x.part"] `shouldReturn` (ExitSuccess, "", "")
+        writeFile (folder </> "size.part") "import \"other.part\"\nlet r = 5 mm\n"
+        (code, _, err) <- partc ["check", folder </> "x.part"]
+        code `shouldBe` ExitFailure 1
+        err `shouldSatisfy` isInfixOf "error[E0112]"
     it "writes no file for every bad program" $
       inFolder $ \folder ->
         forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do

@@ -42,7 +42,7 @@ import Surface.Import qualified as Surface
 pathOf :: Text -> Path
 pathOf text = need "path" (Path.lay part)
   where
-    loaded = runIdentity (Surface.load (const (pure (Left ""))) "test.part" text)
+    loaded = runIdentity (Surface.load (Surface.byName (const (pure (Left "")))) "test.part" text)
     assigned = need "assignments" (Surface.assign [] (need "syntax" (Surface.surface loaded)))
     part = need "part" (Part.evaluate (need "types" (Checked.check assigned)))
     need :: String -> Result w e a -> a

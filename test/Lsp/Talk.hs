@@ -39,6 +39,7 @@ import Lsp.Message (Failure, Incoming (..), Outgoing (..))
 import Lsp.Session (Awaited (..), Effect (..), Event (..), Milliseconds (..), Session)
 import Lsp.Session qualified as Session
 import Query.Snapshot qualified as Snapshot
+import Surface.Import qualified as Import
 
 -- | A session, the time, and all that has been sent, the last first.
 data Talk = Talk Session Int [Effect]
@@ -62,7 +63,7 @@ happen event (Talk session now sent) = Talk session' now (reverse effects <> sen
   where
     time = Milliseconds now
     (session', effects) = Session.step time event (foldl look session (Session.awaited time event session))
-    look s Awaited {path, text} = Session.supply path (Snapshot.take (Cli.checked []) (runIdentity (Compile.load (opened s) (Text.unpack path) text))) s
+    look s Awaited {path, text} = Session.supply path (Snapshot.take (Cli.checked []) (runIdentity (Compile.load (Import.byName (opened s)) (Text.unpack path) text))) s
     -- What is imported is what is open.
     opened s there = Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
 
