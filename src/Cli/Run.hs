@@ -27,7 +27,7 @@ import Cli.ProofTable qualified as ProofTable
 import Cli.Target qualified as Target
 import Compile (Analysis (Analysis, part, path), Punched (..))
 import Compile qualified
-import Control.Exception (IOException, catch, evaluate)
+import Control.Exception (IOException, evaluate, try)
 import Control.Monad (filterM, void)
 import Data.ByteString (ByteString)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -114,7 +114,7 @@ withProgram reporter file targets continue = do
 
 -- | Files whose texts are had so, and that are themselves however they are reached.
 fromDisk :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
-fromDisk contents = Import.Reader {Import.contents, Import.identity = \there -> canonicalizePath there `catch` \e -> const (pure there) (e :: IOException)}
+fromDisk contents = Import.Reader {Import.contents, Import.identity = \there -> either (const there :: IOException -> FilePath) id <$> try (canonicalizePath there)}
 
 -- | The text of a program file.
 readProgram :: FilePath -> IO (Either Error Text)

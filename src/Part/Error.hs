@@ -392,7 +392,7 @@ toReport (Error fact calls) = addCalls $ case fact of
   DoNotAgree region (leftRegion, left) (rightRegion, right) difference allowed ->
     (at region "E0342" ("this is " <> left <> ", not " <> right))
       { others = [Label leftRegion left, Label rightRegion right],
-        message = ["They differ by " <> difference <> "; " <> allowed <> " is allowed."]
+        message = [if difference == allowed then "They differ by somewhat more than " <> allowed <> ", which is allowed." else "They differ by " <> difference <> "; " <> allowed <> " is allowed."]
       }
   ClosedElement region (Name name) ->
     (at region "E0343" ("the contour " <> quote name <> " is closed and cannot be a part of another"))
