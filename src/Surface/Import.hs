@@ -79,7 +79,7 @@ imported reader stack path = fmap concat . mapM one
         pure [maybe (Located region (Broken (Just "table") (Just name))) (Located region . Table name . WrittenLines) rows]
       _ -> pure [s]
     bring at itself file name
-      | itself `elem` map fst stack = mistake at (ImportCycle at (map Text.pack (reverse (file : map snd (takeWhile ((/= itself) . fst) stack) <> [file]))))
+      | Just begun <- lookup itself stack = mistake at (ImportCycle at (map Text.pack (reverse (file : map snd (takeWhile ((/= itself) . fst) stack) <> [begun]))))
       | length stack > deepest = mistake at (ImportMissing at name ("imports are nested more than " <> Decimal.whole deepest <> " deep"))
       | otherwise = do
         known <- gets (Set.member itself . seen)

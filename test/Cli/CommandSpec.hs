@@ -77,7 +77,7 @@ spec = do
         writeFile (folder </> "size.part") "import \"other.part\"\nlet r = 5 mm\n"
         (code, _, err) <- partc ["check", folder </> "x.part"]
         code `shouldBe` ExitFailure 1
-        err `shouldSatisfy` isInfixOf "error[E0112]"
+        err `shouldSatisfy` isInfixOf "error[E0113]"
     it "writes no file for every bad program" $
       inFolder $ \folder ->
         forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do
