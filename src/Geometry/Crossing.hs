@@ -49,4 +49,5 @@ exactly footA footB place = go (8 :: Int) place
         sine = Vec.cross u v
         -- Where ways cross at an angle, so far are the crossings of what is beside them; where they bend, somewhat further.
         nearby = times (8 / abs sine) Tolerance.curve
+    -- Ways that lean less, by this sine, run along one another.
     slightest = 1e-5
