@@ -55,7 +55,7 @@ ofContour folder peers family segments = do
   forM (Contours.distances family) $ \distance -> do
     Text.putStr (Contours.name family <> " " <> signed distance <> ", " <> Decimal.whole segments <> " segments:")
     exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
-    chorded <- if bearable then Peer.interleaved 1 small file distance (if few then 3 else 1) (if few then 3 else 1) (map ($ coarse) (chorders peers)) else pure []
+    chorded <- if bearable then Peer.interleaved (if few then 3 else 1) small file distance (if few then 3 else 1) 1 (map ($ coarse) (chorders peers)) else pure []
     finer <- if middling then Peer.interleaved 1 small file distance 1 0 (map ($ fine) (chorders peers)) else pure []
     Text.putStrLn (Text.concat ["  " <> either (const "fails") (Table.number . perSegment segments) o | o <- exact <> chorded])
     hFlush stdout
