@@ -4,7 +4,7 @@ module Main (main) where
 import Base.Crash (Bug)
 import Cli.Options qualified as Options
 import Cli.Output (Exit (..))
-import Cli.Run qualified as Run
+import Cli.Subcommand qualified as Subcommand
 import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException)
 import Data.Version (showVersion)
 import GHC.IO.Encoding (mkTextEncoding, setFileSystemEncoding, setLocaleEncoding, utf8)
@@ -29,8 +29,8 @@ work = do
   name <- getProgName
   statusOf <$> case parsed of
     -- The help and the version are results as well.
-    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Run.told text
-    _ -> Opt.handleParseResult parsed >>= Run.run
+    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Subcommand.told text
+    _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
 statusOf :: Exit -> ExitCode
 statusOf end = case end of

@@ -12,22 +12,22 @@ import Data.ByteString.Builder qualified as Builder
 import Data.Primitive.PrimArray qualified as PrimArray
 import Foreign.Marshal.Alloc (allocaBytes)
 import Foreign.Storable (peekElemOff)
-import Geometry.Contour (Ends (..))
-import Geometry.Outline (Outline (..))
+import Geometry.FlatPolyarc (FlatPolyarc (..))
+import Geometry.Polyarc (Ends (..))
 import System.IO (IOMode (..), hFileSize, hGetBuf, withBinaryFile)
 import Prelude hiding (read)
 
-write :: FilePath -> Outline -> IO ()
+write :: FilePath -> FlatPolyarc -> IO ()
 write file o = withBinaryFile file WriteMode (\handle -> Builder.hPutBuilder handle (builder o))
 
 -- | The vertices one after the other.
-builder :: Outline -> Builder
-builder Outline {xs, ys, bulges} = foldMap vertex [0 .. PrimArray.sizeofPrimArray xs - 1]
+builder :: FlatPolyarc -> Builder
+builder FlatPolyarc {xs, ys, bulges} = foldMap vertex [0 .. PrimArray.sizeofPrimArray xs - 1]
   where
     vertex i = foldMap (\a -> Builder.doubleLE (PrimArray.indexPrimArray a i)) [xs, ys, bulges]
 
 -- | A closed contour. It goes through a small buffer, so that nothing but the contour stays in memory.
-read :: FilePath -> IO Outline
+read :: FilePath -> IO FlatPolyarc
 read file = withBinaryFile file ReadMode $ \handle -> do
   count <- (`div` 24) . fromIntegral <$> hFileSize handle
   arrays <- traverse (const (PrimArray.newPrimArray count)) [(), (), ()]
@@ -39,7 +39,7 @@ read file = withBinaryFile file ReadMode $ \handle -> do
           peekElemOff buffer (3 * i + part) >>= PrimArray.writePrimArray array (begin + i)
   frozen <- traverse PrimArray.unsafeFreezePrimArray arrays
   case frozen of
-    [xs, ys, bulges] -> pure Outline {ends = Closed, xs, ys, bulges}
+    [xs, ys, bulges] -> pure FlatPolyarc {ends = Closed, xs, ys, bulges}
     _ -> ioError (userError "three arrays")
   where
     chunk = 1024

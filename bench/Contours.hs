@@ -12,9 +12,9 @@ where
 import Data.Bits (shiftR, (.&.))
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
-import Geometry.Contour (Ends (..))
-import Geometry.Outline (Outline (Outline))
-import Geometry.Outline qualified as Outline
+import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
+import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Geometry.Polyarc (Ends (..))
 import Noise qualified
 
 data Family
@@ -67,21 +67,21 @@ distances family = case family of
   FixedStar -> [5]
 
 -- | A contour of so many segments.
-contour :: Family -> Int -> Outline
+contour :: Family -> Int -> FlatPolyarc
 contour family n = case family of
   Flange -> generated n (flange n)
   Comb -> generated n (comb n)
   ChamferedComb -> generated n (chamfered n)
   Moore ->
     let curve = generated n (moore n)
-     in if Outline.area curve < 0 then generated n (\i -> moore n (n - 1 - i)) else curve
+     in if FlatPolyarc.area curve < 0 then generated n (\i -> moore n (n - 1 - i)) else curve
   Star -> generated n (star n (whole n / (2 * pi)) 3 1)
   FixedStar -> generated n (star n 500 5 2)
 
 type Vertex = (Double, Double, Double)
 
-generated :: Int -> (Int -> Vertex) -> Outline
-generated n vertex = Outline Closed (array (\(x, _, _) -> x)) (array (\(_, y, _) -> y)) (array (\(_, _, b) -> b))
+generated :: Int -> (Int -> Vertex) -> FlatPolyarc
+generated n vertex = FlatPolyarc Closed (array (\(x, _, _) -> x)) (array (\(_, y, _) -> y)) (array (\(_, _, b) -> b))
   where
     array part = PrimArray.generatePrimArray n (part . vertex)
 

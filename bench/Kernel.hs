@@ -12,9 +12,9 @@ import Control.Exception (evaluate)
 import Control.Monad (forM_, replicateM, replicateM_, when)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Equidistant qualified
-import Geometry.Offset.Kernel (Reach)
-import Geometry.Outline (Outline)
-import Geometry.Outline qualified as Outline
+import Geometry.FlatPolyarc (FlatPolyarc)
+import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Offset.Kernel (ReachableRegion)
 import System.CPUTime (getCPUTime)
 import System.Environment (getArgs)
 import System.Exit (die)
@@ -42,15 +42,15 @@ measure small file distance runs batches = do
   times <- replicateM batches (fst <$> timed runs distance source)
   let result = Equidistant.outlines reach
   forM_ times $ \t -> putStrLn ("run " <> show t)
-  putStrLn ("area " <> show (sum (map Outline.area result)))
-  putStrLn ("length " <> show (sum [l | o <- result, let Mm l = Outline.length o]))
+  putStrLn ("area " <> show (sum (map FlatPolyarc.area result)))
+  putStrLn ("length " <> show (sum [l | o <- result, let Mm l = FlatPolyarc.length o]))
   putStrLn ("loops " <> show (length result) <> "\nopen 0")
-  putStrLn ("vertices " <> show (sum (map (PrimArray.sizeofPrimArray . Outline.xs) result)))
+  putStrLn ("vertices " <> show (sum (map (PrimArray.sizeofPrimArray . FlatPolyarc.xs) result)))
   putStrLn ("memory " <> show (1024 * (after - before)))
 
 -- | Nanoseconds of processor time of one of so many runs, and what the last one gave. Collecting the garbage of a run is part of
 -- it; that of the runs before is collected before the clock starts.
-timed :: Int -> Double -> Outline -> IO (Integer, Reach)
+timed :: Int -> Double -> FlatPolyarc -> IO (Integer, ReachableRegion)
 timed runs distance source = do
   performGC
   begin <- getCPUTime
@@ -63,7 +63,7 @@ timed runs distance source = do
       if left <= 1 then pure result else go (left - 1)
 
 -- | One run.
-once :: Double -> Outline -> IO Reach
+once :: Double -> FlatPolyarc -> IO ReachableRegion
 once distance source = do
   found <- evaluate (Equidistant.offset distance source)
   either (\why -> die ("kernel: " <> why)) evaluate found

@@ -23,8 +23,8 @@ import Data.Text qualified as Text
 import Data.Text.IO qualified as Text
 import Data.Word (Word64)
 import Equidistant qualified
-import Geometry.Outline (Outline)
-import Geometry.Outline qualified as Outline
+import Geometry.FlatPolyarc (FlatPolyarc)
+import Geometry.FlatPolyarc qualified as FlatPolyarc
 import RandomContour qualified
 import System.CPUTime (getCPUTime)
 import System.Environment (getArgs)
@@ -45,11 +45,11 @@ main = do
     _ -> die "random COUNT SEED FILE PEER [LIMIT [JUDGE]] or random - SEED INDEX"
 
 -- | The offset, then x y bulge for each vertex.
-printed :: (Outline, Double) -> IO ()
+printed :: (FlatPolyarc, Double) -> IO ()
 printed (o, d) = do
   print d
-  forM_ [0 .. PrimArray.sizeofPrimArray (Outline.xs o) - 1] $ \i ->
-    putStrLn (unwords [show (PrimArray.indexPrimArray a i) | a <- [Outline.xs o, Outline.ys o, Outline.bulges o]])
+  forM_ [0 .. PrimArray.sizeofPrimArray (FlatPolyarc.xs o) - 1] $ \i ->
+    putStrLn (unwords [show (PrimArray.indexPrimArray a i) | a <- [FlatPolyarc.xs o, FlatPolyarc.ys o, FlatPolyarc.bulges o]])
 
 -- | The seed; the file to write to; the peer's program; how many lines to print; the judge's program and its arguments, if there is one.
 data Task = Task {seed :: Word64, file :: FilePath, peer :: FilePath, limit :: Int, judge :: [String]}
@@ -120,7 +120,7 @@ asked :: Task -> Double -> FilePath -> [String] -> [Int] -> IO [Sums]
 asked task factor to command those = do
   withBinaryFile to WriteMode $ \handle -> forM_ those $ \i -> do
     let (o, d) = RandomContour.contour (seed task) i
-    Builder.hPutBuilder handle (Builder.word64LE (fromIntegral (PrimArray.sizeofPrimArray (Outline.xs o))) <> Builder.doubleLE (factor * d) <> ContourFile.builder o)
+    Builder.hPutBuilder handle (Builder.word64LE (fromIntegral (PrimArray.sizeofPrimArray (FlatPolyarc.xs o))) <> Builder.doubleLE (factor * d) <> ContourFile.builder o)
   printed' <- case command of
     program : arguments -> readProcess program arguments ""
     [] -> pure ""
@@ -139,7 +139,7 @@ kernels s i = case Equidistant.offset d source of
   Left why -> Left (Text.pack why)
   Right reach ->
     let result = Equidistant.outlines reach
-     in Right Sums {area = sum (map Outline.area result), long = sum [l | o <- result, let Mm l = Outline.length o], loops = length result, open = 0}
+     in Right Sums {area = sum (map FlatPolyarc.area result), long = sum [l | o <- result, let Mm l = FlatPolyarc.length o], loops = length result, open = 0}
   where
     (source, d) = RandomContour.contour s i
 
@@ -147,11 +147,11 @@ kernels s i = case Equidistant.offset d source of
 same :: Task -> Answer -> Sums -> Bool
 same task a other = case ours a of
   Left _ -> False
-  Right own -> loops own == loops other && open other == 0 && near (abs (Outline.area source)) (area own) (area other) && near around (long own) (long other)
+  Right own -> loops own == loops other && open other == 0 && near (abs (FlatPolyarc.area source)) (area own) (area other) && near around (long own) (long other)
   where
     (source, _) = RandomContour.contour (seed task) (index a)
     -- What a result of rounding errors alone may come to is measured by the source.
-    Mm around = Outline.length source
+    Mm around = FlatPolyarc.length source
     near least p q = abs (p - q) <= 1e-9 * maximum [abs p, abs q, least]
 
 -- | Whether the kernel's answer is the limit of the peer's for larger offsets.
@@ -164,7 +164,7 @@ limitOf :: Task -> Answer -> Double -> Sums -> Sums -> Bool
 limitOf task a by own other = loops own == loops other && open own == 0 && abs (area own - area other) <= margin && abs (long own - long other) <= margin
   where
     (source, d) = RandomContour.contour (seed task) (index a)
-    Mm around = Outline.length source
+    Mm around = FlatPolyarc.length source
     margin = 20 * (4 * abs d * sqrt (2 * by) + around * abs d * by)
 
 classOf :: Task -> Answer -> Beside -> Class

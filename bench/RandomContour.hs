@@ -9,16 +9,16 @@ import Data.Bits (shiftR)
 import Data.List (nub, sortOn)
 import Data.Maybe (fromMaybe)
 import Data.Word (Word64)
-import Geometry.Contour (Ends (..))
-import Geometry.Outline (Outline)
-import Geometry.Outline qualified as Outline
+import Geometry.FlatPolyarc (FlatPolyarc)
+import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Geometry.Polyarc (Ends (..))
 import Noise qualified
 
 type Vertex = (Double, Double, Double)
 
 -- | A contour, counter-clockwise, and how far to offset it, outwards when positive.
-contour :: Word64 -> Int -> (Outline, Double)
-contour seed index = (Outline.outline Closed vertices, distance)
+contour :: Word64 -> Int -> (FlatPolyarc, Double)
+contour seed index = (FlatPolyarc.outline Closed vertices, distance)
   where
     stream = Noise.bits seed (fromIntegral index)
     u place = Noise.uniform stream (1000000 + place)

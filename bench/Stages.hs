@@ -5,7 +5,7 @@
 -- is computed; so does the collection of garbage.
 module Main (main) where
 
-import Base.Lattice (V3 (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), total)
 import Base.Region qualified as Region
 import Base.Result qualified as Result
@@ -20,14 +20,11 @@ import Data.Text qualified as Text
 import Data.Text.IO qualified as Text
 import Frame.Frame (increment)
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as Frame
+import Frame.FromToolpath qualified as Frame
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
 import Part.FromChecked qualified as Part
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path
-import Path.Path (Path)
-import Path.Path qualified as Path
 import Programs (Written (..))
 import Programs qualified
 import Report.Report (Report)
@@ -43,6 +40,9 @@ import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Tape.Tape qualified as Tape
 import Text.Read (readMaybe)
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.Proof qualified as Proof
 
 main :: IO ()
@@ -63,7 +63,7 @@ stages machine Written {text, files} = do
   surface <- stage "parse" (sum . map itemsOf . Surface.statements) (pure (reported (Compile.surface (runIdentity (Compile.load (Import.byName reader) "bench.part" text)))))
   checked <- stage "check" (round . sum . map weight . Checked.statements) (pure (plain (Checked.check surface)))
   part <- stage "part" (sum . map (round . contourLength) . Part.contours) (pure (plain (Part.evaluate checked)))
-  path <- stage "path" (round . pathLength) (pure (plain (Path.lay part)))
+  path <- stage "path" (round . pathLength) (pure (plain (Toolpath.lay part)))
   program <- stage "frames" (sum . map (distance . increment . Frame.frame) . Frame.planned) (pure (plain (Frame.quantise machine path)))
   tape <- stage "tape" Tape.rowCount (pure (Right (Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program)))))
   _ <- stage "verify" (length . show . Proof.findings) (pure (proof path program tape))
@@ -71,7 +71,7 @@ stages machine Written {text, files} = do
   putStrLn (unwords ("memory" : concat [take 1 (drop 1 (words line)) | line <- lines status, take 6 line == "VmHWM:"]))
   where
     reader there = pure (maybe (Left "no such file") Right (lookup (takeFileName there) files))
-    proof :: Path -> Frame.Program -> Tape -> Either Text Proof.Proof
+    proof :: Toolpath -> Frame.FrameProgram -> Tape -> Either Text Proof.Proof
     proof path program tape = reported (Compile.readBack machine program tape) >>= reported . Compile.prove machine path program
 
 -- | Time a stage by a number that needs its whole output.
@@ -112,8 +112,8 @@ weight s = case Region.value s of
 contourLength :: Part.Contour -> Double
 contourLength c = let Mm l = total (map (Segment.length . Part.segment) (NonEmpty.toList (Part.elements c))) in l
 
-pathLength :: Path -> Double
-pathLength p = let Mm l = total (map (Segment.length . Path.segment) (concatMap Path.moves (Path.blocks p))) in l
+pathLength :: Toolpath -> Double
+pathLength p = let Mm l = total (map (Segment.length . Toolpath.segment) (concatMap Toolpath.moves (Toolpath.blocks p))) in l
 
-distance :: V3 -> Int
-distance (V3 (Pulses x) (Pulses y) (Pulses z)) = abs x + abs y + abs z
+distance :: Pulses3 -> Int
+distance (Pulses3 (Pulses x) (Pulses y) (Pulses z)) = abs x + abs y + abs z

@@ -10,7 +10,7 @@
 -- mistakes; nothing is punched unless there are none.
 module Compile
   ( Analysis (..),
-    Loaded (..),
+    LoadedProgram (..),
     load,
     alone,
     withoutSurface,
@@ -36,7 +36,7 @@ module Compile
   )
 where
 
-import Base.Lattice (V3)
+import Base.PulseVector (Pulses3)
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
@@ -49,9 +49,9 @@ import Data.Functor.Identity (runIdentity)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Error qualified as Frame
-import Frame.Frame (Frame, Program)
+import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as Frame
+import Frame.FromToolpath qualified as Frame
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Error qualified as Machine
 import Machine.FromText qualified as Machine
@@ -60,36 +60,36 @@ import Machine.Machine qualified as Machine
 import Part.Error qualified as Part
 import Part.FromChecked qualified as Part
 import Part.Part (Part)
-import Path.Error qualified as Path
-import Path.FromPart qualified as Path
-import Path.Path (Path)
-import Path.Path qualified as Path
 import Report.Report (Report)
 import Sheet.Error qualified as Sheet
 import Sheet.FromText qualified as Sheet
 import Sheet.ToSurface qualified as Sheet
-import Surface.Assign qualified as Surface
 import Surface.Error qualified as Surface
 import Surface.Import qualified as Surface
+import Surface.Parameter qualified as Surface
 import Surface.Syntax qualified as Surface
 import System.FilePath (takeDirectory, takeExtension, (</>))
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
+import Toolpath.Error qualified as Toolpath
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Verify
 
 -- | All texts, and one program of them; where each import stands, and the file that it names; the descriptions of
 -- machines that it names.
-data Loaded = Loaded {source :: Source, surface :: Result Report Report Surface.Program, imports :: [(Region, Text)], descriptions :: Descriptions}
+data LoadedProgram = LoadedProgram {source :: Source, surface :: Result Report Report Surface.Program, imports :: [(Region, Text)], descriptions :: Descriptions}
 
 -- | Read a program and what it imports, or an input sheet: the name of its file, for reports and for the
 -- places of the others; its text.
-load :: Monad m => Surface.Reader m -> FilePath -> Text -> m Loaded
+load :: Monad m => Surface.Reader m -> FilePath -> Text -> m LoadedProgram
 load reader path text
   | isSheet path =
     pure
-      Loaded
+      LoadedProgram
         { source = Region.fromText (Text.pack path) text,
           surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
           imports = [],
@@ -99,7 +99,7 @@ load reader path text
     loaded <- Surface.load reader path text
     descriptions <- traverse (described (Surface.contents reader) (takeDirectory path)) (maybe [] filesNamed (output (Surface.surface loaded)))
     pure
-      Loaded
+      LoadedProgram
         { source = Surface.source loaded,
           surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
           imports = Surface.imports loaded,
@@ -109,11 +109,11 @@ load reader path text
     filesNamed written = [file | Located _ (Surface.Machine (Located _ (Surface.Described file))) <- Surface.statements written]
 
 -- | A program of one text that can import nothing.
-alone :: Text -> Text -> Loaded
+alone :: Text -> Text -> LoadedProgram
 alone path text = runIdentity (load (Surface.byName (const (pure (Left "only one text is looked at")))) (Text.unpack path) text)
 
 -- | Without the program itself, when only its places are asked for any more.
-withoutSurface :: Loaded -> Loaded
+withoutSurface :: LoadedProgram -> LoadedProgram
 withoutSurface loaded = loaded {surface = Result [] [] Nothing}
 
 -- | Whether a file is an input sheet, by its name.
@@ -125,19 +125,19 @@ data Analysis = Analysis
   { -- | every place at which a name stands
     mentions :: [Mention],
     part :: Part,
-    path :: Path
+    path :: Toolpath
   }
 
 -- | From the texts to the path; the values are given to the program's parameters, by their names.
-analyse :: [(Text, Text)] -> Loaded -> Result Report Report Analysis
+analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   -- Of the checked program only the mentions are held while the path is laid.
   (mentions, part) <- (\(checked, part) -> let found = Checked.mentions checked in found `seq` (found, part)) <$> evaluated values loaded
-  path <- mapErrors Path.warningReport Path.toReport (Path.lay part)
+  path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.lay part)
   pure Analysis {mentions, part, path}
 
 -- | From the texts to the exact geometry.
-evaluated :: [(Text, Text)] -> Loaded -> Result Report Report (Checked.Program, Part)
+evaluated :: [(Text, Text)] -> LoadedProgram -> Result Report Report (Checked.Program, Part)
 evaluated values loaded = do
   written <- surface loaded
   assigned <- mapErrors id Surface.toReport (Surface.assign values written)
@@ -146,32 +146,32 @@ evaluated values loaded = do
   pure (checked, part)
 
 -- | The frames of a path on a machine, and the tape that holds them.
-data Punched = Punched {program :: Program, tape :: Tape}
+data Punched = Punched {program :: FrameProgram, tape :: Tape}
 
 -- | From the path to the tape.
-punch :: Machine -> Path -> Result Report Report Punched
+punch :: Machine -> Toolpath -> Result Report Report Punched
 punch machine path = do
   program <- mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
   pure Punched {program, tape = Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program))}
 
 -- | From a tape back to its frames; where the cutter stands before the first.
-readTape :: Machine -> V3 -> Tape -> Result Report Report [Frame]
+readTape :: Machine -> Pulses3 -> Tape -> Result Report Report [Frame]
 readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine begin tape))
 
 -- | The same of a tape on which the frames of a program should stand.
-readBack :: Machine -> Program -> Tape -> Result Report Report [Frame]
+readBack :: Machine -> FrameProgram -> Tape -> Result Report Report [Frame]
 readBack machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
 
 -- | The same of a tape that was punched just now: it has to hold the frames of the program, one by one.
-readOwn :: Machine -> Program -> Tape -> Result Report Report [Frame]
+readOwn :: Machine -> FrameProgram -> Tape -> Result Report Report [Frame]
 readOwn machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readOwn machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
 
 -- | Compare a tape's frames with the part; errors when it is not proven.
-prove :: Machine -> Path -> Program -> [Frame] -> Result Report Report Proof
+prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Result Report Report Proof
 prove machine path program frames = asked `seq` Result.failing (Verify.toReports machine proof) proof
   where
     -- The moves along the contours are not held while the tape is compared.
-    asked = Path.withoutCuts path
+    asked = Toolpath.withoutCuts path
     proof = Verify.prove machine asked program frames
 
 -- Machines ----------------------------------------------------------------------------------------
@@ -216,5 +216,5 @@ machineIn descriptions file = case lookup file descriptions of
     Result {errors} -> Left (BadDescription text errors)
 
 -- | A machine set up for a path: on a lathe its axes may point the other way.
-onMachine :: Path -> Machine -> Machine
-onMachine path machine = if Path.isTurned path then Machine.forTurning machine else machine
+onMachine :: Toolpath -> Machine -> Machine
+onMachine path machine = if Toolpath.isTurned path then Machine.forTurning machine else machine

@@ -7,7 +7,7 @@ module Blocks
   )
 where
 
-import Compile (Loaded)
+import Compile (LoadedProgram)
 import Compile qualified
 import Control.Exception (IOException, try)
 import Data.Bifunctor (first)
@@ -39,7 +39,7 @@ pictureBelow below = case Text.breakOn "](pictures/" (Text.takeWhile (/= '\n') (
 
 -- | A program of a document; a piece of one stands behind the head that docs/language.md gives. Files are
 -- imported from where the document stands.
-load :: FilePath -> Block -> IO Loaded
+load :: FilePath -> Block -> IO LoadedProgram
 load file block = do
   manual <- readText "docs/language.md"
   let head' = Text.concat [program b <> "\n" | b <- take 1 (blocks manual)]

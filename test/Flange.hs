@@ -16,7 +16,7 @@ import Compile qualified
 import Data.ByteString qualified as ByteString
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
-import Frame.Frame (Frame, Program)
+import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 import Machines (lkp01f)
 import System.IO.Unsafe (unsafePerformIO)
@@ -33,7 +33,7 @@ analysis = expect (Compile.analyse [] (Compile.alone "flange.part" text))
 punched :: Punched
 punched = expect (Compile.punch lkp01f (Compile.path analysis))
 
-program :: Program
+program :: FrameProgram
 program = Compile.program punched
 
 tape :: Tape

@@ -14,10 +14,10 @@ import Flange qualified
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machines (lkp01f)
-import Path.Path (Block (..), Move (segment))
-import Path.Path qualified as Path
 import Tape.Tape qualified as Tape
 import Test.Hspec
+import Toolpath.Toolpath (Block (..), Move (segment))
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.Proof qualified as Proof
 
 spec :: Spec
@@ -44,5 +44,5 @@ spec = do
   where
     cells line = map Text.strip (drop 1 (init (Text.splitOn "|" line)))
     number text = either (const Nothing) (Just . fst) (Text.double text)
-    nodes = [(Vec.x p, Vec.y p) | Cutting {cut} <- Path.blocks (path Flange.analysis), m <- NonEmpty.toList cut, let p = Segment.start (segment m)]
+    nodes = [(Vec.x p, Vec.y p) | Cutting {cut} <- Toolpath.blocks (path Flange.analysis), m <- NonEmpty.toList cut, let p = Segment.start (segment m)]
     apart (a, b) (c, d) = let Mm l = Vec.distance (Vec.point a b) (Vec.point c d) in l

@@ -21,8 +21,8 @@ module Generate
   )
 where
 
-import Base.Lattice (V3 (..))
 import Base.Name (Name (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result qualified as Result
@@ -32,30 +32,30 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
-import Geometry.Contour (Contour (..), Ends (..))
-import Geometry.Contour qualified as Contour
-import Geometry.Fillet (Fillet (..))
-import Geometry.Fillet qualified as Fillet
-import Geometry.Offset (Piece, Side (..))
-import Geometry.Offset qualified as Offset
+import Geometry.Carrier (Line (..), Sense (..), Side (..))
+import Geometry.Construction.Fillet (Fillet (..))
+import Geometry.Construction.Fillet qualified as Fillet
+import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.Polyarc (Ends (..), Polyarc (..))
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Line (..), Turn (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Geometry.Walked (Walked (..))
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
+import Offset.Equidistant (OffsetSegment)
+import Offset.Equidistant qualified as Equidistant
+import Part.ContourElement qualified as ContourElement
 import Part.Part (Element (..), Milling (Milling), Operation (..), Part (Part), Stop (Stop))
 import Part.Part qualified as Part
-import Part.Walks qualified as Walks
-import Path.FromPart qualified as FromPart
-import Path.Path (Path)
-import Path.Path qualified as Path
 import Test.QuickCheck
+import Toolpath.FromPart qualified as FromPart
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | A contour, a side and a cutter that fits, with the equidistant.
-data Case = Case {contour :: Contour, side :: Side, radius :: Mm, pieces :: NonEmpty Piece}
+data Case = Case {contour :: Polyarc, side :: Side, radius :: Mm, pieces :: NonEmpty OffsetSegment}
   deriving stock (Show)
 
 radiusOf :: Case -> Double
@@ -74,23 +74,23 @@ openCase :: Gen Case
 openCase = do
   s <- elements [LeftOf, RightOf]
   flip fitting s $ do
-    Contour _ ss <- polygon True
+    Polyarc _ ss <- polygon True
     k <- choose (1, NonEmpty.length ss - 1)
-    pure (Contour Open (NonEmpty.fromList (NonEmpty.take k ss)))
+    pure (Polyarc Open (NonEmpty.fromList (NonEmpty.take k ss)))
 
 -- | With a cutter that fits; contours that no cutter fits are not of interest.
-fitting :: Gen Contour -> Side -> Gen Case
+fitting :: Gen Polyarc -> Side -> Gen Case
 fitting gen side = do
   c <- gen
   reversed <- arbitrary
   r <- oneof [choose (0.1, 3), choose (3, 15)]
-  let c' = if reversed then Contour.reverse c else c
-  case Offset.equidistant side (Mm r) c' of
+  let c' = if reversed then Polyarc.reverse c else c
+  case Equidistant.equidistant side (Mm r) c' of
     Right pieces -> pure Case {contour = c', side, radius = Mm r, pieces}
     Left _ -> fitting gen side
 
 -- | A star-shaped polygon with rounded corners; outer ones may stay sharp.
-polygon :: Bool -> Gen Contour
+polygon :: Bool -> Gen Polyarc
 polygon sharp = do
   vs <- vertices
   let n = length vs
@@ -98,9 +98,9 @@ polygon sharp = do
   roundings <- traverse (rounding . corner) [0 .. n - 1]
   let ends k = roundings !! (k `mod` n)
       walk = concat [[Straight (snd' (ends k)) (fst' (ends (k + 1)))] <> middle' (ends (k + 1)) | k <- [0 .. n - 1]]
-  pure (Contour Closed (NonEmpty.fromList (chain (filter ((> Mm 1e-3) . Segment.length) walk))))
+  pure (Polyarc Closed (NonEmpty.fromList (chain (filter ((> Mm 1e-3) . Segment.length) walk))))
   where
-    chain ss = NonEmpty.toList (Contour.chained id const Closed (NonEmpty.fromList ss))
+    chain ss = NonEmpty.toList (Polyarc.chained id const Closed (NonEmpty.fromList ss))
     fst' (a, _, _) = a
     snd' (_, b, _) = b
     middle' (_, _, m) = m
@@ -123,13 +123,13 @@ polygon sharp = do
             [] -> (b, b, [])
 
 -- | A convex polygon of arcs that bulge outwards or are nearly straight, with sharp corners.
-bulged :: Gen Contour
+bulged :: Gen Polyarc
 bulged = do
   n <- choose (2, 6)
   r <- choose (20, 60)
   let vs = [Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 7 (-3)) | k <- [0 .. n - 1 :: Int]]
   arcs <- traverse (uncurry arcOver) (zip vs (drop 1 vs <> take 1 vs))
-  pure (Contour Closed (NonEmpty.fromList arcs))
+  pure (Polyarc Closed (NonEmpty.fromList arcs))
   where
     -- An arc to the right of its chord, of a sweep of at most 100°.
     arcOver a b = do
@@ -150,16 +150,16 @@ vertices = do
   pure [Vec.shift (Vec.polar (Mm r) (Rad (angle k j))) (Vec.point x y) | (k, j, r) <- zip3 [0 :: Int ..] jitters radii]
 
 -- | The path of a cutter around a contour that it fits, from a point well away, with a tolerance.
-milled :: Mm -> Case -> Maybe Path
+milled :: Mm -> Case -> Maybe Toolpath
 milled tolerance c = Result.output (FromPart.lay (partOf (begin c) (Mill (Located (Region 0 0) (job c) {Part.tolerance = Part.OnPath tolerance}))))
 
 -- | Where the equidistant of a case begins.
 begin :: Case -> Point
-begin c = Segment.start (Offset.segment (NonEmpty.head (pieces c)))
+begin c = Segment.start (Equidistant.segment (NonEmpty.head (pieces c)))
 
 -- | Whether the cutter stands outside of a closed contour.
 outside :: Case -> Bool
-outside c = (Contour.signedArea (contour c) > 0) == (side c == RightOf)
+outside c = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
 
 -- | The milling of a case, straight to its beginning.
 job :: Case -> Milling
@@ -204,7 +204,7 @@ settings = do
         Part.corners = style,
         Part.allowances = several,
         Part.approach = [],
-        Part.contour = maybe (Part.contour m) (`Walks.startingNear` Part.contour m) near
+        Part.contour = maybe (Part.contour m) (`ContourElement.startingNear` Part.contour m) near
       }
 
 -- | A part of one operation, the cutter beginning at a point.
@@ -214,7 +214,7 @@ partOf at operation =
     { Part.name = Nothing,
       Part.title = Nothing,
       Part.machine = Nothing,
-      Part.start = Just (Located (Region 0 0) (Part.Spot at (Mm 0))),
+      Part.start = Just (Located (Region 0 0) (Part.SpacePoint at (Mm 0))),
       Part.firstCutter = cutter,
       Part.contours = [],
       Part.operations = [operation],
@@ -230,8 +230,8 @@ partOf at operation =
       Part.Command _ -> Nothing
 
 -- | One move from the zero point.
-straightPath :: Double -> Double -> Path
-straightPath x y = Path.Path (Located nowhere (Part.Spot (Vec.point 0 0) (Mm 0))) [Path.Travelling (Mm 0) [Path.Move (Straight (Vec.point 0 0) (Vec.point x y)) (Path.Manner (Mm 0, Mm 0) Part.Rapid False) nowhere False]] False
+straightPath :: Double -> Double -> Toolpath
+straightPath x y = Toolpath.Toolpath (Located nowhere (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [Toolpath.Travelling (Mm 0) [Toolpath.Move (Straight (Vec.point 0 0) (Vec.point x y)) (Toolpath.Manner (Mm 0, Mm 0) Part.Rapid False) nowhere False]] False
   where
     nowhere = Region 0 0
 
@@ -263,11 +263,11 @@ frames machine = listOf (oneof (moving : [commanding | not (null commands)]))
       pure (Frame.still os) {Frame.motion = Frame.Straightway, Frame.increment = d, Frame.speed = code}
     commanding = Frame.still <$> given
     given = sequenceA [(o,) <$> choose (1, most) | (o, most) <- take 1 commands]
-    commands = [(o, most) | Machine.Order {Machine.order = o, Machine.value = Machine.Argument} <- Machine.auxiliary (Machine.orders machine), Just most <- [Machine.orderCapacity machine o]]
+    commands = [(o, most) | Machine.CommandWord {Machine.order = o, Machine.value = Machine.Argument} <- Machine.auxiliary (Machine.orders machine), Just most <- [Machine.orderCapacity machine o]]
     codes = case Machine.codes (Machine.feeds machine) of
       Machine.Listed table -> Map.keys table
       Machine.Direct a b -> map Machine.FeedCode [a, (a + b) `div` 2, b]
-    increment' = V3 <$> part Machine.X <*> part Machine.Y <*> part Machine.Z
+    increment' = Pulses3 <$> part Machine.X <*> part Machine.Y <*> part Machine.Z
     part axis = do
       let Pulses c = min 1000000 (Machine.capacity machine axis)
       Pulses <$> oneof [pure 0, choose (-c, c), elements [c, -c, min c 1, -min c 1]]

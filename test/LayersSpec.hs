@@ -51,17 +51,18 @@ table =
     Layer Folder "Surface" (Only ["Base", "Report"]),
     Layer Folder "Checked" (Only ["Surface"]),
     Layer Folder "Geometry" (Only ["Base"]),
+    Layer Folder "Offset" (Only ["Geometry"]),
     Layer Folder "Part" (Only ["Checked", "Geometry"]),
     Layer Folder "Sheet" (Only ["Base", "Report", "Surface", "Part", "Geometry"]),
-    Layer Folder "Path" (Only ["Part", "Geometry"]),
+    Layer Folder "Toolpath" (Only ["Part", "Offset"]),
     Layer Folder "Machine" (Only ["Base", "Report"]),
-    Layer Folder "Frame" (Only ["Path", "Machine"]),
+    Layer Folder "Frame" (Only ["Toolpath", "Machine"]),
     Layer Folder "Tape" (Only ["Frame", "Machine"]),
     Layer Folder "Control" (Only ["Frame", "Machine"]),
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
     Layer Single "Compile" (Only ["Sheet", "Tape", "Control", "Verify"]),
-    Layer Folder "Query" (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Path", "Compile"]),
+    Layer Folder "Query" (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Toolpath", "Compile"]),
     Layer Folder "Lsp" (Only ["Query"]),
     Layer Folder "Cli" Above,
     Layer Program "app" Above
@@ -306,7 +307,7 @@ spec = do
       Map.lookup "Compile" (reachable table)
         `shouldBe` Just
           ( Set.fromList
-              ["Base", "Report", "Sheet", "Surface", "Checked", "Geometry", "Part", "Path", "Machine", "Frame", "Tape", "Control", "Verify"]
+              ["Base", "Report", "Sheet", "Surface", "Checked", "Geometry", "Offset", "Part", "Toolpath", "Machine", "Frame", "Tape", "Control", "Verify"]
           )
 
   describe "check" $ do
@@ -343,7 +344,7 @@ spec = do
         `shouldBe` [Fault "src/Report/Human.hs" (Impure "System.Console.ANSI")]
     it "allows effects to the command line and to the sanctioned crash alone" $
       faultsOf
-        [ good "app/Main.hs" ["System.Exit", "Cli.Run"],
+        [ good "app/Main.hs" ["System.Exit", "Cli.Subcommand"],
           good "src/Cli/Run.hs" ["System.IO"],
           good "src/Base/Crash.hs" ["Control.Exception", "System.IO"]
         ]

@@ -34,20 +34,20 @@ import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
+import Geometry.Carrier (Sense (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Pace (..), Spot (..))
+import Part.Part (Pace (..), SpacePoint (..))
 import Part.Part qualified as Part
-import Path.Path (Path)
-import Path.Path qualified as Path
 import System.Directory (findExecutable)
 import System.Exit (ExitCode (..))
 import System.IO.Temp (withSystemTempDirectory)
 import System.Process (readProcessWithExitCode)
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | Whether the interpreter is there.
 installed :: IO Bool
@@ -62,7 +62,7 @@ data Canonical
   = Traverse Place
   | Feeding Double Place
   | -- | in the plane of x and y, with its centre
-    Rounding Double Turn Point Place
+    Rounding Double Sense Point Place
   deriving stock (Eq, Show)
 
 -- | Run a file. What the interpreter says against it, and calls that are not understood here, are reasons. It keeps its table of
@@ -241,14 +241,14 @@ radii walked = mapMaybe uneven [s | Way {segment = s@Arc {}} <- walked]
        in if abs (a - b) <= mm exactly then Nothing else Just ("the radius is " <> said a <> " at the start and " <> said b <> " at the end")
 
 -- | What a path wants of a machine that can go along arcs: a line or an arc exactly, a curve within the tolerance.
-legs :: Path -> (Place, [Leg])
-legs path = (beginning, concatMap (\block -> map (leg (allowed block)) (Path.runs (Path.moves block))) (Path.blocks path))
+legs :: Toolpath -> (Place, [Leg])
+legs path = (beginning, concatMap (\block -> map (leg (allowed block)) (Toolpath.runs (Toolpath.moves block))) (Toolpath.blocks path))
   where
-    beginning = let Located _ (Spot p (Mm h)) = Path.start path in Place (Vec.x p) (Vec.y p) h
-    leg slack run = Leg {chain = fmap whole run, within = if Path.isCurve run then slack else exactly, wanted = asked (Path.pace (NonEmpty.head run))}
-    whole m = let (Mm a, Mm b) = Path.heights m in (Path.segment m, (a, b))
+    beginning = let Located _ (SpacePoint p (Mm h)) = Toolpath.start path in Place (Vec.x p) (Vec.y p) h
+    leg slack run = Leg {chain = fmap whole run, within = if Toolpath.isCurve run then slack else exactly, wanted = asked (Toolpath.pace (NonEmpty.head run))}
+    whole m = let (Mm a, Mm b) = Toolpath.heights m in (Toolpath.segment m, (a, b))
     allowed block = case block of
-      Path.Cutting {Path.job = Located _ job} -> let (Mm a, Mm b) = Part.deepest (Part.tolerance job) in Mm (max a b + mm exactly)
+      Toolpath.Cutting {Toolpath.job = Located _ job} -> let (Mm a, Mm b) = Part.deepest (Part.tolerance job) in Mm (max a b + mm exactly)
       _ -> exactly
     asked pace = case pace of
       Rapid -> InRapid

@@ -17,9 +17,9 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Files (readText)
+import Geometry.Carrier (Circle (Circle), Sense (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import LinuxCnc (Asked (..), Canonical (..), Leg (..), Place (..))

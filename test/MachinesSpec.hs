@@ -14,18 +14,18 @@ import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (expected, readText)
-import Frame.Frame (Frame (motion), Motion (..))
+import Frame.Frame (Frame (motion), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Machines qualified
-import Report.Report (Code (..), Place (..), Report)
+import Report.Report (Report, ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (dropExtension, takeExtension, (<.>), (</>))
-import Tape.Layout qualified as Layout
 import Tape.Punch qualified as Tape
+import Tape.RowMeaning qualified as RowMeaning
 import Tape.Tape qualified as Tape
 import Test.Hspec
 
@@ -37,7 +37,7 @@ spec = do
     let loaded = Compile.alone "shaft.part" text
     case Result.settled (Compile.analyse [] loaded `Result.thenSound` \a -> let m = Machines.ownOr Machines.lkp01f loaded a in Compile.punch m (path a) `Result.thenSound` \p -> pure (Tape.rows m (Frame.start (program p)) (map Frame.frame (Frame.planned (program p))))) of
       Nothing -> expectationFailure "the shaft is not compiled"
-      Just rows -> [dropWhileEnd (/= 'Н') (mapMaybe Layout.symbol [r | r <- rows, Layout.frame r == Just n]) | n <- [1, 2]] `shouldBe` ["9Д56000П27Ш08Н", "7Е64200П32Н"]
+      Just rows -> [dropWhileEnd (/= 'Н') (mapMaybe RowMeaning.symbol [r | r <- rows, RowMeaning.frame r == Just n]) | n <- [1, 2]] `shouldBe` ["9Д56000П27Ш08Н", "7Е64200П32Н"]
 
 everywhere :: Spec
 everywhere = describe "every example on every machine" $ do
@@ -67,7 +67,7 @@ counts _ p = Text.intercalate ", " [Decimal.whole (length fs) <> " frames", Deci
     fs = map Frame.frame (Frame.planned (program p))
 
 codeWord :: Report -> Text
-codeWord r = let Code c = Report.code r in c
+codeWord r = let ReportCode c = Report.code r in c
 
 isPlaced :: Report -> Bool
 isPlaced r = case Report.place r of

@@ -59,11 +59,11 @@ spec = do
       [c | c <- codes, c /= "E0116", not (Text.isPrefixOf "E10" c), not (Text.isInfixOf ("[" <> c <> "]") expectations)] `shouldBe` []
 
 -- | All that the compiler says of a program, up to the machine's limits.
-reportsOf :: [(Text, Text)] -> Compile.Loaded -> Result Report Report ()
+reportsOf :: [(Text, Text)] -> Compile.LoadedProgram -> Result Report Report ()
 reportsOf values loaded = Compile.analyse values loaded `Result.thenSound` \a -> void (Compile.punch (machineFor loaded a) (path a))
 
 -- | The program's own machine, or the usual one.
-machineFor :: Compile.Loaded -> Analysis -> Machine
+machineFor :: Compile.LoadedProgram -> Analysis -> Machine
 machineFor = Machines.ownOr Machines.lkp01f
 
 rendered :: Region.Source -> [Report] -> Text
@@ -72,7 +72,7 @@ rendered source reports = Text.concat (map render (Report.sorted reports))
     render r = Human.render Human.Plain (Region.mainFile source) source r <> "\n"
 
 -- | A program with what it imports, and the values that its lines @-- set: NAME=VALUE@ give to parameters.
-loadedFrom :: FilePath -> IO ([(Text, Text)], Compile.Loaded)
+loadedFrom :: FilePath -> IO ([(Text, Text)], Compile.LoadedProgram)
 loadedFrom file = do
   text <- readText file
   loaded <- Compile.load (Import.byName beside) (takeFileName file) text

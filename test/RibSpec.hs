@@ -4,7 +4,7 @@ module RibSpec (spec) where
 import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
 import Cli.NodeTable qualified as NodeTable
-import Compile (Analysis (..), Loaded, Punched (..))
+import Compile (Analysis (..), LoadedProgram, Punched (..))
 import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -45,7 +45,7 @@ spec = do
     page `shouldSatisfy` Text.isInfixOf (showText counted <> " chords")
   where
     file = "examples/rib.part"
-    loaded = Compile.alone (Text.pack file) :: Text -> Loaded
+    loaded = Compile.alone (Text.pack file) :: Text -> LoadedProgram
     compiled = do
       text <- readText file
       maybe (fail "the rib has errors") pure . Result.settled $

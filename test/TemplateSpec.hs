@@ -15,8 +15,8 @@ import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Files (readText)
 import Frame.Frame qualified as Frame
-import Geometry.Fit qualified as Fit
-import Geometry.Piece qualified as Piece
+import Geometry.Curve.Section qualified as Section
+import Geometry.Curve.SectionFit qualified as SectionFit
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machines (lkp01f)
@@ -39,17 +39,17 @@ spec = do
                    "-0.00460579 0.8200501 -16.220749"
                  ]
   it "the deviations are those of Tables 2 to 4 to 0.01 mm" $
-    [(Fit.ofRow d, Decimal.fixed 2 x) | d <- missed, let Mm x = Fit.miss d, abs x >= 0.005]
+    [(SectionFit.ofRow d, Decimal.fixed 2 x) | d <- missed, let Mm x = SectionFit.miss d, abs x >= 0.005]
       `shouldBe` [(2, "0.01"), (4, "0.03"), (7, "-0.02"), (9, "-0.02"), (11, "0.01"), (12, "0.03")]
   it "three pieces are needed within 0.03 mm, and three are found" $ do
     map (length . pieces) (fitted "fitted") `shouldBe` [3]
     [k | k <- [2 .. 12], single (take k points), single (drop (k - 1) points)] `shouldBe` []
-    [Fit.ofRow d | f <- fitted "fitted", d <- misses f, let { Mm x = Fit.miss d }, abs x > 0.03] `shouldBe` []
+    [SectionFit.ofRow d | f <- fitted "fitted", d <- misses f, let { Mm x = SectionFit.miss d }, abs x > 0.03] `shouldBe` []
   it "its page shows the points of the program, and what is computed" $ do
     page <- rows <$> readText "docs/template.md"
     [(x, y) | [n, _, _, x, y, _] <- page, isNumber n] `shouldBe` [(Decimal.fixed 2 (Vec.x p), Decimal.fixed 2 (Vec.y p)) | p <- points]
     [(n, y, d) | [n, _, _, _, _, y, d] <- page, isNumber n]
-      `shouldBe` [(Decimal.whole (Fit.ofRow d), Decimal.fixed 4 (Vec.y p + x), Decimal.fixed 4 x) | (d, p) <- zip missed points, let Mm x = Fit.miss d]
+      `shouldBe` [(Decimal.whole (SectionFit.ofRow d), Decimal.fixed 4 (Vec.y p + x), Decimal.fixed 4 x) | (d, p) <- zip missed points, let Mm x = SectionFit.miss d]
   it "its page shows the program as it stands among the examples, and counts its frames" $ do
     page <- readText "docs/template.md"
     program' <- readText file
@@ -66,14 +66,14 @@ spec = do
     isNumber n = not (Text.null n) && Text.all (`elem` ['0' .. '9']) n
 
 -- | The coefficients of a polynomial with as many digits as the paper has.
-formula :: Piece.Piece -> Text
-formula p = case Piece.formula p of
-  Piece.Polynomial 0 b c -> Text.unwords [Decimal.fixed 7 b, Decimal.fixed 6 c]
-  Piece.Polynomial a b c -> Text.unwords [Decimal.fixed 8 a, Decimal.fixed 7 b, Decimal.fixed 6 c]
-  Piece.Circle _ _ -> "an arc"
+formula :: Section.Section -> Text
+formula p = case Section.formula p of
+  Section.Polynomial 0 b c -> Text.unwords [Decimal.fixed 7 b, Decimal.fixed 6 c]
+  Section.Polynomial a b c -> Text.unwords [Decimal.fixed 8 a, Decimal.fixed 7 b, Decimal.fixed 6 c]
+  Section.Circle _ _ -> "an arc"
 
 -- | Whether one line, parabola or arc goes through these points within the paper's tolerance.
 single :: [Point] -> Bool
-single points = case Piece.table points of
-  Right t -> length (Fit.fit (Piece.LineKind :| [Piece.ParabolaKind, Piece.ArcKind]) (Mm 0.03) t) == 1
+single points = case Section.table points of
+  Right t -> length (SectionFit.fit (Section.LineKind :| [Section.ParabolaKind, Section.ArcKind]) (Mm 0.03) t) == 1
   Left _ -> False

@@ -26,7 +26,7 @@ module Base.Region
   )
 where
 
-import Base.Search qualified as Search
+import Base.BinarySearch qualified as BinarySearch
 import Data.Bits (shiftL, shiftR, (.&.), (.|.))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -142,7 +142,7 @@ offset Source {own} line column
 
 -- | The last line that begins at or before an offset within its file.
 lineIndex :: File -> Int -> Int
-lineIndex File {starts} at = Search.lastBelow (Vector.length starts) at starts
+lineIndex File {starts} at = BinarySearch.lastBelow (Vector.length starts) at starts
 
 -- | The line in which an offset lies, without its line end.
 lineText :: Source -> Int -> Text

@@ -5,7 +5,7 @@
 module Checked.Builtin
   ( Form (..),
     Parameter (..),
-    Label (..),
+    ArgumentLabel (..),
     Fresh (..),
     lookup,
     forms,
@@ -24,7 +24,7 @@ where
 
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
-import Checked.Syntax (Builtin (..), Choice (..))
+import Checked.Syntax (Builtin (..), Selector (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Data.Containers.ListUtils (nubOrd)
@@ -39,10 +39,10 @@ import Prelude hiding (lookup)
 data Form = Form {parameters :: [Parameter], result :: Type}
 
 -- | A parameter: the word before it, its name, its type. A rank has neither name nor type.
-data Parameter = Parameter {label :: Label, title :: Text, type' :: Type}
+data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
 -- | What stands before an argument.
-data Label = Bare | Word Choice | Rank
+data ArgumentLabel = Bare | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
 -- | Unknowns that are new at every call.
@@ -249,14 +249,14 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
         ]
 
 -- | The forms of a function with these labels, in order.
-labelled :: Fresh -> Builtin -> [Label] -> [Form]
+labelled :: Fresh -> Builtin -> [ArgumentLabel] -> [Form]
 labelled Fresh {dimension, anything} builtin labels = map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))
   where
     made form = form {parameters = [p {type' = own (type' p)} | p <- parameters form], result = own (result form)}
     own = Type.replaced (Dimension.substitute anyUnknown dimension) (\n -> if n == anyUnknown then anything else Variable n)
 
 -- | All forms by their labels; what is new at every call is 'anyUnknown' in them.
-byLabels :: Lazy.Map Builtin (Map [Label] [Form])
+byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
 byLabels = Lazy.fromList [(b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms template b]) | b <- [minBound .. maxBound]]
 
 template :: Fresh

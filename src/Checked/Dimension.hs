@@ -11,7 +11,7 @@ module Checked.Dimension
     times,
     power,
     unknowns,
-    Step (..),
+    UnificationStep (..),
     solve,
     substitute,
     describe,
@@ -65,14 +65,14 @@ isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 
 -- | How an equation is solved: done, impossible, or one unknown replaced and the rest to be solved.
-data Step
+data UnificationStep
   = Solved
   | Impossible
   | -- | an unknown and what it is
     Replace Int Dimension
 
 -- | One step towards making a dimension equal to 'none'; the number is a fresh unknown.
-solve :: Int -> Dimension -> Step
+solve :: Int -> Dimension -> UnificationStep
 solve fresh (Dimension m) = case pivot of
   Nothing -> if Map.null m then Solved else Impossible
   Just (n, e)

@@ -1,7 +1,7 @@
 -- | What can be wrong with names, types and the set of statements.
 module Checked.Error
   ( Error (..),
-    Setting (..),
+    RequiredSetting (..),
     toReport,
   )
 where
@@ -17,7 +17,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
+import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
 
 -- | A fact, and where it shows.
 data Error
@@ -45,9 +45,9 @@ data Error
   | -- | something that can not be walked
     NotWalkable Region Type
   | NoPart Region
-  | SettingTwice Region Setting Region
+  | SettingTwice Region RequiredSetting Region
   | -- | the statement that needs them
-    SettingsMissing Region (NonEmpty Setting)
+    SettingsMissing Region (NonEmpty RequiredSetting)
   | -- | a function that uses itself
     Recursive Region Name
   | -- | a call that has none of the forms of a function: the function, what is given, its forms
@@ -83,7 +83,7 @@ data Error
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
-data Setting = PartSetting | MachineSetting | ToolSetting | FeedSetting | ToleranceSetting | FromSetting | ClearanceSetting
+data RequiredSetting = PartSetting | MachineSetting | ToolSetting | FeedSetting | ToleranceSetting | FromSetting | ClearanceSetting
   deriving stock (Eq, Ord, Show)
 
 -- | The words for it.
@@ -264,7 +264,7 @@ cipherForms digit = case digit of
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
-at :: Region -> Code -> Text -> Report
+at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
 arguments :: Int -> Text
@@ -284,7 +284,7 @@ mismatchHint expected found
   | Type.isSquare expected = ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []
 
-settingWord :: Setting -> Text
+settingWord :: RequiredSetting -> Text
 settingWord setting = case setting of
   PartSetting -> "the name of the part"
   MachineSetting -> "the machine"
@@ -294,7 +294,7 @@ settingWord setting = case setting of
   FromSetting -> "the starting point"
   ClearanceSetting -> "the clearance height"
 
-example :: Setting -> Text
+example :: RequiredSetting -> Text
 example setting = case setting of
   PartSetting -> "part NAME"
   MachineSetting -> "machine lkp-01f"

@@ -11,17 +11,17 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
-import Checked.Bare qualified as Bare
 import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
+import Checked.Deferred (Later, eagerly, solved)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
-import Checked.Infer (Infer)
-import Checked.Infer qualified as Infer
-import Checked.Later (Later, eagerly, solved)
+import Checked.Inference (Infer)
+import Checked.Inference qualified as Inference
+import Checked.Literal qualified as Literal
 import Checked.Piece (unitType)
 import Checked.Piece qualified as Piece
-import Checked.Scheme (Arithmetic (..), Choice (..), Entry (..), Pending (..))
+import Checked.Scheme (Arithmetic (..), Binding (..), OverloadedCall (..), Pending (..))
 import Checked.Settings (settings)
 import Checked.Settings qualified as Settings
 import Checked.Syntax (Program (..))
@@ -48,7 +48,7 @@ check Surface.Program {Surface.statements = written} =
   where
     defined = Map.fromListWith (\_ first -> first) (concatMap definition written)
     importing = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
-    (found, solution, checked, mentions) = Infer.run (catMaybes <$> mapM (statement defined) written)
+    (found, solution, checked, mentions) = Inference.run (catMaybes <$> mapM (statement defined) written)
     program =
       Program
         { name = firstOf [value n | Located _ (Surface.Part n _) <- written],
@@ -87,10 +87,10 @@ type Defined = Map Name Region
 
 statement :: Defined -> Statement -> Infer (Maybe (Later Checked.Statement))
 statement defined (Located at s) = case s of
-  Surface.Part n _ -> Nothing <$ Infer.mention (region n) (Just (region n)) (nameText n) (Infer.Said "the name of the part")
+  Surface.Part n _ -> Nothing <$ Inference.mention (region n) (Just (region n)) (nameText n) (Inference.Said "the name of the part")
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
-  Surface.Broken _ name -> Nothing <$ mapM_ (\n -> Infer.define (value n) (Poisoned (region n))) name
+  Surface.Broken _ name -> Nothing <$ mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
   Surface.Tool c -> one Checked.Tool (cutter defined c)
   Surface.Feed e -> one Checked.Feed (expect defined Type.feed e)
   Surface.Tolerance accuracy -> one Checked.Tolerance $ case accuracy of
@@ -101,20 +101,20 @@ statement defined (Located at s) = case s of
   Surface.LetValue name e -> binding name (infer defined e)
   Surface.Param name e -> binding name (infer defined e)
   Surface.LetFunction name parameters e -> do
-    checked <- Infer.separately (unused name *> function defined name parameters e)
+    checked <- Inference.separately (unused name *> function defined name parameters e)
     defining name fst checked
     pure (plain (\(_, e') sol -> Checked.LetFunction (value name) (fmap value parameters) (e' sol)) checked)
   Surface.Contour name closure items -> do
-    checked <- Infer.separately (unused name *> mapM (item defined) items)
+    checked <- Inference.separately (unused name *> mapM (item defined) items)
     defining name (const (Value (region name) Type.Contour)) checked
     pure (plain (\items' sol -> Checked.Contour name closure (solved sol items')) checked)
   Surface.Table name written -> do
-    checked <- Infer.separately (unused name *> Piece.table (checker defined) name (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> []))
+    checked <- Inference.separately (unused name *> Piece.table (checker defined) name (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> []))
     defining name (\(t, _) -> Value (region name) t) checked
     pure (plain (\(_, columns) sol -> Checked.Table name (columns sol)) checked)
   Surface.Curve name e -> binding name (curve defined e)
   Surface.Piece name e ciphers side joggles -> do
-    checked <- Infer.separately (unused name *> piece defined e ciphers joggles)
+    checked <- Inference.separately (unused name *> piece defined e ciphers joggles)
     defining name (\(t, _) -> Value (region name) t) checked
     pure (plain (\(_, (e', ciphers', joggles')) sol -> Checked.Piece name (e' sol) (solved sol ciphers') side (solved sol joggles')) checked)
   Surface.Assert e within -> one Checked.Assert (assertion defined e within)
@@ -138,25 +138,25 @@ statement defined (Located at s) = case s of
   Surface.Coolant switch -> one Checked.Coolant (pure (const switch))
   Surface.Auxiliary e -> one Checked.Auxiliary (expect defined Type.number e)
   Surface.Repeat counter list body -> do
-    checked <- Infer.separately (repetition defined counter list)
+    checked <- Inference.separately (repetition defined counter list)
     body' <- inBlock (maybe (Poisoned (region counter)) (Local (region counter) . fst) checked) (Just counter) body
     pure (plain (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (solved sol body')) checked)
   Surface.When e body others -> do
-    checked <- Infer.separately (expect defined Type.Truth' e)
+    checked <- Inference.separately (expect defined Type.Truth' e)
     body' <- block' body
     others' <- block' others
     pure (plain (\e' sol -> Checked.When (e' sol) (solved sol body') (solved sol others')) checked)
   Surface.With e body -> do
-    checked <- Infer.separately (expect defined Type.Placement e)
+    checked <- Inference.separately (expect defined Type.Placement e)
     body' <- block' body
     pure (plain (\e' sol -> Checked.With (e' sol) (solved sol body')) checked)
   where
     plain f = fmap (\x sol -> Located at (f x sol))
-    one make inside = plain (\x sol -> make (x sol)) <$> Infer.separately inside
+    one make inside = plain (\x sol -> make (x sol)) <$> Inference.separately inside
     binding name inside = do
-      checked <- Infer.separately (unused name *> inside)
+      checked <- Inference.separately (unused name *> inside)
       defining name (\(t, _) -> Value (region name) t) checked
-      d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Infer.known . fst) checked
+      d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.known . fst) checked
       pure (plain (\(_, e') sol -> Checked.LetValue name (sol d) (e' sol)) checked)
     machining make word e side options =
       one (\(c, o) -> make c side o) $ do
@@ -164,17 +164,17 @@ statement defined (Located at s) = case s of
         options' <- Settings.check (expect defined) (stop defined) word options
         pure (\sol -> (e' sol, options' sol))
     defining name entry checked = do
-      already <- Infer.find (value name)
+      already <- Inference.find (value name)
       case already of
         Just _ -> pure ()
         Nothing -> do
           let entry' = maybe (Poisoned (region name)) entry checked
-          Infer.define (value name) entry'
-          mapM_ (Infer.mention (region name) (Just (region name)) (nameText name)) (meaningOf entry')
+          Inference.define (value name) entry'
+          mapM_ (Inference.mention (region name) (Just (region name)) (nameText name)) (meaningOf entry')
     -- What is defined in a block is known only there.
-    block' body = catMaybes <$> Infer.scoped (mapM (statement (inner body)) body)
-    inBlock entry counter body = Infer.scoped $ do
-      mapM_ (\n -> Infer.define (value n) entry *> mapM_ (Infer.mention (region n) (Just (region n)) (nameText n)) (meaningOf entry)) counter
+    block' body = catMaybes <$> Inference.scoped (mapM (statement (inner body)) body)
+    inBlock entry counter body = Inference.scoped $ do
+      mapM_ (\n -> Inference.define (value n) entry *> mapM_ (Inference.mention (region n) (Just (region n)) (nameText n)) (meaningOf entry)) counter
       catMaybes <$> mapM (statement (inner body)) body
     inner body = Map.union (Map.fromListWith (\_ first -> first) (concatMap definition body)) defined
 
@@ -184,9 +184,9 @@ checker defined = Piece.Checker (expect defined)
 -- | A curve, of whatever table.
 curve :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 curve defined e = do
-  t <- Type.Curve <$> Infer.freshType
+  t <- Type.Curve <$> Inference.freshType
   e' <- expect defined t e
-  Infer.settle
+  Inference.settle
   pure (t, e')
 
 -- | A curve with its recalculations and joggles.
@@ -199,15 +199,15 @@ piece defined e ciphers joggles = do
   pure (t, (e', ciphers', joggles'))
 
 -- | What a reader is told of a name.
-meaningOf :: Entry -> Maybe Infer.Meaning
+meaningOf :: Binding -> Maybe Inference.Meaning
 meaningOf entry = case entry of
-  Value _ t -> Just (Infer.Valued t)
-  Local _ t -> Just (Infer.Valued t)
-  Function _ parameters scheme -> Just (Infer.Callable parameters scheme)
+  Value _ t -> Just (Inference.Valued t)
+  Local _ t -> Just (Inference.Valued t)
+  Function _ parameters scheme -> Just (Inference.Callable parameters scheme)
   Poisoned _ -> Nothing
 
 -- | The stops of @rapid@ are reached in rapid unless they say otherwise.
-paced :: Surface.Motion -> Surface.Stop -> Surface.Stop
+paced :: Surface.DefaultPace -> Surface.Stop -> Surface.Stop
 paced motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
   _ -> s
@@ -227,46 +227,46 @@ assertion defined e within = case (value e, within) of
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
     _ <- operation (region e) Surface.Equal (region l, lt) (region r, rt)
-    kind <- Infer.known lt
+    kind <- Inference.known lt
     -- Things that cannot be compared differ by nothing.
     within' <- traverse (expect defined (case kind of Type.Quantity _ -> lt; _ -> Type.Wrong)) within
-    d <- Type.dimensionOf <$> Infer.known lt
+    d <- Type.dimensionOf <$> Inference.known lt
     pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
   (Surface.Binary op l r, Nothing) | op `elem` [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal] -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
     _ <- operation (region e) op (region l, lt) (region r, rt)
-    d <- Type.dimensionOf <$> Infer.known lt
+    d <- Type.dimensionOf <$> Inference.known lt
     pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
-  (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Infer.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
+  (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Inference.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
   (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
 
 -- | A name that can be given.
 unused :: Located Name -> Infer ()
 unused (Located at name@(Name text)) = do
-  already <- Infer.find name
+  already <- Inference.find name
   case already of
-    Just (Value before _) -> Infer.mistake (DefinedTwice at name before)
-    Just (Function before _ _) -> Infer.mistake (DefinedTwice at name before)
-    Just (Poisoned before) -> Infer.mistake (DefinedTwice at name before)
+    Just (Value before _) -> Inference.mistake (DefinedTwice at name before)
+    Just (Function before _ _) -> Inference.mistake (DefinedTwice at name before)
+    Just (Poisoned before) -> Inference.mistake (DefinedTwice at name before)
     Just (Local _ _) -> pure ()
     Nothing -> pure ()
-  when (isBuiltin text) (Infer.mistake (NameTaken at name))
+  when (isBuiltin text) (Inference.mistake (NameTaken at name))
 
-function :: Defined -> Located Name -> NonEmpty (Located Name) -> Surface.Expr -> Infer (Entry, Later Checked.Expr)
+function :: Defined -> Located Name -> NonEmpty (Located Name) -> Surface.Expr -> Infer (Binding, Later Checked.Expr)
 function defined name parameters body = do
-  mapM_ (\(Located at n@(Name text)) -> when (isBuiltin text) (Infer.mistake (NameTaken at n))) parameters
+  mapM_ (\(Located at n@(Name text)) -> when (isBuiltin text) (Inference.mistake (NameTaken at n))) parameters
   twice (NonEmpty.toList parameters)
-  (scheme, body') <- Infer.generalising $ do
-    ts <- mapM (const Infer.freshType) (NonEmpty.toList parameters)
-    (t, e) <- Infer.withLocals (zip (NonEmpty.toList parameters) ts) (infer defined body)
+  (scheme, body') <- Inference.generalising $ do
+    ts <- mapM (const Inference.freshType) (NonEmpty.toList parameters)
+    (t, e) <- Inference.withLocals (zip (NonEmpty.toList parameters) ts) (infer defined body)
     pure (ts, t, e)
   pure (Function (region name) [text | Located _ (Name text) <- NonEmpty.toList parameters] scheme, body')
   where
     twice ns = case ns of
       [] -> pure ()
       n : rest -> do
-        mapM_ (\again -> Infer.mistake (DefinedTwice (region again) (value n) (region n))) (take 1 (filter ((== value n) . value) rest))
+        mapM_ (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n))) (take 1 (filter ((== value n) . value) rest))
         twice rest
 
 isBuiltin :: Text -> Bool
@@ -288,7 +288,7 @@ stop defined (Surface.Stop p pace) = do
 spot :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
 spot defined e = do
   (t, e') <- infer defined e
-  t' <- Infer.known t
+  t' <- Inference.known t
   unless (t' == Type.Space) (equal (region e) Type.aPoint t)
   pure e'
 
@@ -296,7 +296,7 @@ spot defined e = do
 places :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
 places defined e = do
   (t, e') <- infer defined e
-  t' <- Infer.known t
+  t' <- Inference.known t
   case t' of
     Type.Spatial _ -> equal (region e) Type.aPoint t
     _ -> equal (region e) (Type.ListOf Type.aPoint) t
@@ -305,8 +305,8 @@ places defined e = do
 -- | The variable and the list of a repetition.
 repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 repetition defined counter list = do
-  when (isBuiltin (nameText counter)) (Infer.mistake (NameTaken (region counter) (value counter)))
-  t <- Infer.freshType
+  when (isBuiltin (nameText counter)) (Inference.mistake (NameTaken (region counter) (value counter)))
+  t <- Inference.freshType
   (found, list') <- infer defined list
   fine <- agrees (region list) (Type.ListOf t) found
   pure (if fine then t else Type.Wrong, list')
@@ -314,12 +314,12 @@ repetition defined counter list = do
 item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
 item defined (Located at i) = case i of
   Surface.BrokenItem name -> do
-    mapM_ (\n -> Infer.define (value n) (Poisoned (region n))) name
-    Infer.taint
+    mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
+    Inference.taint
     pure (const (Located at (Checked.For (Name "") (Located at (Checked.List [])) [])))
   Surface.For counter list items -> do
     (t, list') <- repetition defined counter list
-    items' <- Infer.withLocals [(counter, t)] (mapM (item defined) items)
+    items' <- Inference.withLocals [(counter, t)] (mapM (item defined) items)
     pure (\sol -> Located at (Checked.For (value counter) (list' sol) (solved sol items')))
   Surface.Choose e items others -> do
     e' <- expect defined Type.Truth' e
@@ -350,30 +350,30 @@ modified defined columns (Located at m) = fmap (Located at .) $ case m of
   Surface.Bevel e -> (Checked.Bevel .) <$> Piece.withColumns (region e) (concat columns) (expect defined Type.angle e)
 
 -- | A circle with its sense, or a line, a point, a curve or a contour without one.
-walked :: Defined -> Maybe (Located Surface.Walk) -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+walked :: Defined -> Maybe (Located Surface.Sense) -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 walked defined walk e = case (walk, value e) of
   (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect defined Type.aPoint e
   _ -> do
-    plain <- Bare.call (expect defined) e
-    inferred (maybe (infer defined e) (\c -> pure (Bare.answer c, Bare.checked c)) plain)
+    plain <- Literal.call (expect defined) e
+    inferred (maybe (infer defined e) (\c -> pure (Literal.answer c, Literal.checked c)) plain)
   where
     inferred found = do
       (t, e') <- found
-      t' <- Infer.known t
+      t' <- Inference.known t
       case (t', walk) of
-        (Type.Circle, Nothing) -> Infer.mistake (SenseMissing (region e))
+        (Type.Circle, Nothing) -> Inference.mistake (SenseMissing (region e))
         (Type.Circle, Just _) -> pure ()
         (Type.Line, Nothing) -> pure ()
         (Type.Contour, Nothing) -> pure ()
         (Type.Curve _, Nothing) -> pure ()
-        (Type.Curve _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+        (Type.Curve _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
         (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
-        (Type.Line, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
-        (Type.Contour, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
-        (Type.Spatial _, Just w) -> Infer.mistake (SenseUnneeded (region w) t')
+        (Type.Line, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
+        (Type.Contour, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
+        (Type.Spatial _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
         (Type.Variable _, Just _) -> equal (region e) Type.Circle t
         (Type.Wrong, _) -> pure ()
-        _ -> Infer.mistake (NotWalkable (region e) t')
+        _ -> Inference.mistake (NotWalkable (region e) t')
       pure (t, e')
 
 linked :: Defined -> Surface.Link -> Infer (Later Checked.Link)
@@ -391,7 +391,7 @@ linked defined (Located at l) = fmap (Located at .) $ case l of
 -- | An expression where a type is needed.
 expect :: Defined -> Type -> Surface.Expr -> Infer (Later Checked.Expr)
 expect defined wanted e = case (value e, wanted) of
-  _ | Just e' <- Bare.number wanted e -> pure (const e')
+  _ | Just e' <- Literal.number wanted e -> pure (const e')
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> do
     x' <- expect defined Type.len x
     y' <- expect defined Type.len y
@@ -408,11 +408,11 @@ equal at wanted t = void (agrees at wanted t)
 -- | Whether the found type at a place is the wanted one; a mistake if not.
 agrees :: Region -> Type -> Type -> Infer Bool
 agrees at wanted t = do
-  found <- Infer.known t
-  wanted' <- Infer.known wanted
-  settled <- Infer.settledPlaces [(at, t, found), (at, wanted, wanted')]
-  same <- Infer.unify at wanted t
-  unless same (Infer.mistakeOnce (map fst settled) (Mismatch at wanted' found settled))
+  found <- Inference.known t
+  wanted' <- Inference.known wanted
+  settled <- Inference.settledPlaces [(at, t, found), (at, wanted, wanted')]
+  same <- Inference.unify at wanted t
+  unless same (Inference.mistakeOnce (map fst settled) (Mismatch at wanted' found settled))
   pure same
 
 infer :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
@@ -420,16 +420,16 @@ infer defined (Located at e) = case e of
   Surface.Literal (Numeral _ x) (Just unit) ->
     let (t, factor) = unitType unit in pure (t, const (Located at (Checked.Number (x * factor))))
   Surface.Literal (Numeral _ x) Nothing -> do
-    d <- Infer.freshDimension
+    d <- Inference.freshDimension
     -- A bare number means one thing everywhere; only nothing is nothing in every unit.
-    unless (x == 0) (Infer.monomorphic d)
+    unless (x == 0) (Inference.monomorphic d)
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
   Surface.Variable name -> variable defined at name
   Surface.Call name arguments -> do
-    plain <- Bare.call (expect defined) (Located at e)
+    plain <- Literal.call (expect defined) (Located at e)
     case plain of
       Nothing -> call defined at name arguments
-      Just c -> (,Bare.checked c) <$> (if Bare.overloaded c then Infer.decidedAs at (Bare.answer c) else pure (Bare.answer c))
+      Just c -> (,Literal.checked c) <$> (if Literal.overloaded c then Inference.decidedAs at (Literal.answer c) else pure (Literal.answer c))
   Surface.Negate inner -> do
     (t, inner') <- infer defined inner
     result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
@@ -444,7 +444,7 @@ infer defined (Located at e) = case e of
   Surface.Binary op l r -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
-    when (op `elem` [Surface.Multiply, Surface.Divide]) (Bare.plainFactor op (l, lt) (r, rt))
+    when (op `elem` [Surface.Multiply, Surface.Divide]) (Literal.plainFactor op (l, lt) (r, rt))
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
   Surface.Range low high Nothing -> do
@@ -452,7 +452,7 @@ infer defined (Located at e) = case e of
     high' <- expect defined Type.number high
     pure (Type.ListOf Type.number, \sol -> Located at (Checked.Range (low' sol) (high' sol) Nothing))
   Surface.Range low high (Just step) -> do
-    d <- Infer.freshDimension
+    d <- Inference.freshDimension
     low' <- expect defined (Type.Quantity d) low
     high' <- expect defined (Type.Quantity d) high
     step' <- expect defined (Type.Quantity d) step
@@ -465,7 +465,7 @@ infer defined (Located at e) = case e of
   Surface.Pair x y -> do
     x' <- expect defined Type.len x
     y' <- expect defined Type.len y
-    d <- Infer.freshDimension
+    d <- Inference.freshDimension
     pure (Type.Spatial d, \sol -> Located at (Checked.Pair (x' sol) (y' sol)))
   Surface.Triple x y z -> do
     x' <- expect defined Type.len x
@@ -473,34 +473,34 @@ infer defined (Located at e) = case e of
     z' <- expect defined Type.len z
     pure (Type.Space, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
   Surface.List es -> do
-    t <- Infer.freshType
+    t <- Inference.freshType
     es' <- mapM (expect defined t) es
     pure (Type.ListOf t, \sol -> Located at (Checked.List (solved sol es')))
   Surface.Each inner counter list -> do
     (t, list') <- repetition defined counter list
-    (result, inner') <- Infer.withLocals [(counter, t)] (infer defined inner)
+    (result, inner') <- Inference.withLocals [(counter, t)] (infer defined inner)
     pure (Type.ListOf result, \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol)))
 
 -- | The result of an operation.
 operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
 operation place operator left right = do
-  outcome <- Infer.freshType
-  Infer.require (Operation Arithmetic {place, operator, left, right, outcome})
+  outcome <- Inference.freshType
+  Inference.require (Operation Arithmetic {place, operator, left, right, outcome})
   pure outcome
 
 variable :: Defined -> Region -> Name -> Infer (Type, Later Checked.Expr)
 variable defined at name@(Name text) = do
-  entry <- Infer.find name
+  entry <- Inference.find name
   case entry of
-    Just (Value there t) -> (t, here (Checked.Variable name)) <$ Infer.mention at (Just there) text (Infer.Valued t)
-    Just (Local there t) -> (t, here (Checked.Variable name)) <$ Infer.mention at (Just there) text (Infer.Valued t)
+    Just (Value there t) -> (t, here (Checked.Variable name)) <$ Inference.mention at (Just there) text (Inference.Valued t)
+    Just (Local there t) -> (t, here (Checked.Variable name)) <$ Inference.mention at (Just there) text (Inference.Valued t)
     Just (Function there parameters scheme) -> do
-      Infer.mention at (Just there) text (Infer.Callable parameters scheme)
+      Inference.mention at (Just there) text (Inference.Callable parameters scheme)
       wrong (FunctionAsValue at name ["Write " <> text <> "(" <> Text.intercalate ", " parameters <> ")."])
-    Just (Poisoned _) -> nothing <$ Infer.taint
+    Just (Poisoned _) -> nothing <$ Inference.taint
     Nothing -> case Builtin.lookup text of
       Just builtin -> do
-        Infer.mention at Nothing text (Infer.Said (Builtin.meaning builtin))
+        Inference.mention at Nothing text (Inference.Said (Builtin.meaning builtin))
         forms <- fresh builtin
         case forms of
           [Form [] t] -> pure (t, here (Checked.Builtin builtin []))
@@ -509,7 +509,7 @@ variable defined at name@(Name text) = do
   where
     here e _ = Located at e
     nothing = (Type.Wrong, here (Checked.Number 0))
-    wrong e = nothing <$ Infer.mistake e
+    wrong e = nothing <$ Inference.mistake e
 
 -- | The forms of a builtin with unknowns of their own.
 fresh :: Checked.Builtin -> Infer [Form]
@@ -517,14 +517,14 @@ fresh builtin = (`Builtin.forms` builtin) <$> freshUnknowns
 
 freshUnknowns :: Infer Builtin.Fresh
 freshUnknowns = do
-  d <- Infer.freshDimension
-  t <- Infer.freshType
+  d <- Inference.freshDimension
+  t <- Inference.freshType
   pure Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t}
 
 -- | A name that means nothing here: it stands further down, it is being defined, or it is misspelt.
 unknown :: Defined -> Region -> Name -> Infer Error
 unknown defined at name = do
-  names <- Infer.entries
+  names <- Inference.entries
   pure $ case Map.lookup name defined of
     Just place
       | start place > start at -> UsedBeforeDefinition at name place
@@ -533,11 +533,11 @@ unknown defined at name = do
 
 call :: Defined -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer (Type, Later Checked.Expr)
 call defined at (Located place name@(Name text)) arguments = do
-  entry <- Infer.find name
+  entry <- Inference.find name
   case entry of
     Just (Function there parameters scheme) -> do
-      Infer.mention place (Just there) text (Infer.Callable parameters scheme)
-      (ts, t, operations) <- Infer.instantiate at scheme
+      Inference.mention place (Just there) text (Inference.Callable parameters scheme)
+      (ts, t, operations) <- Inference.instantiate at scheme
       case plain of
         Just es
           | length es == length ts -> do
@@ -547,11 +547,11 @@ call defined at (Located place name@(Name text)) arguments = do
         _ -> wrong (ArgumentCount at name parameters (length given))
     Just (Value before _) -> wrong (NotAFunction place name (Just before))
     Just (Local before _) -> wrong (NotAFunction place name (Just before))
-    Just (Poisoned _) -> nothing <$ (otherArguments *> Infer.taint)
+    Just (Poisoned _) -> nothing <$ (otherArguments *> Inference.taint)
     Nothing -> case Builtin.lookup text of
       Just builtin
         | Builtin.isConstant builtin -> wrong (NotAFunction place name Nothing)
-        | otherwise -> Infer.mention place Nothing text (Infer.Said (Builtin.meaning builtin)) *> builtinCall builtin
+        | otherwise -> Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin)) *> builtinCall builtin
       Nothing -> unknown defined place name >>= wrong
   where
     given = NonEmpty.toList arguments
@@ -560,7 +560,7 @@ call defined at (Located place name@(Name text)) arguments = do
     plain = sequence [case a of Surface.Given e -> Just e; Surface.Chosen _ _ -> Nothing; Surface.Ranked _ -> Nothing | a <- given]
     -- The arguments may contain mistakes of their own.
     otherArguments = mapM_ (infer defined) (concatMap valueOf given)
-    wrong e = nothing <$ (otherArguments *> Infer.mistake e)
+    wrong e = nothing <$ (otherArguments *> Inference.mistake e)
     argument wanted e = do
       (t, e') <- infer defined e
       fine <- agrees (region e) wanted t
@@ -578,8 +578,8 @@ call defined at (Located place name@(Name text)) arguments = do
           pure (if all fst checked then Builtin.result form else Type.Wrong, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
         _ -> do
           checked <- mapM (infer defined) (concatMap valueOf given)
-          chosen <- Infer.freshType
-          Infer.require (Overloaded Choice {at, builtin, labels, given = zip (map region (concatMap valueOf given)) (map fst checked), chosen})
+          chosen <- Inference.freshType
+          Inference.require (Overloaded OverloadedCall {at, builtin, labels, given = zip (map region (concatMap valueOf given)) (map fst checked), chosen})
           pure (chosen, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
     labels = [case a of Surface.Given _ -> Builtin.Bare; Surface.Chosen word _ -> Builtin.Word (value word); Surface.Ranked _ -> Builtin.Rank | a <- given]
     -- The checked values with the words before them.

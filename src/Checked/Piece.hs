@@ -11,15 +11,15 @@ module Checked.Piece
 where
 
 import Base.Name (Name (..))
+import Base.NumberTable (NumberTable)
+import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (..), Region)
-import Base.Rows (Rows)
-import Base.Rows qualified as Rows
 import Checked.Builtin qualified as Builtin
+import Checked.Deferred (Later, solved)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
-import Checked.Infer (Infer, Solution)
-import Checked.Infer qualified as Infer
-import Checked.Later (Later, solved)
+import Checked.Inference (Infer, Solution)
+import Checked.Inference qualified as Inference
 import Checked.Syntax (Cells, Columns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
@@ -42,13 +42,13 @@ newtype Checker = Checker {expect :: Type -> Surface.Expr -> Infer (Solution -> 
 data Column = Column {called :: Located Name, kind :: Type, size :: Maybe Double}
 
 -- | The columns and the rows of a table, and its type.
-table :: Checker -> Located Name -> [Surface.Line] -> Infer (Type, Solution -> Columns)
+table :: Checker -> Located Name -> [Surface.TableLine] -> Infer (Type, Solution -> Columns)
 table checker name written = case written of
   Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
     mapM_ twice (zip [0 ..] columns)
     mapM_ (meant . called) columns
-    mapM_ (\n -> when (null (named n columns)) (Infer.mistake (ColumnMissing at (Name n)))) ["x", "y"]
+    mapM_ (\n -> when (null (named n columns)) (Inference.mistake (ColumnMissing at (Name n)))) ["x", "y"]
     rows' <- rowsOf checker columns rows
     let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
         order = concatMap (`named` columns) ["x", "y"] <> [i | (i, c) <- zip [0 ..] columns, value (called c) `elem` map (value . called) extra]
@@ -60,14 +60,14 @@ table checker name written = case written of
       )
     where
       twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
-        before : _ -> Infer.mistake (ColumnTwice (region (called c)) (value (called c)) before)
+        before : _ -> Inference.mistake (ColumnTwice (region (called c)) (value (called c)) before)
         [] -> pure ()
         where
           columnsBefore = [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
       -- In what is asked along a curve of the table a column stands by its bare name, as a constant does.
-      meant (Located place n@(Name text)) = when (maybe False Builtin.isConstant (Builtin.lookup text)) (Infer.mistake (NameTaken place n))
-  Located _ Surface.BrokenLine : _ -> missing <$ Infer.taint
-  _ -> missing <$ Infer.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
+      meant (Located place n@(Name text)) = when (maybe False Builtin.isConstant (Builtin.lookup text)) (Inference.mistake (NameTaken place n))
+  Located _ Surface.BrokenLine : _ -> missing <$ Inference.taint
+  _ -> missing <$ Inference.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
   where
     missing = (Type.Wrong, const (Columns [] []))
     named n columns = [i | (i, c) <- zip [0 :: Int ..] columns, value (called c) == Name n]
@@ -79,10 +79,10 @@ table checker name written = case written of
 filled :: [Int] -> [Double] -> Row -> Later Cells
 filled order sizes found sol = case found of
   Numbers rows -> arranged rows
-  Bares at xs -> arranged (Rows.fromList [(at, xs)])
+  Bares at xs -> arranged (NumberTable.fromList [(at, xs)])
   Cells at cells -> let es = zipWith expression sizes cells in foldr seq (Checked.Written at [es !! i | i <- order]) es
   where
-    arranged = Checked.Numbers . Rows.arranged [(i, sizes !! i) | i <- order]
+    arranged = Checked.Numbers . NumberTable.arranged [(i, sizes !! i) | i <- order]
     expression s c = case c of
       Bare at x -> Located at (Checked.Number (x * s))
       Written later -> later sol
@@ -97,43 +97,43 @@ gathered = go []
       other : before -> go (other : behind) before
     bare behind found rows = case rows of
       Bares at xs : before -> bare behind ((at, xs) : found) before
-      _ -> go (Numbers (Rows.fromList found) : behind) rows
+      _ -> go (Numbers (NumberTable.fromList found) : behind) rows
 
 -- | The lengths x and y; what the others are is said by their unit, or by their use.
 column :: Surface.Heading -> Infer Column
 column (Surface.Heading name unit) = case (unit, value name) of
   (Just u, n) -> do
     let (t, factor) = unitType u
-    when (n `elem` map Name ["x", "y"] && t /= Type.len) (Infer.mistake (Mismatch (region name) Type.len t []))
+    when (n `elem` map Name ["x", "y"] && t /= Type.len) (Inference.mistake (Mismatch (region name) Type.len t []))
     pure (Column name t (Just factor))
   (Nothing, n)
     | n `elem` map Name ["x", "y"] -> pure (Column name Type.len Nothing)
     | otherwise -> do
-      d <- Infer.freshDimension
-      Infer.monomorphic d
+      d <- Inference.freshDimension
+      Inference.monomorphic d
       pure (Column name (Type.Quantity d) Nothing)
 
 -- | Rows of bare numbers for all columns; one such row; one of other cells.
-data Row = Numbers Rows | Bares Region (PrimArray Double) | Cells Region [Cell]
+data Row = Numbers NumberTable | Bares Region (PrimArray Double) | Cells Region [Cell]
 
 -- | The rows of lines, the last one first.
-rowsOf :: Checker -> [Column] -> [Surface.Line] -> Infer [Row]
+rowsOf :: Checker -> [Column] -> [Surface.TableLine] -> Infer [Row]
 rowsOf checker columns = go 1 []
   where
     go number found ls = case ls of
       [] -> pure found
       line : rest -> row checker columns number line >>= \r -> go (number + rowsIn (value line)) (maybe found (: found) r) rest
     rowsIn line = case line of
-      Surface.Numbers numbers -> Rows.count numbers
+      Surface.Numbers numbers -> NumberTable.count numbers
       _ -> 1
 
 -- | The rows of a line, the first of which has this number.
-row :: Checker -> [Column] -> Int -> Surface.Line -> Infer (Maybe Row)
+row :: Checker -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
 row checker columns number (Located at line) = case line of
-  Surface.Header _ -> Nothing <$ Infer.mistake (HeadingsAgain at)
-  Surface.BrokenLine -> Nothing <$ Infer.taint
+  Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsAgain at)
+  Surface.BrokenLine -> Nothing <$ Inference.taint
   Surface.Numbers numbers
-    | Rows.width numbers /= length columns -> Nothing <$ mapM_ (\k -> wrongLength (Rows.place numbers k) (number + k) (Rows.width numbers)) [0 .. Rows.count numbers - 1]
+    | NumberTable.width numbers /= length columns -> Nothing <$ mapM_ (\k -> wrongLength (NumberTable.place numbers k) (number + k) (NumberTable.width numbers)) [0 .. NumberTable.count numbers - 1]
     | otherwise -> pure (Just (Numbers numbers))
   Surface.Entries cells
     | length cells /= length columns -> Nothing <$ wrongLength at number (length cells)
@@ -141,7 +141,7 @@ row checker columns number (Located at line) = case line of
       cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
       pure $! Just $! maybe (Cells at cells') (Bares at . PrimArray.primArrayFromList) (traverse bare cells')
   where
-    wrongLength place k found = Infer.mistake (RowLength place k (length columns) found)
+    wrongLength place k found = Inference.mistake (RowLength place k (length columns) found)
     bare c = case c of
       Bare _ x -> Just x
       Written _ -> Nothing
@@ -163,7 +163,7 @@ cell checker c e = case bare e of
 -- | Not known of what is reported already.
 columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
-  t' <- Infer.known t
+  t' <- Inference.known t
   pure $ case t' of
     Type.Curve (Type.Fields cs) -> Just cs
     Type.Curve _ -> Nothing
@@ -172,7 +172,7 @@ columnsOf t = do
 
 -- | With the columns as values; their names win over those of the program.
 withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
-withColumns at columns = Infer.withLocals [(Located at (Name text), t) | (text, t) <- columns]
+withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (text, t) <- columns]
 
 -- Ciphers
 
@@ -190,17 +190,17 @@ cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
   ("6", [h]) -> made (Checked.Pointwise <$$> len h <**> none)
   ("6", [h, m]) -> made (Checked.Pointwise <$$> len h <**> some (angle m))
   (d, es)
-    | d `elem` ["1", "2", "4", "6"] -> Nothing <$ Infer.mistake (CipherMisfit at d (length es))
-    | otherwise -> Nothing <$ Infer.mistake (NoSuchCipher place d)
+    | d `elem` ["1", "2", "4", "6"] -> Nothing <$ Inference.mistake (CipherMisfit at d (length es))
+    | otherwise -> Nothing <$ Inference.mistake (NoSuchCipher place d)
   where
     columns = fromMaybe [] known
     made later = case known of
       Just _ -> Just . (Located at .) <$> later
-      Nothing -> Nothing <$ Infer.taint
+      Nothing -> Nothing <$ Inference.taint
     len = along Type.len
     -- One value for the whole piece.
     one e = case [(r, n) | (r, n) <- namesIn e, n `elem` map (Name . fst) columns] of
-      (r, n) : _ -> const (Located (region e) (Checked.Number 0)) <$ Infer.mistake (ColumnForOne r (digits digit) n)
+      (r, n) : _ -> const (Located (region e) (Checked.Number 0)) <$ Inference.mistake (ColumnForOne r (digits digit) n)
       [] -> expect checker Type.len e
     angle = along Type.angle
     point p = expect checker Type.aPoint p
@@ -211,12 +211,12 @@ cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
     f <**> a = (\g x sol -> g sol (x sol)) <$> f <*> a
     -- A value at every point.
     along t e = do
-      mapM_ (\(r, n) -> Infer.mistake (NoColumn r n (map fst columns))) =<< missing e
+      mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map fst columns))) =<< missing e
       absent <- not . null <$> missing e
       if absent then pure (const (Located (region e) (Checked.Number 0))) else withColumns (region e) columns (expect checker t e)
     missing e = catMaybes <$> traverse unknown (namesIn e)
     unknown (r, n@(Name text)) = do
-      entry <- Infer.find n
+      entry <- Inference.find n
       pure (if isNothing entry && text `notElem` map fst columns && isNothing (Builtin.lookup text) then Just (r, n) else Nothing)
 
 -- | The names in a value, as far as they are not its own.

@@ -1,23 +1,23 @@
 -- | What a name stands for while types are inferred, and what of it is still open.
 module Checked.Scheme
-  ( Entry (..),
+  ( Binding (..),
     Scheme (..),
     Meaning (..),
     Pending (..),
     Arithmetic (..),
-    Choice (..),
+    OverloadedCall (..),
   )
 where
 
 import Base.Region (Region)
-import Checked.Builtin (Label)
+import Checked.Builtin (ArgumentLabel)
 import Checked.Syntax (Builtin, Operator)
 import Checked.Type (Type)
 import Data.IntSet (IntSet)
 import Data.Text (Text)
 
 -- | What a name stands for.
-data Entry
+data Binding
   = Value Region Type
   | Function Region [Text] Scheme
   | -- | a parameter or the variable of a repetition
@@ -37,7 +37,7 @@ data Meaning
     Said Text
 
 -- | What can be decided only when more is known.
-data Pending = Operation Arithmetic | Overloaded Choice
+data Pending = Operation Arithmetic | Overloaded OverloadedCall
 
 -- | An operation whose operands may not be known yet.
 data Arithmetic = Arithmetic
@@ -49,10 +49,10 @@ data Arithmetic = Arithmetic
   }
 
 -- | A call of a function that has several forms.
-data Choice = Choice
+data OverloadedCall = OverloadedCall
   { at :: Region,
     builtin :: Builtin,
-    labels :: [Label],
+    labels :: [ArgumentLabel],
     given :: [(Region, Type)],
     chosen :: Type
   }

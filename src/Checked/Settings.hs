@@ -7,9 +7,9 @@ module Checked.Settings
 where
 
 import Base.Region (Located (..), Region (..))
-import Checked.Error (Error (..), Setting (..))
-import Checked.Infer (Infer, Solution)
-import Checked.Infer qualified as Infer
+import Checked.Error (Error (..), RequiredSetting (..))
+import Checked.Inference (Infer, Solution)
+import Checked.Inference qualified as Inference
 import Checked.Syntax (Settings (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
@@ -47,7 +47,7 @@ flat inBlock s = case s of
   _ -> [(inBlock, s)]
 
 -- | From the places at which settings were first given, none for one that was missed before.
-step :: Map Setting (Maybe Region) -> (Bool, Statement) -> (Map Setting (Maybe Region), [Error])
+step :: Map RequiredSetting (Maybe Region) -> (Bool, Statement) -> (Map RequiredSetting (Maybe Region), [Error])
 step seen (inBlock, Located at s) = (seen', misplaced <> missing <> twice)
   where
     Use {word, given, needed, global} = use s
@@ -62,7 +62,7 @@ step seen (inBlock, Located at s) = (seen', misplaced <> missing <> twice)
       _ -> False
 
 -- | What a statement sets and what it needs: the length of its keyword; whether it holds for the whole program.
-data Use = Use {word :: Int, given :: Maybe Setting, needed :: [Setting], global :: Bool}
+data Use = Use {word :: Int, given :: Maybe RequiredSetting, needed :: [RequiredSetting], global :: Bool}
 
 use :: Surface.Statement_ -> Use
 use s = case s of
@@ -123,10 +123,10 @@ check expect stop statement written = do
   foldl (\before after sol -> after sol (before sol)) (const none) <$> mapM one written
   where
     twice seen (Located at s) = case [r | Located r other <- drop 1 seen, subject other == subject s, name s `notElem` ["approach", "retract", ""]] of
-      before : _ -> Infer.mistake (RepeatedSetting at (subject s) before)
+      before : _ -> Inference.mistake (RepeatedSetting at (subject s) before)
       [] -> pure ()
     one (Located at s) = do
-      unless (name s `elem` "" : Keyword.settingsOf statement) (Infer.mistake (ForeignSetting at (name s) statement (Keyword.settingsOf statement)))
+      unless (name s `elem` "" : Keyword.settingsOf statement) (Inference.mistake (ForeignSetting at (name s) statement (Keyword.settingsOf statement)))
       case s of
         Surface.Approach stops -> (\ps sol o -> o {approach = approach o <> map ($ sol) ps}) <$> mapM stop (NonEmpty.toList stops)
         Surface.Retract stops -> (\ps sol o -> o {retract = retract o <> map ($ sol) ps}) <$> mapM stop (NonEmpty.toList stops)
@@ -145,20 +145,20 @@ check expect stop statement written = do
         Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> expect Type.len e
         Surface.Islands es -> (\es' sol o -> o {islands = map ($ sol) es'}) <$> mapM (contours expect) (NonEmpty.toList es)
         Surface.RestAllowed -> pure (\_ o -> o {restAllowed = Just at})
-        Surface.BrokenSetting -> (\_ o -> o) <$ Infer.taint
+        Surface.BrokenSetting -> (\_ o -> o) <$ Inference.taint
 
 -- | A contour, or a list of contours.
 contours :: (Type -> Surface.Expr -> Infer (Solution -> Checked.Expr)) -> Surface.Expr -> Infer (Solution -> Checked.Expr)
 contours expect e@(Located at _) = do
-  t <- Infer.freshType
+  t <- Inference.freshType
   e' <- expect t e
-  found <- Infer.known t
+  found <- Inference.known t
   let wanted = case found of
         Type.ListOf _ -> Type.ListOf Type.Contour
         _ -> Type.Contour
-  settled <- Infer.settledPlaces [(at, t, found)]
-  same <- Infer.unify at wanted t
-  unless same (Infer.mistake (Mismatch at wanted found settled))
+  settled <- Inference.settledPlaces [(at, t, found)]
+  same <- Inference.unify at wanted t
+  unless same (Inference.mistake (Mismatch at wanted found settled))
   pure e'
 
 -- | Nothing set.

@@ -31,7 +31,7 @@ module Checked.Syntax
     Builtin (..),
 
     -- * As in the surface syntax
-    Choice (..),
+    Selector (..),
     Closure (..),
     Corners (..),
     Compensation (..),
@@ -43,17 +43,17 @@ module Checked.Syntax
     Rank (..),
     Side (..),
     Switch (..),
-    Walk (..),
+    Sense (..),
   )
 where
 
 import Base.Name (Name)
+import Base.NumberTable (NumberTable)
 import Base.Region (Located, Region)
-import Base.Rows (Rows)
 import Checked.Dimension (Dimension)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
-import Surface.Syntax (Choice (..), Closure (..), Compensation (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Side (..), Switch (..), Walk (..))
+import Surface.Syntax (Closure (..), Compensation (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Selector (..), Sense (..), Side (..), Switch (..))
 
 -- | A program. Statements that contain a mistake are left out.
 data Program = Program
@@ -109,7 +109,7 @@ data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
 -- | Rows of a table: bare numbers, which most have, or one of anything else.
-data Cells = Numbers {-# UNPACK #-} Rows | Written Region [Expr]
+data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
   deriving stock (Eq, Show)
 
 type Cipher = Located Cipher_
@@ -150,7 +150,7 @@ data Cutter_
 data Accuracy = Within Expr | Between Expr Expr
   deriving stock (Eq, Show)
 
-data Spin = Spinning Walk (Maybe Expr) | Still
+data Spin = Spinning Sense (Maybe Expr) | Still
   deriving stock (Eq, Show)
 
 -- | What has to hold.
@@ -203,7 +203,7 @@ data Expr_
   | Each Expr Name Expr
   deriving stock (Eq, Show)
 
-data Argument = Given {-# UNPACK #-} Expr | Chosen Choice Expr | Ranked Rank
+data Argument = Given {-# UNPACK #-} Expr | Chosen Selector Expr | Ranked Rank
   deriving stock (Eq, Show)
 
 -- | What the language brings along.
@@ -278,7 +278,7 @@ type Item = Located Item_
 -- | What stands in the braces of a contour.
 data Item_
   = -- | a circle in its sense, a line, a point or a contour, what is asked on it, and the link behind it
-    Element (Maybe Walk) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
+    Element (Maybe Sense) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | For Name Expr [Item]
   | Choose Expr [Item] [Item]
   deriving stock (Eq, Show)

@@ -16,8 +16,8 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
-import Geometry.Fit qualified as Fit
-import Geometry.Piece qualified as Piece
+import Geometry.Curve.Section qualified as Section
+import Geometry.Curve.SectionFit qualified as SectionFit
 import Geometry.Vec qualified as Vec
 import Part.Curve (Fitting (..))
 import Part.Part (Part)
@@ -38,22 +38,22 @@ fitting (Name name) Fitting {pieces, misses, through} =
       [ToRight, ToRight, ToRight, ToRight, ToRight]
       (["row", "x", "y", "section", "deviation"] : map row misses)
   where
-    section k p = [Decimal.whole k, Decimal.whole (Piece.first p) <> "–" <> Decimal.whole (Piece.final p), kindWord p, equation p, fixed 4 (Piece.largest p)]
-    kindWord p = case Piece.kind (Piece.curve p) of
-      Piece.LineKind -> "line"
-      Piece.ParabolaKind -> "parabola"
-      Piece.ArcKind -> "arc"
+    section k p = [Decimal.whole k, Decimal.whole (Section.first p) <> "–" <> Decimal.whole (Section.final p), kindWord p, equation p, fixed 4 (Section.largest p)]
+    kindWord p = case Section.kind (Section.curve p) of
+      Section.LineKind -> "line"
+      Section.ParabolaKind -> "parabola"
+      Section.ArcKind -> "arc"
     row d =
-      let p = fromMaybe (Vec.point 0 0) (through Vector.!? (Fit.ofRow d - 1))
-       in [Decimal.whole (Fit.ofRow d), Decimal.short 6 (Vec.x p), Decimal.short 6 (Vec.y p), Decimal.whole (Fit.onPiece d), fixed 4 (Fit.miss d)]
+      let p = fromMaybe (Vec.point 0 0) (through Vector.!? (SectionFit.ofRow d - 1))
+       in [Decimal.whole (SectionFit.ofRow d), Decimal.short 6 (Vec.x p), Decimal.short 6 (Vec.y p), Decimal.whole (SectionFit.onPiece d), fixed 4 (SectionFit.miss d)]
     fixed n (Mm x) = Decimal.fixed n x
 
 -- | With the digits of the paper.
-equation :: Piece.Piece -> Text
-equation p = case Piece.formula p of
-  Piece.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
-  Piece.Polynomial a b c -> "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
-  Piece.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
+equation :: Section.Section -> Text
+equation p = case Section.formula p of
+  Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
+  Section.Polynomial a b c -> "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
+  Section.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
   where
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
 

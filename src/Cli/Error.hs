@@ -14,7 +14,7 @@ import Base.Region (Position (..), Region)
 import Base.Region qualified as Region
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Place (..), Report (..), report)
+import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 data Error

@@ -7,7 +7,7 @@ module Cli.FrameTable
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Position (..), Region (..), Source)
 import Base.Region qualified as Region
@@ -22,26 +22,26 @@ import Data.Containers.ListUtils (nubOrd)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
-import Frame.Feed qualified as Feed
-import Frame.Frame (Frame (..), Motion (..), Planned (..), Program, Role (..))
+import Frame.FeedCode qualified as FeedCode
+import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram, Planned (..), Role (..))
 import Frame.Frame qualified as Frame
-import Geometry.Shape (Turn (..))
+import Geometry.Carrier (Sense (..))
 import Geometry.Vec qualified as Vec
-import Machine.Machine (FeedCode (..), Machine, OrderName (..))
+import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 
 -- | A column of a table of frames: its head, and what stands in it.
 data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 
 -- | A frame with its number, from 1, and the position where it ends.
-data Numbered = Numbered {number :: Int, planned :: Planned, to :: V3}
+data Numbered = Numbered {number :: Int, planned :: Planned, to :: Pulses3}
 
 -- | One frame a line, with the line of the program that it came from. Only columns that say something.
-frames :: Machine -> Source -> Program -> Text
+frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where
     rows = numbered program
     all' = map (frame . planned) rows
-    rises = any (\f -> let V3 _ _ z = increment f in z /= 0) all'
+    rises = any (\f -> let Pulses3 _ _ z = increment f in z /= 0) all'
     columns =
       [Column ToRight "frame" (Decimal.whole . number), Column ToLeft "for" (roleWord . role . planned)]
         <> map (before (frame . planned)) (motionColumns all')
@@ -52,17 +52,17 @@ frames machine source program = table columns rows
         <> [Column ToRight "line" (lineWord source . planned)]
         <> map (before (frame . planned)) (orderColumns all')
     place n = Frame.position machine (to n)
-    feedOf n = maybe "" feedWord (Feed.given machine (frame (planned n)) (Feed.wayOf machine (frame (planned n))))
+    feedOf n = maybe "" feedWord (FeedCode.given machine (frame (planned n)) (FeedCode.wayOf machine (frame (planned n))))
     coordinate = Decimal.fixed 3
 
 -- | Frames as JSON lines: increments in pulses, positions in mm.
-framesJson :: Machine -> Source -> Program -> Text
+framesJson :: Machine -> Source -> FrameProgram -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
   where
     row n =
       let f = frame (planned n)
-          V3 (Pulses dx) (Pulses dy) (Pulses dz) = increment f
-          V2 (Pulses i) (Pulses j) = centre f
+          Pulses3 (Pulses dx) (Pulses dy) (Pulses dz) = increment f
+          Pulses2 (Pulses i) (Pulses j) = centre f
           FeedCode s = speed f
           p = Frame.position machine (to n)
        in jsonLine
@@ -73,9 +73,9 @@ framesJson machine source program = Text.concat (map row (numbered program))
               ]
                 <> ["centre" .= [i, j] | isArc f]
                 <> [ "speed" .= s,
-                     "feed" .= ((\(Feed v) -> v) <$> Feed.given machine f (Feed.wayOf machine f)),
+                     "feed" .= ((\(Feed v) -> v) <$> FeedCode.given machine f (FeedCode.wayOf machine f)),
                      "braking" .= braking f,
-                     "commands" .= object [Key.fromText o .= v | (OrderName o, v) <- orders f],
+                     "commands" .= object [Key.fromText o .= v | (CommandName o, v) <- orders f],
                      "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine (to n) in z],
                      "file" .= (let Position {file} = Region.position source (start (origin (planned n))) in file),
                      "line" .= lineOf source (planned n)
@@ -90,7 +90,7 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
     columns =
       [Column ToRight "frame" (Decimal.whole . fst)]
         <> map (before snd) (motionColumns fs)
-        <> [Column ToRight "speed" (speedWord . snd), Column ToRight "mm/min" (\(_, f) -> maybe "" feedWord (Feed.given machine f (Feed.wayOf machine f)))]
+        <> [Column ToRight "speed" (speedWord . snd), Column ToRight "mm/min" (\(_, f) -> maybe "" feedWord (FeedCode.given machine f (FeedCode.wayOf machine f)))]
         <> map (before snd) (brakeColumn fs <> orderColumns fs)
 
 table :: [Column a] -> [a] -> Text
@@ -104,8 +104,8 @@ before get c = c {cell = cell c . get}
 motionColumns :: [Frame] -> [Column Frame]
 motionColumns fs =
   [Column ToLeft "motion" (motionWord . motion) | any ((`notElem` [Still, Straightway]) . motion) fs]
-    <> [Column ToRight "dx" (\f -> let V3 x _ _ = increment f in pulses x), Column ToRight "dy" (\f -> let V3 _ y _ = increment f in pulses y), Column ToRight "dz" (\f -> let V3 _ _ z = increment f in pulses z)]
-    <> concat [[Column ToRight "i" (ofCentre (\(V2 i _) -> i)), Column ToRight "j" (ofCentre (\(V2 _ j) -> j))] | any isArc fs]
+    <> [Column ToRight "dx" (\f -> let Pulses3 x _ _ = increment f in pulses x), Column ToRight "dy" (\f -> let Pulses3 _ y _ = increment f in pulses y), Column ToRight "dz" (\f -> let Pulses3 _ _ z = increment f in pulses z)]
+    <> concat [[Column ToRight "i" (ofCentre (\(Pulses2 i _) -> i)), Column ToRight "j" (ofCentre (\(Pulses2 _ j) -> j))] | any isArc fs]
   where
     pulses (Pulses n) = Decimal.whole n
     ofCentre get f = if isArc f then pulses (get (centre f)) else ""
@@ -116,7 +116,7 @@ brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | 
 
 -- | A column for every word of commands that is used.
 orderColumns :: [Frame] -> [Column Frame]
-orderColumns fs = [Column ToRight name (maybe "" Decimal.whole . lookup o . orders) | o@(OrderName name) <- nubOrd (concatMap (map fst . orders) fs)]
+orderColumns fs = [Column ToRight name (maybe "" Decimal.whole . lookup o . orders) | o@(CommandName name) <- nubOrd (concatMap (map fst . orders) fs)]
 
 isArc :: Frame -> Bool
 isArc f = case motion f of
@@ -125,7 +125,7 @@ isArc f = case motion f of
   Rapid -> False
   Straightway -> False
 
-motionWord :: Motion -> Text
+motionWord :: FrameMotion -> Text
 motionWord m = case m of
   Still -> ""
   Rapid -> "rapid"
@@ -134,7 +134,7 @@ motionWord m = case m of
   Round CounterClockwise -> "arc ccw"
 
 -- | The frames with their numbers and the positions where they end.
-numbered :: Program -> [Numbered]
+numbered :: FrameProgram -> [Numbered]
 numbered program = zipWith3 Numbered [1 ..] ps (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) ps)))
   where
     ps = Frame.planned program

@@ -9,7 +9,7 @@ import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
-import Cli.RestTable qualified as RestTable
+import Cli.RestMaterialTable qualified as RestMaterialTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
@@ -17,7 +17,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Feed qualified as Feed
+import Frame.FeedCode qualified as FeedCode
 import Frame.Frame qualified as Frame
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -26,24 +26,24 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Part.Part qualified as Part
-import Path.Path (Block (..), Move (..), Pass (..), heights, pace)
-import Path.Path qualified as Path
 import Tape.Tape qualified as Tape
+import Toolpath.Toolpath (Block (..), Move (..), Pass (..), heights, pace)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | The paper's tables for every milled contour, then times and tape.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
-nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> map emptied clearings <> drilled <> RestTable.places path <> [summary])
+nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveTable.fittings part <> map milled cuttings <> map emptied clearings <> drilled <> RestMaterialTable.places path <> [summary])
   where
     heading = "Part " <> maybe "" (\(Name n) -> n) (Part.name part) <> maybe "" (\t -> ": " <> t) (Part.title part) <> "\n"
     machine = fst <$> punched
-    cuttings = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Path.blocks path]
-    clearings = [(job, pass, NonEmpty.toList cleared) | Clearing {pocket = job, pass, cleared} <- Path.blocks path]
+    cuttings = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Toolpath.blocks path]
+    clearings = [(job, pass, NonEmpty.toList cleared) | Clearing {pocket = job, pass, cleared} <- Toolpath.blocks path]
     emptied (job, pass, cleared) = "Pocket " <> contourName' (Part.wall <$> job) <> passWord pass <> ": cleared in " <> Decimal.whole (length cleared) <> " moves\n" <> sums cleared
     milled (job, pass, cut) =
       "Contour " <> contourName' job <> passWord pass <> ": nodes of the " <> pathWord job <> ", numbered from the entry\n\n"
         <> Table.columns
           [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
-          (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : sections (ends' job) (Path.runs cut))
+          (["section", "kind", "node", "x", "y", "centre x", "centre y", "radius", "length", "time s"] : sections (ends' job) (Toolpath.runs cut))
         <> sums cut
     sums ms = "\nlength " <> fixed3 (lengthOf ms) <> " mm, time " <> seconds (total (map (timeOf machine) ms)) <> " s\n"
     -- Which of several passes: the height, and what it leaves standing.
@@ -80,8 +80,8 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveT
             (["x", "y", "diameter", "depth"] : [[fixed3 (Mm (Vec.x p)), fixed3 (Mm (Vec.y p)), fixed3 (times 2 (Part.drillRadius d)), fixed3 (times (-1) (Part.bottom d))] | d <- holings, Located _ p <- NonEmpty.toList (Part.holes d)])
         | not (null holings)
       ]
-    holings = [d | Holing (Located _ d) _ <- Path.blocks path]
-    everything = concatMap Path.moves (Path.blocks path)
+    holings = [d | Holing (Located _ d) _ <- Toolpath.blocks path]
+    everything = concatMap Toolpath.moves (Toolpath.blocks path)
     summary =
       Table.columns
         [ToLeft, ToRight, ToLeft]
@@ -100,7 +100,7 @@ nodes punched Analysis {part, path} = Text.intercalate "\n" ([heading] <> CurveT
 
 kind :: NonEmpty Move -> Text
 kind run
-  | Path.isCurve run = "curve"
+  | Toolpath.isCurve run = "curve"
   | otherwise = case segment (NonEmpty.head run) of
     Straight _ _ -> "line"
     Arc {sweep = Rad a} -> if a > 0 then "arc ccw" else "arc cw"
@@ -108,7 +108,7 @@ kind run
 centreOf :: NonEmpty Move -> [Text]
 centreOf run = case segment (NonEmpty.head run) of
   Arc {start, centre}
-    | not (Path.isCurve run) -> [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
+    | not (Toolpath.isCurve run) -> [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
   _ -> ["", "", ""]
 
 -- | The time of a move at the feed that the machine gives, or at the one asked when there is no machine.
@@ -119,9 +119,9 @@ timeOf machine move = maybe (Seconds 0) (travelTime l) (feedOf (pace move))
     l = wayOf move
     feedOf p = case (p, machine) of
       (Rapid, Nothing) -> Nothing
-      (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (Feed.rapid m)
+      (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (FeedCode.rapid m)
       (At (Located _ asked), Nothing) -> Just asked
-      (At (Located _ asked), Just m) -> Just (Feed.about m asked)
+      (At (Located _ asked), Just m) -> Just (FeedCode.about m asked)
 
 -- | The length of a move, in the plane and in height.
 wayOf :: Move -> Mm

@@ -1,13 +1,13 @@
 -- | The command line: commands, options, help.
 module Cli.Options
-  ( Command (..),
+  ( Subcommand (..),
     CompileOptions (..),
     Invocation (..),
     parser,
   )
 where
 
-import Cli.Output (ColourChoice (..), Format (..), Settings (..))
+import Cli.Output (ColourChoice (..), Format (..), OutputSettings (..))
 import Control.Applicative (many, optional, some, (<|>))
 import Control.Monad (void)
 import Data.List.NonEmpty (NonEmpty)
@@ -15,19 +15,19 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Draw.Punched (Range)
-import Draw.Punched qualified as Punched
+import Draw.TapeRows (RowRange)
+import Draw.TapeRows qualified as TapeRows
 import Options.Applicative (Parser, ParserInfo)
 import Options.Applicative qualified as Opt
 import Report.Explanation qualified as Explanation
-import Report.Report (Code (..))
+import Report.Report (ReportCode (..))
 import Text.Read (readMaybe)
 
 -- | What to do, and how to talk about it.
-data Invocation = Invocation {settings :: Settings, command :: Command}
+data Invocation = Invocation {settings :: OutputSettings, command :: Subcommand}
   deriving stock (Eq, Show)
 
-data Command
+data Subcommand
   = Compile CompileOptions
   | Check (NonEmpty FilePath)
   | -- | program, machine, tape
@@ -42,7 +42,7 @@ data Command
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
   | -- | machine, what to show, tape
-    DrawTape (Maybe Text) Range FilePath
+    DrawTape (Maybe Text) RowRange FilePath
   | -- | a machine, its description's text
     Machines (Maybe Text) Bool
   | Explain (Maybe Text)
@@ -74,7 +74,7 @@ parser version =
 invocation :: Parser Invocation
 invocation = (\before (after, command) -> Invocation (settingsFrom (after `over` before)) command) <$> overrides <*> commands
 
-commands :: Parser (Overrides, Command)
+commands :: Parser (Overrides, Subcommand)
 commands =
   Opt.hsubparser . mconcat $
     [ entry "compile" "Punch the tape of a program, proven" "partc compile flange.part -t lkp-01f -o flange.tape" (Compile <$> compileOptions),
@@ -93,7 +93,7 @@ commands =
       entry "fmt" "Bring programs into the canonical layout, in place" "partc fmt flange.part" (Fmt <$> Opt.switch (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out") <*> (NonEmpty.fromList <$> some program))
     ]
   where
-    codes = [Text.unpack c | e <- Explanation.everything, let Code c = Explanation.code e]
+    codes = [Text.unpack c | e <- Explanation.everything, let ReportCode c = Explanation.code e]
     entry name description example p =
       Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
 
@@ -124,11 +124,11 @@ tape = Opt.strArgument (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard i
 target :: Parser Text
 target = Opt.strOption (Opt.long "target" <> Opt.short 't' <> Opt.metavar "MACHINE" <> Opt.help "The machine, instead of the program's own: a name, or a description such as ./mine.machine")
 
-rangeOption :: Parser Range
+rangeOption :: Parser RowRange
 rangeOption =
-  (uncurry Punched.Frames <$> Opt.option fromTo (Opt.long "frames" <> Opt.metavar "A..B" <> Opt.help "Only these frames"))
-    <|> (uncurry Punched.Rows <$> Opt.option fromTo (Opt.long "rows" <> Opt.metavar "A..B" <> Opt.help "Only these rows"))
-    <|> pure Punched.Everything
+  (uncurry TapeRows.Frames <$> Opt.option fromTo (Opt.long "frames" <> Opt.metavar "A..B" <> Opt.help "Only these frames"))
+    <|> (uncurry TapeRows.Rows <$> Opt.option fromTo (Opt.long "rows" <> Opt.metavar "A..B" <> Opt.help "Only these rows"))
+    <|> pure TapeRows.Everything
 
 -- | @3@, @3..8@
 fromTo :: Opt.ReadM (Int, Int)
@@ -178,9 +178,9 @@ over later earlier =
       values' = values' earlier <> values' later
     }
 
-settingsFrom :: Overrides -> Settings
+settingsFrom :: Overrides -> OutputSettings
 settingsFrom o =
-  Settings
+  OutputSettings
     { format = fromMaybe HumanFormat (format' o),
       colour = fromMaybe Auto (colour' o),
       quiet = quiet' o,

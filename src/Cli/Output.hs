@@ -2,7 +2,7 @@
 module Cli.Output
   ( Format (..),
     ColourChoice (..),
-    Settings (..),
+    OutputSettings (..),
     plainly,
     Exit (..),
     Reporter (settings),
@@ -29,7 +29,7 @@ import Foreign.C.Error (Errno (Errno), eBADF, ePIPE)
 import GHC.IO.Exception (IOErrorType (..), IOException (ioe_errno, ioe_type))
 import Report.Explanation qualified as Explanation
 import Report.Human qualified as Human
-import Report.Machine qualified as Machine
+import Report.Line qualified as Line
 import Report.Report (Report)
 import Report.Report qualified as Report
 import Report.Sarif (Filed (..))
@@ -49,7 +49,7 @@ data ColourChoice = Auto | Always | Never
   deriving stock (Eq, Show)
 
 -- | What holds for every command.
-data Settings = Settings
+data OutputSettings = OutputSettings
   { format :: Format,
     colour :: ColourChoice,
     quiet :: Bool,
@@ -61,8 +61,8 @@ data Settings = Settings
   deriving stock (Eq, Show)
 
 -- | Where nothing was asked.
-plainly :: Settings
-plainly = Settings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
+plainly :: OutputSettings
+plainly = OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
 
 -- | How a command ended.
 data Exit
@@ -88,10 +88,10 @@ ioProblem e
     Errno closed = eBADF
 
 -- | How a run reports. A format with one log for all is kept until the end, the latest first.
-data Reporter = Reporter {settings :: Settings, kept :: IORef [Filed]}
+data Reporter = Reporter {settings :: OutputSettings, kept :: IORef [Filed]}
 
 -- | Run a command, and write in the end what it has kept.
-reporting :: Settings -> (Reporter -> IO a) -> IO a
+reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
 reporting settings work = do
   kept <- newIORef []
   a <- work Reporter {settings, kept}
@@ -112,8 +112,8 @@ show' Reporter {settings, kept} path source reports = do
       mapM_ (\r -> say (Human.render painted path source r <> "\n")) shown
       say (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
       say (Human.summary painted visible)
-    ShortFormat -> mapM_ (say . Machine.short path source) visible
-    JsonFormat -> mapM_ (say . Machine.json path source) visible
+    ShortFormat -> mapM_ (say . Line.short path source) visible
+    JsonFormat -> mapM_ (say . Line.json path source) visible
     SarifFormat -> modifyIORef kept (reverse [Filed {path, source, report} | report <- visible] <>)
   pure (any Report.isError reports || werror settings && not (null reports))
   where
@@ -129,7 +129,7 @@ say text = do
   _ <- try (Text.hPutStr stderr text) :: IO (Either IOException ())
   pure ()
 
-useColour :: Settings -> Handle -> IO Human.Colour
+useColour :: OutputSettings -> Handle -> IO Human.Colour
 useColour settings handle = case colour settings of
   Always -> pure Human.Coloured
   Never -> pure Human.Plain

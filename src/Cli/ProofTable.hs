@@ -5,8 +5,8 @@ module Cli.ProofTable
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Lattice (V3 (..))
 import Base.Name (Name (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Cli.Table (Align (..))
@@ -15,7 +15,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
-import Verify.Proof (Passage (..), Proof, Witness (..))
+import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
 -- | The proof as a table and a verdict.
@@ -33,7 +33,7 @@ proof machine p =
       Nothing -> ["0.0000", fixed4 allowed, ""]
       Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 allowed, Decimal.whole (Proof.frame x)]
     fixed4 (Mm x) = Decimal.fixed 4 x
-    inOrder (V3 x y z) = [x, y, z]
+    inOrder (Pulses3 x y z) = [x, y, z]
     axes words' = Text.intercalate ", " (zipWith (\axis w -> axis <> " " <> w) ["x", "y", "z"] words') <> " pulses"
     closing =
       [ ["frames read back", Decimal.whole (Proof.frames p)],

@@ -15,30 +15,30 @@ module Control.Compensation
   )
 where
 
-import Base.Lattice (V3 (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), Rad (..))
-import Control.Walk (Stroke (..))
-import Control.Walk qualified as Walk
+import Control.Motion (Motion (..))
+import Control.Motion qualified as Motion
 import Data.List (mapAccumL, minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (isJust, listToMaybe)
 import Data.Ord (comparing)
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
-import Geometry.Intersect (Meeting (..))
-import Geometry.Intersect qualified as Intersect
+import Geometry.Carrier (Circle (Circle), Line (Line), Sense (..))
+import Geometry.Construction.Intersection (Intersection (..))
+import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (Line), Turn (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Compensation (..), Machine, Order (..), OrderValue (..))
+import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
 
 -- | A stroke and what the cutter's centre does in it, in the plane: round the corner before it and then along; without length where it goes
 -- straight up or down.
-data Moved = Moved {stroke :: Stroke, legs :: NonEmpty Segment}
+data Moved = Moved {stroke :: Motion, legs :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
 -- | Why a control does not go on; the number of the frame.
@@ -76,21 +76,21 @@ data Tag = Plain | First Keep | Later | Exit
 
 -- | Run frames from a position. Where the tape does not say the cutter's diameter, its radius by the number of the frame is
 -- asked.
-run :: Machine -> (Int -> Mm) -> V3 -> [Frame] -> ([Moved], [Unkept])
+run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [Unkept])
 run = runWith (:)
 
 -- | The same, with what is made of each stroke before what is made of those behind it.
-runWith :: (Moved -> [a] -> [a]) -> Machine -> (Int -> Mm) -> V3 -> [Frame] -> ([a], [Unkept])
+runWith :: (Moved -> [a] -> [a]) -> Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([a], [Unkept])
 runWith before machine toolAt begin frames = case Machine.compensation (Machine.orders machine) of
   Just c
     | any (switchesOn c) frames ->
       let ((final, _), told) = mapAccumL (told' c) (Off, strokes) (zip [1 ..] frames)
           (moved, problems) = unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
        in (foldr before [] moved, concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final])
-  _ -> (Walk.runWith (\s -> before (Moved s (Walk.segment machine s :| []))) begin frames, [])
+  _ -> (Motion.runWith (\s -> before (Moved s (Motion.segment machine s :| []))) begin frames, [])
   where
     switchesOn c f = any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
-    strokes = Walk.run begin frames
+    strokes = Motion.run begin frames
     told' c (mode, left) (n, f) =
       let (mode', problems) = switched machine c toolAt mode n f
        in case left of
@@ -110,7 +110,7 @@ isOn mode = case mode of
   Keeping -> True
 
 -- | What the commands of a frame switch, before it moves.
-switched :: Machine -> Compensation -> (Int -> Mm) -> Mode -> Int -> Frame -> (Mode, [Unkept])
+switched :: Machine -> CompensationCommands -> (Int -> Mm) -> Mode -> Int -> Frame -> (Mode, [Unkept])
 switched machine c toolAt mode n f = (mode', [OnTwice n | tooOften] <> [ToolChanged n | isOn mode, not (null change), all given change])
   where
     change = Machine.toolChange (Machine.orders machine)
@@ -132,19 +132,19 @@ switched machine c toolAt mode n f = (mode', [OnTwice n | tooOften] <> [ToolChan
       _ -> let Mm r = toolAt n in r
 
 -- | Strokes from where the centre stands.
-walked :: Machine -> Point -> [(Tag, Stroke)] -> [(Moved, [Unkept])]
+walked :: Machine -> Point -> [(Tag, Motion)] -> [(Moved, [Unkept])]
 walked machine at strokes = case strokes of
   [] -> []
-  (Plain, s) : rest -> (Moved s (Walk.segment machine s :| []), []) : walked machine (programmed s) rest
-  (Later, s) : rest -> (Moved s (Walk.segment machine s :| []), []) : walked machine (programmed s) rest
-  (Exit, s) : rest -> (Moved s (Straight at (programmed s) :| []), [RoundExit (number s) | isArc (Walk.segment machine s)]) : walked machine (programmed s) rest
+  (Plain, s) : rest -> (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
+  (Later, s) : rest -> (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
+  (Exit, s) : rest -> (Moved s (Straight at (programmed s) :| []), [RoundExit (number s) | isArc (Motion.segment machine s)]) : walked machine (programmed s) rest
   (First k, s) : rest ->
     let (kept, others) = span (isLater . fst) rest
-        entry = Walk.segment machine s
+        entry = Motion.segment machine s
         length' = Vec.distance (Segment.start entry) (Segment.end entry)
         wrong = [RoundEntry (number s) | isArc entry] <> [ShortEntry (number s) length' (Mm (radius k)) | length' <= Mm (radius k)]
         -- The centre stands where the frames say.
-        section = beside k at Nothing [(t, Walk.segment machine t) | t <- s : map snd kept]
+        section = beside k at Nothing [(t, Motion.segment machine t) | t <- s : map snd kept]
         left' = case reverse section of
           (m, _) : _ -> endOf m
           [] -> at
@@ -172,11 +172,11 @@ isArc s = case s of
 data Joint
   = Smooth
   | Around Segment
-  | Meeting Point
+  | Intersection Point
   | NoMeeting
 
 -- | Strokes beside what their frames say, from where the centre stands; a corner that is to be gone round first.
-beside :: Keep -> Point -> Maybe Segment -> [(Stroke, Segment)] -> [(Moved, [Unkept])]
+beside :: Keep -> Point -> Maybe Segment -> [(Motion, Segment)] -> [(Moved, [Unkept])]
 beside k at corner strokes = case strokes of
   [] -> []
   (s, way) : rest
@@ -187,7 +187,7 @@ beside k at corner strokes = case strokes of
           from' = maybe at Segment.end corner
           (finish, corner') = case joint of
             Just (Around arc) -> (Segment.start arc, Just arc)
-            Just (Meeting p) -> (p, Nothing)
+            Just (Intersection p) -> (p, Nothing)
             _ -> (asideAtEnd k way, Nothing)
           leg = along from' finish way
           back = case joint of
@@ -242,7 +242,7 @@ jointOf k a b
   | turned * leftward k < 0 = Around (Segment.arc (if leftward k > 0 then Clockwise else CounterClockwise) corner (asideAtEnd k a) (asideAtStart k b))
   | otherwise = case meetings k a b of
     [] -> NoMeeting
-    ps -> Meeting (minimumBy (comparing (Vec.distance corner)) ps)
+    ps -> Intersection (minimumBy (comparing (Vec.distance corner)) ps)
   where
     Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
     Rad least = Tolerance.controlBend
@@ -250,7 +250,7 @@ jointOf k a b
 
 -- | Where the lines and circles beside two strokes meet.
 meetings :: Keep -> Segment -> Segment -> [Point]
-meetings k a b = case Intersect.lines <$> line a asideAtEnd Segment.endDirection <*> line b asideAtStart Segment.startDirection of
+meetings k a b = case Intersection.lines <$> line a asideAtEnd Segment.endDirection <*> line b asideAtStart Segment.startDirection of
   Just m -> points m
   Nothing -> points (other (line a asideAtEnd Segment.endDirection) (line b asideAtStart Segment.startDirection))
   where
@@ -258,9 +258,9 @@ meetings k a b = case Intersect.lines <$> line a asideAtEnd Segment.endDirection
       Straight _ _ -> let q = p k s in Just (Line q (Vec.shift (d s) q))
       Arc {} -> Nothing
     other la lb = case (la, lb) of
-      (Just l, _) -> Intersect.lineCircle l (circle b (asideAtStart k b))
-      (_, Just l) -> Intersect.lineCircle l (circle a (asideAtEnd k a))
-      _ -> Intersect.circles (circle a (asideAtEnd k a)) (circle b (asideAtStart k b))
+      (Just l, _) -> Intersection.lineCircle l (circle b (asideAtStart k b))
+      (_, Just l) -> Intersection.lineCircle l (circle a (asideAtEnd k a))
+      _ -> Intersection.circles (circle a (asideAtEnd k a)) (circle b (asideAtStart k b))
     circle s p = case s of
       Arc {centre} -> Circle centre (Vec.distance centre p)
       Straight _ _ -> Circle p (Mm 0)

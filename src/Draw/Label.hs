@@ -1,6 +1,6 @@
 -- | Labels beside points, where they cover neither lines nor one another.
 module Draw.Label
-  ( Label (..),
+  ( PointLabel (..),
     size,
     settle,
   )
@@ -13,19 +13,19 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
-import Draw.Sheet (Area, holds)
+import Draw.Page (Area, holds)
 import Draw.Svg qualified as Draw
-import Geometry.Box (Box (..))
-import Geometry.Box qualified as Box
-import Geometry.Distance (Nearest (..))
+import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox (BoundingBox (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
 -- | A text for a point, the direction in which it had best stand, of length 1, and how many mm it may
 -- be off, the best first.
-data Label = Label {caption :: Text, anchor :: Point, outward :: Vec, distances :: [Double]}
+data PointLabel = PointLabel {caption :: Text, anchor :: Point, outward :: Vec, distances :: [Double]}
   deriving stock (Eq, Show)
 
 -- | The size of the letters in mm.
@@ -34,7 +34,7 @@ size = 3
 
 -- | The middles of the labels, in order, in an area and clear of lines. A label for which there is
 -- no room is left out.
-settle :: Area -> Box.Index Segment -> [Label] -> [(Point, Text)]
+settle :: Area -> BoundingBox.Index Segment -> [PointLabel] -> [(Point, Text)]
 settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
     next taken label = case find (free area drawn taken) (candidates label) of
@@ -42,24 +42,24 @@ settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
       Nothing -> (taken, Nothing)
 
 -- | The middle of a box.
-middleOf :: Box -> Point
-middleOf Box {left, bottom, right, top} = Vec.point ((left + right) / 2) ((bottom + top) / 2)
+middleOf :: BoundingBox -> Point
+middleOf BoundingBox {left, bottom, right, top} = Vec.point ((left + right) / 2) ((bottom + top) / 2)
 
 -- | What labels cover, by the squares in which some of it lies.
-type Taken = Map (Int, Int) [Box]
+type Taken = Map (Int, Int) [BoundingBox]
 
-settled :: Box -> Taken -> Taken
+settled :: BoundingBox -> Taken -> Taken
 settled box taken = foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
 
 -- | The squares of paper, 10 mm wide, in which some of a box lies.
-squares :: Box -> [(Int, Int)]
-squares Box {left, bottom, right, top} = [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
+squares :: BoundingBox -> [(Int, Int)]
+squares BoundingBox {left, bottom, right, top} = [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
   where
     at x = floor (x / 10)
 
 -- | What the label covers at places near its point, the best first.
-candidates :: Label -> [Box]
-candidates Label {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
+candidates :: PointLabel -> [BoundingBox]
+candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
   where
     -- Figures are 0.72 of their size high.
     high = 0.36 * size
@@ -69,20 +69,20 @@ candidates Label {caption, anchor, outward, distances} = [at d a | d <- distance
           -- From the middle of the text to its edge, as far as the direction goes across it.
           inside = min (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0)))) (high / max 1e-9 (abs (Vec.dot direction (Vec.vec 0 1))))
           p = Vec.shift (Vec.scale (distance + inside) direction) anchor
-       in Box (Vec.x p - wide) (Vec.y p - high) (Vec.x p + wide) (Vec.y p + high)
+       in BoundingBox (Vec.x p - wide) (Vec.y p - high) (Vec.x p + wide) (Vec.y p + high)
 
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
-free :: Area -> Box.Index Segment -> Taken -> Box -> Bool
-free area drawn taken box@Box {left, bottom, right, top} =
+free :: Area -> BoundingBox.Index Segment -> Taken -> BoundingBox -> Bool
+free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]
-    && not (any (Box.meets around) (concatMap (\square -> Map.findWithDefault [] square taken) (squares around)))
-    && all clear (Box.within around drawn)
+    && not (any (BoundingBox.meets around) (concatMap (\square -> Map.findWithDefault [] square taken) (squares around)))
+    && all clear (BoundingBox.within around drawn)
   where
-    around = Box.inflate (Mm 0.6) box
+    around = BoundingBox.inflate (Mm 0.6) box
     half = (top - bottom) / 2
     y = (bottom + top) / 2
     -- A text is a horizontal line as thick as its letters are high.
     middle = Straight (Vec.point (left + half / 2) y) (Vec.point (right - half / 2) y)
-    clear s = let Nearest (Mm d) _ = Distance.segments middle s in d > half + 0.5
+    clear s = let ClosestPoint (Mm d) _ = Distance.segments middle s in d > half + 0.5

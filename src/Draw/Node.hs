@@ -10,11 +10,11 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), total)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Draw.Label (Label (Label))
+import Draw.Label (PointLabel (PointLabel))
+import Draw.LineStyle qualified as LineStyle
+import Draw.Page qualified as Page
 import Draw.Scene (Cut (..))
 import Draw.Scene qualified as Scene
-import Draw.Sheet qualified as Sheet
-import Draw.Sign qualified as Sign
 import Draw.Svg (Svg)
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -54,7 +54,7 @@ outwardAt away arriving leaving
 
 -- | The points of the nodes. Where they are crowded only those with a number are drawn.
 dots :: Cut -> [Svg]
-dots cut = [Sign.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
+dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
   where
     numbered = nodes cut
     marked n = isMarked (NonEmpty.length (course cut)) n
@@ -62,7 +62,7 @@ dots cut = [Sign.node (marked n) (place n) | n <- NonEmpty.toList numbered, mark
     roomy = whole / fromIntegral (NonEmpty.length numbered) > 1.5
 
 -- | The numbers of the nodes; where a closed way ends, it has both its numbers.
-labels :: Cut -> [Label]
+labels :: Cut -> [PointLabel]
 labels cut
   | Vec.near (place first) (place final) = entry "0" first : map plain between
   | otherwise = entry "0" first : plain final : map plain between
@@ -71,9 +71,9 @@ labels cut
     first = NonEmpty.head numbered
     final = NonEmpty.last numbered
     between = filter (isMarked (number final)) (drop 1 (NonEmpty.init numbered))
-    plain n = Label (Decimal.whole (number n)) (place n) (outward n) near
+    plain n = PointLabel (Decimal.whole (number n)) (place n) (outward n) near
     -- The entry is crowded, but is found by the cutter that stands there.
-    entry words' n = Label words' (place n) (outward n) (near <> [5.5, 7.5, 10])
+    entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10])
     near = [1.2, 2, 3, 4]
 
 -- | Whether a node has its number drawn, by the number of the last node: both ends, and of those
@@ -81,7 +81,7 @@ labels cut
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
-    every = if final <= most then 1 else round (1 / Sheet.round125 (fromIntegral most / fromIntegral final)) :: Int
+    every = if final <= most then 1 else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
 
 -- | About so many numbers can be read on a drawing, or things told from one another by them.
 most :: Int

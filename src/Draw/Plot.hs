@@ -16,45 +16,45 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Draw.Label qualified as Label
+import Draw.LineStyle qualified as LineStyle
 import Draw.Node qualified as Node
+import Draw.Page (Area (..), Page)
+import Draw.Page qualified as Page
 import Draw.Scene (Cut (..), Matter (..), Scene (..), Shape (..))
 import Draw.Scene qualified as Scene
-import Draw.Sheet (Area (..), Sheet)
-import Draw.Sheet qualified as Sheet
-import Draw.Sign qualified as Sign
-import Draw.Svg (Anchor (..), Pen (..), Style (..), Svg)
+import Draw.Svg (Anchor (..), Pen (..), Svg, TextStyle (..))
 import Draw.Svg qualified as Svg
-import Draw.Title qualified as Title
-import Geometry.Box (Box (..))
-import Geometry.Box qualified as Box
-import Geometry.Contour (Ends (..))
+import Draw.TitleBlock qualified as TitleBlock
+import Geometry.Carrier (Circle (..), Sense (..))
+import Geometry.Index.BoundingBox (BoundingBox (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (..), Turn (..))
 import Geometry.Vec qualified as Vec
-import Geometry.Winding qualified as Winding
+import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Part)
-import Path.Path (Path)
+import Toolpath.Toolpath (Toolpath)
 
 -- | Draw a part and the path of the cutter as an SVG document.
-plot :: Part -> Path -> Text
+plot :: Part -> Toolpath -> Text
 plot part path =
   Svg.document
-    Sheet.page
-    (Title.name part)
-    ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Sheet.page],
+    Page.page
+    (TitleBlock.name part)
+    ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Page.page],
         Svg.layer "material" (material (shapes scene)),
         Svg.layer "axes" (axes (sheet scene))
       ]
-        <> [Svg.layer "rests" (map (Svg.area Sign.restColour) (rests scene)) | not (null (rests scene))]
+        <> [Svg.layer "rests" (map (Svg.area LineStyle.restColour) (rests scene)) | not (null (rests scene))]
         <> [ Svg.layer "contours" (map contourLine (shapes scene)),
              Svg.layer "ways" (ways scene),
              Svg.layer "path" (concatMap cutLine (cuts scene)),
-             Svg.layer "start" (Sign.start (start scene) <> originMark (sheet scene)),
+             Svg.layer "start" (LineStyle.start (start scene) <> originMark (sheet scene)),
              Svg.layer "cutters" (concatMap cutter (filter entered (cuts scene))),
              Svg.layer "nodes" (concatMap Node.dots (filter numbered (cuts scene))),
              Svg.layer "numbers" (numbers scene),
-             Svg.layer "title" (Title.block part scene)
+             Svg.layer "title" (TitleBlock.block part scene)
            ]
     )
   where
@@ -68,70 +68,70 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
   where
     bodies = filter (\s -> matter s == Within) shapes
     windows = filter (\s -> matter s == Beyond) shapes
-    bands = [Svg.loop (Pen Sign.matterColour 6 []) (outline s) | all ((> 0) . inWindows) bodies, s <- windows]
-    painted s = (level s, Svg.area (if matter s == Within then Sign.matterColour else "white") (outline s))
+    bands = [Svg.loop (Pen LineStyle.matterColour 6 []) (outline s) | all ((> 0) . inWindows) bodies, s <- windows]
+    painted s = (level s, Svg.area (if matter s == Within then LineStyle.matterColour else "white") (outline s))
     -- What stands in a window is drawn above it, and a window in that above that.
     level s = 2 * inWindows s + (if matter s == Within then 0 else 1)
-    inWindows s = let p = beginning s in length [w | w <- Box.within (Box.ofPoints p []) index, outline w /= outline s, Winding.about p (outline w) /= 0]
-    index = Box.index (\w -> foldr (Box.union . Box.ofSegment) (Box.ofPoints (beginning w) []) (outline w)) windows
+    inWindows s = let p = beginning s in length [w | w <- BoundingBox.within (BoundingBox.ofPoints p []) index, outline w /= outline s, WindingNumber.about p (outline w) /= 0]
+    index = BoundingBox.index (\w -> foldr (BoundingBox.union . BoundingBox.ofSegment) (BoundingBox.ofPoints (beginning w) []) (outline w)) windows
     beginning s = case outline s of
       s' : _ -> Segment.start s'
       [] -> Vec.point 0 0
 
 contourLine :: Shape -> Svg
 contourLine Shape {ends, outline} = case ends of
-  Open -> Svg.stroke Sign.contourPen outline
-  Closed -> Svg.loop Sign.contourPen outline
+  Open -> Svg.stroke LineStyle.contourPen outline
+  Closed -> Svg.loop LineStyle.contourPen outline
 
 -- | Thin axes through the origin; where it is off the page, a mark at a point with round coordinates.
-axes :: Sheet -> [Svg]
+axes :: Page -> [Svg]
 axes sheet
-  | Sheet.holds Sheet.field origin =
-    [ Svg.stroke Sign.axisPen [Straight (Vec.point (leftmost Sheet.field) oy) (Vec.point right oy)],
-      Svg.stroke Sign.axisPen [Straight (Vec.point ox (lower Sheet.field)) (Vec.point ox top)]
+  | Page.holds Page.field origin =
+    [ Svg.stroke LineStyle.axisPen [Straight (Vec.point (leftmost Page.field) oy) (Vec.point right oy)],
+      Svg.stroke LineStyle.axisPen [Straight (Vec.point ox (lower Page.field)) (Vec.point ox top)]
     ]
       <> heads ox oy right top
   | otherwise =
-    [ Svg.stroke Sign.axisPen [Straight mark (Vec.point (mx + 12) my)],
-      Svg.stroke Sign.axisPen [Straight mark (Vec.point mx (my - 12))],
-      Svg.text Sign.small Start (Vec.point (mx + 1) (my + 3.2)) ("(" <> Decimal.short 4 cx <> ", " <> Decimal.short 4 cy <> ")")
+    [ Svg.stroke LineStyle.axisPen [Straight mark (Vec.point (mx + 12) my)],
+      Svg.stroke LineStyle.axisPen [Straight mark (Vec.point mx (my - 12))],
+      Svg.text LineStyle.small Start (Vec.point (mx + 1) (my + 3.2)) ("(" <> Decimal.short 4 cx <> ", " <> Decimal.short 4 cy <> ")")
     ]
       <> heads mx my (mx + 12) (my - 12)
   where
-    origin = Sheet.place sheet (Vec.point 0 0)
+    origin = Page.place sheet (Vec.point 0 0)
     (ox, oy) = (Vec.x origin, Vec.y origin)
-    (right, top) = (rightmost Sheet.field - 3, upper Sheet.field + 3)
-    corner = Sheet.unplace sheet (Vec.point (leftmost Sheet.field + 3) (lower Sheet.field - 5))
+    (right, top) = (rightmost Page.field - 3, upper Page.field + 3)
+    corner = Page.unplace sheet (Vec.point (leftmost Page.field + 3) (lower Page.field - 5))
     grid = gridOf sheet
     (cx, cy) = (up (Vec.x corner), up (Vec.y corner))
     up c = grid * fromIntegral (ceiling (c / grid) :: Integer)
-    mark = Sheet.place sheet (Vec.point cx cy)
+    mark = Page.place sheet (Vec.point cx cy)
     (mx, my) = (Vec.x mark, Vec.y mark)
 
 -- | The mark of the origin, if that is on the page.
-originMark :: Sheet -> [Svg]
-originMark sheet = concatMap Sign.origin (filter (Sheet.holds Sheet.field) [Sheet.place sheet (Vec.point 0 0)])
+originMark :: Page -> [Svg]
+originMark sheet = concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place sheet (Vec.point 0 0)])
 
 -- | The heads of the axes through a point, and their names.
 heads :: Double -> Double -> Double -> Double -> [Svg]
 heads px py right top =
-  [ Sign.axisArrow (Vec.vec 1 0) (Vec.point right py),
-    Sign.axisArrow (Vec.vec 0 (-1)) (Vec.point px top),
-    Svg.text Sign.small Centred (Vec.point (right - 1) (py - 2.4)) "x",
-    Svg.text Sign.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
+  [ LineStyle.axisArrow (Vec.vec 1 0) (Vec.point right py),
+    LineStyle.axisArrow (Vec.vec 0 (-1)) (Vec.point px top),
+    Svg.text LineStyle.small Centred (Vec.point (right - 1) (py - 2.4)) "x",
+    Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
 -- | A round length of 4 to 8 mm on paper.
-gridOf :: Sheet -> Double
-gridOf sheet = Sheet.round125 (8 / Sheet.onPaper sheet (Mm 1))
+gridOf :: Page -> Double
+gridOf sheet = Page.round125 (8 / Page.onPaper sheet (Mm 1))
 
 -- The path
 
 -- | The ways between the cuts. A way back on the same line is drawn once, with arrows for both.
 ways :: Scene -> [Svg]
-ways Scene {feeds, rapids} = map (line Sign.feedPen) lineFeeds <> map (line Sign.rapidPen) lineRapids <> arrows
+ways Scene {feeds, rapids} = map (line LineStyle.feedPen) lineFeeds <> map (line LineStyle.rapidPen) lineRapids <> arrows
   where
-    arrows = concatMap (Sign.arrowOn Sign.red 0.75) (feeds <> rapids)
+    arrows = concatMap (LineStyle.arrowOn LineStyle.red 0.75) (feeds <> rapids)
     line pen s = Svg.stroke pen [s]
     (lineFeeds, drawn) = once Set.empty feeds
     (lineRapids, _) = once drawn rapids
@@ -148,7 +148,7 @@ once known segments = case segments of
 
 -- | The way along a contour, with five arrows, or in a pocket, with more on a long one. On the contour itself it runs between two thin lines.
 cutLine :: Cut -> [Svg]
-cutLine cut@Cut {upon, numbered} = [Svg.stroke pen segments | upon, pen <- [Sign.edgePen, Sign.bedPen]] <> (Svg.stroke Sign.pathPen segments : arrows)
+cutLine cut@Cut {upon, numbered} = [Svg.stroke pen segments | upon, pen <- [LineStyle.edgePen, LineStyle.bedPen]] <> (Svg.stroke LineStyle.pathPen segments : arrows)
   where
     segments = NonEmpty.toList (Scene.lines cut)
     whole = total (map Segment.length segments)
@@ -163,27 +163,27 @@ arrowFrom segments distance = case segments of
     | distance >= Segment.length s -> arrowFrom rest (minus distance (Segment.length s))
     | otherwise ->
       let margin = min 0.5 (over (Mm 4) (Segment.length s))
-       in Just (Sign.arrowAt Sign.blue (max margin (min (1 - margin) (over distance (Segment.length s)))) s)
+       in Just (LineStyle.arrowAt LineStyle.blue (max margin (min (1 - margin) (over distance (Segment.length s)))) s)
 
 -- | The cutter where it begins to cut.
 cutter :: Cut -> [Svg]
-cutter cut@Cut {reach} = Sign.cutter reach (Segment.start (NonEmpty.head (Scene.lines cut)))
+cutter cut@Cut {reach} = LineStyle.cutter reach (Segment.start (NonEmpty.head (Scene.lines cut)))
 
 -- | The numbers of all nodes, clear of the lines.
 numbers :: Scene -> [Svg]
-numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p words' | (p, words') <- Label.settle Sheet.field index labels]
+numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p words' | (p, words') <- Label.settle Page.field index labels]
   where
-    style = Style {size = Label.size, ink = Sign.blue, bold = False}
+    style = TextStyle {size = Label.size, ink = LineStyle.blue, bold = False}
     labels = concatMap Node.labels (if length marked > Node.most then filter readable marked else marked)
     marked = filter numbered cuts
     -- Of many ways only those have numbers that are larger than these.
-    readable cut = let Box {left, bottom, right, top} = foldr1 Box.union (fmap Box.ofSegment (Scene.lines cut)) in max (right - left) (top - bottom) > Label.size
-    index = Box.index Box.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
-    lines' = concatMap outline shapes <> concatMap cutLines cuts <> feeds <> rapids <> Sign.diamond start
+    readable cut = let BoundingBox {left, bottom, right, top} = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut)) in max (right - left) (top - bottom) > Label.size
+    index = BoundingBox.index BoundingBox.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
+    lines' = concatMap outline shapes <> concatMap cutLines cuts <> feeds <> rapids <> LineStyle.diamond start
 
 -- | The way of a cutter, and the cutter itself.
 cutLines :: Cut -> [Segment]
-cutLines cut@Cut {reach, entered} = (if entered then rim : Sign.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)
+cutLines cut@Cut {reach, entered} = (if entered then rim : LineStyle.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)
   where
     rim = Segment.fullCircle Clockwise (Circle p (Mm reach)) (Vec.shift (Vec.vec reach 0) p)
     p = Segment.start (NonEmpty.head (Scene.lines cut))

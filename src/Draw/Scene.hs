@@ -19,30 +19,31 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, isNothing, mapMaybe)
 import Data.Semigroup (sconcat)
-import Draw.Sheet (Sheet)
-import Draw.Sheet qualified as Sheet
-import Geometry.Box (Box)
-import Geometry.Box qualified as Box
-import Geometry.Contour (Ends (..))
-import Geometry.Contour qualified as Contour
-import Geometry.Offset qualified as Offset
+import Draw.Page (Page)
+import Draw.Page qualified as Page
+import Geometry.Carrier (Circle (Circle), Sense (..))
+import Geometry.Carrier qualified as Carrier
+import Geometry.Index.BoundingBox (BoundingBox)
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Polyarc (Ends (..))
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Offset.Equidistant qualified as Equidistant
 import Part.Part (Milling (contour, radius), Operation (..), Pace (..), Part)
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path
-import Path.Path (Block (Clearing, Commanding, Cutting, Holing, Travelling, approach, cleared, cut, job, pass, pocket, retract), Move, Path)
-import Path.Path qualified as Path
-import Path.Remaining (Remaining (Remaining, beside, places))
-import Path.Remaining qualified as Remaining
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.RestMaterial (Remaining (Remaining, beside, places))
+import Toolpath.RestMaterial qualified as RestMaterial
+import Toolpath.Toolpath (Block (Clearing, Commanding, Cutting, Holing, Travelling, approach, cleared, cut, job, pass, pocket, retract), Move, Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 import Prelude hiding (lines)
 
 -- | What is drawn, on paper.
 data Scene = Scene
-  { sheet :: Sheet,
+  { sheet :: Page,
     shapes :: [Shape],
     cuts :: [Cut],
     -- | what stays standing because the cutter does not get there
@@ -89,26 +90,26 @@ lines :: Cut -> NonEmpty Segment
 lines = sconcat . course
 
 -- | Lay a part and a path on a sheet that holds them.
-set :: Part -> Path -> Scene
+set :: Part -> Toolpath -> Scene
 set part path =
   Scene
     { sheet,
       shapes = map (shapeOf sheet millingsAt) contours <> map (holeOf sheet) (nubOrd (concatMap holesOf (Part.operations part))),
-      cuts = concatMap (cutsOf sheet) (drawnOnce (Path.blocks path)),
-      rests = map (map (Sheet.segment sheet)) (restsOf path),
+      cuts = concatMap (cutsOf sheet) (drawnOnce (Toolpath.blocks path)),
+      rests = map (map (Page.segment sheet)) (restsOf path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
-      start = Sheet.place sheet begin,
+      start = Page.place sheet begin,
       tools = nubOrd [(Part.work m, radius m) | m <- millings]
     }
   where
-    begin = Part.plane (value (Path.start path))
+    begin = Part.plane (value (Toolpath.start path))
     millings = concatMap millingOf (Part.operations part)
     contours = distinct (Part.contours part <> map contour millings)
     millingsAt = Map.fromListWith (flip (<>)) [(beginning (contour m), [m]) | m <- millings]
-    between = concatMap movesBetween (Path.blocks path)
-    along wanted = map (Sheet.segment sheet) (nubOrd [Path.segment m | m <- between, wanted (Path.pace m)])
-    sheet = Sheet.lay (foldl Box.union (Box.ofPoints begin []) (boxesOf contours path))
+    between = concatMap movesBetween (Toolpath.blocks path)
+    along wanted = map (Page.segment sheet) (nubOrd [Toolpath.segment m | m <- between, wanted (Toolpath.pace m)])
+    sheet = Page.lay (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
 
 -- | Contours that are not earlier among themselves.
 distinct :: [Part.Contour] -> [Part.Contour]
@@ -131,14 +132,14 @@ millingOf operation = case operation of
   Command _ -> []
 
 -- | What stays beside contours: its outline, or where that is not known a circle where the cutter turns back.
-restsOf :: Path -> [[Segment]]
-restsOf path = nubOrd (concatMap drawn (Remaining.ofPath path))
+restsOf :: Toolpath -> [[Segment]]
+restsOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
     drawn Remaining {beside, places} = concatMap (\(_, f) -> material beside f) (NonEmpty.toList places)
-    material beside f = case Offset.standing f of
-      Offset.Within outline -> [NonEmpty.toList outline]
-      Offset.SameAs _ -> []
-      Offset.Unbounded -> [spot (Offset.middle f) beside]
+    material beside f = case Equidistant.standing f of
+      Equidistant.Within outline -> [NonEmpty.toList outline]
+      Equidistant.SameAs _ -> []
+      Equidistant.Unbounded -> [spot (Equidistant.middle f) beside]
     spot p (Mm r) = [Segment.fullCircle CounterClockwise (Circle p (Mm (r / 4))) (Vec.shift (Vec.vec (r / 4) 0) p)]
 
 -- | The holes that are drilled.
@@ -159,43 +160,43 @@ movesBetween block = case block of
   Commanding _ -> []
 
 -- | What has to be on the page.
-boxesOf :: [Part.Contour] -> Path -> [Box]
+boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
-  [Sheet.extent s | c <- contours, s <- NonEmpty.toList (Contour.segments (Part.outline c))]
-    <> [Sheet.extent (Path.segment m) | b <- Path.blocks path, m <- Path.moves b]
-    <> concatMap cutterBox (Path.blocks path)
+  [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.outline c))]
+    <> [Page.extent (Toolpath.segment m) | b <- Toolpath.blocks path, m <- Toolpath.moves b]
+    <> concatMap cutterBox (Toolpath.blocks path)
 
-cutterBox :: Block -> [Box]
+cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
   Travelling _ _ -> []
-  Holing (Located _ d) _ -> [Box.inflate (Part.drillRadius d) (Box.ofPoints p []) | Located _ p <- NonEmpty.toList (Part.holes d)]
+  Holing (Located _ d) _ -> [BoundingBox.inflate (Part.drillRadius d) (BoundingBox.ofPoints p []) | Located _ p <- NonEmpty.toList (Part.holes d)]
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> [cutterAt milling cut]
   Clearing {pocket = Located _ p, cleared} -> [cutterAt (Part.wall p) cleared]
   where
-    cutterAt milling ms = Box.inflate (radius milling) (Box.ofPoints (Segment.start (Path.segment (NonEmpty.head ms))) [])
+    cutterAt milling ms = BoundingBox.inflate (radius milling) (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
 -- | With the millings of the contours that begin there.
-shapeOf :: Sheet -> Map Point [Milling] -> Part.Contour -> Shape
-shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Sheet.segment sheet) (NonEmpty.toList (Contour.segments bare))}
+shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
+shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Page.segment sheet) (NonEmpty.toList (Polyarc.segments bare))}
   where
     bare = Part.outline c
     matter = case mapMaybe sideOf (filter (\m -> Part.outline (contour m) == bare) (Map.findWithDefault [] (beginning c) millings)) of
-      side : _ | Part.ends c == Closed -> if (side == Offset.LeftOf) == (Contour.signedArea bare > 0) then Beyond else Within
+      side : _ | Part.ends c == Closed -> if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Beyond else Within
       _ -> Unknown
 
-holeOf :: Sheet -> Circle -> Shape
-holeOf sheet circle@(Circle c r) = Shape {ends = Closed, matter = Beyond, outline = [Sheet.segment sheet whole]}
+holeOf :: Page -> Circle -> Shape
+holeOf sheet circle@(Circle c r) = Shape {ends = Closed, matter = Beyond, outline = [Page.segment sheet whole]}
   where
     whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
 -- | The side of the walk on which the cutter stands, if it stands on one.
-sideOf :: Milling -> Maybe Offset.Side
-sideOf milling = case Path.leadingSide milling of
+sideOf :: Milling -> Maybe Carrier.Side
+sideOf milling = case Toolpath.leadingSide milling of
   Left _ -> Nothing
   Right side -> side
 
-cutsOf :: Sheet -> Block -> [Cut]
+cutsOf :: Page -> Block -> [Cut]
 cutsOf sheet block = case block of
   Travelling _ _ -> []
   Holing _ _ -> []
@@ -206,8 +207,8 @@ cutsOf sheet block = case block of
   where
     along milling ms =
       Cut
-        { course = fmap (fmap (Sheet.segment sheet . Path.segment)) (NonEmpty.groupBy1 (\_ m -> Path.continues m) ms),
-          reach = Sheet.onPaper sheet (radius milling),
+        { course = fmap (fmap (Page.segment sheet . Toolpath.segment)) (NonEmpty.groupBy1 (\_ m -> Toolpath.continues m) ms),
+          reach = Page.onPaper sheet (radius milling),
           away = 1,
           upon = False,
           numbered = False,
@@ -216,7 +217,7 @@ cutsOf sheet block = case block of
 
 -- | Whether a move in a pocket cuts.
 isCut :: Move -> Bool
-isCut m = Path.pace m /= Rapid && uncurry (==) (Path.heights m)
+isCut m = Toolpath.pace m /= Rapid && uncurry (==) (Toolpath.heights m)
 
 -- | Passes of a pocket that differ in their depth alone, once.
 drawnOnce :: [Block] -> [Block]
@@ -224,13 +225,13 @@ drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
   where
     key :: (Int, Block) -> Either Int (Int, Mm)
     key (i, b) = case b of
-      Clearing {pass} -> Right (Path.number pass, Path.left pass)
+      Clearing {pass} -> Right (Toolpath.number pass, Toolpath.left pass)
       _ -> Left i
 
 -- | A cutter on the contour itself leaves no side free; the labels then stand outside.
 awayFrom :: Milling -> Double
 awayFrom milling = case (sideOf milling, Part.ends (contour milling)) of
-  (Just Offset.LeftOf, _) -> -1
-  (Just Offset.RightOf, _) -> 1
-  (Nothing, Closed) -> signum (Contour.signedArea (Part.outline (contour milling)))
+  (Just Carrier.LeftOf, _) -> -1
+  (Just Carrier.RightOf, _) -> 1
+  (Nothing, Closed) -> signum (Polyarc.signedArea (Part.outline (contour milling)))
   (Nothing, Open) -> -1

@@ -15,7 +15,7 @@ module Draw.Svg
     ring,
     arrow,
     Anchor (..),
-    Style (..),
+    TextStyle (..),
     text,
     textWidth,
   )
@@ -28,7 +28,7 @@ import Data.Foldable (traverse_)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Lazy qualified as Lazy
-import Draw.Sheet (Area (..))
+import Draw.Page (Area (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
@@ -109,12 +109,12 @@ data Anchor = Start | Middle | End | Centred
   deriving stock (Eq, Show)
 
 -- | The height of the letters' bodies in mm, their colour, and whether they are bold.
-data Style = Style {size :: Double, ink :: Text, bold :: Bool}
+data TextStyle = TextStyle {size :: Double, ink :: Text, bold :: Bool}
   deriving stock (Eq, Show)
 
 -- | A text on one line.
-text :: Style -> Anchor -> Point -> Text -> Svg
-text Style {size, ink, bold} anchor p words' =
+text :: TextStyle -> Anchor -> Point -> Text -> Svg
+text TextStyle {size, ink, bold} anchor p words' =
   Svg.text_
     ! Attribute.x (number (Vec.x p))
     ! Attribute.y (number (Vec.y p + sunk))

@@ -13,25 +13,25 @@
 -- axes. So the centre is chosen first, for the whole arc, and the cuts are laid on its axes from there: what follows from
 -- whole numbers cannot be on the wrong side of an axis by rounding.
 module Frame.Arc
-  ( Step (..),
-    Room (..),
+  ( ArcStep (..),
+    ArcTolerance (..),
     Grid,
     gridOf,
     steps,
   )
 where
 
-import Base.Lattice (V2 (..), V3 (..), flat)
+import Base.PulseVector (Pulses2 (..), Pulses3 (..), flat)
 import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, plus)
 import Data.List (foldl')
 import Data.Maybe (fromMaybe, mapMaybe)
 import Data.Ord (comparing)
-import Frame.Pulses qualified as Pulses
+import Frame.Rounding qualified as Rounding
+import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
-import Geometry.Shape qualified as Shape
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -39,11 +39,11 @@ import Machine.Machine (Arcs (..), Axis (..), Machine)
 import Machine.Machine qualified as Machine
 
 -- | A stop, and how it is reached: straight, or about a centre, which is counted from where the step begins.
-data Step = Step {stop :: V3, about :: Maybe (Turn, V2)}
+data ArcStep = ArcStep {stop :: Pulses3, about :: Maybe (Sense, Pulses2)}
   deriving stock (Eq, Show)
 
 -- | How far the steps of an arc may leave it, rounding included.
-data Room = Room
+data ArcTolerance = ArcTolerance
   { -- | those that are arcs, when the control goes evenly from the radius of their beginning to that of their end
     roundly :: Mm,
     -- | towards its centre, whatever they are and however the control goes
@@ -74,22 +74,22 @@ gridOf machine = Grid {machine, grainX, grainY, grain, furthestCentre = Machine.
 -- | An arc to be walked.
 data Task = Task
   { grid :: Grid,
-    room :: Room,
+    room :: ArcTolerance,
     -- | how it is walked in chords, from a position
-    chorded :: V3 -> Segment -> [V3],
+    chorded :: Pulses3 -> Segment -> [Pulses3],
     height :: Mm
   }
 
 -- | The steps along a segment at a height, from its rounded beginning to its rounded end. What can not be an arc goes as
 -- chords.
-steps :: Grid -> Room -> (V3 -> Segment -> [V3]) -> Mm -> V3 -> Segment -> [Step]
+steps :: Grid -> ArcTolerance -> (Pulses3 -> Segment -> [Pulses3]) -> Mm -> Pulses3 -> Segment -> [ArcStep]
 steps grid room chorded height = walk deepest Task {grid, room, chorded, height}
 
 -- | How often an arc is halved before it goes as chords.
 deepest :: Int
 deepest = 5
 
-walk :: Int -> Task -> V3 -> Segment -> [Step]
+walk :: Int -> Task -> Pulses3 -> Segment -> [ArcStep]
 walk left task begin s = case s of
   Straight _ _ -> straight
   Arc {sweep}
@@ -103,12 +103,12 @@ walk left task begin s = case s of
          in walk (left - 1) task begin front <> walk (left - 1) task middle back
   where
     finish = place task (Segment.end s)
-    alone p = Step {stop = p, about = Nothing}
-    straight = map alone (Pulses.split (machine (grid task)) begin ((Segment.start s, height task), (Segment.end s, height task)))
+    alone p = ArcStep {stop = p, about = Nothing}
+    straight = map alone (Rounding.split (machine (grid task)) begin ((Segment.start s, height task), (Segment.end s, height task)))
     sense (Rad a) = if a > 0 then CounterClockwise else Clockwise
 
-place :: Task -> Point -> V3
-place task p = Pulses.rounded (machine (grid task)) (p, height task)
+place :: Task -> Point -> Pulses3
+place task p = Rounding.rounded (machine (grid task)) (p, height task)
 
 -- | Whether an arc deviates from its chord by less than half a pulse.
 isFlat :: Task -> Segment -> Bool
@@ -116,7 +116,7 @@ isFlat task s = Segment.bulge s < Mm (0.5 * grain (grid task))
 
 -- | Whether straight steps from a position to the next ones stay as near to an arc as they have to: half a pulse of sagitta
 -- and the rounding of the ends add to more than a pulse.
-goesStraight :: Task -> Segment -> [V2] -> Bool
+goesStraight :: Task -> Segment -> [Pulses2] -> Bool
 goesStraight task exact stops = case exact of
   Straight _ _ -> True
   Arc {start, centre}
@@ -134,16 +134,16 @@ goesStraight task exact stops = case exact of
 
 -- | Whether the field of a centre holds the radius. A centre further away than its field holds would fit in parts of the
 -- arc only.
-holds :: Task -> V3 -> Segment -> Bool
-holds task (V3 x y _) s = case s of
+holds :: Task -> Pulses3 -> Segment -> Bool
+holds task (Pulses3 x y _) s = case s of
   Straight _ _ -> True
   Arc {start, centre} -> abs (i - x) < furthestCentre (grid task) && abs (j - y) < furthestCentre (grid task) && Pulses (ceiling (r / min (grainX (grid task)) (grainY (grid task)))) < furthestCentre (grid task)
     where
-      V3 i j _ = place task centre
+      Pulses3 i j _ = place task centre
       Mm r = Segment.radius centre start
 
 -- | The lattice points to try as centres.
-centres :: Task -> V3 -> V3 -> Segment -> [V2]
+centres :: Task -> Pulses3 -> Pulses3 -> Segment -> [Pulses2]
 centres task begin finish s = case s of
   Straight _ _ -> []
   Arc {centre}
@@ -162,22 +162,22 @@ centres task begin finish s = case s of
 neighbours :: Pulses
 neighbours = 2
 
-offsets :: [V2]
+offsets :: [Pulses2]
 offsets = square neighbours
 
 -- | What is so many pulses from zero at most, in a column or a row.
-square :: Pulses -> [V2]
-square most = [V2 di dj | di <- [-most .. most], dj <- [-most .. most]]
+square :: Pulses -> [Pulses2]
+square most = [Pulses2 di dj | di <- [-most .. most], dj <- [-most .. most]]
 
 -- | Whether two lattice points are no further apart, in a column or a row.
-isWithin :: Pulses -> V2 -> V2 -> Bool
-isWithin most (V2 i j) (V2 k l) = abs (i - k) <= most && abs (j - l) <= most
+isWithin :: Pulses -> Pulses2 -> Pulses2 -> Bool
+isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <= most
 
 -- | The lattice points to try where none of those near the true centre does and the whole arc can be one step: those about which
 -- its middle is near enough. About a centre that is off by n towards the middle of an arc that turns by 2h, and by t across, the middle
 -- is off by @(1 − cos h)·n + sin h·t@ and the end by @2·sin h·t@, besides the rounding of the beginning. So @(1 − cos h)·n@ is no more
 -- than 3/2 of the room and that rounding.
-outer :: Task -> V3 -> V3 -> Segment -> Turn -> [V2]
+outer :: Task -> Pulses3 -> Pulses3 -> Segment -> Sense -> [Pulses2]
 outer task begin finish s turn = case s of
   Straight _ _ -> []
   Arc {centre, sweep = Rad a}
@@ -195,16 +195,16 @@ remotest :: Pulses
 remotest = 8
 
 -- | Whether the whole arc about a lattice point can be one step.
-inOneStep :: Task -> Turn -> V3 -> V3 -> V2 -> Bool
+inOneStep :: Task -> Sense -> Pulses3 -> Pulses3 -> Pulses2 -> Bool
 inOneStep task turn begin finish c = case Machine.arcs (machine (grid task)) of
   NoArcs -> False
   Arcs {Machine.quadrants} -> not quadrants || inQuadrant turn (flat begin - c) (flat finish - c)
 
 -- | Steps that have been tried, and how far they deviate.
-data Attempt = Attempt {way :: [Step], off :: Double}
+data Attempt = Attempt {way :: [ArcStep], off :: Double}
 
 -- | The fewest steps; of several the truest.
-best :: [Attempt] -> Maybe [Step]
+best :: [Attempt] -> Maybe [ArcStep]
 best attempts = case attempts of
   [] -> Nothing
   first : others -> Just (way (foldl (\x y -> if comparing cost y x == LT then y else x) first others))
@@ -213,7 +213,7 @@ best attempts = case attempts of
 
 -- | The best about any of some lattice points. Where the whole arc can be one step, each of them has to be truer than the best so
 -- far, beginning with the one that seems least off; of two that are as true the first one is taken.
-truest :: Task -> V3 -> V3 -> Segment -> Turn -> [V2] -> Maybe [Step]
+truest :: Task -> Pulses3 -> Pulses3 -> Segment -> Sense -> [Pulses2] -> Maybe [ArcStep]
 truest task begin finish s turn cs
   | Just ends <- endsOf task s (flat begin) (flat finish), Likeliest number c <- likeliest ends, Just found <- among ends (tried number c) = Just (way (result found))
   | otherwise = best (mapMaybe (attempt task begin finish s turn) cs)
@@ -252,7 +252,7 @@ samples :: [Double]
 samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
 -- | The lattice point that seems least off so far, by its place among the others.
-data Likeliest = None | Likeliest Int V2
+data Likeliest = None | Likeliest Int Pulses2
 
 -- | What has been tried, and its place.
 data Tried = Tried {number :: Int, result :: Attempt}
@@ -261,7 +261,7 @@ data Tried = Tried {number :: Int, result :: Attempt}
 -- ends are; and by how much the directions from the centre to its middle and to its end differ from that to its beginning.
 data Ends = Ends {pulseX :: Double, pulseY :: Double, beginX :: Double, beginY :: Double, finishX :: Double, finishY :: Double, centreX :: Double, centreY :: Double, circle :: Double, firstOff :: Double, finalOff :: Double, halfX :: Double, halfY :: Double, wholeX :: Double, wholeY :: Double}
 
-endsOf :: Task -> Segment -> V2 -> V2 -> Maybe Ends
+endsOf :: Task -> Segment -> Pulses2 -> Pulses2 -> Maybe Ends
 endsOf task exact begin finish = case exact of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
@@ -280,8 +280,8 @@ endsOf task exact begin finish = case exact of
 -- | About how far off an arc about a lattice point is at its middle or its end with the radius of its beginning, or at its middle going evenly, in mm. About a centre
 -- that is off by a vector v it is off by @o + v·(u − u₀)@ where the true radius has the direction u, if it is off by o at its beginning,
 -- where that has the direction u₀; what is left out goes with the square of v.
-seemingOff :: Ends -> V2 -> Double
-seemingOff Ends {pulseX, pulseY, centreX, centreY, firstOff, finalOff, halfX, halfY, wholeX, wholeY} (V2 (Pulses i) (Pulses j)) = larger even' (larger (abs half) (abs whole))
+seemingOff :: Ends -> Pulses2 -> Double
+seemingOff Ends {pulseX, pulseY, centreX, centreY, firstOff, finalOff, halfX, halfY, wholeX, wholeY} (Pulses2 (Pulses i) (Pulses j)) = larger even' (larger (abs half) (abs whole))
   where
     x = fromIntegral i * pulseX - centreX
     y = fromIntegral j * pulseY - centreY
@@ -293,8 +293,8 @@ seemingOff Ends {pulseX, pulseY, centreX, centreY, firstOff, finalOff, halfX, ha
 {-# INLINE seemingOff #-}
 
 -- | By how much less an arc about a lattice point may be off than it seems, in mm.
-unsureOff :: Ends -> V2 -> Double
-unsureOff Ends {pulseX, pulseY, centreX, centreY, circle} (V2 (Pulses i) (Pulses j)) = (if 8 * far < circle then 4 else 16) * far * far / circle + rounding'
+unsureOff :: Ends -> Pulses2 -> Double
+unsureOff Ends {pulseX, pulseY, centreX, centreY, circle} (Pulses2 (Pulses i) (Pulses j)) = (if 8 * far < circle then 4 else 16) * far * far / circle + rounding'
   where
     far = abs (fromIntegral i * pulseX - centreX) + abs (fromIntegral j * pulseY - centreY) + pulseX + pulseY
 {-# INLINE unsureOff #-}
@@ -304,8 +304,8 @@ rounding' :: Double
 rounding' = 1e-9
 
 -- | How far off the beginning of an arc about a lattice point is, as 'offAt' has it.
-offAtBegin :: Ends -> V2 -> Double
-offAtBegin Ends {pulseX, pulseY, beginX, beginY, centreX, centreY, circle} (V2 (Pulses i) (Pulses j)) = abs (sqrt (x * x + y * y) - circle)
+offAtBegin :: Ends -> Pulses2 -> Double
+offAtBegin Ends {pulseX, pulseY, beginX, beginY, centreX, centreY, circle} (Pulses2 (Pulses i) (Pulses j)) = abs (sqrt (x * x + y * y) - circle)
   where
     mx = fromIntegral i * pulseX
     my = fromIntegral j * pulseY
@@ -314,8 +314,8 @@ offAtBegin Ends {pulseX, pulseY, beginX, beginY, centreX, centreY, circle} (V2 (
 {-# INLINE offAtBegin #-}
 
 -- | The whole arc about a lattice point, as 'legOf' has it.
-legAbout :: Ends -> Turn -> V2 -> Leg
-legAbout Ends {pulseX, pulseY, beginX, beginY, finishX, finishY, centreX, centreY, circle} turn (V2 (Pulses i) (Pulses j)) =
+legAbout :: Ends -> Sense -> Pulses2 -> Leg
+legAbout Ends {pulseX, pulseY, beginX, beginY, finishX, finishY, centreX, centreY, circle} turn (Pulses2 (Pulses i) (Pulses j)) =
   Leg {middleX, middleY, outX, outY, radiusFirst = sqrt (outX * outX + outY * outY), radiusLast = sqrt (inX * inX + inY * inY), turned, trueX = centreX, trueY = centreY, trueRadius = circle}
   where
     middleX = fromIntegral i * pulseX
@@ -333,7 +333,7 @@ legAbout Ends {pulseX, pulseY, beginX, beginY, finishX, finishY, centreX, centre
 
 -- | How far off the middle of an arc about a lattice point is, as 'offAt' has it but without an angle: the middle lies square to
 -- the chord between the directions of the ends. The ends come first: many points are tried between the same ones.
-offInMiddle :: Task -> Segment -> Turn -> V2 -> V2 -> V2 -> Double
+offInMiddle :: Task -> Segment -> Sense -> Pulses2 -> Pulses2 -> Pulses2 -> Double
 offInMiddle task exact turn begin finish = case exact of
   Straight _ _ -> const 0
   Arc {start, centre} ->
@@ -347,12 +347,12 @@ offInMiddle task exact turn begin finish = case exact of
               first = Vec.norm toA
               final = Vec.norm toB
               chord = Vec.unit (Vec.add (Vec.scale (-1 / first) toA) (Vec.scale (1 / final) toB))
-              outwards' = Vec.scale (-(Shape.sense turn)) (Vec.left chord)
+              outwards' = Vec.scale (-(Carrier.sense turn)) (Vec.left chord)
               off' radius = let Mm far = Vec.distance centre (Vec.shift (Vec.scale radius outwards') m) in abs (far - r)
            in max (off' first) (off' ((first + final) / 2))
 
 -- | The arc about a lattice point, if the machine can walk it and it is true enough.
-attempt :: Task -> V3 -> V3 -> Segment -> Turn -> V2 -> Maybe Attempt
+attempt :: Task -> Pulses3 -> Pulses3 -> Segment -> Sense -> Pulses2 -> Maybe Attempt
 attempt task begin finish s turn c = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad exact}
@@ -373,27 +373,27 @@ attempt task begin finish s turn c = case s of
     wholes = case Machine.arcs (machine (grid task)) of
       NoArcs -> False
       Arcs {Machine.fullCircle} -> fullCircle
-    V3 _ _ z = finish
+    Pulses3 _ _ z = finish
     -- A piece that a cut left nearly straight is straight.
     walked leg@(from, to) = let arcAlong = arcOf task turn c leg in Walked {from, to, arcAlong, isStraight = isFlat task arcAlong && goesStraight task s [from, to]}
-    step Walked {from, to = V2 x y, isStraight}
-      | isStraight = Step {stop = V3 x y z, about = Nothing}
-      | otherwise = Step {stop = V3 x y z, about = Just (turn, c - from)}
-    sound leg@(from, to) = from /= c && to /= c && (let V2 i j = abs (c - from) in max i j <= furthestCentre (grid task)) && within (to - from) && level leg
-    within (V2 dx dy) = case Machine.measure (Machine.layout (machine (grid task))) of
+    step Walked {from, to = Pulses2 x y, isStraight}
+      | isStraight = ArcStep {stop = Pulses3 x y z, about = Nothing}
+      | otherwise = ArcStep {stop = Pulses3 x y z, about = Just (turn, c - from)}
+    sound leg@(from, to) = from /= c && to /= c && (let Pulses2 i j = abs (c - from) in max i j <= furthestCentre (grid task)) && within (to - from) && level leg
+    within (Pulses2 dx dy) = case Machine.measure (Machine.layout (machine (grid task))) of
       Machine.Positions -> True
       Machine.Increments -> abs dx <= Machine.capacity (machine (grid task)) X && abs dy <= Machine.capacity (machine (grid task)) Y
     -- The radii at the ends of a frame differ by no more than two pulses.
     level (from, to) = let Mm a = Vec.distance (point task c) (point task from); Mm b = Vec.distance (point task c) (point task to) in abs (a - b) <= 2 * grain (grid task)
 
 -- | A step between two stops, and whether its arc is so flat that it goes straight.
-data Walked = Walked {from :: V2, to :: V2, arcAlong :: Segment, isStraight :: Bool}
+data Walked = Walked {from :: Pulses2, to :: Pulses2, arcAlong :: Segment, isStraight :: Bool}
 
 -- | Where the axes through a lattice point near the centre of a circle cross it, in pulses from there: to the right, to the left,
 -- upwards, downwards.
 data Crossings = Crossings {rightwards :: Pulses, leftwards :: Pulses, up :: Pulses, down :: Pulses}
 
-onAxes :: Task -> Mm -> Point -> V2 -> Crossings
+onAxes :: Task -> Mm -> Point -> Pulses2 -> Crossings
 onAxes task (Mm r) true c = Crossings {rightwards = crossing X 1 dx dy, leftwards = -(crossing X (-1) dx dy), up = crossing Y 1 dy dx, down = -(crossing Y (-1) dy dx)}
   where
     off = Vec.to true (point task c)
@@ -405,7 +405,7 @@ onAxes task (Mm r) true c = Crossings {rightwards = crossing X 1 dx dy, leftward
 
 -- | Where the frames of an arc end, given its centre: at its end, and before that, for a control
 -- that asks it, wherever the arc crosses the axes through the centre. None if it cannot be in one turn.
-stopsAbout :: Machine -> Crossings -> Turn -> V2 -> V2 -> V2 -> [V2]
+stopsAbout :: Machine -> Crossings -> Sense -> Pulses2 -> Pulses2 -> Pulses2 -> [Pulses2]
 stopsAbout machine crossings turn c begin finish = case Machine.arcs machine of
   NoArcs -> []
   Arcs {Machine.quadrants}
@@ -419,33 +419,33 @@ stopsAbout machine crossings turn c begin finish = case Machine.arcs machine of
       | otherwise = let next = nextAxis turn crossings from in next : toAxes (left - 1) next
 
 -- | Whether an arc about zero goes from one place to another within a quadrant.
-inQuadrant :: Turn -> V2 -> V2 -> Bool
-inQuadrant turn (V2 a b) (V2 c d) = a * c >= 0 && b * d >= 0 && Shape.sense turn * fromIntegral (a * d - b * c) > 0
+inQuadrant :: Sense -> Pulses2 -> Pulses2 -> Bool
+inQuadrant turn (Pulses2 a b) (Pulses2 c d) = a * c >= 0 && b * d >= 0 && Carrier.sense turn * fromIntegral (a * d - b * c) > 0
 
 -- | The next place on an axis on the way about zero.
-nextAxis :: Turn -> Crossings -> V2 -> V2
-nextAxis turn at (V2 x y) = case turn of
+nextAxis :: Sense -> Crossings -> Pulses2 -> Pulses2
+nextAxis turn at (Pulses2 x y) = case turn of
   CounterClockwise
-    | x > 0 && y >= 0 -> V2 0 (up at)
-    | x <= 0 && y > 0 -> V2 (leftwards at) 0
-    | x < 0 -> V2 0 (down at)
-    | otherwise -> V2 (rightwards at) 0
+    | x > 0 && y >= 0 -> Pulses2 0 (up at)
+    | x <= 0 && y > 0 -> Pulses2 (leftwards at) 0
+    | x < 0 -> Pulses2 0 (down at)
+    | otherwise -> Pulses2 (rightwards at) 0
   Clockwise
-    | x > 0 && y <= 0 -> V2 0 (down at)
-    | x <= 0 && y < 0 -> V2 (leftwards at) 0
-    | x < 0 -> V2 0 (up at)
-    | otherwise -> V2 (rightwards at) 0
+    | x > 0 && y <= 0 -> Pulses2 0 (down at)
+    | x <= 0 && y < 0 -> Pulses2 (leftwards at) 0
+    | x < 0 -> Pulses2 0 (up at)
+    | otherwise -> Pulses2 (rightwards at) 0
 
 -- What is walked ----------------------------------------------------------------------------------
 
 -- | A lattice point in mm.
-point :: Task -> V2 -> Point
-point task (V2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * grainX (grid task)) (fromIntegral y * grainY (grid task))
+point :: Task -> Pulses2 -> Point
+point task (Pulses2 (Pulses x) (Pulses y)) = Vec.point (fromIntegral x * grainX (grid task)) (fromIntegral y * grainY (grid task))
 
 -- | One frame's arc about a centre; a full circle where it ends where it begins.
-arcOf :: Task -> Turn -> V2 -> (V2, V2) -> Segment
+arcOf :: Task -> Sense -> Pulses2 -> (Pulses2, Pulses2) -> Segment
 arcOf task turn c (from, to)
-  | from == to = Segment.Arc {start = a, end = a, centre = m, sweep = Rad (Shape.sense turn * 2 * pi)}
+  | from == to = Segment.Arc {start = a, end = a, centre = m, sweep = Rad (Carrier.sense turn * 2 * pi)}
   | otherwise = Segment.arc turn m a (point task to)
   where
     m = point task c

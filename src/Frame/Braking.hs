@@ -15,17 +15,17 @@ import Data.List (mapAccumR)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Frame.Feed qualified as Feed
-import Frame.Task (Drive (..), Task (..))
-import Frame.Task qualified as Task
+import Frame.FeedCode qualified as FeedCode
+import Frame.Instruction (Drive (..), Instruction (..))
+import Frame.Instruction qualified as Instruction
 import Machine.Machine (Braking (..), BrakingForm (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
-import Path.Path (Move, pace)
-import Path.Path qualified as Path
+import Toolpath.Toolpath (Move, pace)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | The tasks, cut where the cutter begins to slow down.
-applied :: Machine -> [Task] -> [Task]
+applied :: Machine -> [Instruction] -> [Instruction]
 applied machine tasks = case brakingForm (Machine.braking machine) of
   ByControl -> tasks
   SlowFrames -> concatMap (slowed machine) tasks
@@ -34,7 +34,7 @@ applied machine tasks = case brakingForm (Machine.braking machine) of
 -- | The feed that a move gets; on machines whose codes do not say it, the one that is asked.
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
-  Rapid -> let Feed v = Feed.rapid machine in v / 60
+  Rapid -> let Feed v = FeedCode.rapid machine in v / 60
   At (Located _ asked) -> let Feed v = gets machine asked in v / 60
 
 gets :: Machine -> Feed -> Feed
@@ -45,10 +45,10 @@ gets machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
     Machine.NoSuchFeed low high -> Feed (max low (min high asked))
 
 -- | A run that is to be slow at its end becomes two.
-slowed :: Machine -> Task -> [Task]
+slowed :: Machine -> Instruction -> [Instruction]
 slowed machine task = case task of
   Run {run = ms}
-    | Path.braked (NonEmpty.last ms),
+    | Toolpath.braked (NonEmpty.last ms),
       At _ <- pace (NonEmpty.head ms) ->
       let v = obtained machine (NonEmpty.head ms)
           (_, cut) = mapAccumR tail' (v * v / (2 * deceleration (Machine.braking machine))) (NonEmpty.toList ms)
@@ -58,12 +58,12 @@ slowed machine task = case task of
     tail' left m
       | left <= 0 = (0, [(Asked, m)])
       | left >= way = (left - way, [(Lowest, m)])
-      | otherwise = let (front, back) = Task.cutBefore left m in (0, [(Asked, front), (Lowest, back)])
+      | otherwise = let (front, back) = Instruction.cutBefore left m in (0, [(Asked, front), (Lowest, back)])
       where
-        Mm way = Task.wayOf m
+        Mm way = Instruction.wayOf m
 
 -- | The moves of a task with their drives: a task for each drive.
-regrouped :: Task -> [(Drive, Move)] -> [Task]
+regrouped :: Instruction -> [(Drive, Move)] -> [Instruction]
 regrouped task parts = case task of
   Order _ _ -> [task]
   Run {} -> [task {drive = fst (NonEmpty.head part), run = fmap snd part} | part <- NonEmpty.groupBy (\a b -> fst a == fst b) parts]
@@ -77,7 +77,7 @@ data Ahead = Ahead {square :: Double, target :: Double, stretch :: Int}
 -- | How much of the end of a move slows down, in mm, and to what.
 data Mark = Mark {before :: Double, to :: Double, within :: Int}
 
-onTime :: Machine -> Feed -> [Task] -> [Task]
+onTime :: Machine -> Feed -> [Instruction] -> [Instruction]
 onTime machine least tasks = concatMap cut marked
   where
     Feed final = gets machine least
@@ -94,18 +94,18 @@ onTime machine least tasks = concatMap cut marked
       Run {}
         | all isWhole marks -> regrouped task [(slowingTo k, m) | (m, k) <- marks]
         | otherwise -> regrouped task (concatMap parts marks)
-    isWhole (m, k) = before k > 0 && before k >= (let Mm way = Task.wayOf m in way)
+    isWhole (m, k) = before k > 0 && before k >= (let Mm way = Instruction.wayOf m in way)
     slowingTo k = Slowing (Feed (60 * to k))
     parts (m, k)
       | before k <= 0 || Map.findWithDefault 0 (within k) lengths < grain = [(Asked, m)]
       | before k >= way = [(slowingTo k, m)]
-      | otherwise = let (front, back) = Task.cutBefore (before k) m in [(Asked, front), (slowingTo k, back)]
+      | otherwise = let (front, back) = Instruction.cutBefore (before k) m in [(Asked, front), (slowingTo k, back)]
       where
-        Mm way = Task.wayOf m
+        Mm way = Instruction.wayOf m
 
 -- | What slows down at its end does so once, however many arcs stand for it.
 atTheEnd :: NonEmpty Move -> [Move]
-atTheEnd ms = map Path.unbraked (NonEmpty.init ms) <> [NonEmpty.last ms]
+atTheEnd ms = map Toolpath.unbraked (NonEmpty.init ms) <> [NonEmpty.last ms]
 
 -- | How a move ends, given what lies ahead of it; and what that makes lie ahead of the move before.
 mark :: Machine -> Double -> Ahead -> Move -> (Ahead, (Move, Mark))
@@ -115,11 +115,11 @@ mark machine slow behind m
   | needed >= way = (ahead {square = square ahead + 2 * a * way}, (m, Mark way (target ahead) (stretch ahead)))
   | otherwise = (fresh, (m, Mark needed (target ahead) (stretch ahead)))
   where
-    Mm way = Task.wayOf m
+    Mm way = Instruction.wayOf m
     v = obtained machine m
     a = deceleration (Machine.braking machine)
     needed = (v * v - square ahead) / (2 * a)
     fresh = Ahead {square = v * v, target = v, stretch = stretch ahead + 1}
     ahead
-      | Path.braked m && slow * slow < square behind = Ahead {square = slow * slow, target = slow, stretch = stretch behind + 1}
+      | Toolpath.braked m && slow * slow < square behind = Ahead {square = slow * slow, target = slow, stretch = stretch behind + 1}
       | otherwise = behind

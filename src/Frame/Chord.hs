@@ -16,10 +16,10 @@ import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
 import Data.Either (fromRight)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Frame.Pulses (Place)
-import Frame.Pulses qualified as Pulses
-import Frame.Run qualified as Run
-import Geometry.Offset qualified as Offset
+import Frame.Chording qualified as Chording
+import Frame.Rounding (PathPosition)
+import Frame.Rounding qualified as Rounding
+import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -29,9 +29,9 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path
-import Path.Path (Move (..))
-import Path.Path qualified as Path
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Move (..))
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | How far chords may be off.
 data Allowed
@@ -40,14 +40,14 @@ data Allowed
   | -- | so far towards the centre of an arc, and so far away from it
     BandOf Mm Mm
   | -- | along a curve
-    Along Run.Bounds
+    Along Chording.Bounds
 
 -- | What is allowed to the chords of a run.
 allowedOn :: Machine -> Milling -> NonEmpty Move -> Allowed
-allowedOn machine job = \ms -> if Path.isCurve ms then onCurve else chordError side job (segment (NonEmpty.head ms))
+allowedOn machine job = \ms -> if Toolpath.isCurve ms then onCurve else chordError side job (segment (NonEmpty.head ms))
   where
     -- Both are the same for all runs of a job.
-    side = fromRight Nothing (Path.leadingSide job)
+    side = fromRight Nothing (Toolpath.leadingSide job)
     onCurve = Along (curveBounds machine side job)
 
 -- | What the rounding of their ends leaves to the chords of an arc that may be off by so much, less a hair.
@@ -56,19 +56,19 @@ remainder machine off = times (1 - Tolerance.equal) (max (Mm 0) (minus off (time
 
 -- | How far a curve may lie from its chords: a chord that runs inside of the material has the curve on the cutter's
 -- side. What the arcs are off from the curve is taken from it first. Heights are as exact as the chords, or to a pulse.
-curveBounds :: Machine -> Maybe Offset.Side -> Milling -> Run.Bounds
-curveBounds machine side job = Run.Bounds {Run.left = l, Run.right = r, Run.rise = max pulse (min l r), Run.shortest = pulse}
+curveBounds :: Machine -> Maybe Carrier.Side -> Milling -> Chording.Bounds
+curveBounds machine side job = Chording.Bounds {Chording.left = l, Chording.right = r, Chording.rise = max pulse (min l r), Chording.shortest = pulse}
   where
     pulse = Machine.pulse machine
     (l, r) = case (Part.tolerance job, side) of
       (Part.OnPath d, _) -> (less d, less d)
-      (Part.Band a b, Just Offset.LeftOf) -> (less a, less b)
-      (Part.Band a b, Just Offset.RightOf) -> (less b, less a)
+      (Part.Band a b, Just Carrier.LeftOf) -> (less a, less b)
+      (Part.Band a b, Just Carrier.RightOf) -> (less b, less a)
       (Part.Band a b, Nothing) -> let d = if a > Mm 0 && b > Mm 0 then min a b else max a b in (less d, less d)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
 -- | The chord error of a segment: on the side of the material its own, and on the other one.
-chordError :: Maybe Offset.Side -> Milling -> Segment -> Allowed
+chordError :: Maybe Carrier.Side -> Milling -> Segment -> Allowed
 chordError leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
   (Part.Band a b, Straight _ _) -> Sagitta (max a b)
@@ -76,7 +76,7 @@ chordError leading job s = case (Part.tolerance job, s) of
     -- The centre of an arc lies on the left when it is walked counter-clockwise; the material lies on the
     -- side on which the cutter is not.
     Just side
-      | (angle > 0) == (side == Offset.LeftOf) -> BandOf b a
+      | (angle > 0) == (side == Carrier.LeftOf) -> BandOf b a
       | otherwise -> BandOf a b
     Nothing -> Sagitta (if a > Mm 0 && b > Mm 0 then min a b else max a b)
 
@@ -88,21 +88,21 @@ rounding machine allowed = case allowed of
   BandOf a b -> if max a b >= least then allowed else BandOf least least
   -- What the arcs are off from the curve is taken from it first.
   Along bounds
-    | max (Run.left bounds) (Run.right bounds) >= most -> allowed
-    | otherwise -> Along bounds {Run.left = most, Run.right = most}
+    | max (Chording.left bounds) (Chording.right bounds) >= most -> allowed
+    | otherwise -> Along bounds {Chording.left = most, Chording.right = most}
   where
     least = remainder machine (Machine.pulse machine)
     most = minus least Tolerance.curve
 
 -- | The ends of the chords of a run with their heights; of a curve, when there are more than so many, at least so many.
-ends :: Int -> Machine -> Allowed -> NonEmpty Move -> [Place]
+ends :: Int -> Machine -> Allowed -> NonEmpty Move -> [PathPosition]
 ends most machine allowed ms = case allowed of
   Sagitta y -> alone (chords machine y)
   BandOf toward away -> alone (bandChords machine toward away)
-  Along bounds -> Run.chordEnds most bounds ms
+  Along bounds -> Chording.chordEnds most bounds ms
   where
     m = NonEmpty.head ms
-    alone chordsOf = let points = chordsOf (segment m) in zip points [Pulses.heightAt (fromIntegral k / fromIntegral (length points)) m | k <- [1 .. length points]]
+    alone chordsOf = let points = chordsOf (segment m) in zip points [Rounding.heightAt (fromIntegral k / fromIntegral (length points)) m | k <- [1 .. length points]]
 
 -- | The ends of the chords of a segment, the last one its end: equal steps that stay within
 -- the sagitta, @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@ (Ural paper; R is the radius of the path),
@@ -137,7 +137,7 @@ bandChords machine toward away s = case s of
 
 -- | How many frames a run needs, or one less for each chord: its chords, each split to fit the fields of a frame. Where the chords of
 -- a curve end is given.
-frameCount :: Machine -> Allowed -> NonEmpty Move -> [Place] -> Int
+frameCount :: Machine -> Allowed -> NonEmpty Move -> [PathPosition] -> Int
 frameCount machine allowed ms stops = case allowed of
   Sagitta y -> alone y
   BandOf a b -> alone (max a b)

@@ -16,7 +16,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis, Machine, MachineName (..))
 import Machine.Machine qualified as Machine
-import Report.Report (Place (..), Report (..), report)
+import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 data Error

@@ -4,13 +4,13 @@
 -- | Frames: what a controller is told, in whole pulses along the axes of the part.
 module Frame.Frame
   ( Frame (..),
-    Motion (..),
+    FrameMotion (..),
     still,
     isMoving,
     Planned (..),
     Role (..),
     passOf,
-    Program (..),
+    FrameProgram (..),
     position,
     height,
     centreOf,
@@ -21,45 +21,45 @@ module Frame.Frame
   )
 where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Region)
 import Data.Maybe (isNothing)
+import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
-import Geometry.Shape qualified as Shape
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Arcs (..), Axis (..), FeedCode (..), Machine, Measure (..), OrderName)
+import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 
 -- | What stands on the tape.
 data Frame = Frame
-  { motion :: Motion,
-    increment :: {-# UNPACK #-} V3,
+  { motion :: FrameMotion,
+    increment :: {-# UNPACK #-} Pulses3,
     -- | of an arc: from its beginning to its centre; else 0
-    centre :: {-# UNPACK #-} V2,
+    centre :: {-# UNPACK #-} Pulses2,
     -- | 0 where nothing moves, and where a rapid move is a motion of its own
     speed :: FeedCode,
     -- | it slows down to its speed
     braking :: Bool,
     -- | commands with their numbers, in the order of the layout's words; each at most once
-    orders :: [(OrderName, Int)]
+    orders :: [(CommandName, Int)]
   }
   deriving stock (Eq, Show)
 
-data Motion
+data FrameMotion
   = Still
   | -- | only on machines that have a motion for it; elsewhere it is straight at the highest speed
     Rapid
   | Straightway
   | -- | an arc in the plane; with no increment a full circle
-    Round Turn
+    Round Sense
   deriving stock (Eq, Show)
 
 -- | A frame that only commands.
-still :: [(OrderName, Int)] -> Frame
+still :: [(CommandName, Int)] -> Frame
 still given = Frame {motion = Still, increment = 0, centre = 0, speed = FeedCode 0, braking = False, orders = given}
 
 isMoving :: Frame -> Bool
@@ -90,30 +90,30 @@ passOf role = case role of
   Commanding -> Nothing
 
 -- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of the part.
-data Program = Program {start :: V3, planned :: [Planned]}
+data FrameProgram = FrameProgram {start :: Pulses3, planned :: [Planned]}
   deriving stock (Eq, Show)
 
 -- | A position in mm, in the plane.
-position :: Machine -> V3 -> Point
-position machine (V3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
+position :: Machine -> Pulses3 -> Point
+position machine (Pulses3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
   where
     Mm px = Machine.pulseOf machine X
     Mm py = Machine.pulseOf machine Y
 
 -- | The height of a position in mm.
-height :: Machine -> V3 -> Mm
-height machine (V3 _ _ (Pulses z)) = let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
+height :: Machine -> Pulses3 -> Mm
+height machine (Pulses3 _ _ (Pulses z)) = let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
 
 -- | The centre of an arc that begins at a position.
-centreOf :: Machine -> V3 -> Frame -> Point
-centreOf machine (V3 x y z) f = let V2 i j = centre f in position machine (V3 (x + i) (y + j) z)
+centreOf :: Machine -> Pulses3 -> Frame -> Point
+centreOf machine (Pulses3 x y z) f = let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
 
 -- | What a frame does in the plane from a position, in mm. The radius of an arc may differ at its ends by rounding;
 -- the segment goes about the centre of the frame and ends where the frame ends.
-segment :: Machine -> V3 -> Frame -> Segment
+segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
   Round turn
-    | begin == finish -> Segment.Arc {Segment.start = begin, Segment.end = finish, Segment.centre = middle, Segment.sweep = Rad (Shape.sense turn * 2 * pi)}
+    | begin == finish -> Segment.Arc {Segment.start = begin, Segment.end = finish, Segment.centre = middle, Segment.sweep = Rad (Carrier.sense turn * 2 * pi)}
     | otherwise -> Segment.arc turn middle begin finish
   _ -> Straight begin finish
   where
@@ -132,7 +132,7 @@ data Broken
   | -- | a motion that the machine does not have, or that its increments contradict
     NoSuchMotion Int
   | -- | a command that the machine does not have, or one given twice
-    NoSuchOrder Int OrderName
+    NoSuchOrder Int CommandName
   | -- | a frame that moves nothing and commands nothing
     Idle Int
   deriving stock (Eq, Show)
@@ -157,7 +157,7 @@ broken machine n f
 inFields :: Machine -> Int -> Frame -> [Broken]
 inFields machine n f = [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, (axis, d) <- [(X, x), (Y, y), (Z, z)], abs d > Machine.capacity machine axis]
   where
-    V3 x y z = increment f
+    Pulses3 x y z = increment f
 
 atSpeed :: Machine -> Int -> Frame -> [Broken]
 atSpeed machine n f = case motion f of
@@ -179,19 +179,19 @@ asMoved machine n f = case motion f of
       [NoSuchMotion n | (increment f == 0 && not whole) || z /= 0 || (parts && not (inQuadrant turn f))]
         <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]
   where
-    V3 _ _ z = increment f
-    V2 i j = centre f
+    Pulses3 _ _ z = increment f
+    Pulses2 i j = centre f
 
 asCommanded :: Machine -> Int -> Frame -> [Broken]
 asCommanded machine n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
 
 -- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one, and it goes from
 -- one to the other without leaving it.
-inQuadrant :: Turn -> Frame -> Bool
+inQuadrant :: Sense -> Frame -> Bool
 inQuadrant turn f = a * c >= 0 && b * d >= 0 && forwards (a * d - b * c)
   where
-    V2 i j = centre f
-    V3 x y _ = increment f
+    Pulses2 i j = centre f
+    Pulses3 x y _ = increment f
     (a, b) = (-i, -j)
     (c, d) = (x - i, y - j)
     forwards cross = case turn of

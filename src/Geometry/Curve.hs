@@ -12,17 +12,17 @@ module Geometry.Curve
     base,
     layers,
     Base,
-    Method (..),
-    Ends (..),
-    Row,
+    CurveKind (..),
+    EndCondition (..),
+    Knot,
     Span (..),
-    Flaw (..),
+    CurveFault (..),
 
     -- * Making them
     polyline,
     spline,
     parabola,
-    Piece (..),
+    SpanShape (..),
     ofPieces,
     ofSegments,
     ofChain,
@@ -66,7 +66,7 @@ module Geometry.Curve
     nearest,
     atX,
     corners,
-    Fold,
+    Cusp,
     fold,
 
     -- * Turning them
@@ -80,55 +80,55 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Curve.Base (Base, Ends (..), Flaw (..), Method (..), Row)
+import Geometry.Carrier (Side (..))
+import Geometry.Curve.Base (Base, CurveFault (..), CurveKind (..), EndCondition (..), Knot)
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
-import Geometry.Curve.Cubics qualified as Cubics
-import Geometry.Curve.Distance (Distance (..), Growth (..), Joggle (..), ramp)
-import Geometry.Curve.Distance qualified as Distance
-import Geometry.Curve.Fold (Fold, fold)
-import Geometry.Curve.Layered (Curve (..), Layer (..), base, breaks, domain, layers, shifted)
-import Geometry.Curve.Layered qualified as Layered
-import Geometry.Curve.Search (atX, corners, nearest)
-import Geometry.Curve.Search qualified as Search
-import Geometry.Curve.Span (Piece (..), Span (..))
-import Geometry.Jet (Approach (..), Jet)
-import Geometry.Jet qualified as Jet
-import Geometry.Offset (Side (..))
-import Geometry.Ruler qualified as Ruler
+import Geometry.Curve.CubicSpans qualified as CubicSpans
+import Geometry.Curve.Cusp (Cusp, fold)
+import Geometry.Curve.PointSearch (atX, corners, nearest)
+import Geometry.Curve.PointSearch qualified as PointSearch
+import Geometry.Curve.ShiftDistance (Distance (..), Growth (..), Joggle (..), ramp)
+import Geometry.Curve.ShiftDistance qualified as ShiftDistance
+import Geometry.Curve.ShiftedCurve (Curve (..), Layer (..), base, breaks, domain, layers, shifted)
+import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
+import Geometry.Curve.Span (Span (..), SpanShape (..))
+import Geometry.Curve.Spline (Cubics)
+import Geometry.Numeric.ArcLength qualified as ArcLength
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
+import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Series qualified as Series
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
-import Geometry.Spline (Cubics)
+import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
 -- | Straight from point to point; closed when the last is the first.
-polyline :: Vector Point -> Either Flaw Curve
+polyline :: Vector Point -> Either CurveFault Curve
 polyline points = Plain <$> Base.polyline points
 
 -- | A cubic spline by the chord length from point to point.
-spline :: Ends -> Vector Point -> Either Flaw Curve
+spline :: EndCondition -> Vector Point -> Either CurveFault Curve
 spline ends points = Plain <$> Base.spline ends points
 
 -- | Parabolas y(x) through points 1–3, 3–5, …
-parabola :: Vector Point -> Either Flaw Curve
+parabola :: Vector Point -> Either CurveFault Curve
 parabola points = Plain <$> Base.parabola points
 
 -- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
-ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Curve
+ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
 ofPieces pieces parameters = Plain <$> Base.ofPieces pieces parameters
 
 -- | A chain of lines and arcs; its rows are the ends of the segments.
-ofSegments :: NonEmpty Segment -> Either Flaw Curve
+ofSegments :: NonEmpty Segment -> Either CurveFault Curve
 ofSegments segments = Plain <$> Base.ofSegments segments
 
 -- | A chain of lines and arcs through the points of a table, in order; a closed one may leave out the first point at its end.
-ofChain :: NonEmpty Segment -> Vector Point -> Either Flaw Curve
+ofChain :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
 ofChain segments points = Plain <$> Base.ofChain segments parameters
   where
     -- Every point is the beginning of a segment, or the end of the last one.
@@ -150,14 +150,14 @@ rowCount = Vector.length . Base.rows . base
 
 -- | What a column is at a parameter.
 columnAt :: Curve -> Column -> Double -> Double
-columnAt curve c u = Series.value (Column.series 0 (base curve) c (Layered.spot After u curve))
+columnAt curve c u = PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spot After u curve))
 
 -- | The values at the rows of a curve in the order of its reverse.
 backwards :: Curve -> Vector Double -> Vector Double
 backwards curve = Base.backwards (base curve)
 
 -- | The distance of a joggle that fits between two parameters of the curve that it is to shift.
-joggled :: Joggle -> Curve -> Either Flaw Distance
+joggled :: Joggle -> Curve -> Either CurveFault Distance
 joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
   | needed > there = Left (LongJoggle needed there)
@@ -174,7 +174,7 @@ chain curve = case curve of
 
 -- | Spans in x and y that stay so near to a curve, and how near; see 'Cubics.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
-cubics = Cubics.along
+cubics = CubicSpans.along
 
 -- | How many spans there are.
 spans :: Curve -> Int
@@ -187,15 +187,15 @@ at = placeFrom After
 -- | The place that the curve comes to before a parameter, or goes on from behind it: they differ where a shift has
 -- opened a corner.
 placeFrom :: Approach -> Curve -> Double -> Point
-placeFrom approach curve u = Jet.place (jet approach 0 curve u)
+placeFrom approach curve u = TaylorExpansion.place (jet approach 0 curve u)
 
 -- | The direction, of length 1, at the place that 'at' gives.
 tangent :: Curve -> Double -> Vec
-tangent = Search.heading After
+tangent = PointSearch.heading After
 
 -- | The direction before or behind a parameter. On a closed curve the way goes on over the joint.
 tangentFrom :: Approach -> Curve -> Double -> Vec
-tangentFrom = Search.directionAt
+tangentFrom = PointSearch.directionAt
 
 -- | The left normal, of length 1.
 normal :: Curve -> Double -> Vec
@@ -203,11 +203,11 @@ normal curve u = Vec.left (tangent curve u)
 
 -- | In 1/mm, positive where the curve bends to the left.
 curvature :: Curve -> Double -> Double
-curvature curve u = Jet.curvature (jet After 2 curve u)
+curvature curve u = TaylorExpansion.curvature (jet After 2 curve u)
 
 -- | The power series of the place up to an order.
-jet :: Approach -> Int -> Curve -> Double -> Jet
-jet approach n curve u = Layered.jetAt n curve (Layered.spot approach u curve)
+jet :: Approach -> Int -> Curve -> Double -> TaylorExpansion
+jet approach n curve u = ShiftedCurve.jetAt n curve (ShiftedCurve.spot approach u curve)
 
 start :: Curve -> Point
 start curve = placeFrom After curve 0
@@ -217,27 +217,27 @@ end curve = placeFrom Before curve (domain curve)
 
 -- | Whether the curve ends where it begins.
 isClosed :: Curve -> Bool
-isClosed = Search.closed
+isClosed = PointSearch.closed
 
 -- | The true length; what a shift opens at corners is no part of it.
 length :: Curve -> Mm
-length curve = Ruler.total (Layered.ruler curve)
+length curve = ArcLength.total (ShiftedCurve.ruler curve)
 
 -- | The true length up to a parameter.
 lengthTo :: Curve -> Double -> Mm
-lengthTo curve = Ruler.lengthTo (Layered.ruler curve)
+lengthTo curve = ArcLength.lengthTo (ShiftedCurve.ruler curve)
 
 -- | The parameter up to which the curve has a length.
 alongTo :: Curve -> Mm -> Double
-alongTo curve = Ruler.parameterAt (Layered.ruler curve)
+alongTo curve = ArcLength.parameterAt (ShiftedCurve.ruler curve)
 
 -- | How far to the left the outermost shift moves the place with a parameter; nothing without a shift.
 distanceOf :: Curve -> Double -> Mm
 distanceOf curve u = case curve of
   Plain _ -> Mm 0
   Shifted layer lower _ ->
-    let s = Layered.spot After u curve
-     in Mm (Series.value (Layered.distanceAt 0 layer lower (Layered.jetAt 1 lower s) s))
+    let s = ShiftedCurve.spot After u curve
+     in Mm (PowerSeries.value (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.jetAt 1 lower s) s))
 
 -- | The same curve walked from its end.
 reversed :: Curve -> Curve
@@ -245,20 +245,20 @@ reversed curve = case curve of
   Plain b -> Plain (Base.reversed b)
   Shifted layer lower _ ->
     let lower' = reversed lower
-     in shifted (otherSide (side layer)) (Distance.reversed (base lower) (base lower') (distance layer)) lower'
+     in shifted (otherSide (side layer)) (ShiftDistance.reversed (base lower) (base lower') (distance layer)) lower'
 
 -- | The curve moved, turned, scaled, mirrored: distances grow with it and change sides in a mirror.
-transformed :: Similarity -> Curve -> Curve
+transformed :: Transformation -> Curve -> Curve
 transformed s curve = case curve of
   Plain b -> Plain (Base.transformed s b)
   Shifted layer lower _ ->
     let lower' = transformed s lower
-        side' = if Similarity.mirrors s then otherSide (side layer) else side layer
-     in shifted side' (Distance.scaled (base lower') (factor s) (distance layer)) lower'
+        side' = if Transformation.mirrors s then otherSide (side layer) else side layer
+     in shifted side' (ShiftDistance.scaled (base lower') (factor s) (distance layer)) lower'
 
 -- | How much longer everything becomes.
-factor :: Similarity -> Double
-factor s = let Mm k = Vec.distance (Similarity.point s (Vec.point 0 0)) (Similarity.point s (Vec.point far 0)) in k / far
+factor :: Transformation -> Double
+factor s = let Mm k = Vec.distance (Transformation.point s (Vec.point 0 0)) (Transformation.point s (Vec.point far 0)) in k / far
   where
     -- So far that the rounding of large displacements does not tell.
     far = 1024

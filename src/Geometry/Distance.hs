@@ -3,7 +3,7 @@
 module Geometry.Distance
   ( toPoint,
     nearest,
-    Nearest (..),
+    ClosestPoint (..),
     segments,
     crossings,
     uncovered,
@@ -13,11 +13,11 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Data.List (minimumBy, sort)
 import Data.Ord (comparing)
-import Geometry.Intersect (Meeting (..))
-import Geometry.Intersect qualified as Intersect
+import Geometry.Carrier (Circle (Circle), Line (Line))
+import Geometry.Construction.Intersection (Intersection (..))
+import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (Line))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -43,17 +43,17 @@ nearest p segment
          in (Vec.norm out > 0, Vec.shift (Vec.scale (r / Vec.norm out) out) centre)
 
 -- | The least distance of two segments, and the point of the first where it is taken.
-data Nearest = Nearest {distance :: Mm, place :: Point}
+data ClosestPoint = ClosestPoint {distance :: Mm, place :: Point}
   deriving stock (Eq, Show)
 
 -- | The least distance of two segments. It is taken at an end of one of them, at a crossing, or
 -- where the normal is common: at the foot of an arc's centre on a straight line, or on the
 -- line of two centres.
-segments :: Segment -> Segment -> Nearest
+segments :: Segment -> Segment -> ClosestPoint
 segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
   where
-    fromA p = Nearest (toPoint p b) p
-    fromB q = let (d, p) = nearest q a in Nearest d p
+    fromA p = ClosestPoint (toPoint p b) p
+    fromB q = let (d, p) = nearest q a in ClosestPoint d p
     onA = Segment.start a : Segment.end a : filter (Segment.spans a) (normals a b <> common a b)
     onB = Segment.start b : Segment.end b : filter (Segment.spans b) (normals b a)
 
@@ -78,10 +78,10 @@ crossings a b = filter (\p -> reaches a p && reaches b p) (common a b)
 -- of each segment stand for the stretch in common.
 common :: Segment -> Segment -> [Point]
 common a b = case (carrier a, carrier b) of
-  (Just (LineCarrier l), Just (LineCarrier m)) -> points (Intersect.lines l m)
-  (Just (LineCarrier l), Just (CircleCarrier c)) -> points (Intersect.lineCircle l c)
-  (Just (CircleCarrier c), Just (LineCarrier l)) -> points (Intersect.lineCircle l c)
-  (Just (CircleCarrier c), Just (CircleCarrier d)) -> points (Intersect.circles c d)
+  (Just (LineCarrier l), Just (LineCarrier m)) -> points (Intersection.lines l m)
+  (Just (LineCarrier l), Just (CircleCarrier c)) -> points (Intersection.lineCircle l c)
+  (Just (CircleCarrier c), Just (LineCarrier l)) -> points (Intersection.lineCircle l c)
+  (Just (CircleCarrier c), Just (CircleCarrier d)) -> points (Intersection.circles c d)
   _ -> []
   where
     points meeting = case meeting of

@@ -1,181 +1,83 @@
--- | Chains of straight lines and arcs that are walked as one thing: what stands for a curve.
---
--- A place on a chain is its distance from the beginning along the chain, in mm.
+-- | Contours: chains of segments, open or closed, each ending where the next begins.
 module Geometry.Polyarc
-  ( Polyarc,
-    fromSegments,
-    fromOutline,
-    segments,
-    count,
-    start,
-    end,
+  ( Polyarc (..),
+    Ends (..),
     length,
-    isClosed,
+    reverse,
     joints,
-    at,
-    directionAt,
-    station,
-    stretch,
-    meetings,
-    gap,
+    chained,
+    signedArea,
+    areaOf,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), plus)
-import Base.Search qualified as Search
-import Data.Containers.ListUtils (nubOrd)
-import Data.List (minimumBy)
+import Base.Quantity (Mm (..), Rad (..), total)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
-import Data.Ord (comparing)
-import Data.Primitive.PrimArray qualified as PrimArray
-import Data.Vector (Vector)
-import Data.Vector qualified as Vector
-import Data.Vector.Unboxed qualified as Unboxed
-import Geometry.Box qualified as Box
-import Geometry.Distance (Nearest (..))
-import Geometry.Distance qualified as Distance
-import Geometry.Outline (Outline)
-import Geometry.Outline qualified as Outline
-import Geometry.Segment (Segment (Arc, Straight))
+import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Prelude hiding (length)
+import Prelude hiding (length, reverse)
 
--- | Segments with a length, each of which ends where the next begins, and the places where they begin.
-data Polyarc = Polyarc {chain :: Vector Segment, stations :: ~(Unboxed.Vector Double)}
+-- | Whether the last segment ends where the first begins.
+data Ends = Open | Closed
   deriving stock (Eq, Show)
 
-fromSegments :: NonEmpty Segment -> Polyarc
-fromSegments ss = ofChain (Vector.fromList (NonEmpty.toList ss))
-
-ofChain :: Vector Segment -> Polyarc
-ofChain chain = Polyarc {chain, stations = Unboxed.scanl' (+) 0 (Unboxed.convert (Vector.map (\g -> let Mm l = Segment.length g in l) chain))}
-
--- | An open outline with two vertices at least.
-fromOutline :: Outline -> Polyarc
-fromOutline o = ofChain (Vector.unfoldrN (n - 1) segment (0, place 0))
-  where
-    n = Outline.size o + 1
-    place i = Vec.point (PrimArray.indexPrimArray (Outline.xs o) i) (PrimArray.indexPrimArray (Outline.ys o) i)
-    -- Neighbours share their points.
-    segment (i, p)
-      | i + 1 >= n = Nothing
-      | otherwise =
-        let q = place (i + 1)
-            s = bent p q (PrimArray.indexPrimArray (Outline.bulges o) i)
-         in s `seq` Just (s, (i + 1, q))
-
--- | A line, or the arc of a bulge.
-bent :: Point -> Point -> Double -> Segment
-bent p q b
-  | b == 0 = Straight p q
-  | otherwise = Arc {Segment.start = p, Segment.end = q, Segment.centre = Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q))) (Vec.between 0.5 p q), Segment.sweep = Rad (4 * atan b)}
-
--- | In the order of the walk.
-segments :: Polyarc -> NonEmpty Segment
-segments p = Vector.head (chain p) :| drop 1 (Vector.toList (chain p))
-
--- | How many segments there are.
-count :: Polyarc -> Int
-count = Vector.length . chain
-
-start :: Polyarc -> Point
-start = Segment.start . Vector.head . chain
-
-end :: Polyarc -> Point
-end = Segment.end . Vector.last . chain
+-- | Segments in the order of the walk.
+data Polyarc = Polyarc {ends :: Ends, segments :: NonEmpty Segment}
+  deriving stock (Eq, Show)
 
 length :: Polyarc -> Mm
-length = Mm . Unboxed.last . stations
+length = total . map Segment.length . NonEmpty.toList . segments
 
--- | The places at which its segments begin, and its end; in mm.
-joints :: Polyarc -> [Double]
-joints = Unboxed.toList . stations
+-- | The same contour walked the other way; a closed one begins at the same point.
+reverse :: Polyarc -> Polyarc
+reverse (Polyarc ends ss) = Polyarc ends (NonEmpty.reverse (fmap Segment.reverse ss))
 
--- | Whether it ends where it begins.
-isClosed :: Polyarc -> Bool
-isClosed p = Vec.near (start p) (end p)
-
--- | The segment that holds a place, and the fraction of its length there.
-locate :: Polyarc -> Mm -> (Int, Double)
-locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - stations p Unboxed.! i) / l)))
+-- | Neighbouring segments in order, with the number of the first from 0.
+joints :: Polyarc -> [(Int, Segment, Segment)]
+joints (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> back)
   where
-    i = Search.lastBelow (Vector.length (chain p)) s (stations p)
-    l = stations p Unboxed.! (i + 1) - stations p Unboxed.! i
+    list = NonEmpty.toList ss
+    back = case ends of
+      Open -> []
+      Closed -> [NonEmpty.head ss]
 
--- | The point at a place; at the nearer end for a place outside.
-at :: Polyarc -> Mm -> Point
-at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
-
--- | The direction of the walk at a place, of length 1.
-directionAt :: Polyarc -> Mm -> Vec
-directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
-
--- | The place nearest to a point. Linear in the number of segments.
-station :: Polyarc -> Point -> Mm
-station p q = Mm (stations p Unboxed.! best + max 0 (min 1 along) * l)
+-- | Let each segment begin exactly where the one before it ends, and a closed contour end where it
+-- begins. The gaps are rounding errors.
+chained :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
+chained get set ends (first :| rest) = case rest of
+  [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
+  _ -> first :| follow (end (get first)) rest
   where
-    best = fst (minimumBy (comparing snd) [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))])
-    s' = chain p Vector.! best
-    Mm l = Segment.length s'
-    along
-      | Segment.spans s' q = Segment.fraction s' q
-      | Vec.distance q (Segment.start s') <= Vec.distance q (Segment.end s') = 0
-      | otherwise = 1
-
--- | The segments from one place to a later one. What is shorter than a point at either end is left out.
-stretch :: Polyarc -> Mm -> Mm -> [Segment]
-stretch p a b = [piece i | i <- [i1 .. i2], let Mm l = Segment.length (piece i), Mm l > Tolerance.coincident || i1 == i2 && l > 0]
-  where
-    (i1, t1) = locate p a
-    (i2, t2) = locate p b
-    piece i =
-      let s = chain p Vector.! i
-          front = if i == i2 && t2 < 1 then fst (Segment.cutAt t2 s) else s
-       in if i == i1 && t1 > 0 then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front) else front
-
--- | The points that two chains have in common, in the order of the first one. Chains that stand for curves touch when they come as near
--- as both are off; where they touch they may cross twice, and that is one point.
-meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
-meetings a b = case touching (crossings a b) of
-  [] | closest <- nearest a b, distance closest <= slack -> [place closest]
-  ps -> ps
-  where
-    slack = plus Tolerance.curve Tolerance.curve
-    whole = fromSegments a
-    touching ps = case ps of
-      p : q : rest
-        | toOther middle <= slack && Vec.distance p q < touch -> touching (middle : rest)
-        where
-          middle = at whole (let (Mm s, Mm t) = (station whole p, station whole q) in Mm ((s + t) / 2))
-      p : rest -> p : touching rest
+    follow from things = case things of
       [] -> []
-    toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
-    -- Curves that run along one another for longer do not just touch.
-    touch = Mm 0.5
+      [a] -> [set (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from}) a]
+      a : more
+        | isAt from (start (get a)) -> a : follow (end (get a)) more
+        | otherwise -> let s = (get a) {start = from}; a' = set s a in a' `seq` (a' : follow (end s) more)
+    -- Zeros of either sign are equal, but not the same.
+    isAt p q = p == q && Vec.x p /= 0 && Vec.y p /= 0
+    closing s = s {end = start (get first)}
+{-# INLINE chained #-}
 
--- | The points where two chains cross, in the order of the first one.
-crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
-crossings a b = apart (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
+-- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
+signedArea :: Polyarc -> Double
+signedArea (Polyarc _ ss) = areaOf id ss
+
+-- | The same of anything with segments.
+areaOf :: (a -> Segment) -> NonEmpty a -> Double
+areaOf get (first :| others) = go 0 first others
   where
-    index = Box.index Box.ofSegment (NonEmpty.toList b)
-    others s = Box.within (Box.inflate Tolerance.coincident (Box.ofSegment s)) index
-    inOrder s ps = map snd (nubOrd [(Segment.fraction s p, p) | p <- ps])
-    -- Where segments join, both of them have the point; near such a place it may be twice with a small error.
-    apart ps = case ps of
-      [] -> []
-      p : rest -> p : apart (filter (\q -> Vec.distance p q > plus Tolerance.coincident Tolerance.coincident) rest)
-
--- | The least distance of two chains.
-gap :: NonEmpty Segment -> NonEmpty Segment -> Mm
-gap a b = distance (nearest a b)
-
--- | Where two chains come nearest to one another.
-nearest :: NonEmpty Segment -> NonEmpty Segment -> Nearest
-nearest a b = fromMaybe (Distance.segments (NonEmpty.head a) (NonEmpty.head b)) (Box.closest Distance.segments distance (indexOf a) (indexOf b))
-  where
-    indexOf = Box.index Box.ofSegment . NonEmpty.toList
+    go area a rest = case rest of
+      [] -> area + part (get a)
+      b : more -> let area' = area + part (get a) in area' `seq` go area' b more
+    origin = Segment.start (get first)
+    part segment = triangle segment + sector segment
+    triangle s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2
+    -- The area between an arc and its chord.
+    sector s = case s of
+      Straight _ _ -> 0
+      Arc {start, centre, sweep = Rad a} ->
+        let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2
+{-# INLINE areaOf #-}

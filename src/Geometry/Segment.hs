@@ -18,8 +18,8 @@ module Geometry.Segment
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Geometry.Shape (Circle (Circle), Turn (..))
-import Geometry.Shape qualified as Shape
+import Geometry.Carrier (Circle (Circle), Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
@@ -33,7 +33,7 @@ data Segment
   deriving stock (Eq, Ord, Show)
 
 -- | The arc about a centre from one point to another in a sense; less than a full turn.
-arc :: Turn -> Point -> Point -> Point -> Segment
+arc :: Sense -> Point -> Point -> Point -> Segment
 arc turn centre start end = Arc {start, end, centre, sweep}
   where
     Rad short = Vec.turn (Vec.to centre start) (Vec.to centre end)
@@ -43,9 +43,9 @@ arc turn centre start end = Arc {start, end, centre, sweep}
       _ -> short
 
 -- | A circle walked once, from a point on it.
-fullCircle :: Turn -> Circle -> Point -> Segment
+fullCircle :: Sense -> Circle -> Point -> Segment
 fullCircle turn (Circle centre _) start =
-  Arc {start, end = start, centre, sweep = Rad (Shape.sense turn * 2 * pi)}
+  Arc {start, end = start, centre, sweep = Rad (Carrier.sense turn * 2 * pi)}
 
 -- | The radius of an arc, from its start.
 radius :: Point -> Point -> Mm

@@ -11,16 +11,16 @@ import Base.Region qualified as Region
 import Data.Aeson (Value, object, (.=))
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Lsp.Client (Client (..))
+import Lsp.Capability (Client (..))
 import Lsp.Document (Document (..))
 import Lsp.Location qualified as Location
 import Lsp.Message (Outgoing (..))
-import Lsp.Position (Position (..), Range (..))
+import Lsp.Position (LspPosition (..), LspRange (..))
 import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
-import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..))
+import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
 
 -- | The notification that replaces all diagnostics of a document.
 publish :: Client -> Document -> Maybe Snapshot -> Outgoing
@@ -44,7 +44,7 @@ diagnostic client uri snapshot r =
     ["range" .= range, "severity" .= number (severity r), "code" .= words', "source" .= name, "message" .= Text.intercalate "\n" (prefix <> title r : sentences)]
       <> ["relatedInformation" .= map relation (others r) | related client, not (null (others r))]
   where
-    Code words' = code r
+    ReportCode words' = code r
     source = Snapshot.source snapshot
     (range, prefix) = placed snapshot (place r)
     -- The place's own label only where it says more than one word and is not said by the title.
@@ -59,7 +59,7 @@ diagnostic client uri snapshot r =
 
 -- | Where a report is shown: at its place, or at the import that brings the file in which that lies, with the true
 -- place in words.
-placed :: Snapshot -> Place -> (Range, Text)
+placed :: Snapshot -> ReportPlace -> (LspRange, Text)
 placed snapshot place = case place of
   InSource region
     | Position.fileOf source region == Region.mainFile source -> (Position.range source region, "")
@@ -78,8 +78,8 @@ lineOf source region
     at = Region.position source (start region)
 
 -- | The very beginning of a document.
-top :: Range
-top = Range (Position 0 0) (Position 0 0)
+top :: LspRange
+top = LspRange (LspPosition 0 0) (LspPosition 0 0)
 
 name :: Text
 name = "partc"

@@ -13,7 +13,7 @@ import Base.Region qualified as Region
 import Data.Aeson (FromJSON (..), withObject, (.:), (.:?))
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Lsp.Position (Range)
+import Lsp.Position (LspRange)
 import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
@@ -23,7 +23,7 @@ data Document = Document {uri :: Uri, version :: Maybe Int, text :: Text}
   deriving stock (Eq, Show)
 
 -- | A stretch that is replaced, or the whole text.
-data Edit = Replace Range Text | Whole Text
+data Edit = Replace LspRange Text | Whole Text
   deriving stock (Eq, Show)
 
 instance FromJSON Edit where

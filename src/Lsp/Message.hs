@@ -5,7 +5,7 @@ module Lsp.Message
     decode,
     Outgoing (..),
     Failure (..),
-    Trouble (..),
+    ErrorCode (..),
     encode,
   )
 where
@@ -39,10 +39,10 @@ data Outgoing
   deriving stock (Eq, Show)
 
 -- | Why a request has no result.
-data Failure = Failure Trouble Text
+data Failure = Failure ErrorCode Text
   deriving stock (Eq, Show)
 
-data Trouble = ParseError | InvalidRequest | MethodNotFound | InvalidParams | InternalError | NotInitialized
+data ErrorCode = ParseError | InvalidRequest | MethodNotFound | InvalidParams | InternalError | NotInitialized
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | Read a message.
@@ -68,7 +68,7 @@ encode outgoing = LazyByteString.toStrict . Aeson.encode $ case outgoing of
   where
     version = "jsonrpc" .= ("2.0" :: Text)
 
-number :: Trouble -> Int
+number :: ErrorCode -> Int
 number trouble = case trouble of
   ParseError -> -32700
   InvalidRequest -> -32600

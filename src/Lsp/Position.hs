@@ -1,7 +1,7 @@
 -- | The positions of the protocol: lines and UTF-16 units, both from 0. No other module converts them.
 module Lsp.Position
-  ( Position (..),
-    Range (..),
+  ( LspPosition (..),
+    LspRange (..),
     position,
     range,
     fileOf,
@@ -18,34 +18,34 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 
 -- | A line, and the UTF-16 units before the place on that line.
-data Position = Position {line :: Int, character :: Int}
+data LspPosition = LspPosition {line :: Int, character :: Int}
   deriving stock (Eq, Ord, Show)
 
 -- | From a position to the one behind the last character.
-data Range = Range {from :: Position, to :: Position}
+data LspRange = LspRange {from :: LspPosition, to :: LspPosition}
   deriving stock (Eq, Ord, Show)
 
-instance ToJSON Position where
-  toJSON Position {line, character} = object ["line" .= line, "character" .= character]
+instance ToJSON LspPosition where
+  toJSON LspPosition {line, character} = object ["line" .= line, "character" .= character]
 
-instance FromJSON Position where
-  parseJSON = withObject "a position" (\o -> Position <$> o .: "line" <*> o .: "character")
+instance FromJSON LspPosition where
+  parseJSON = withObject "a position" (\o -> LspPosition <$> o .: "line" <*> o .: "character")
 
-instance ToJSON Range where
-  toJSON Range {from, to} = object ["start" .= from, "end" .= to]
+instance ToJSON LspRange where
+  toJSON LspRange {from, to} = object ["start" .= from, "end" .= to]
 
-instance FromJSON Range where
-  parseJSON = withObject "a range" (\o -> Range <$> o .: "start" <*> o .: "end")
+instance FromJSON LspRange where
+  parseJSON = withObject "a range" (\o -> LspRange <$> o .: "start" <*> o .: "end")
 
 -- | The position of an offset in its file.
-position :: Source -> Int -> Position
-position source at = Position {line = Region.line place - 1, character = units (Text.take (Region.column place - 1) (Region.lineText source at))}
+position :: Source -> Int -> LspPosition
+position source at = LspPosition {line = Region.line place - 1, character = units (Text.take (Region.column place - 1) (Region.lineText source at))}
   where
     place = Region.position source at
 
 -- | The range of a region in its file.
-range :: Source -> Region -> Range
-range source (Region from to) = Range (position source from) (position source to)
+range :: Source -> Region -> LspRange
+range source (Region from to) = LspRange (position source from) (position source to)
 
 -- | The file that a region lies in.
 fileOf :: Source -> Region -> Text
@@ -53,15 +53,15 @@ fileOf source place = Region.file (Region.position source (start place))
 
 -- | The offset of a position in the program's own file. A position behind its line counts as the line's end,
 -- one in the middle of a character as the beginning of the character.
-offset :: Source -> Position -> Int
-offset source Position {line, character} = Region.offset source ordinal (1 + charactersIn character content)
+offset :: Source -> LspPosition -> Int
+offset source LspPosition {line, character} = Region.offset source ordinal (1 + charactersIn character content)
   where
     ordinal = min line (maxBound - 1) + 1
     content = Region.lineText source (Region.offset source ordinal 1)
 
 -- | The region of a range in the program's own file; the ends may come in either order.
-region :: Source -> Range -> Region
-region source Range {from, to} = Region (min a b) (max a b)
+region :: Source -> LspRange -> Region
+region source LspRange {from, to} = Region (min a b) (max a b)
   where
     a = offset source from
     b = offset source to

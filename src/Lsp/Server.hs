@@ -8,7 +8,7 @@ module Lsp.Server
   )
 where
 
-import Compile (Loaded)
+import Compile (LoadedProgram)
 import Control.Exception (AsyncException (..), IOException, SomeException, displayException, evaluate, fromException, throwIO, try)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
@@ -19,7 +19,7 @@ import GHC.Clock (getMonotonicTimeNSec)
 import Lsp.Message qualified as Message
 import Lsp.Session (Awaited (..), Effect (..), Ending (..), Event (..), Milliseconds (..), Session)
 import Lsp.Session qualified as Session
-import Lsp.Wire qualified as Wire
+import Lsp.Transport qualified as Transport
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
 import System.IO (Handle, hFlush, hSetBinaryMode, hWaitForInput)
@@ -32,7 +32,7 @@ data Host = Host
     output :: Handle,
     -- | a program with the files that it imports; open texts go before those on disk, then come the
     -- path and the text of the program itself
-    load :: (Text -> Maybe Text) -> Text -> Text -> IO Loaded,
+    load :: (Text -> Maybe Text) -> Text -> Text -> IO LoadedProgram,
     -- | what looks for mistakes
     check :: Check
   }
@@ -48,10 +48,10 @@ serve host = do
 
 -- | The bytes that are received but not yet handled, and the state.
 loop :: Host -> ByteString -> Session -> IO Ending
-loop host received session = case Wire.next received of
-  Wire.Complete body more -> handle host (Received (Message.decode body)) session >>= continue host more
-  Wire.Headless more -> loop host more session
-  Wire.Incomplete missing -> do
+loop host received session = case Transport.next received of
+  Transport.Complete body more -> handle host (Received (Message.decode body)) session >>= continue host more
+  Transport.Headless more -> loop host more session
+  Transport.Incomplete missing -> do
     now <- clock
     arrived <- case Session.deadline session of
       Nothing -> receive host missing
@@ -103,7 +103,7 @@ handle host event session = do
       Just UserInterrupt -> throwIO UserInterrupt
       Just ThreadKilled -> throwIO ThreadKilled
       _ -> prepared (Session.failed now (firstLine e) event session)
-  mapM_ (ByteString.hPut (output host) . Wire.framed) bytes
+  mapM_ (ByteString.hPut (output host) . Transport.framed) bytes
   hFlush (output host)
   pure (maybe (Right session') Left ending)
   where

@@ -29,14 +29,14 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Lsp.Answer (Subject)
-import Lsp.Answer qualified as Answer
-import Lsp.Client (Client)
-import Lsp.Client qualified as Client
+import Lsp.Capability (Client)
+import Lsp.Capability qualified as Capability
 import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Document (Document, Edit)
 import Lsp.Document qualified as Document
-import Lsp.Message (Failure (..), Id, Incoming (..), Outgoing (..), Trouble (..))
+import Lsp.Message (ErrorCode (..), Failure (..), Id, Incoming (..), Outgoing (..))
+import Lsp.Request (Subject)
+import Lsp.Request qualified as Request
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 import Query.Snapshot (Snapshot)
@@ -162,7 +162,7 @@ logged why = Notify "window/logMessage" (Aeson.object ["type" .= (1 :: Int), "me
 
 request :: Id -> Text -> Value -> Session -> (Session, [Effect])
 request ident method params session = case (phase session, method) of
-  (Waiting, "initialize") -> (session {phase = Running (Client.fromInitialize params)}, [Send (Result ident Client.welcome)])
+  (Waiting, "initialize") -> (session {phase = Running (Capability.fromInitialize params)}, [Send (Result ident Capability.welcome)])
   (Waiting, _) -> refuse NotInitialized "the first request must be initialize"
   (Closing, _) -> refuse InvalidRequest "the server has been shut down"
   (Running _, "initialize") -> refuse InvalidRequest "the server is initialized already"
@@ -170,7 +170,7 @@ request ident method params session = case (phase session, method) of
   (Running client, _) -> (session, [Send (answered client)])
   where
     refuse trouble why = (session, [Send (Refusal ident (Failure trouble why))])
-    answered client = case Answer.method method of
+    answered client = case Request.method method of
       Nothing -> Refusal ident (Failure MethodNotFound ("there is no request " <> method))
       Just answer -> case Aeson.parseEither (\p -> subject p session >>= maybe (pure Null) (\s -> answer client s p)) params of
         Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
@@ -183,7 +183,7 @@ subject params session = do
   pure $ do
     o <- Map.lookup path (documents session)
     now <- present o
-    pure Answer.Subject {Answer.document = document o, Answer.now = now, Answer.sound = sound o}
+    pure Request.Subject {Request.document = document o, Request.now = now, Request.sound = sound o}
 
 -- | The path of the document that parameters name.
 named :: Value -> Parser Text

@@ -18,16 +18,16 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Machine.Error (Error (..), Holes (..))
-import Machine.Machine (Code (..))
+import Machine.Machine (TapeCode (..))
 import Machine.Section
 import Machine.Syntax
 
 -- | The code of a tape with so many tracks, if that is known.
-code :: Maybe Int -> Statement -> Result w Error Code
+code :: Maybe Int -> Statement -> Result w Error TapeCode
 code given s = do
   (name, section) <- opened ["code \"NAME\" { … }"] "the code" named s
   made <-
-    Code name
+    TapeCode name
       <$> (Map.map value <$> required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width) section)
       <*> (Map.map value <$> optional "weights" Map.empty weightsFrom section)
       <*> track "parity-track" section
@@ -125,7 +125,7 @@ weightsFrom s = do
         _ -> malformed ["X = 7", "digits"] e
 
 -- | What the tracks say of one another.
-check :: Int -> Section -> Code -> Map Char (Located Word8) -> [Error]
+check :: Int -> Section -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made given = alike <> parity <> service <> twice <> skipped
   where
     rows = Map.toList given
@@ -142,7 +142,7 @@ check tracks section made given = alike <> parity <> service <> twice <> skipped
       ]
 
 -- | The rows that a symbol can be on the tape: with the hole of the parity, with and without that of the service.
-rowsOf :: Int -> Code -> Word8 -> [Word8]
+rowsOf :: Int -> TapeCode -> Word8 -> [Word8]
 rowsOf tracks made p = map even' (p : [p .|. bit' t | Just t <- [serviceTrack made], t <= tracks])
   where
     even' row = case evenTrack made of

@@ -4,7 +4,7 @@ module Machine.Error
     Holes (..),
     Unclear (..),
     ServiceFault (..),
-    Misfit (..),
+    FrameMisfit (..),
     TableFault (..),
     CommandFault (..),
     toReport,
@@ -17,7 +17,7 @@ import Base.Quantity (Mm (..))
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
+import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
 
 -- | A fact about the description, and where it stands.
 data Error
@@ -46,7 +46,7 @@ data Error
     NotInCode Region Text [Char]
   | Unreadable Region Unclear
   | BadService Region ServiceFault
-  | Unfit Region Misfit
+  | Unfit Region FrameMisfit
   | BadTable Region TableFault
   | BadCommand Region CommandFault
   deriving stock (Eq, Ord, Show)
@@ -113,7 +113,7 @@ data ServiceFault
   deriving stock (Eq, Ord, Show)
 
 -- | How the words of the frame do not fit the machine.
-data Misfit
+data FrameMisfit
   = -- | a word for an axis that the machine lacks
     NoSuchAxis Text
   | -- | two words for the same
@@ -311,7 +311,7 @@ serviceReport region fault = case fault of
   where
     wrong = at region "E1011"
 
-misfitReport :: Region -> Misfit -> Report
+misfitReport :: Region -> FrameMisfit -> Report
 misfitReport region misfit = case misfit of
   NoSuchAxis axis -> (wrong ("the machine has no axis " <> axis)) {hints = ["Leave the word out, or describe the axis: axis " <> axis <> " { … }"]}
   TwoWords what first -> (wrong ("two words hold the same: " <> what)) {others = [Label first "the other word"], hints = ["Keep one."]}
@@ -361,5 +361,5 @@ commandReport region fault = case fault of
   where
     wrong = at region "E1014"
 
-at :: Region -> Code -> Text -> Report
+at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)

@@ -13,14 +13,14 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe, isJust)
 import Data.Text (Text)
-import Machine.Error (Error (..), Misfit (..), ServiceFault (..))
-import Machine.Machine (Axis (..), Content (..), Item (..), Layout (..), Measure (..), MotionCodes (..), NumberForm (..), OrderName (..), Presence (..), Service (..), Sign (..), Word' (..))
+import Machine.Error (Error (..), FrameMisfit (..), ServiceFault (..))
+import Machine.Machine (Axis (..), AxisMeasure (..), CommandName (..), Content (..), Layout (..), LayoutItem (..), MotionCodes (..), NumberForm (..), Presence (..), Service (..), Sign (..), Word' (..))
 import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
 -- | The layout, and where its items and its separator stand.
-data Placed = Placed {layout :: Layout, sites :: NonEmpty (Region, Item), separatorSite :: Region}
+data Placed = Placed {layout :: Layout, sites :: NonEmpty (Region, LayoutItem), separatorSite :: Region}
 
 -- | The layout, for a code with or without a service track; where the code cannot be read, holes are taken as they are.
 frame :: Maybe Bool -> Statement -> Result w Error Placed
@@ -36,7 +36,7 @@ frame service s = do
     Nothing -> Result.failed (Missing (told s) "the frame" "word" "word \"X\" along x { digits 6 }")
     Just some -> pure Placed {layout = Layout {items = fmap snd some, measure = numbers, separator = snd between}, sites = some, separatorSite = fst between}
 
-itemsFrom :: Maybe Bool -> Section -> Result w Error [(Region, Item)]
+itemsFrom :: Maybe Bool -> Section -> Result w Error [(Region, LayoutItem)]
 itemsFrom service section = concat <$> traverse item (entries section)
   where
     item e = case keyWord e of
@@ -81,8 +81,8 @@ contentFrom args = case map value args of
   [Word "feed"] -> Just (Just FeedWord)
   [Word "along", Word a] -> Just . Along <$> axisNamed a
   [Word "centre", Word a] -> Just . Centre <$> axisNamed a
-  [Word "command", Word n] -> Just (Just (Command (OrderName n)))
-  [Word "command", Quoted n] -> Just (Just (Command (OrderName n)))
+  [Word "command", Word n] -> Just (Just (Command (CommandName n)))
+  [Word "command", Quoted n] -> Just (Just (Command (CommandName n)))
   _ -> Nothing
 
 axisNamed :: Text -> Maybe Axis
@@ -148,7 +148,7 @@ holesFrom args = if null args then Nothing else pure <$> traverse (hole . value)
       Word "minus" -> Just MinusHole
       Word "marker" -> Just Marker
       Word "braking" -> Just BrakingHole
-      Bit name k -> Just (OrderBit (OrderName name) k)
+      Bit name k -> Just (OrderBit (CommandName name) k)
       Dash -> Just NoHole
       _ -> Nothing
 

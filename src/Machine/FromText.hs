@@ -19,19 +19,19 @@ import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.CodeFromText qualified as CodeFromText
-import Machine.CommandsFromText qualified as CommandsFromText
-import Machine.Error (Error (..), Misfit (BrakedFrequencies), ServiceFault (..))
-import Machine.FeedsFromText qualified as FeedsFromText
-import Machine.Fitting qualified as Fitting
+import Machine.CommandFromText qualified as CommandFromText
+import Machine.Completeness qualified as Completeness
+import Machine.Error (Error (..), FrameMisfit (BrakedFrequencies), ServiceFault (..))
+import Machine.FeedFromText qualified as FeedFromText
 import Machine.FrameFromText (Placed (separatorSite, sites), quotedText)
 import Machine.FrameFromText qualified as FrameFromText
-import Machine.Known qualified as Known
 import Machine.Machine hiding (value)
 import Machine.Parser (Parsed (..))
 import Machine.Parser qualified as Parser
-import Machine.Readable qualified as Readable
+import Machine.Provenance qualified as Provenance
 import Machine.Section
 import Machine.Syntax (Argument, Argument_ (..), Statement (..), keyWord)
+import Machine.UniqueDecoding qualified as UniqueDecoding
 import Prelude hiding (read)
 
 -- | The machine that a text describes. Regions are offsets into the text.
@@ -52,9 +52,9 @@ described text ss = marked *> machine
       s : _ -> note s
       [] -> Nothing
     -- A line of the machine that cannot be read may have had a mark.
-    marked = Result.failing (if any broken heading then [] else Known.unmarked byHeading body) ()
+    marked = Result.failing (if any broken heading then [] else Provenance.unmarked byHeading body) ()
     machine =
-      assemble (Known.facts text byHeading body)
+      assemble (Provenance.facts text byHeading body)
         <$> required "machine" "machine my-mill \"The mill in hall 3\"" nameFrom whole
         <*> sections whole
         <* known ["machine", "tape", "code", "arcs", "frame", "feeds", "braking", "commands", "limits"] ["axis"] whole
@@ -62,17 +62,17 @@ described text ss = marked *> machine
 -- | The sections, each where it stands.
 data Sections = Sections
   { tapeOf :: Located Medium,
-    codeOf :: Located Code,
+    codeOf :: Located TapeCode,
     axesOf :: NonEmpty (Located AxisForm),
     arcsOf :: Located Arcs,
     frameOf :: Placed,
     feedsOf :: Located Feeds,
     brakingOf :: Located Braking,
-    commandsOf :: CommandsFromText.Given,
+    commandsOf :: CommandFromText.CommandContext,
     limitsOf :: Limits
   }
 
-assemble :: [Fact] -> (Text, Text) -> Sections -> Machine
+assemble :: [DescribedValue] -> (Text, Text) -> Sections -> Machine
 assemble fs (n, t) s = (machineOf s) {name = MachineName n, title = t, facts = fs}
 
 -- | The sections, each by itself and then all together. What one lacks does not hide what is wrong in another.
@@ -87,9 +87,9 @@ sections whole = (Sections <$> tape <*> coded <*> axes' <*> arcs' <*> framed <*>
     arcs' = required "arcs" "arcs none" (located arcsFrom) whole
     framed = required "frame" "frame { … }" (FrameFromText.frame hasService) whole
     hasService = isJust . serviceTrack . value <$> Result.settled coded
-    feeds' = required "feeds" "feeds { … }" (located FeedsFromText.feeds) whole
-    braking' = required "braking" "braking { … }" (located FeedsFromText.braking) whole
-    commands' = optional "commands" (CommandsFromText.Given noOrders []) CommandsFromText.commands whole
+    feeds' = required "feeds" "feeds { … }" (located FeedFromText.feeds) whole
+    braking' = required "braking" "braking { … }" (located FeedFromText.braking) whole
+    commands' = optional "commands" (CommandFromText.CommandContext noOrders []) CommandFromText.commands whole
     limits' = optional "limits" (Limits Nothing) limitsFrom whole
     located f s = Located (told s) <$> f s
 
@@ -100,12 +100,12 @@ together s = Result.failing faults s
     machine = machineOf s
     faults =
       concat
-        [ Fitting.check machine (NonEmpty.toList (axesOf s)) (region (arcsOf s)) (region (feedsOf s)) (NonEmpty.toList (sites (frameOf s))),
-          Readable.check (value (tapeOf s)) (region (tapeOf s)) (value (codeOf s)) (sites (frameOf s)) (separatorSite (frameOf s), separator (FrameFromText.layout (frameOf s))),
-          FeedsFromText.checkFeeds (feedsOf s) (brakingOf s) feedDigits,
+        [ Completeness.check machine (NonEmpty.toList (axesOf s)) (region (arcsOf s)) (region (feedsOf s)) (NonEmpty.toList (sites (frameOf s))),
+          UniqueDecoding.check (value (tapeOf s)) (region (tapeOf s)) (value (codeOf s)) (sites (frameOf s)) (separatorSite (frameOf s), separator (FrameFromText.layout (frameOf s))),
+          FeedFromText.checkFeeds (feedsOf s) (brakingOf s) feedDigits,
           [BadService (region (brakingOf s)) NoBrakingHole | BrakingHole `notElem` concatMap (service . form) (wordsOf machine), BrakedFrames _ <- [brakingForm (value (brakingOf s))]],
           [Unfit (region (brakingOf s)) BrakedFrequencies | LeadingAxis <- [feedMeasure (feeds machine)], BrakedFrames _ <- [brakingForm (value (brakingOf s))]],
-          CommandsFromText.check machine (commandsOf s)
+          CommandFromText.check machine (commandsOf s)
         ]
     feedDigits = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
 
@@ -121,7 +121,7 @@ machineOf s =
       layout = FrameFromText.layout (frameOf s),
       feeds = value (feedsOf s),
       braking = value (brakingOf s),
-      orders = CommandsFromText.orders (commandsOf s),
+      orders = CommandFromText.orders (commandsOf s),
       limits = limitsOf s,
       facts = []
     }

@@ -1,7 +1,7 @@
 -- | A controller and its tape, as data. Nothing outside this folder knows any machine by name; inside it they are
 -- text files.
 --
--- A tape is a sequence of rows, and a 'Code' says which symbol a row is. A frame is a sequence of symbols, and a
+-- A tape is a sequence of rows, and a 'TapeCode' says which symbol a row is. A frame is a sequence of symbols, and a
 -- 'Layout' says which: words, each an address (none in a fixed format) and a number; symbols that always stand there;
 -- a check digit. A five-track tape with digits in fixed places, one with letters and one in ASCII differ in their data
 -- only.
@@ -12,7 +12,7 @@ module Machine.Machine
     -- * The tape
     Medium (..),
     Spare (..),
-    Code (..),
+    TapeCode (..),
 
     -- * The axes
     Axis (..),
@@ -27,8 +27,8 @@ module Machine.Machine
 
     -- * The layout of a frame
     Layout (..),
-    Measure (..),
-    Item (..),
+    AxisMeasure (..),
+    LayoutItem (..),
     Word' (..),
     Content (..),
     MotionCodes (..),
@@ -36,7 +36,7 @@ module Machine.Machine
     Sign (..),
     Service (..),
     Presence (..),
-    OrderName (..),
+    CommandName (..),
     wordsOf,
     wordFor,
     capacity,
@@ -54,7 +54,7 @@ module Machine.Machine
     Rule (..),
     RapidCode (..),
     FeedCode (..),
-    Choice (..),
+    FeedChoice (..),
     choose,
     valueOf,
     rapidCode,
@@ -66,18 +66,18 @@ module Machine.Machine
     BrakingForm (..),
 
     -- * Commands
-    Orders (..),
-    Order (..),
-    OrderValue (..),
-    Compensation (..),
+    CommandWords (..),
+    CommandWord (..),
+    CommandValue (..),
+    CompensationCommands (..),
     noOrders,
 
     -- * Limits
     Limits (..),
 
     -- * What is known and how
-    Fact (..),
-    Mark (..),
+    DescribedValue (..),
+    Provenance (..),
   )
 where
 
@@ -100,15 +100,15 @@ data Machine = Machine
   { name :: MachineName,
     title :: Text,
     medium :: Medium,
-    code :: Code,
+    code :: TapeCode,
     axes :: NonEmpty AxisForm,
     arcs :: Arcs,
     layout :: Layout,
     feeds :: Feeds,
     braking :: Braking,
-    orders :: Orders,
+    orders :: CommandWords,
     limits :: Limits,
-    facts :: [Fact]
+    facts :: [DescribedValue]
   }
   deriving stock (Eq, Show)
 
@@ -146,7 +146,7 @@ data Spare
   deriving stock (Eq, Show)
 
 -- | The rows of the symbols.
-data Code = Code
+data TapeCode = TapeCode
   { codeName :: Text,
     -- | the holes of each symbol, without those of the service track and of the parity track; no two alike
     symbols :: Map Char Word8,
@@ -226,18 +226,18 @@ isMirrored machine = pointsBack X /= pointsBack Y
 
 -- | The symbols of a frame in order. Writer and reader both follow it.
 data Layout = Layout
-  { items :: NonEmpty Item,
-    measure :: Measure,
+  { items :: NonEmpty LayoutItem,
+    measure :: AxisMeasure,
     -- | symbols between two words
     separator :: Text
   }
   deriving stock (Eq, Show)
 
 -- | What the words of the axes say. Arc centres are always counted from the arc's beginning.
-data Measure = Increments | Positions
+data AxisMeasure = Increments | Positions
   deriving stock (Eq, Show)
 
-data Item
+data LayoutItem
   = -- | these symbols always stand here
     Literal Text
   | AWord Word'
@@ -262,7 +262,7 @@ data Content
   | -- | of an arc: from its beginning to its centre
     Centre Axis
   | FeedWord
-  | Command OrderName
+  | Command CommandName
   deriving stock (Eq, Show)
 
 -- | Which number says what a frame does; none where the machine does not know it.
@@ -300,7 +300,7 @@ data Service
   = -- | the number is negative
     MinusHole
   | -- | a bit of a command, counted from the lowest
-    OrderBit OrderName Int
+    OrderBit CommandName Int
   | -- | there always is a hole
     Marker
   | -- | the frame slows down to its feed
@@ -322,7 +322,7 @@ data Presence
   deriving stock (Eq, Show)
 
 -- | The word or service bits that hold a command.
-newtype OrderName = OrderName Text
+newtype CommandName = CommandName Text
   deriving newtype (Eq, Ord)
   deriving stock (Show)
 
@@ -334,7 +334,7 @@ wordFor :: Machine -> Content -> Maybe Word'
 wordFor machine wanted = case items (layout machine) of
   first :| others -> wordAmong wanted (first : others)
 
-wordAmong :: Content -> [Item] -> Maybe Word'
+wordAmong :: Content -> [LayoutItem] -> Maybe Word'
 wordAmong wanted ws = case ws of
   [] -> Nothing
   AWord w : _ | content w == wanted -> Just w
@@ -354,7 +354,7 @@ largest :: NumberForm -> Int
 largest f = 10 ^ min 17 (digits f) - 1
 
 -- | The largest number of a command; none when a frame has no place for it.
-orderCapacity :: Machine -> OrderName -> Maybe Int
+orderCapacity :: Machine -> CommandName -> Maybe Int
 orderCapacity machine order = case ([form w | w <- wordsOf machine, Command o <- [content w], o == order], bits) of
   (f : _, _) -> Just (largest f)
   ([], []) -> Nothing
@@ -363,12 +363,12 @@ orderCapacity machine order = case ([form w | w <- wordsOf machine, Command o <-
     bits = [k | w <- wordsOf machine, OrderBit o k <- service (form w), o == order]
 
 -- | The digits behind the decimal point in the word of a command.
-orderDecimals :: Machine -> OrderName -> Int
+orderDecimals :: Machine -> CommandName -> Int
 orderDecimals machine order = maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command order])
 
 -- | Whether a frame can hold this number of a command. Where the word or the bits stand in every frame, 0 says that
 -- there is no command.
-canOrder :: Machine -> OrderName -> Int -> Bool
+canOrder :: Machine -> CommandName -> Int -> Bool
 canOrder machine order v = case orderCapacity machine order of
   Nothing -> False
   Just most -> v <= most && (v > 0 || v == 0 && or [standsAlone (presence w) | w <- wordsOf machine, content w == Command order])
@@ -387,7 +387,7 @@ contentWord c = case c of
   Along a -> axisWord a
   Centre a -> "centre " <> axisWord a
   FeedWord -> "feed"
-  Command (OrderName n) -> "command " <> n
+  Command (CommandName n) -> "command " <> n
   where
     axisWord a = case a of
       X -> "x"
@@ -442,7 +442,7 @@ data RapidCode
   deriving stock (Eq, Show)
 
 -- | What a machine makes of a value that is asked for.
-data Choice
+data FeedChoice
   = -- | the code, and the value that it gives
     Given FeedCode Double
   | -- | outside the codes: the lowest and the highest value
@@ -451,7 +451,7 @@ data Choice
 
 -- | The code for a value in the machine's measure: mm/min or pulses a second. A value may lie beyond the ends of the codes by the
 -- comparison's slack only.
-choose :: Machine -> Double -> Choice
+choose :: Machine -> Double -> FeedChoice
 choose machine asked
   | asked < low - sameFeed low || asked > high + sameFeed high = NoSuchFeed low high
   | otherwise = case codes f of
@@ -528,25 +528,25 @@ data BrakingForm
 -- Commands ----------------------------------------------------------------------------------------
 
 -- | The words for each command; none where the tape can not give it.
-data Orders = Orders
-  { spindleClockwise :: [Order],
-    spindleCounterClockwise :: [Order],
-    spindleOff :: [Order],
-    coolantOn :: [Order],
-    coolantOff :: [Order],
-    toolChange :: [Order],
-    auxiliary :: [Order],
-    compensation :: Maybe Compensation,
+data CommandWords = CommandWords
+  { spindleClockwise :: [CommandWord],
+    spindleCounterClockwise :: [CommandWord],
+    spindleOff :: [CommandWord],
+    coolantOn :: [CommandWord],
+    coolantOff :: [CommandWord],
+    toolChange :: [CommandWord],
+    auxiliary :: [CommandWord],
+    compensation :: Maybe CompensationCommands,
     -- | frames of their own at the end of the program, in order
-    finish :: [NonEmpty Order]
+    finish :: [NonEmpty CommandWord]
   }
   deriving stock (Eq, Show)
 
 -- | A number in the word or the bits of a command.
-data Order = Order {order :: OrderName, value :: OrderValue}
+data CommandWord = CommandWord {order :: CommandName, value :: CommandValue}
   deriving stock (Eq, Show)
 
-data OrderValue
+data CommandValue
   = Fixed Int
   | -- | the number that the program gives: of a tool, of an auxiliary command, turns a minute
     Argument
@@ -557,11 +557,11 @@ data OrderValue
   deriving stock (Eq, Show)
 
 -- | How the control is told to keep the cutter beside the contour, and to stop that.
-data Compensation = Compensation {keepLeft :: Order, keepRight :: Order, release :: Order}
+data CompensationCommands = CompensationCommands {keepLeft :: CommandWord, keepRight :: CommandWord, release :: CommandWord}
   deriving stock (Eq, Show)
 
-noOrders :: Orders
-noOrders = Orders [] [] [] [] [] [] [] Nothing []
+noOrders :: CommandWords
+noOrders = CommandWords [] [] [] [] [] [] [] Nothing []
 
 -- Limits ------------------------------------------------------------------------------------------
 
@@ -572,10 +572,10 @@ newtype Limits = Limits
   deriving stock (Eq, Show)
 
 -- | A statement about the machine, and how it is known.
-data Fact = Fact Mark Text
+data DescribedValue = DescribedValue Provenance Text
   deriving stock (Eq, Show)
 
-data Mark
+data Provenance
   = -- | printed in the source
     Sourced
   | -- | printed there, but the print contradicts itself

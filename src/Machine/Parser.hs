@@ -12,7 +12,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Error (Error (..))
 import Machine.Lexer (Token, Token_ (..), describe, tokens)
-import Machine.Machine (Mark (..))
+import Machine.Machine (Provenance (..))
 import Machine.Syntax
 
 data Parsed = Parsed
@@ -154,7 +154,7 @@ noteOf ts = case ts of
   Located r (Name w) : rest | Just m <- lookup w marks -> (Just (Located r (Note m Nothing)), rest)
   _ -> (Nothing, ts)
 
-marks :: [(Text, Mark)]
+marks :: [(Text, Provenance)]
 marks = [("sourced", Sourced), ("corrected", Corrected), ("reconstructed", Reconstructed)]
 
 blockOf :: Int -> Int -> [Token] -> (Maybe [Statement], [Error], [Token])

@@ -15,7 +15,7 @@ where
 import Base.Region (Located (..), Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Machine.Machine (Mark)
+import Machine.Machine (Provenance)
 
 -- | One line: a key, what it says, how that is known; and the statements in its braces.
 data Statement = Statement
@@ -49,7 +49,7 @@ data Argument_
   deriving stock (Eq, Show)
 
 -- | How a value is known, and where it stands.
-data Note = Note Mark (Maybe Text)
+data Note = Note Provenance (Maybe Text)
   deriving stock (Eq, Show)
 
 -- | A formula in n. A lone number keeps how it is written: it may be a pattern of holes.

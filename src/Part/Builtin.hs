@@ -9,32 +9,32 @@ import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..), degrees, minus, plus)
 import Base.Region (Region)
-import Checked.Syntax (Builtin (..), Choice (..), Operator (..))
+import Checked.Syntax (Builtin (..), Operator (..), Selector (..))
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Vector qualified as Vector
-import Geometry.Construct (Touched (..))
-import Geometry.Construct qualified as Construct
-import Geometry.Contour qualified as Contour
-import Geometry.Intersect (Meeting (..))
-import Geometry.Intersect qualified as Intersect
+import Geometry.Carrier (Circle (..), Line (..), Sense (..))
+import Geometry.Carrier qualified as Carrier
+import Geometry.Construction.Intersection (Intersection (..))
+import Geometry.Construction.Intersection qualified as Intersection
+import Geometry.Construction.TangentCircle (Touched (..))
+import Geometry.Construction.TangentCircle qualified as TangentCircle
+import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.ElementCarrier qualified as ElementCarrier
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (..), Line (..), Turn (..))
-import Geometry.Shape qualified as Shape
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Geometry.Walked (Walked (..))
-import Geometry.Walked qualified as Walked
 import Part.Curve qualified as Curve
 import Part.CurveBuiltin qualified as CurveBuiltin
-import Part.Data
-import Part.Error (Candidate (..), Fact (..))
-import Part.Eval (Eval)
-import Part.Eval qualified as Eval
+import Part.Error (Candidate (..), ValueFact (..))
+import Part.Evaluation (Eval)
+import Part.Evaluation qualified as Evaluation
 import Part.Part (Contour (..), Element (..), backwards, outline)
+import Part.Value
 
 -- Operators
 
@@ -45,12 +45,12 @@ binary region op l r = case (op, l, r) of
   (Subtract, Spatial a, Spatial b) -> spatial region (Vec.add a (Vec.negate b))
   (Multiply, Quantity k, Spatial a) -> spatial region (Vec.scale k a)
   (Multiply, Spatial a, Quantity k) -> spatial region (Vec.scale k a)
-  (Divide, Spatial _, Quantity 0) -> Eval.mistake (DivisionByZero region)
+  (Divide, Spatial _, Quantity 0) -> Evaluation.mistake (DivisionByZero region)
   (Divide, Spatial a, Quantity k) -> spatial region (Vec.scale (1 / k) a)
   (Add, Quantity a, Quantity b) -> finite region (a + b)
   (Subtract, Quantity a, Quantity b) -> finite region (a - b)
   (Multiply, Quantity a, Quantity b) -> finite region (a * b)
-  (Divide, Quantity _, Quantity 0) -> Eval.mistake (DivisionByZero region)
+  (Divide, Quantity _, Quantity 0) -> Evaluation.mistake (DivisionByZero region)
   (Divide, Quantity a, Quantity b) -> finite region (a / b)
   (Less, Quantity a, Quantity b) -> truth (a < b && not (equal a b))
   (AtMost, Quantity a, Quantity b) -> truth (a < b || equal a b)
@@ -66,7 +66,7 @@ binary region op l r = case (op, l, r) of
 -- Functions
 
 -- | The value of a function for its arguments.
-apply :: Region -> Builtin -> [Given] -> Eval Value
+apply :: Region -> Builtin -> [Argument] -> Eval Value
 apply region builtin arguments = case (builtin, arguments) of
   (Pi, []) -> pure (Quantity pi)
   (Truth, []) -> pure (TruthValue True)
@@ -75,45 +75,45 @@ apply region builtin arguments = case (builtin, arguments) of
   (Intersection, Plain a : Plain b : choice) | none isCurve [a, b] -> intersection region (curve a) (curve b) choice
   (CentreOf, [Plain (CircleValue c)]) -> at (centre c)
   (Midpoint, [Plain (Spatial p), Plain (Spatial q)]) -> at (Vec.between 0.5 (place p) (place q))
-  (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Shape.foot l (place p))
+  (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Carrier.foot l (place p))
   (Tangency, [Plain (Spatial p), c]) -> at . to =<< tangentLine region "point of tangency" (APoint . to) (Plain (Spatial p)) c
   (Tangency, [Plain a, Plain b]) -> tangency region (curve a) (curve b)
   (PointOn, [Plain (CircleValue (Circle c r)), Plain (Quantity a)]) -> at (Vec.shift (Vec.polar r (Rad a)) c)
   (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
-    | Vec.near (place p) (place q) -> Eval.mistake (ZeroLine region (place p))
+    | Vec.near (place p) (place q) -> Evaluation.mistake (ZeroLine region (place p))
     | otherwise -> pure (LineValue (Line (place p) (place q)))
   (MakeLine, [Plain (Spatial p), Plain (Quantity a)]) -> pure (LineValue (ray (place p) (Vec.polar (Mm 1) (Rad a))))
   (MakeLine, [a, b]) -> LineValue <$> tangentLine region "line" ALine a b
   (Horizontal, [Plain (Quantity h)]) -> LineValue (ray (Vec.point 0 h) (Vec.vec 1 0)) <$ within region h
   (Vertical, [Plain (Quantity h)]) -> LineValue (ray (Vec.point h 0) (Vec.vec 0 1)) <$ within region h
-  (Parallel, [Plain (LineValue l), Choosing ToLeft (Quantity d)]) -> LineValue (Shape.parallelAt (Mm d) l) <$ within region d
-  (Parallel, [Plain (LineValue l), Choosing ToRight (Quantity d)]) -> LineValue (Shape.parallelAt (Mm (-d)) l) <$ within region d
+  (Parallel, [Plain (LineValue l), Choosing ToLeft (Quantity d)]) -> LineValue (Carrier.parallelAt (Mm d) l) <$ within region d
+  (Parallel, [Plain (LineValue l), Choosing ToRight (Quantity d)]) -> LineValue (Carrier.parallelAt (Mm (-d)) l) <$ within region d
   (Parallel, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (Line (place p) (Vec.shift (Vec.to (from l) (to l)) (place p))))
-  (Perpendicular, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (ray (place p) (Vec.left (Shape.direction l))))
+  (Perpendicular, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (ray (place p) (Vec.left (Carrier.direction l))))
   (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> circleOf (place c) r
-  (MakeCircle, [Plain (Spatial c), Plain (LineValue l)]) -> let Mm d = Shape.signedDistance l (place c) in circleOf (place c) (abs d)
+  (MakeCircle, [Plain (Spatial c), Plain (LineValue l)]) -> let Mm d = Carrier.signedDistance l (place c) in circleOf (place c) (abs d)
   (MakeCircle, [Plain (Spatial p), Plain (Spatial q), Plain (Spatial s)]) ->
-    maybe (Eval.mistake (OnOneLine region)) (\(Circle c (Mm r)) -> circleOf c r) (Construct.through (place p) (place q) (place s))
+    maybe (Evaluation.mistake (OnOneLine region)) (\(Circle c (Mm r)) -> circleOf c r) (TangentCircle.through (place p) (place q) (place s))
   (MakeCircle, Plain (Quantity r) : a : b : choice)
-    | r <= 0 -> Eval.mistake (RadiusNotPositive region (Mm r))
+    | r <= 0 -> Evaluation.mistake (RadiusNotPositive region (Mm r))
     | otherwise -> do
       within region r
-      found <- picked Tolerance.coincident region "circle" ACircle centre [] [c | ta <- touched a, tb <- touched b, c <- Construct.circles (Mm r) ta tb] choice
+      found <- picked Tolerance.coincident region "circle" ACircle centre [] [c | ta <- touched a, tb <- touched b, c <- TangentCircle.circles (Mm r) ta tb] choice
       circleOf (centre found) r
   (Concentric, [Plain (CircleValue (Circle c (Mm r))), Plain (Quantity d)]) -> circleOf c (r + d)
   (Distance, [Plain (Spatial p), Plain (Spatial q)]) -> measured (Vec.distance (place p) (place q))
   (Distance, [Plain (Spatial p), Plain (LineValue l)]) -> measured (apart l (place p))
   (Distance, [Plain (LineValue l), Plain (Spatial p)]) -> measured (apart l (place p))
-  (Distance, [Plain (LineValue l), Plain (LineValue m)]) -> case Intersect.lines l m of
+  (Distance, [Plain (LineValue l), Plain (LineValue m)]) -> case Intersection.lines l m of
     Apart d -> measured d
     Same -> pure (Quantity 0)
-    _ -> Eval.mistake (NoAnswer region "distance" "These lines are not parallel.")
-  (DirectionOf, [Plain (LineValue l)]) -> angled (Vec.angle (Shape.direction l))
+    _ -> Evaluation.mistake (NoAnswer region "distance" "These lines are not parallel.")
+  (DirectionOf, [Plain (LineValue l)]) -> angled (Vec.angle (Carrier.direction l))
   (DirectionOf, [Plain (Spatial v)])
-    | Vec.norm v <= 0 -> Eval.mistake (NoAnswer region "direction" "The vector has no length.")
+    | Vec.norm v <= 0 -> Evaluation.mistake (NoAnswer region "direction" "The vector has no length.")
     | otherwise -> angled (Vec.angle v)
   (RadiusOf, [Plain (CircleValue (Circle _ r))]) -> measured r
-  (LengthOf, [Plain (ContourValue c)]) -> measured (Contour.length (outline c))
+  (LengthOf, [Plain (ContourValue c)]) -> measured (Polyarc.length (outline c))
   (LengthOf, [Plain (LineValue l)]) -> measured (Vec.distance (from l) (to l))
   (LengthOf, [Plain (Spatial v)]) -> measured (Mm (Vec.norm v))
   (XOf, [Plain (Spatial v)]) -> pure (Quantity (Vec.x (place v)))
@@ -123,14 +123,14 @@ apply region builtin arguments = case (builtin, arguments) of
   (Reversed, [Plain (ContourValue c)]) -> pure (ContourValue (backwards c))
   (Reversed, [Plain (ListValue vs)]) -> pure (ListValue (Vector.reverse vs))
   (Moved, ps) -> transformed region ps $ \case
-    [Spatial v] -> pure (Similarity.translation v)
+    [Spatial v] -> pure (Transformation.translation v)
     _ -> wrong
   (Rotated, ps) -> transformed region ps $ \case
-    [Quantity a] -> pure (Similarity.rotation (Rad a) (Vec.point 0 0))
-    [Quantity a, Spatial p] -> pure (Similarity.rotation (Rad a) (place p))
+    [Quantity a] -> pure (Transformation.rotation (Rad a) (Vec.point 0 0))
+    [Quantity a, Spatial p] -> pure (Transformation.rotation (Rad a) (place p))
     _ -> wrong
   (Mirrored, ps) -> transformed region ps $ \case
-    [LineValue l] -> pure (Similarity.reflection l)
+    [LineValue l] -> pure (Transformation.reflection l)
     _ -> wrong
   (Scaled, ps) -> transformed region ps $ \case
     [Quantity k] -> scaling k (Vec.point 0 0)
@@ -138,12 +138,12 @@ apply region builtin arguments = case (builtin, arguments) of
     _ -> wrong
   (Row, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n)]) -> do
     count <- whole region "the number of points in a row" n
-    Eval.spend region count
+    Evaluation.spend region count
     points [Vec.shift (Vec.scale (fromIntegral k) v) (place p) | k <- [0 .. count - 1]]
   (Grid, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n), Plain (Spatial w), Plain (Quantity m)]) -> do
     count <- whole region "the number of points in a row" n
     rows <- whole region "the number of rows" m
-    Eval.spend region (min 100000000 (count * rows))
+    Evaluation.spend region (min 100000000 (count * rows))
     points [Vec.shift (Vec.add (Vec.scale (fromIntegral k) v) (Vec.scale (fromIntegral j) w)) (place p) | j <- [0 .. rows - 1], k <- [0 .. count - 1]]
   (Around, [Plain (CircleValue c), Plain (Quantity n)]) -> around c n 0 Nothing
   (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a)]) -> around c n a Nothing
@@ -151,19 +151,19 @@ apply region builtin arguments = case (builtin, arguments) of
   (Count, [Plain (ListValue vs)]) -> pure (Quantity (fromIntegral (Vector.length vs)))
   (ItemOf, [Plain (ListValue vs), Plain (Quantity n)]) -> do
     k <- whole region "the number of an item" n
-    maybe (Eval.mistake (NoSuchItem region k (Vector.length vs))) pure (vs Vector.!? (k - 1))
+    maybe (Evaluation.mistake (NoSuchItem region k (Vector.length vs))) pure (vs Vector.!? (k - 1))
   (Lift, [Plain (Spatial p), Plain (Quantity z)]) -> lifted region (place p) (Mm z)
   (Sin, [Plain (Quantity a)]) -> pure (Quantity (sin a))
   (Cos, [Plain (Quantity a)]) -> pure (Quantity (cos a))
   (Tan, [Plain (Quantity a)])
-    | abs (cos a) < 1e-15 -> Eval.mistake (OutOfRange region "tan" (Decimal.short 6 (degrees (Rad a)) <> " deg") "any angle but 90 deg, 270 deg, …")
+    | abs (cos a) < 1e-15 -> Evaluation.mistake (OutOfRange region "tan" (Decimal.short 6 (degrees (Rad a)) <> " deg") "any angle but 90 deg, 270 deg, …")
     | otherwise -> finite region (tan a)
   (Asin, [Plain (Quantity x)]) -> inverse "asin" asin x
   (Acos, [Plain (Quantity x)]) -> inverse "acos" acos x
-  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> Eval.mistake (OutOfRange region "atan2" "0 and 0" "two values that are not both 0")
+  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> Evaluation.mistake (OutOfRange region "atan2" "0 and 0" "two values that are not both 0")
   (Atan2, [Plain (Quantity y), Plain (Quantity x)]) -> pure (Quantity (atan2 y x))
   (Sqrt, [Plain (Quantity x)])
-    | x < negate Tolerance.equal -> Eval.mistake (OutOfRange region "sqrt" (Decimal.short 9 x) "values from 0 upwards")
+    | x < negate Tolerance.equal -> Evaluation.mistake (OutOfRange region "sqrt" (Decimal.short 9 x) "values from 0 upwards")
     | otherwise -> pure (Quantity (sqrt (max 0 x)))
   (Abs, [Plain (Quantity x)]) -> pure (Quantity (abs x))
   (Min, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (min a b))
@@ -179,21 +179,21 @@ apply region builtin arguments = case (builtin, arguments) of
     at = spatial region . offset
     points ps = ListValue . Vector.fromList <$> traverse at ps
     measured (Mm d) = finite region d
-    apart l p = let Mm d = Shape.signedDistance l p in Mm (abs d)
+    apart l p = let Mm d = Carrier.signedDistance l p in Mm (abs d)
     angled (Rad a) = pure (Quantity a)
     circleOf c r
-      | r <= 0 = Eval.mistake (RadiusNotPositive region (Mm r))
+      | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
     scaling k p
-      | k <= 0 = Eval.mistake (NotPositive region "the factor of a scaling" (Decimal.short 6 k))
-      | otherwise = pure (Similarity.scaling k p)
+      | k <= 0 = Evaluation.mistake (NotPositive region "the factor of a scaling" (Decimal.short 6 k))
+      | otherwise = pure (Transformation.scaling k p)
     inverse name f x
-      | abs x > 1 + Tolerance.equal = Eval.mistake (OutOfRange region name (Decimal.short 9 x) "values from −1 to 1")
+      | abs x > 1 + Tolerance.equal = Evaluation.mistake (OutOfRange region name (Decimal.short 9 x) "values from −1 to 1")
       | otherwise = pure (Quantity (f (max (-1) (min 1 x))))
     -- Points on a circle: all round, or from one angle to another, both included.
     around (Circle c r) n a b = do
       count <- whole region "the number of points" n
-      Eval.spend region count
+      Evaluation.spend region count
       let step = case b of
             Nothing -> 2 * pi / fromIntegral count
             Just end -> if count == 1 then 0 else (end - a) / fromIntegral (count - 1)
@@ -206,52 +206,52 @@ ray p v = Line p (Vec.shift v p)
 -- Choices
 
 -- | A line or a circle as a curve.
-curve :: Value -> Walked
+curve :: Value -> ElementCarrier
 curve v = case v of
   LineValue l -> OnLine l
   CircleValue c -> OnCircle CounterClockwise c
   _ -> bug "a value that is no curve where one was checked"
 
-intersection :: Region -> Walked -> Walked -> [Given] -> Eval Value
+intersection :: Region -> ElementCarrier -> ElementCarrier -> [Argument] -> Eval Value
 intersection region a b choice = case meeting of
-  Apart gap -> Eval.mistake (NothingCommon region a b gap)
-  Same -> Eval.mistake (SameThing region)
+  Apart gap -> Evaluation.mistake (NothingCommon region a b gap)
+  Same -> Evaluation.mistake (SameThing region)
   Touching p -> chosen [p]
   CrossingOnce p -> chosen [p]
   Crossing p q -> chosen [p, q]
   where
-    chosen ps = picked Tolerance.coincident region "point" APoint id [Walked.alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
+    chosen ps = picked Tolerance.coincident region "point" APoint id [ElementCarrier.alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
     meeting = case (a, b) of
-      (OnLine l, OnLine m) -> Intersect.lines l m
-      (OnLine l, OnCircle _ c) -> Intersect.lineCircle l c
-      (OnCircle _ c, OnLine l) -> Intersect.lineCircle l c
-      (OnCircle _ c, OnCircle _ d) -> Intersect.circles c d
+      (OnLine l, OnLine m) -> Intersection.lines l m
+      (OnLine l, OnCircle _ c) -> Intersection.lineCircle l c
+      (OnCircle _ c, OnLine l) -> Intersection.lineCircle l c
+      (OnCircle _ c, OnCircle _ d) -> Intersection.circles c d
       _ -> bug "an intersection of points"
 
 -- | The point at which two curves touch.
-tangency :: Region -> Walked -> Walked -> Eval Value
+tangency :: Region -> ElementCarrier -> ElementCarrier -> Eval Value
 tangency region a b = case (a, b) of
   (OnLine l, OnCircle _ c) -> lineAt l c
   (OnCircle _ c, OnLine l) -> lineAt l c
-  (OnCircle _ c, OnCircle _ d) -> case Intersect.circles c d of
+  (OnCircle _ c, OnCircle _ d) -> case Intersection.circles c d of
     Touching p -> spatial region (offset p)
-    Same -> Eval.mistake (SameThing region)
-    _ -> Eval.mistake (NotTouching region (circleGap c d))
+    Same -> Evaluation.mistake (SameThing region)
+    _ -> Evaluation.mistake (NotTouching region (circleGap c d))
   _ -> bug "a tangency of other things than lines and circles"
   where
-    lineAt l c@(Circle o (Mm r)) = case Intersect.lineCircle l c of
+    lineAt l c@(Circle o (Mm r)) = case Intersection.lineCircle l c of
       Touching p -> spatial region (offset p)
-      _ -> let Mm h = Shape.signedDistance l o in Eval.mistake (NotTouching region (Mm (abs (abs h - r))))
+      _ -> let Mm h = Carrier.signedDistance l o in Evaluation.mistake (NotTouching region (Mm (abs (abs h - r))))
     circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
       let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
 
 -- | The directed line that touches two circles, or goes through a point. The word before a circle says on
 -- which side of the line it lies.
-tangentLine :: Region -> Text -> (Line -> Candidate) -> Given -> Given -> Eval Line
-tangentLine region what candidate a b = case Construct.touchingLines (circleAt a) (circleAt b) of
+tangentLine :: Region -> Text -> (Line -> Candidate) -> Argument -> Argument -> Eval Line
+tangentLine region what candidate a b = case TangentCircle.touchingLines (circleAt a) (circleAt b) of
   [one] -> pure one
-  [] -> Eval.mistake (NoAnswer region what why)
-  several -> Eval.mistake (Several region what (map candidate several))
+  [] -> Evaluation.mistake (NoAnswer region what why)
+  several -> Evaluation.mistake (Several region what (map candidate several))
   where
     circleAt g = case g of
       Plain (Spatial p) -> ([CounterClockwise, Clockwise], Circle (place p) (Mm 0))
@@ -277,7 +277,7 @@ tangentLine region what candidate a b = case Construct.touchingLines (circleAt a
               | otherwise -> "The circles overlap by " <> Decimal.mm (Mm (reach - d)) <> "."
 
 -- | What a circle is to touch, with the word before it.
-touched :: Given -> [Touched]
+touched :: Argument -> [Touched]
 touched g = case g of
   Plain (Spatial p) -> [Through (place p)]
   Plain (LineValue l) -> [LeftOf l, RightOf l]
@@ -291,7 +291,7 @@ touched g = case g of
 -- Transformations
 
 -- | A transformation by itself, or of the thing that is the first argument.
-transformed :: Region -> [Given] -> ([Value] -> Eval Similarity) -> Eval Value
+transformed :: Region -> [Argument] -> ([Value] -> Eval Transformation) -> Eval Value
 transformed region arguments make = case [v | Plain v <- arguments] of
   Quantity a : rest -> PlacementValue <$> make (Quantity a : rest)
   [only] -> PlacementValue <$> make [only]
@@ -299,13 +299,13 @@ transformed region arguments make = case [v | Plain v <- arguments] of
   [] -> bug "a transformation without arguments"
 
 -- | What becomes of a thing.
-image :: Region -> Similarity -> Value -> Eval Value
+image :: Region -> Transformation -> Value -> Eval Value
 image region s v = case v of
-  Spatial p -> spatial region (offset (Similarity.point s (place p)))
-  CircleValue c -> let d@(Circle o (Mm r)) = Similarity.circle s c in CircleValue d <$ (within region (Vec.norm (offset o)) *> within region r)
-  LineValue l -> let m = Similarity.line s l in LineValue m <$ within region (Vec.norm (offset (from m)))
+  Spatial p -> spatial region (offset (Transformation.point s (place p)))
+  CircleValue c -> let d@(Circle o (Mm r)) = Transformation.circle s c in CircleValue d <$ (within region (Vec.norm (offset o)) *> within region r)
+  LineValue l -> let m = Transformation.line s l in LineValue m <$ within region (Vec.norm (offset (from m)))
   ContourValue c -> do
-    let d = c {elements = fmap (\e -> e {segment = Similarity.segment s (segment e)}) (elements c), legs = []}
+    let d = c {elements = fmap (\e -> e {segment = Transformation.segment s (segment e)}) (elements c), legs = []}
     mapM_ (within region . Vec.norm . offset . Segment.end . segment) (elements d)
     pure (ContourValue d)
   ListValue vs -> ListValue <$> traverse (image region s) vs

@@ -5,69 +5,69 @@ module Part.CurveBuiltin
 where
 
 import Base.Decimal qualified as Decimal
+import Base.NumberTable qualified as NumberTable
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Region)
-import Base.Rows qualified as Rows
-import Checked.Syntax (Builtin (..), Choice (..))
+import Checked.Syntax (Builtin (..), Selector (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
-import Geometry.Biarc qualified as Biarc
-import Geometry.Box qualified as Box
-import Geometry.Contour (Ends (..))
-import Geometry.Crossing (Foot)
-import Geometry.Crossing qualified as Crossing
+import Geometry.ArcFitting.Biarc qualified as Biarc
+import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
+import Geometry.Carrier (Sense (..))
 import Geometry.Curve qualified as Exact
-import Geometry.Fit qualified as Fit
-import Geometry.Piece qualified as Piece
-import Geometry.Polyarc qualified as Polyarc
-import Geometry.Shape (Turn (..))
+import Geometry.Curve.Intersection (Foot)
+import Geometry.Curve.Intersection qualified as Intersection
+import Geometry.Curve.Section qualified as Section
+import Geometry.Curve.SectionFit qualified as SectionFit
+import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.ElementCarrier qualified as ElementCarrier
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
+import Geometry.Polyarc (Ends (..))
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Track qualified as Track
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Geometry.Walked (Walked (..))
-import Geometry.Walked qualified as Walked
-import Part.Curve (Curve (..), Fitting (..), Table (..))
+import Part.Curve (Fitting (..), PartCurve (..), PartTable (..))
 import Part.Curve qualified as Curve
-import Part.Data
-import Part.Error (Candidate (..), Fact (..), Listing (..), Trouble (..))
-import Part.Eval (Eval)
-import Part.Eval qualified as Eval
+import Part.Error (Candidate (..), ListFault (..), Listing (..), ValueFact (..))
+import Part.Evaluation (Eval)
+import Part.Evaluation qualified as Evaluation
+import Part.Value
 
 -- | The value of a function on tables or curves; nothing when it has no such form.
-apply :: Region -> Builtin -> [Given] -> Maybe (Eval Value)
+apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments = case (builtin, arguments) of
   (MakeSpline, [t]) -> Just (made t (Exact.spline Exact.Natural))
   (MakeSpline, [t, Plain (Quantity a), Plain (Quantity b)]) -> Just (made t (Exact.spline (Exact.Clamped (direction a) (direction b))))
   (ClosedSpline, [t]) -> Just (made t (Exact.spline Exact.Periodic))
   (Polyline, [t]) -> Just (made t Exact.polyline)
   (Parabola, [t]) -> Just (made t Exact.parabola)
-  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just (positive d *> chain region (sconcat (Track.approximate (Mm d) (Curve.track (exact c)))))
+  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just (positive d *> chain region (sconcat (ParametricFit.approximate (Mm d) (Curve.track (exact c)))))
   (Biarcs, [t]) -> Just (arcs t Open)
   (ClosedBiarcs, [t]) -> Just (arcs t Closed)
   (Fit, [t, Choosing UpTo (Quantity d)]) -> Just $ do
     positive d
     table <- tableOf t
-    points <- ordered region table (Piece.table (pointsOf table))
-    let chosen = Fit.fit (Piece.LineKind :| [Piece.ParabolaKind, Piece.ArcKind]) (Mm d) points
+    points <- ordered region table (Section.table (pointsOf table))
+    let chosen = SectionFit.fit (Section.LineKind :| [Section.ParabolaKind, Section.ArcKind]) (Mm d) points
     pieced region table points chosen
   (Sections, [t, Plain (ListValue lists)]) -> Just $ do
     table <- tableOf t
     chosen <- traverse (traverse (rowNumber region table) . numbers) (Vector.toList lists)
-    points <- ordered region table (Piece.table (pointsOf table))
-    fitted region table (Fit.sections points chosen) >>= pieced region table points
+    points <- ordered region table (Section.table (pointsOf table))
+    fitted region table (SectionFit.sections points chosen) >>= pieced region table points
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
     chosen <- traverse (rowNumber region t) [n | Quantity n <- Vector.toList ns]
-    pure (TableValue t {rows = Rows.picked (map (subtract 1) chosen) (rows t)})
+    pure (TableValue t {rows = NumberTable.picked (map (subtract 1) chosen) (rows t)})
   (PointsOf, [t@(Plain (TableValue _))]) -> Just (tableOf t >>= fmap (ListValue . Vector.fromList) . traverse at . pointsOf)
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
-    [] -> let (low, high) = Curve.abscissas (exact c) in Eval.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
+    [] -> let (low, high) = Curve.abscissas (exact c) in Evaluation.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
     us -> picked Tolerance.nearTie region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
   (PointAlong, [Plain (CurveValue c), Plain (Quantity s)])
-    | s < -slack || s > l + slack -> Just (Eval.mistake (NoAnswer region "point" ("The curve is " <> written l <> " long.")))
+    | s < -slack || s > l + slack -> Just (Evaluation.mistake (NoAnswer region "point" ("The curve is " <> written l <> " long.")))
     | otherwise -> Just (at (Exact.at (exact c) (Exact.alongTo (exact c) (Mm s))))
     where
       Mm l = Exact.length (exact c)
@@ -97,11 +97,11 @@ apply region builtin arguments = case (builtin, arguments) of
       _ -> []
     positive d
       | d > 0 = within region d
-      | otherwise = Eval.mistake (NotPositive region "the tolerance of a curve" (Decimal.mm (Mm d)))
+      | otherwise = Evaluation.mistake (NotPositive region "the tolerance of a curve" (Decimal.mm (Mm d)))
     tableOf t = case t of
-      Plain (TableValue table) -> table <$ Eval.spend region (Rows.count (rows table))
-      Plain (ListValue ps) -> Table {rows = Rows.fromList [(region, coordinates (place p)) | Spatial p <- Vector.toList ps], names = []} <$ Eval.spend region (Vector.length ps)
-      _ -> Eval.absent
+      Plain (TableValue table) -> table <$ Evaluation.spend region (NumberTable.count (rows table))
+      Plain (ListValue ps) -> PartTable {rows = NumberTable.fromList [(region, coordinates (place p)) | Spatial p <- Vector.toList ps], names = []} <$ Evaluation.spend region (Vector.length ps)
+      _ -> Evaluation.absent
     coordinates p = PrimArray.primArrayFromListN 2 [Vec.x p, Vec.y p]
     made t make = do
       table <- tableOf t
@@ -119,23 +119,23 @@ apply region builtin arguments = case (builtin, arguments) of
         _ -> flawed region table (Exact.TooFew 2)
 
 -- | The points of a table.
-pointsOf :: Table -> [Point]
+pointsOf :: PartTable -> [Point]
 pointsOf = Vector.toList . Curve.points
 
 -- | A curve of arcs and lines.
 chain :: Region -> NonEmpty Exact.Segment -> Eval Value
-chain region segments = either (\_ -> Eval.mistake (NoLength region)) (pure . CurveValue . Curve.plain) (Exact.ofSegments segments)
+chain region segments = either (\_ -> Evaluation.mistake (NoLength region)) (pure . CurveValue . Curve.plain) (Exact.ofSegments segments)
 
 -- | A curve of pieces, with what they miss.
-pieced :: Region -> Table -> Piece.Table -> NonEmpty Piece.Piece -> Eval Value
+pieced :: Region -> PartTable -> Section.PointTable -> NonEmpty Section.Section -> Eval Value
 pieced region table points chosen = do
   let (pieces', stations) = Curve.piecesOf (Curve.points table) chosen
   c <- either (flawed region table) pure (Exact.ofPieces pieces' stations)
-  pure (CurveValue (Curve.curve (Curve.columns table) (Just (Fitting chosen (Fit.deviations points chosen) (Curve.points table))) c))
+  pure (CurveValue (Curve.curve (Curve.columns table) (Just (Fitting chosen (SectionFit.deviations points chosen) (Curve.points table))) c))
 
 -- | What is wrong with the points of a curve, at the row where it shows.
-flawed :: Region -> Table -> Exact.Flaw -> Eval a
-flawed region table flaw = Eval.mistake $ case flaw of
+flawed :: Region -> PartTable -> Exact.CurveFault -> Eval a
+flawed region table flaw = Evaluation.mistake $ case flaw of
   -- Of a closed curve, the last point may be the first again.
   Exact.TooFew n
     | there >= n -> noCurve region table Nothing (FewDifferent (there - 1) n)
@@ -150,75 +150,75 @@ flawed region table flaw = Eval.mistake $ case flaw of
   Exact.DeepJoggle -> NoLength region
   Exact.LongJoggle _ _ -> NoLength region
   where
-    there = Rows.count (rows table)
+    there = NumberTable.count (rows table)
 
 -- | The same for a table whose x has to go on.
-ordered :: Region -> Table -> Either Piece.Flaw a -> Eval a
-ordered region table = either (Eval.mistake . fact) pure
+ordered :: Region -> PartTable -> Either Section.PointTableFault a -> Eval a
+ordered region table = either (Evaluation.mistake . fact) pure
   where
     fact flaw = case flaw of
-      Piece.TooFewRows n -> noCurve region table Nothing (FewPoints n 2)
-      Piece.OutOfOrder k -> noCurve region table (rowAt table k) (Unordered k)
+      Section.TooFewRows n -> noCurve region table Nothing (FewPoints n 2)
+      Section.OutOfOrder k -> noCurve region table (rowAt table k) (Unordered k)
 
 -- | The same for pieces that are chosen by their rows.
-fitted :: Region -> Table -> Either Fit.Flaw a -> Eval a
-fitted region table = either (Eval.mistake . fact) pure
+fitted :: Region -> PartTable -> Either SectionFit.SectionFault a -> Eval a
+fitted region table = either (Evaluation.mistake . fact) pure
   where
     fact flaw = case flaw of
-      Fit.NoSections -> noCurve region table Nothing NoSection
-      Fit.WrongCount s n -> noCurve region table Nothing (SectionRows s n)
-      Fit.NoSuchRow _ k -> NoSuchRow region (listing region table) k (Rows.count (rows table))
-      Fit.RowsDoNotRise s -> noCurve region table Nothing (SectionOrder s)
-      Fit.NotJoined s begins must -> noCurve region table Nothing (SectionJoint s begins must)
-      Fit.EndsEarly final all' -> noCurve region table Nothing (SectionEnd final all')
+      SectionFit.NoSections -> noCurve region table Nothing NoSection
+      SectionFit.WrongCount s n -> noCurve region table Nothing (SectionRows s n)
+      SectionFit.NoSuchRow _ k -> NoSuchRow region (listing region table) k (NumberTable.count (rows table))
+      SectionFit.RowsDoNotRise s -> noCurve region table Nothing (SectionOrder s)
+      SectionFit.NotJoined s begins must -> noCurve region table Nothing (SectionJoint s begins must)
+      SectionFit.EndsEarly final all' -> noCurve region table Nothing (SectionEnd final all')
 
-noCurve :: Region -> Table -> Maybe Region -> Trouble -> Fact
+noCurve :: Region -> PartTable -> Maybe Region -> ListFault -> ValueFact
 noCurve region table = NoCurve region (listing region table)
 
 -- | The points of a list have no rows of their own: they stand where the call does.
-listing :: Region -> Table -> Listing
+listing :: Region -> PartTable -> Listing
 listing region table = if rowAt table 1 == Just region then InList else InTable
 
 -- | The number of a row that there is.
-rowNumber :: Region -> Table -> Double -> Eval Int
+rowNumber :: Region -> PartTable -> Double -> Eval Int
 rowNumber region table x
-  | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal = Eval.mistake (NotWhole region ("the number of a " <> (case listing region table of InTable -> "row"; InList -> "point")) ("from 1 to " <> Decimal.whole count) x)
-  | n < 1 || n > count = Eval.mistake (NoSuchRow region (listing region table) n count)
+  | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal = Evaluation.mistake (NotWhole region ("the number of a " <> (case listing region table of InTable -> "row"; InList -> "point")) ("from 1 to " <> Decimal.whole count) x)
+  | n < 1 || n > count = Evaluation.mistake (NoSuchRow region (listing region table) n count)
   | otherwise = pure n
   where
     n = if abs x > 1e7 then 0 else round x :: Int
-    count = Rows.count (rows table)
+    count = NumberTable.count (rows table)
 
-rowAt :: Table -> Int -> Maybe Region
+rowAt :: PartTable -> Int -> Maybe Region
 rowAt table k
-  | k >= 1 && k <= Rows.count (rows table) = Just (Rows.place (rows table) (k - 1))
+  | k >= 1 && k <= NumberTable.count (rows table) = Just (NumberTable.place (rows table) (k - 1))
   | otherwise = Nothing
 
 -- | A line, a circle or a curve, and its exact places.
-walkedOf :: Value -> Maybe (Walked, Foot)
+walkedOf :: Value -> Maybe (ElementCarrier, Foot)
 walkedOf v = case v of
-  LineValue l -> Just (OnLine l, Crossing.onLine l)
-  CircleValue c -> Just (OnCircle CounterClockwise c, Crossing.onCircle c)
-  CurveValue c -> Just (OnCurve (laid c), Crossing.onCurve (exact c))
+  LineValue l -> Just (OnLine l, Intersection.onLine l)
+  CircleValue c -> Just (OnCircle CounterClockwise c, Intersection.onCircle c)
+  CurveValue c -> Just (OnCurve (laid c), Intersection.onCurve (exact c))
   _ -> Nothing
 
 -- | The points that a curve has in common with something.
-intersection :: Region -> (Walked, Foot) -> (Walked, Foot) -> [Given] -> Eval Value
-intersection region (a, footA) (b, footB) choice = case Polyarc.meetings as bs of
-  [] -> Eval.mistake (NothingCommon region a b (Polyarc.gap as bs))
-  ps -> picked Tolerance.nearTie region "point" APoint id ways ps choice >>= spatial region . offset . Crossing.exactly footA footB
+intersection :: Region -> (ElementCarrier, Foot) -> (ElementCarrier, Foot) -> [Argument] -> Eval Value
+intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.meetings as bs of
+  [] -> Evaluation.mistake (NothingCommon region a b (MeasuredPolyarc.gap as bs))
+  ps -> picked Tolerance.nearTie region "point" APoint id ways ps choice >>= spatial region . offset . Intersection.exactly footA footB
   where
-    as = Walked.within (extent b) a
-    bs = Walked.within (extent a) b
+    as = ElementCarrier.within (extent b) a
+    bs = ElementCarrier.within (extent a) b
     extent w = case w of
-      OnCurve p -> foldl (\box s -> Box.union box (Box.ofSegment s)) (Box.ofPoints (Polyarc.start p) []) (Polyarc.segments p)
-      _ -> Box.ofPoints (Vec.point 0 0) []
+      OnCurve p -> foldl (\box s -> BoundingBox.union box (BoundingBox.ofSegment s)) (BoundingBox.ofPoints (MeasuredPolyarc.start p) []) (MeasuredPolyarc.segments p)
+      _ -> BoundingBox.ofPoints (Vec.point 0 0) []
     -- First and last along the thing that is named first and has a beginning.
     ways = [way w | w <- [a, b], hasWay w]
     hasWay w = case w of
       OnCircle _ _ -> False
       _ -> True
     way w p = case w of
-      OnCurve c -> Polyarc.station c p
-      OnLine l -> Walked.alongLine l p
+      OnCurve c -> MeasuredPolyarc.station c p
+      OnLine l -> ElementCarrier.alongLine l p
       _ -> Mm 0

@@ -1,10 +1,10 @@
 -- | What can be wrong with the values and the geometry of a part.
 module Part.Error
   ( Error (..),
-    Fact (..),
+    ValueFact (..),
     Listing (..),
     Candidate (..),
-    Trouble (..),
+    ListFault (..),
     joined',
     Joined (..),
     toReport,
@@ -19,24 +19,24 @@ import Data.List (nub)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Geometry.Fillet qualified as Fillet
-import Geometry.Polyarc qualified as Polyarc
-import Geometry.Shape (Circle (..), Line (..), Turn (..))
+import Geometry.Carrier (Circle (..), Line (..), Sense (..))
+import Geometry.Construction.Fillet qualified as Fillet
+import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Geometry.Walked (Walked (..))
-import Part.PocketError (Misfit)
+import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
-import Report.Report (Code, Label (..), Place (..), Report (..), quote, report)
+import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), quote, report)
 import Report.Report qualified as Report
 
 -- | A fact, and the calls of functions through which it came about, the innermost first.
-data Error = Error {fact :: Fact, calls :: [Region]}
+data Error = Error {fact :: ValueFact, calls :: [Region]}
   deriving stock (Eq, Show)
 
 -- | Two neighbours in a contour, and the link between them.
-data Joined = Joined {link :: Region, before :: {-# UNPACK #-} (Located Walked), after :: {-# UNPACK #-} (Located Walked)}
+data Joined = Joined {link :: Region, before :: {-# UNPACK #-} (Located ElementCarrier), after :: {-# UNPACK #-} (Located ElementCarrier)}
   deriving stock (Eq, Show)
 
 -- | One of several answers.
@@ -48,7 +48,7 @@ data Listing = InTable | InList
   deriving stock (Eq, Show)
 
 -- | Why points make no curve.
-data Trouble
+data ListFault
   = -- | how many there are, how many are needed
     FewPoints Int Int
   | -- | of a curve that closes: how many different ones there are, how many are needed
@@ -68,7 +68,7 @@ data Trouble
   | NoSection
   deriving stock (Eq, Show)
 
-data Fact
+data ValueFact
   = DivisionByZero Region
   | -- | function, its argument as written to the user, the range it takes
     OutOfRange Region Text Text Text
@@ -85,13 +85,13 @@ data Fact
     NotPositive Region Text Text
   | EmptyContour Region Name
   | -- | a closed contour of one element that is no circle
-    LoneElement Region Walked
+    LoneElement Region ElementCarrier
   | -- | a contour of which nothing is left to walk
     NoLength Region
   | -- | a link behind a circle that closes by itself
     LinkOfLoneCircle Region
   | -- | an open contour whose first or last element has no end of its own
-    NoEnd Region Walked
+    NoEnd Region ElementCarrier
   | LinkAtEnd Region Region
   | -- | they miss one another by so much
     NoMeeting Joined Mm
@@ -119,9 +119,9 @@ data Fact
     AmbiguousFillet Joined [Point]
   | -- | an element whose end lies before its beginning, by so much; the links at its ends; the largest radius of
     -- a fillet among them that fits
-    Overrun Region Walked Mm [Region] (Maybe Mm)
+    Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
   | -- | a curve that two things do not have in common: they miss one another by so much
-    NothingCommon Region Walked Walked Mm
+    NothingCommon Region ElementCarrier ElementCarrier Mm
   | -- | two things that are the same curve
     SameThing Region
   | -- | several answers and no choice among them: what is sought, the answers
@@ -161,7 +161,7 @@ data Fact
   | -- | several depths with a cutter that is widest at its tip: the depth
     StepsUndercut Region
   | -- | the points of a curve: the call, what they stand in, the row, why
-    NoCurve Region Listing (Maybe Region) Trouble
+    NoCurve Region Listing (Maybe Region) ListFault
   | -- | a shift of a curve beyond its radius of curvature: the cipher, the place, the distance, the largest there
     Folds Region Point Mm Mm
   | -- | a shift of a curve with a corner: the cipher, the place, the angle
@@ -182,11 +182,11 @@ data Fact
   | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
     CrossesItself Region Region Region Point Bool
   | -- | contours that make no pocket
-    NoPocket Misfit
+    NoPocket PocketMisfit
   deriving stock (Eq, Show)
 
 -- | The neighbours that a link could not join.
-joined' :: Fact -> Maybe Joined
+joined' :: ValueFact -> Maybe Joined
 joined' fact = case fact of
   NoMeeting j _ -> Just j
   ParallelLines j _ -> Just j
@@ -476,7 +476,7 @@ nounOf listing = case listing of
   InList -> "point"
 
 -- | What is wrong, of rows or points.
-troubled :: Text -> Trouble -> Text
+troubled :: Text -> ListFault -> Text
 troubled noun trouble = case trouble of
   FewPoints there needed -> "a curve needs " <> Decimal.whole needed <> " points, " <> thereAre there
   FewDifferent there needed -> "a closed curve needs " <> Decimal.whole needed <> " different points, " <> thereAre there
@@ -494,7 +494,7 @@ troubled noun trouble = case trouble of
       1 -> "there is only one"
       _ -> "there are only " <> Decimal.whole n
 
-troubleHint :: Text -> Trouble -> [Text]
+troubleHint :: Text -> ListFault -> [Text]
 troubleHint noun trouble = case trouble of
   FewPoints _ _ -> []
   FewDifferent _ _ -> ["The last point, when it is the first again, does not count."]
@@ -519,16 +519,16 @@ otherSign j r = case (fits Clockwise, fits CounterClockwise) of
   where
     fits turn = not (null (Fillet.between r turn (value (before j)) (value (after j))))
 
-at :: Region -> Code -> Text -> Report
+at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
 
-joined :: Code -> Joined -> Text -> Report
+joined :: ReportCode -> Joined -> Text -> Report
 joined code j title =
   (at (link j) code title)
     { others = [Label r (describe w) | Located r w <- [before j, after j], r /= link j]
     }
 
-isCurve :: Located Walked -> Bool
+isCurve :: Located ElementCarrier -> Bool
 isCurve (Located _ walked) = case walked of
   OnCurve _ -> True
   OnLine _ -> False
@@ -539,15 +539,15 @@ things :: Joined -> Text
 things j = describe (value (before j)) <> " and " <> describe (value (after j))
 
 -- | An element in words.
-describe :: Walked -> Text
+describe :: ElementCarrier -> Text
 describe walked = case walked of
   OnLine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
   OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
-  OnCurve c -> "the curve from " <> Vec.written 4 (Polyarc.start c) <> " to " <> Vec.written 4 (Polyarc.end c)
+  OnCurve c -> "the curve from " <> Vec.written 4 (MeasuredPolyarc.start c) <> " to " <> Vec.written 4 (MeasuredPolyarc.end c)
   AtPoint p -> "the point " <> Vec.written 4 p
 
 -- | A curve in words, without where it is entered.
-described :: Walked -> Text
+described :: ElementCarrier -> Text
 described = describe
 
 -- | Answers with their coordinates.

@@ -23,23 +23,23 @@ import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
-import Geometry.Similarity (Similarity)
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Transformation (Transformation)
 import Part.Builtin qualified as Builtin
-import Part.Curve (Curve (..), Fitting)
-import Part.Data (Value (..))
-import Part.Data qualified as Data
-import Part.Error (Error (..), Fact (..))
-import Part.Eval (Eval)
-import Part.Eval qualified as Eval
+import Part.ContourElement qualified as ContourElement
+import Part.Curve (Fitting, PartCurve (..))
+import Part.Error (Error (..), ValueFact (..))
+import Part.Evaluation (Eval)
+import Part.Evaluation qualified as Evaluation
+import Part.Expression (Environment (..))
+import Part.Expression qualified as Expression
 import Part.Part hiding (spot)
 import Part.Piece qualified as Piece
-import Part.Pocket qualified as Pocket
-import Part.PocketError (Misfit (StepTooWide))
-import Part.Transform qualified as Transform
-import Part.Value (Environment (..))
+import Part.PocketCheck qualified as PocketCheck
+import Part.PocketError (PocketMisfit (StepTooWide))
+import Part.Transformation qualified as Transformation
+import Part.Value (Value (..))
 import Part.Value qualified as Value
-import Part.Walks qualified as Walks
 
 -- | What is known between two statements. A setting without a value is missing because of a mistake.
 data State = State
@@ -50,8 +50,8 @@ data State = State
     tolerance' :: Maybe Accuracy,
     feed' :: Maybe (Located Feed),
     clearance' :: Maybe Mm,
-    spin' :: Walk,
-    start' :: Maybe (Located Spot),
+    spin' :: Sense,
+    start' :: Maybe (Located SpacePoint),
     contours' :: [Contour],
     operations' :: [Operation],
     values' :: [(Region, Text)],
@@ -67,7 +67,7 @@ evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked
     final = foldl' step begin statements
     begin =
       State
-        { environment = Value.empty,
+        { environment = Expression.empty,
           first' = Nothing,
           cutter' = Nothing,
           tolerance' = Nothing,
@@ -80,7 +80,7 @@ evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked
           values' = [],
           fittings' = [],
           errors' = [],
-          fuel = Eval.mostSteps
+          fuel = Evaluation.mostSteps
         }
     part =
       Part
@@ -98,17 +98,17 @@ evaluate Checked.Program {Checked.name = called, Checked.title = titled, Checked
 step :: State -> Checked.Statement -> State
 step state (Located at s) = case s of
   Checked.Tool c -> keep (cutter env c) (\c' -> state {first' = Just c', cutter' = Just c'})
-  Checked.Feed e -> keep (Walks.feedOf env e) (\f -> state {feed' = Just f})
+  Checked.Feed e -> keep (ContourElement.feedOf env e) (\f -> state {feed' = Just f})
   Checked.Tolerance accuracy -> keep (accuracyOf env accuracy) (\t -> state {tolerance' = Just t})
-  Checked.Clearance e -> keep (Walks.lengthOf env "the clearance height" e) (\z -> state {clearance' = Just z})
+  Checked.Clearance e -> keep (ContourElement.lengthOf env "the clearance height" e) (\z -> state {clearance' = Just z})
   Checked.From e -> keep (spot env e) (\p -> state {start' = Just (Located at p)})
-  Checked.LetValue name d e -> keep (Value.evaluate env e) (define name d)
+  Checked.LetValue name d e -> keep (Expression.evaluate env e) (define name d)
   Checked.LetFunction name parameters body ->
     state {environment = env {functions = Map.insert name (locals env, parameters, body) (functions env), locals = Map.delete name (locals env)}}
   Checked.Table name columns -> keep (Piece.table env columns) (define name Dimension.none . TableValue)
-  Checked.Piece name e ciphers side joggles -> keep (Value.evaluate env e >>= \v -> Piece.piece env (curveOf v) ciphers side joggles) (define name Dimension.none . CurveValue)
+  Checked.Piece name e ciphers side joggles -> keep (Expression.evaluate env e >>= \v -> Piece.piece env (curveOf v) ciphers side joggles) (define name Dimension.none . CurveValue)
   Checked.Contour name closure items ->
-    keep (Walks.contour env name closure items) $ \c -> (define name Dimension.none (ContourValue c)) {contours' = c : contours' state}
+    keep (ContourElement.contour env name closure items) $ \c -> (define name Dimension.none (ContourValue c)) {contours' = c : contours' state}
   Checked.Assert assertion -> keep (assert at env assertion) (const state)
   Checked.Mill e side settings -> keep (milling state Milled at e side settings) (perform . maybe id ((:) . Mill . Located at))
   Checked.Pocket e step' settings -> keep (pocketing state at e step' settings) (perform . maybe id ((:) . Pocket . Located at))
@@ -121,24 +121,24 @@ step state (Located at s) = case s of
     (perform (Command (Located at (ChangeTool n c')) :)) {cutter' = Just c'}
   Checked.Spindle Checked.Still -> perform (Command (Located at SpindleOff) :)
   Checked.Spindle (Checked.Spinning walk speed) ->
-    keep (traverse (Walks.positive env "the speed of the spindle" (\x -> Decimal.short 4 x <> " rpm") id) speed) $ \speed' ->
+    keep (traverse (ContourElement.positive env "the speed of the spindle" (\x -> Decimal.short 4 x <> " rpm") id) speed) $ \speed' ->
       (perform (Command (Located at (SpindleOn walk speed')) :)) {spin' = walk}
   Checked.Coolant switch -> perform (Command (Located at (CoolantTo switch)) :)
   Checked.Auxiliary e -> keep (whole env "an auxiliary command" (1, 99) e) (\n -> perform (Command (Located at (Auxiliary n)) :))
   Checked.Repeat name list body ->
-    blocked (Value.evaluate env list >>= \v -> Value.items v <$ Eval.spend (region list) (length (Value.items v))) $ \vs now ->
-      foldl (\before v -> foldl step before {environment = Value.bind name v env} body) now vs
-  Checked.When e body others -> blocked (Value.evaluate env e) (\v now -> foldl step now (if Value.isTrue v then body else others))
-  Checked.With e body -> blocked (Value.evaluate env e) $ \v now ->
+    blocked (Expression.evaluate env list >>= \v -> Expression.items v <$ Evaluation.spend (region list) (length (Expression.items v))) $ \vs now ->
+      foldl (\before v -> foldl step before {environment = Expression.bind name v env} body) now vs
+  Checked.When e body others -> blocked (Expression.evaluate env e) (\v now -> foldl step now (if Expression.isTrue v then body else others))
+  Checked.With e body -> blocked (Expression.evaluate env e) $ \v now ->
     let inside = foldl step now {operations' = []} body
-     in inside {operations' = map (Transform.operation (placement v)) (operations' inside) <> operations' state}
+     in inside {operations' = map (Transformation.operation (placement v)) (operations' inside) <> operations' state}
   where
     env = environment state
     define name d v =
       state
         { environment = bound name v,
-          values' = (region name, Value.written d v) : values' state,
-          fittings' = [(name, f) | CurveValue Curve {fitting = Just f} <- [v]] <> fittings' state
+          values' = (region name, Expression.written d v) : values' state,
+          fittings' = [(name, f) | CurveValue PartCurve {fitting = Just f} <- [v]] <> fittings' state
         }
     bound name v = env {values = Map.insert (value name) v (values env), locals = Map.delete (value name) (locals env)}
     perform f = state {operations' = f (operations' state)}
@@ -147,7 +147,7 @@ step state (Located at s) = case s of
     keep answer f = kept answer (\a left -> (f a) {fuel = left})
     -- A block goes on with the steps that are left, and takes its own.
     blocked answer f = kept answer (\a left -> back (f a state {fuel = left}))
-    kept answer f = case Eval.run (fuel state) (Eval.spend at statementSteps *> answer) of
+    kept answer f = case Evaluation.run (fuel state) (Evaluation.spend at statementSteps *> answer) of
       (Left found, left) -> state {errors' = reverse found <> errors' state, fuel = left}
       (Right a, left) -> f a left
 
@@ -157,112 +157,112 @@ statementSteps = 5
 
 -- Values
 
-placement :: Value -> Similarity
+placement :: Value -> Transformation
 placement v = case v of
   PlacementValue s -> s
   _ -> bug "a value that is no transformation where one was checked"
 
-curveOf :: Value -> Curve
+curveOf :: Value -> PartCurve
 curveOf v = case v of
   CurveValue c -> c
   _ -> bug "a value that is no curve where one was checked"
 
-spot :: Environment -> Expr -> Eval Spot
-spot env e = spotOf <$> Value.evaluate env e
+spot :: Environment -> Expr -> Eval SpacePoint
+spot env e = spotOf <$> Expression.evaluate env e
 
-spotOf :: Value -> Spot
+spotOf :: Value -> SpacePoint
 spotOf v = case v of
-  SpaceValue p z -> Spot p z
-  _ -> Spot (Value.point v) (Mm 0)
+  SpaceValue p z -> SpacePoint p z
+  _ -> SpacePoint (Expression.point v) (Mm 0)
 
 -- | A whole number within limits.
 whole :: Environment -> Text -> (Int, Int) -> Expr -> Eval Int
 whole env what (low, high) e = do
-  x <- Value.number <$> Value.evaluate env e
+  x <- Expression.number <$> Expression.evaluate env e
   let n = if abs x > 1e8 then -1 else round x :: Int
   when (abs (x - fromIntegral n) > Tolerance.equal || n < low || n > high) $
-    Eval.mistake (NotWhole (region e) what ("from " <> Decimal.whole low <> " to " <> Decimal.whole high) x)
+    Evaluation.mistake (NotWhole (region e) what ("from " <> Decimal.whole low <> " to " <> Decimal.whole high) x)
   pure n
 
 accuracyOf :: Environment -> Checked.Accuracy -> Eval Accuracy
 accuracyOf env accuracy = case accuracy of
-  Checked.Within e -> OnPath <$> Walks.lengthOf env "the tolerance" e
+  Checked.Within e -> OnPath <$> ContourElement.lengthOf env "the tolerance" e
   Checked.Between a b -> do
     inside <- notNegative a
     outside <- notNegative b
     if inside <= Mm 0 && outside <= Mm 0
-      then Eval.mistake (NotPositive (region b) "the tolerance on one side at least" "0 mm")
+      then Evaluation.mistake (NotPositive (region b) "the tolerance on one side at least" "0 mm")
       else pure (Band inside outside)
   where
     notNegative e = do
-      x <- Value.number <$> Value.evaluate env e
-      when (x < 0) (Eval.mistake (Negative (region e) "the tolerance" (Decimal.mm (Mm x))))
-      Mm x <$ Data.within (region e) x
+      x <- Expression.number <$> Expression.evaluate env e
+      when (x < 0) (Evaluation.mistake (Negative (region e) "the tolerance" (Decimal.mm (Mm x))))
+      Mm x <$ Value.within (region e) x
 
 cutter :: Environment -> Checked.Cutter -> Eval Cutter
 cutter env (Located _ c) = case c of
-  Checked.MillCutter e -> Cutter MillingCutter . times 0.5 <$> Walks.lengthOf env "the cutter's diameter" e
-  Checked.DrillCutter e -> Cutter DrillingCutter . times 0.5 <$> Walks.lengthOf env "the drill's diameter" e
+  Checked.MillCutter e -> Cutter MillingCutter . times 0.5 <$> ContourElement.lengthOf env "the cutter's diameter" e
+  Checked.DrillCutter e -> Cutter DrillingCutter . times 0.5 <$> ContourElement.lengthOf env "the drill's diameter" e
   -- The flank of a cone touches what is H high at @a = R + H·tan μ@ from the axis (Kolsanova, section 3).
   Checked.ConeCutter e lean h -> do
-    Mm d <- Walks.lengthOf env "the cutter's diameter" e
-    mu <- Value.number <$> Value.evaluate env lean
-    Mm height' <- Walks.lengthOf env "the height of the flank" h
-    when (abs mu >= pi / 2 - 1e-6) (Eval.mistake (SteepBevel (region lean) Nothing (Rad mu)))
+    Mm d <- ContourElement.lengthOf env "the cutter's diameter" e
+    mu <- Expression.number <$> Expression.evaluate env lean
+    Mm height' <- ContourElement.lengthOf env "the height of the flank" h
+    when (abs mu >= pi / 2 - 1e-6) (Evaluation.mistake (SteepBevel (region lean) Nothing (Rad mu)))
     let a = d / 2 + height' * tan mu
-    when (a <= 0) (Eval.mistake (NotPositive (region lean) "the radius of the cutter at this height" (Decimal.mm (Mm a))))
+    when (a <= 0) (Evaluation.mistake (NotPositive (region lean) "the radius of the cutter at this height" (Decimal.mm (Mm a))))
     pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
   Checked.BladeCutter e g -> do
-    d <- Walks.lengthOf env "the blade's diameter" e
-    wheel <- Walks.lengthOf env "the diameter of the wheel" g
+    d <- ContourElement.lengthOf env "the blade's diameter" e
+    wheel <- ContourElement.lengthOf env "the diameter of the wheel" g
     pure (Cutter (BladeCutter wheel) (times 0.5 d))
   Checked.TurningCutter e -> do
-    x <- Value.number <$> Value.evaluate env e
-    when (x < 0) (Eval.mistake (Negative (region e) "the radius of the nose" (Decimal.mm (Mm x))))
+    x <- Expression.number <$> Expression.evaluate env e
+    when (x < 0) (Evaluation.mistake (Negative (region e) "the radius of the nose" (Decimal.mm (Mm x))))
     pure (Cutter TurningCutter (Mm x))
 
 -- | Compare what the program says has to hold.
 assert :: Region -> Environment -> Checked.Assertion -> Eval ()
 assert at env assertion = case assertion of
   Checked.Holds e -> do
-    v <- Value.evaluate env e
-    if Value.isTrue v then pure () else Eval.mistake (DoesNotHold (region e) [])
+    v <- Expression.evaluate env e
+    if Expression.isTrue v then pure () else Evaluation.mistake (DoesNotHold (region e) [])
   Checked.Compares d whole' op l r -> do
-    a <- Value.evaluate env l
-    b <- Value.evaluate env r
+    a <- Expression.evaluate env l
+    b <- Expression.evaluate env r
     v <- Builtin.binary whole' op a b
-    if Value.isTrue v then pure () else Eval.mistake (DoesNotHold whole' [(region l, Value.written d a), (region r, Value.written d b)])
+    if Expression.isTrue v then pure () else Evaluation.mistake (DoesNotHold whole' [(region l, Expression.written d a), (region r, Expression.written d b)])
   Checked.Agrees d l r within -> do
-    a <- Value.number <$> Value.evaluate env l
-    b <- Value.number <$> Value.evaluate env r
-    slack <- maybe (pure assertSlack) (fmap Value.number . Value.evaluate env) within
+    a <- Expression.number <$> Expression.evaluate env l
+    b <- Expression.number <$> Expression.evaluate env r
+    slack <- maybe (pure assertSlack) (fmap Expression.number . Expression.evaluate env) within
     if abs (a - b) <= slack + Tolerance.equal
       then pure ()
-      else Eval.mistake (DoNotAgree at (region l, written d a) (region r, written d b) (written d (abs (a - b))) (written d slack))
+      else Evaluation.mistake (DoNotAgree at (region l, written d a) (region r, written d b) (written d (abs (a - b))) (written d slack))
   where
     assertSlack = 1e-6
     written :: Dimension -> Double -> Text
-    written d x = Value.written d (Quantity x)
+    written d x = Expression.written d (Quantity x)
 
 -- Machining
 
 -- | Nothing when a setting is missing because of a mistake that is reported already.
 milling :: State -> Work -> Region -> Expr -> Located Side -> Checked.Settings -> Eval (Maybe Milling)
 milling state work at e side settings = do
-  c <- Value.evaluate env e
+  c <- Expression.evaluate env e
   mapM_ (case work of Milled -> rightCutter at "mill" "a mill" isMill; Turned -> rightCutter at "turn" "a turning tool" (== TurningCutter)) (cutter' state)
   before <- stopsOf state (Checked.approach settings)
   after <- stopsOf state (Checked.retract settings)
-  near <- traverse (fmap Value.point . Value.evaluate env) (Checked.startNear settings)
+  near <- traverse (fmap Expression.point . Expression.evaluate env) (Checked.startNear settings)
   case (c, Checked.startNear settings) of
-    (ContourValue contour, Just place) | ends contour == Open -> Eval.mistake (OpenBegins (region place) (value (contourName contour)))
+    (ContourValue contour, Just place) | ends contour == Open -> Evaluation.mistake (OpenBegins (region place) (value (contourName contour)))
     _ -> pure ()
   levels <- maybe (pure []) (levelsOf env) (Checked.depth settings)
-  mapM_ (\c' -> when (kind c' == DovetailCutter && length levels > 1) (Eval.mistake (StepsUndercut (maybe at (region . fst) (Checked.depth settings))))) (cutter' state)
-  plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
+  mapM_ (\c' -> when (kind c' == DovetailCutter && length levels > 1) (Evaluation.mistake (StepsUndercut (maybe at (region . fst) (Checked.depth settings))))) (cutter' state)
+  plunge <- traverse (ContourElement.feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)
   leadOut <- traverse lead (Checked.leadOut settings)
-  allowances <- maybe (pure (Mm 0 :| [])) (Eval.gather . fmap allowance) (Checked.allowances settings)
+  allowances <- maybe (pure (Mm 0 :| [])) (Evaluation.gather . fmap allowance) (Checked.allowances settings)
   pure $ do
     tool <- cutter' state
     tolerance <- tolerance' state
@@ -275,7 +275,7 @@ milling state work at e side settings = do
       ContourValue contour ->
         Just
           Milling
-            { contour = maybe contour (\p -> if ends contour == Closed then Walks.startingNear p contour else contour) near,
+            { contour = maybe contour (\p -> if ends contour == Closed then ContourElement.startingNear p contour else contour) near,
               work,
               side,
               radius = cutterRadius tool,
@@ -303,30 +303,30 @@ milling state work at e side settings = do
       Just (Located asked Checked.ByController) -> Just asked
       Just (Located _ Checked.ByCompiler) -> Nothing
       Nothing -> Nothing
-    lead (form, x) = (form,) <$> Walks.lengthOf env "the lead" x
+    lead (form, x) = (form,) <$> ContourElement.lengthOf env "the lead" x
     allowance x = do
-      v <- Value.number <$> Value.evaluate env x
-      when (v < 0) (Eval.mistake (Negative (region x) "the allowance" (Decimal.mm (Mm v))))
-      Mm v <$ Data.within (region x) v
+      v <- Expression.number <$> Expression.evaluate env x
+      when (v < 0) (Evaluation.mistake (Negative (region x) "the allowance" (Decimal.mm (Mm v))))
+      Mm v <$ Value.within (region x) v
 
 -- | A pocket: its outline milled inside, and islands. Nothing as for 'milling'.
 pocketing :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Pocketing)
 pocketing state at e step' settings = do
   mapM_ (rightCutter at "pocket" "a mill" (== MillingCutter)) (cutter' state)
   wall <- milling state Milled at e (Located (region e) Inside) settings
-  outline' <- contourAt e <$> Value.evaluate env e
-  islands <- concat <$> Eval.gather (map (\i -> namedIn i <$> Value.evaluate env i) (Checked.islands settings))
-  apart <- Walks.lengthOf env "the step from pass to pass" step'
-  Eval.spend at (sum [length (elements (Pocket.contour c)) | c <- outline' : islands])
-  let count = over (Pocket.halfWidth outline') apart
-  when (count > 10000) (Eval.mistake (NotWhole (region step') "the number of passes" "up to 10000" (fromIntegral (ceiling (min 1e9 count) :: Int))))
-  case [Error (NoPocket m) [] | m <- Pocket.misfits outline' islands <> [StepTooWide (region step') apart d | Just d <- [times 2 . cutterRadius <$> cutter' state], apart > d]] of
-    [] -> pure ((\w -> Pocketing {wall = w, islands = map Pocket.contour islands, apart}) <$> wall)
-    found -> Eval.mistakes found
+  outline' <- contourAt e <$> Expression.evaluate env e
+  islands <- concat <$> Evaluation.gather (map (\i -> namedIn i <$> Expression.evaluate env i) (Checked.islands settings))
+  apart <- ContourElement.lengthOf env "the step from pass to pass" step'
+  Evaluation.spend at (sum [length (elements (PocketCheck.contour c)) | c <- outline' : islands])
+  let count = over (PocketCheck.halfWidth outline') apart
+  when (count > 10000) (Evaluation.mistake (NotWhole (region step') "the number of passes" "up to 10000" (fromIntegral (ceiling (min 1e9 count) :: Int))))
+  case [Error (NoPocket m) [] | m <- PocketCheck.misfits outline' islands <> [StepTooWide (region step') apart d | Just d <- [times 2 . cutterRadius <$> cutter' state], apart > d]] of
+    [] -> pure ((\w -> Pocketing {wall = w, islands = map PocketCheck.contour islands, apart}) <$> wall)
+    found -> Evaluation.mistakes found
   where
     env = environment state
     contourAt i v = case v of
-      ContourValue c -> Pocket.Named (region i) c
+      ContourValue c -> PocketCheck.Named (region i) c
       _ -> bug "a value that is no contour where one was checked"
     namedIn i v = case v of
       ListValue vs -> map (contourAt i) (Vector.toList vs)
@@ -335,30 +335,30 @@ pocketing state at e step' settings = do
 -- | The heights of the passes: equal ones, none deeper than is asked.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
 levelsOf env (depth, most) = do
-  d <- Walks.lengthOf env "the depth" depth
-  step' <- traverse (Walks.lengthOf env "the depth of a pass") most
+  d <- ContourElement.lengthOf env "the depth" depth
+  step' <- traverse (ContourElement.lengthOf env "the depth of a pass") most
   let count = maybe 1 (\s -> max 1 (ceiling (over d s - Tolerance.equal))) step' :: Int
-  when (count > 10000) (Eval.mistake (NotWhole (region depth) "the number of passes" "up to 10000" (fromIntegral count)))
+  when (count > 10000) (Evaluation.mistake (NotWhole (region depth) "the number of passes" "up to 10000" (fromIntegral count)))
   pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
 
 drilling :: State -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe Drilling)
 drilling state at points depth settings = do
-  v <- Value.evaluate env points
+  v <- Expression.evaluate env points
   mapM_ (rightCutter at "drill" "a drill or a mill" (`elem` [DrillingCutter, MillingCutter])) (cutter' state)
-  Mm d <- Walks.lengthOf env "the depth" depth
-  pecked <- traverse (Walks.lengthOf env "the depth of a peck") (Checked.peck settings)
-  plunge <- traverse (Walks.feedOf env) (Checked.plunge settings)
+  Mm d <- ContourElement.lengthOf env "the depth" depth
+  pecked <- traverse (ContourElement.lengthOf env "the depth of a peck") (Checked.peck settings)
+  plunge <- traverse (ContourElement.feedOf env) (Checked.plunge settings)
   let places' = case v of
         ListValue vs -> Vector.length vs
         _ -> 1
       pecks = maybe 1 (\(Mm p) -> ceiling (min 1e9 (d / p) - Tolerance.equal)) pecked :: Int
-  when (pecks > 1000) (Eval.mistake (NotWhole (region depth) "the number of pecks" "up to 1000" (fromIntegral pecks)))
-  Eval.spend at (places' * pecks)
+  when (pecks > 1000) (Evaluation.mistake (NotWhole (region depth) "the number of pecks" "up to 1000" (fromIntegral pecks)))
+  Evaluation.spend at (places' * pecks)
   let places = case v of
-        ListValue vs -> map Value.point (Vector.toList vs)
-        _ -> [Value.point v]
+        ListValue vs -> map Expression.point (Vector.toList vs)
+        _ -> [Expression.point v]
   case NonEmpty.nonEmpty places of
-    Nothing -> Eval.mistake (NothingToDrill (region points))
+    Nothing -> Evaluation.mistake (NothingToDrill (region points))
     Just some -> pure $ do
       tool <- cutter' state
       drillFeed <- plunge <|> feed' state
@@ -371,7 +371,7 @@ drilling state at points depth settings = do
 rightCutter :: Region -> Text -> Text -> (CutterKind -> Bool) -> Cutter -> Eval ()
 rightCutter at statement needed isRight c
   | isRight (kind c) = pure ()
-  | otherwise = Eval.mistake (WrongCutter keyword statement needed there)
+  | otherwise = Evaluation.mistake (WrongCutter keyword statement needed there)
   where
     Region begin _ = at
     keyword = Region begin (begin + Text.length statement)
@@ -394,16 +394,16 @@ isMill cutterKind = case cutterKind of
   TurningCutter -> False
 
 stopsOf :: State -> [Checked.Stop] -> Eval (Maybe [Stop])
-stopsOf state stops = fmap sequence (Eval.gather (map stop stops))
+stopsOf state stops = fmap sequence (Evaluation.gather (map stop stops))
   where
     env = environment state
     stop (Checked.Stop p pace') = do
-      v <- Value.evaluate env p
+      v <- Expression.evaluate env p
       pace'' <- case pace' of
         Checked.Cutting -> pure (At <$> feed' state)
         Checked.Rapid -> pure (Just Rapid)
-        Checked.AtFeed e -> Just . At <$> Walks.feedOf env e
-      let Spot place _ = spotOf v
+        Checked.AtFeed e -> Just . At <$> ContourElement.feedOf env e
+      let SpacePoint place _ = spotOf v
           level = case v of
             SpaceValue _ z -> Just z
             _ -> Nothing

@@ -2,17 +2,17 @@
 module Part.Part
   ( Part (..),
     Contour (..),
-    Leg (..),
+    ContourElement (..),
     Element (..),
     Finish (..),
     plainFinish,
     runs,
     outline,
     backwards,
-    Spot (..),
+    SpacePoint (..),
     Operation (..),
     Milling (..),
-    Rest (..),
+    RestPolicy (..),
     Pocketing (..),
     Work (..),
     Accuracy (..),
@@ -29,7 +29,7 @@ module Part.Part
     LeadForm (..),
     Side (..),
     Switch (..),
-    Walk (..),
+    Sense (..),
     MachineRef (..),
   )
 where
@@ -37,20 +37,20 @@ where
 import Base.Name (Name)
 import Base.Quantity (Feed, Mm (..))
 import Base.Region (Located, Region)
-import Checked.Syntax (Corners (..), CutSense (..), LeadForm (..), MachineRef (..), Side (..), Switch (..), Walk (..))
+import Checked.Syntax (Corners (..), CutSense (..), LeadForm (..), MachineRef (..), Sense (..), Side (..), Switch (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Traversable (mapAccumR)
 import Data.Tuple (swap)
-import Geometry.Contour (Ends (..))
-import Geometry.Contour qualified as Geometry
+import Geometry.ElementCarrier (ElementCarrier)
+import Geometry.Polyarc (Ends (..))
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
-import Geometry.Walked (Walked)
-import Part.Curve (Curve, Fitting)
-import Part.Joint (Link)
+import Part.Curve (Fitting, PartCurve)
+import Part.LinkCandidate (Link)
 
 -- | What the program says, computed.
 data Part = Part
@@ -58,7 +58,7 @@ data Part = Part
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
     -- | where the cutter stands before the first frame
-    start :: Maybe (Located Spot),
+    start :: Maybe (Located SpacePoint),
     -- | the cutter in the spindle then
     firstCutter :: Maybe Cutter,
     contours :: [Contour],
@@ -77,13 +77,13 @@ data Contour = Contour
     ends :: Ends,
     elements :: NonEmpty Element,
     -- | as it was written; nothing when it was turned or moved since
-    legs :: [Leg]
+    legs :: [ContourElement]
   }
   deriving stock (Eq, Show)
 
 -- | One element of a contour as it was written: what was walked, exactly if it is a curve; what is asked on it; the link
 -- behind it.
-data Leg = Leg {spot :: Region, shape :: Walked, source :: Maybe Curve, asked :: Finish, link :: Maybe Link}
+data ContourElement = ContourElement {spot :: Region, shape :: ElementCarrier, source :: Maybe PartCurve, asked :: Finish, link :: Maybe Link}
   deriving stock (Eq, Show)
 
 -- | A segment, the element or the link of the program that it came from, and what is asked on it.
@@ -129,8 +129,8 @@ backwards c = c {elements = NonEmpty.reverse (snd (mapAccumR turned (continues (
     turned next e = (continues e, e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next})
 
 -- | The bare geometry of a contour.
-outline :: Contour -> Geometry.Contour
-outline contour = Geometry.Contour (ends contour) (segment first :| segmentsOf others)
+outline :: Contour -> Polyarc.Polyarc
+outline contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where
     first :| others = elements contour
     -- A segment that waited to be taken out of its element would need as much room again.
@@ -139,7 +139,7 @@ outline contour = Geometry.Contour (ends contour) (segment first :| segmentsOf o
       e : rest -> let s = segment e in s `seq` (s : segmentsOf rest)
 
 -- | A place and the height above the top of the part; negative in the material.
-data Spot = Spot {plane :: Point, height :: Mm}
+data SpacePoint = SpacePoint {plane :: Point, height :: Mm}
   deriving stock (Eq, Show)
 
 -- | What the machine is to do.
@@ -177,16 +177,16 @@ data Milling = Milling
     corners :: Corners,
     sense :: Maybe (Located CutSense),
     -- | of the spindle
-    spin :: Walk,
+    spin :: Sense,
     -- | where it is asked that the control keeps the cutter beside the contour; else the compiler does
     byControl :: Maybe Region,
-    rest :: Rest
+    rest :: RestPolicy
   }
   deriving stock (Eq, Show)
 
 -- | What is done where the cutter cannot reach: into a corner, a concave radius smaller than its own, a gap narrower than
 -- itself.
-data Rest
+data RestPolicy
   = -- | there is no path
     Refused
   | -- | the material stays, and a warning tells of it
@@ -238,7 +238,7 @@ data Drilling = Drilling
 
 data Command
   = -- | in a sense, at a speed in turns a minute
-    SpindleOn Walk (Maybe Double)
+    SpindleOn Sense (Maybe Double)
   | SpindleOff
   | CoolantTo Switch
   | Auxiliary Int

@@ -1,6 +1,6 @@
 -- | What can be wrong with the contours of a pocket and the distance of its passes.
 module Part.PocketError
-  ( Misfit (..),
+  ( PocketMisfit (..),
     toReport,
   )
 where
@@ -12,11 +12,11 @@ import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Report.Report (Code, Label (..), Place (..), Report (..), quote, report)
+import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), quote, report)
 import Report.Report qualified as Report
 
 -- | The place in the statement comes first.
-data Misfit
+data PocketMisfit
   = -- | an open contour as the outline or an island: its name, where it is defined
     OpenContour Region Name Region
   | -- | an island that does not lie inside the outline: both names
@@ -30,7 +30,7 @@ data Misfit
   deriving stock (Eq, Show)
 
 -- | The words for it.
-toReport :: Misfit -> Report
+toReport :: PocketMisfit -> Report
 toReport misfit = case misfit of
   OpenContour region (Name name) there ->
     (at region "E0356" ("the contour " <> quote name <> " is open and has no inside"))
@@ -58,5 +58,5 @@ toReport misfit = case misfit of
         hints = ["A usual step is half of the diameter: step " <> Decimal.mm (times 0.5 diameter) <> "."]
       }
 
-at :: Region -> Code -> Text -> Report
+at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)

@@ -1,159 +1,123 @@
--- | Values of the language while a program is evaluated, and the evaluation of expressions.
+-- | What a name can stand for, and what the functions of the language have in common.
 module Part.Value
   ( Value (..),
-    Environment (..),
-    empty,
-    bind,
-    evaluate,
-    number,
-    point,
-    isTrue,
-    items,
-    written,
+    Argument (..),
+    spatial,
+    lifted,
+    within,
+    finite,
+    place,
+    offset,
+    whole,
+    picked,
   )
 where
 
 import Base.Crash (bug)
-import Base.Decimal qualified as Decimal
-import Base.Name (Name)
 import Base.Quantity (Mm (..))
-import Base.Region (Located (..))
-import Base.Rows qualified as Rows
-import Checked.Dimension (Dimension)
-import Checked.Dimension qualified as Dimension
-import Checked.Syntax (Argument (..), Expr, Expr_ (..), Operator (..))
-import Data.List.NonEmpty (NonEmpty)
+import Base.Region (Region)
+import Checked.Syntax (Rank (..), Selector (..))
+import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict (Map)
-import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Data.Vector qualified as Vector
-import Geometry.Contour qualified as Contour
-import Geometry.Curve qualified as Exact
-import Geometry.Shape (Circle (..), Line (..))
+import Data.Vector (Vector)
+import Geometry.Carrier (Circle (..), Line (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point)
+import Geometry.Transformation (Transformation)
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Part.Builtin qualified as Builtin
-import Part.Curve qualified as Curve
-import Part.Data (Value (..))
-import Part.Data qualified as Data
-import Part.Error (Fact (..))
-import Part.Eval (Eval)
-import Part.Eval qualified as Eval
-import Part.Part (outline)
+import Part.Curve (PartCurve, PartTable)
+import Part.Error (Candidate (..), ValueFact (..))
+import Part.Evaluation (Eval)
+import Part.Evaluation qualified as Evaluation
+import Part.Part (Contour)
 
--- | The definitions so far. Names without a value depend on a mistake that is already reported.
-data Environment = Environment
-  { values :: Map Name Value,
-    -- | with the local names where they were defined
-    functions :: Map Name (Map Name Value, NonEmpty Name, Expr),
-    locals :: Map Name Value
-  }
-  deriving stock (Show)
+-- | What a name can stand for. Numbers are in mm, radians, minutes and turns.
+data Value
+  = Quantity Double
+  | -- | a point or a vector
+    Spatial Vec
+  | -- | a point with a height
+    SpaceValue Point Mm
+  | TruthValue Bool
+  | CircleValue Circle
+  | LineValue Line
+  | ContourValue Contour
+  | ListValue (Vector Value)
+  | PlacementValue Transformation
+  | TableValue PartTable
+  | CurveValue PartCurve
+  deriving stock (Eq, Show)
 
-empty :: Environment
-empty = Environment Map.empty Map.empty Map.empty
+-- | An argument with the word before it.
+data Argument = Plain Value | Choosing Selector Value | Ranking Rank
+  deriving stock (Eq, Show)
 
--- | With a name that is known only here.
-bind :: Name -> Value -> Environment -> Environment
-bind name v env = env {locals = Map.insert name v (locals env)}
+-- | A point or vector that a machine reaches.
+spatial :: Region -> Vec -> Eval Value
+spatial region v = Spatial v <$ within region (Vec.norm v)
 
--- | The value of an expression.
-evaluate :: Environment -> Expr -> Eval Value
-evaluate env (Located region e) =
-  Eval.spend region 1 *> case e of
-    Number x -> pure (Quantity x)
-    Variable name -> maybe Eval.absent pure (firstOf (Map.lookup name (locals env)) (Map.lookup name (values env)))
-    Apply name arguments -> case Map.lookup name (functions env) of
-      Nothing -> Eval.absent
-      Just (around, parameters, body) -> do
-        vs <- traverse (evaluate env) arguments
-        Eval.inCall region (evaluate env {locals = Map.union (Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs))) around} body)
-    Builtin builtin arguments -> traverse argument arguments >>= Builtin.apply region builtin
-    Negate inner -> evaluate env inner >>= Builtin.binary region Multiply (Quantity (-1))
-    Not inner -> TruthValue . not . isTrue <$> evaluate env inner
-    Binary And l r -> evaluate env l >>= \a -> if isTrue a then evaluate env r else pure a
-    Binary Or l r -> evaluate env l >>= \a -> if isTrue a then pure a else evaluate env r
-    Binary op l r -> do
-      a <- evaluate env l
-      b <- evaluate env r
-      Builtin.binary region op a b
-    Range low high step -> do
-      a <- number <$> evaluate env low
-      b <- number <$> evaluate env high
-      by <- maybe (pure 1) (fmap number . evaluate env) step
-      range a b by
-    If c a b -> evaluate env c >>= \v -> evaluate env (if isTrue v then a else b)
-    Pair x y -> do
-      a <- numberOf x
-      b <- numberOf y
-      Data.spatial region (Vec.vec a b)
-    Triple x y z -> do
-      a <- number <$> evaluate env x
-      b <- number <$> evaluate env y
-      c <- number <$> evaluate env z
-      Data.lifted region (Vec.point a b) (Mm c)
-    List es -> ListValue . Vector.fromList <$> traverse (evaluate env) es
-    Each inner name list -> do
-      vs <- items <$> evaluate env list
-      ListValue . Vector.fromList <$> traverse (\v -> evaluate (bind name v env) inner) vs
+-- | A point with a height that a machine reaches.
+lifted :: Region -> Point -> Mm -> Eval Value
+lifted region p z@(Mm h) = SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
+
+-- | A length that a machine reaches.
+within :: Region -> Double -> Eval ()
+within region x
+  | abs x <= limit = pure ()
+  | otherwise = Evaluation.mistake (OutOfReach region Tolerance.reach)
   where
-    -- Most coordinates are numbers as they are written.
-    numberOf x = case x of
-      Located at (Number c) -> c <$ Eval.spend at 1
-      _ -> number <$> evaluate env x
-    firstOf a b = case a of
-      Just _ -> a
-      Nothing -> b
-    argument a = case a of
-      Given x -> Data.Plain <$> evaluate env x
-      Chosen choice x -> Data.Choosing choice <$> evaluate env x
-      Ranked rank -> pure (Data.Ranking rank)
-    range a b by
-      | by == 0 = Eval.mistake (StepOfZero region)
-      | otherwise = do
-        let count = floor ((b - a) / by + Tolerance.equal) + 1 :: Integer
-        Eval.spend region (fromInteger (max 0 (min 100000000 count)))
-        pure (ListValue (Vector.generate (max 0 (fromInteger count)) (\k -> Quantity (a + fromIntegral k * by))))
+    Mm limit = Tolerance.reach
 
--- | A checked number.
-number :: Value -> Double
-number v = case v of
-  Quantity x -> x
-  _ -> bug "a value that is no number where a number was checked"
+-- | A number that can be held.
+finite :: Region -> Double -> Eval Value
+finite region x
+  | isNaN x || isInfinite x = Evaluation.mistake (TooLarge region)
+  | otherwise = pure (Quantity x)
 
--- | A checked point.
-point :: Value -> Point
-point v = case v of
-  Spatial p -> Data.place p
-  _ -> bug "a value that is no point where a point was checked"
+-- | The place that a vector from (0, 0) reaches.
+place :: Vec -> Point
+place v = Vec.shift v (Vec.point 0 0)
 
--- | A checked truth.
-isTrue :: Value -> Bool
-isTrue v = case v of
-  TruthValue b -> b
-  _ -> bug "a value that is neither true nor false where one was checked"
+offset :: Point -> Vec
+offset = Vec.to (Vec.point 0 0)
 
--- | The items of a checked list.
-items :: Value -> [Value]
-items v = case v of
-  ListValue vs -> Vector.toList vs
-  _ -> bug "a value that is no list where a list was checked"
+-- | A whole number from 1 upwards.
+whole :: Region -> Text -> Double -> Eval Int
+whole region what x
+  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Evaluation.mistake (NotWhole region what "from 1 to 10000000" x)
+  | otherwise = pure n
+  where
+    n = if abs x > 1e8 then 0 else round x :: Int
 
--- | A value for a reader; the dimension is that of its quantities.
-written :: Dimension -> Value -> Text
-written dimension v = case v of
-  Quantity x ->
-    let unit = Dimension.unitWord dimension
-     in Decimal.short 6 (x / Dimension.defaultUnit dimension) <> (if unit == "" then "" else " " <> unit)
-  Spatial p -> Vec.written 4 (Data.place p)
-  SpaceValue p (Mm z) -> Vec.written 4 p <> " at height " <> Decimal.mm (Mm z)
-  TruthValue b -> if b then "true" else "false"
-  CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
-  LineValue (Line p q) -> "from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
-  ContourValue c -> "length " <> Decimal.mm (Contour.length (outline c))
-  ListValue vs -> Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
-  PlacementValue _ -> ""
-  TableValue t -> Decimal.whole (Rows.count (Curve.rows t)) <> " rows"
-  CurveValue c -> "length " <> Decimal.mm (Exact.length (Curve.exact c))
+-- | The one answer that is meant. Distances that differ by no more than the length given are a tie. The function tells the point by which an answer is chosen; the ways
+-- tell how far along something an answer lies, so that there is a first and a last.
+picked :: Mm -> Region -> Text -> (a -> Candidate) -> (a -> Point) -> [a -> Mm] -> [a] -> [Argument] -> Eval a
+picked (Mm tie) region what candidate key ways found choice = case (found, choice) of
+  ([], _) -> Evaluation.mistake (NoAnswer region what ("No " <> what <> " of this size touches both things on these sides, or goes through them."))
+  ([one], []) -> pure one
+  (_, []) -> Evaluation.mistake (Several region what all')
+  (_, Choosing Near (Spatial p) : _) -> case sortOn (Vec.distance (place p) . key) found of
+    a : b : _ | near (Vec.distance (place p) (key a)) (Vec.distance (place p) (key b)) -> Evaluation.mistake (SeveralFit region what all')
+    a : _ -> pure a
+    [] -> only []
+  (_, Choosing ToLeft (LineValue l) : _) -> only (filter (\a -> sideOf l a > tolerance) found)
+  (_, Choosing ToRight (LineValue l) : _) -> only (filter (\a -> sideOf l a < -tolerance) found)
+  (_, Choosing Within' (CircleValue c) : _) -> only (filter (\a -> depth c a > tolerance) found)
+  (_, Choosing Beyond (CircleValue c) : _) -> only (filter (\a -> depth c a < -tolerance) found)
+  (_, Ranking rank : _) | along : _ <- ways -> pure (ranked rank (NonEmpty.fromList (sortOn along found)))
+  _ -> bug "a choice of another kind"
+  where
+    all' = map candidate found
+    only fitting = case fitting of
+      [one] -> pure one
+      [] -> Evaluation.mistake (NoneFits region what all')
+      _ -> Evaluation.mistake (SeveralFit region what (map candidate fitting))
+    Mm tolerance = Tolerance.coincident
+    near (Mm a) (Mm b) = abs (a - b) <= tie
+    sideOf l a = let Mm d = Carrier.signedDistance l (key a) in d
+    depth (Circle c (Mm r)) a = let Mm d = Vec.distance c (key a) in r - d
+    ranked rank as = case rank of
+      First -> NonEmpty.head as
+      Last -> NonEmpty.last as

@@ -16,10 +16,10 @@ import Data.Foldable (find)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Query.Carry (Carry)
-import Query.Carry qualified as Carry
-import Query.Facts (Facts, Mention)
-import Query.Facts qualified as Facts
+import Query.Mention (Mention, Mentions)
+import Query.Mention qualified as Mention
+import Query.RegionMap (RegionMap)
+import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
@@ -37,44 +37,44 @@ hover now before at = said <$> listToMaybe (found now before at)
     said (Found origin _ mention place) =
       Hover
         { place,
-          name = Facts.word mention,
-          value = Facts.definition mention >>= \d -> lookup d (Facts.values (Snapshot.facts origin)),
-          meaning = Facts.meaning mention
+          name = Mention.word mention,
+          value = Mention.definition mention >>= \d -> lookup d (Mention.values (Snapshot.facts origin)),
+          meaning = Mention.meaning mention
         }
 
 -- | Where the name at an offset is defined.
 definition :: Snapshot -> Maybe Snapshot -> Int -> Maybe Target
 definition now before at = listToMaybe (mapMaybe target (found now before at))
   where
-    target (Found origin carry mention _) = Facts.definition mention >>= placed (Snapshot.source origin) carry
+    target (Found origin carry mention _) = Mention.definition mention >>= placed (Snapshot.source origin) carry
     placed source carry region = case carry of
-      Just moved | isOwn source region -> Target (Snapshot.source now) <$> Carry.forward moved region
+      Just moved | isOwn source region -> Target (Snapshot.source now) <$> RegionMap.forward moved region
       _ -> Just Target {source, region}
 
 -- | A mention under the cursor: the snapshot that knows it, how that one's text became the present one if it
 -- is an older one, and the place of the mention in the present text.
-data Found = Found Snapshot (Maybe Carry) Mention Region
+data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
 found :: Snapshot -> Maybe Snapshot -> Int -> [Found]
 found now before at = present <> maybe [] past before
   where
-    present = [Found now Nothing m (Facts.place m) | Just m <- [under (Snapshot.facts now) at]]
+    present = [Found now Nothing m (Mention.place m) | Just m <- [under (Snapshot.facts now) at]]
     past snapshot =
-      let moved = Carry.between (textOf snapshot) (textOf now)
+      let moved = RegionMap.between (textOf snapshot) (textOf now)
        in [ Found snapshot (Just moved) m here
-            | Just at' <- [Carry.back moved at],
+            | Just at' <- [RegionMap.back moved at],
               Just m <- [under (Snapshot.facts snapshot) at'],
-              Just here <- [Carry.forward moved (Facts.place m)]
+              Just here <- [RegionMap.forward moved (Mention.place m)]
           ]
     textOf = Region.text . Snapshot.source
 
 -- | The mention that an offset lies in, or else the one that it ends.
-under :: Facts -> Int -> Maybe Mention
-under facts at = case find (within (<)) (Facts.mentions facts) of
+under :: Mentions -> Int -> Maybe Mention
+under facts at = case find (within (<)) (Mention.mentions facts) of
   Just m -> Just m
-  Nothing -> find (within (<=)) (Facts.mentions facts)
+  Nothing -> find (within (<=)) (Mention.mentions facts)
   where
-    within before m = let Region from to = Facts.place m in from <= at && at `before` to
+    within before m = let Region from to = Mention.place m in from <= at && at `before` to
 
 -- | Whether a stretch lies in the program's own file.
 isOwn :: Source -> Region -> Bool

@@ -12,29 +12,29 @@ import Base.Region (Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Checked.Syntax qualified as Checked
-import Compile (Analysis, Loaded)
+import Compile (Analysis, LoadedProgram)
 import Compile qualified
 import Data.Bifunctor (first)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Query.Facts (Facts)
-import Query.Facts qualified as Facts
+import Query.Mention (Mentions)
+import Query.Mention qualified as Mention
 import Report.Report (Report)
 import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
 import Prelude hiding (take)
 
 -- | What looks for the mistakes of a program: the same for editors as for the command line.
-type Check = Loaded -> Result Report Report Analysis
+type Check = LoadedProgram -> Result Report Report Analysis
 
 -- | The texts, what is wrong with them, the syntax tree, what is known of the names, where each import stands
 -- and the file that it names.
-data Snapshot = Snapshot {source :: Source, reports :: [Report], program :: Program, facts :: Facts, imports :: [(Region, Text)]}
+data Snapshot = Snapshot {source :: Source, reports :: [Report], program :: Program, facts :: Mentions, imports :: [(Region, Text)]}
 
 -- | Look at a program.
-take :: Check -> Loaded -> Snapshot
-take check loaded = Snapshot {source, reports, program, facts = Facts.facts known, imports = Compile.imports loaded}
+take :: Check -> LoadedProgram -> Snapshot
+take check loaded = Snapshot {source, reports, program, facts = Mention.facts known, imports = Compile.imports loaded}
   where
     source = Compile.source loaded
     result = check loaded

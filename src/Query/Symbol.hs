@@ -1,7 +1,7 @@
 -- | The outline of a program: what it names, and what is machined.
 module Query.Symbol
-  ( Symbol (..),
-    Kind (..),
+  ( DocumentSymbol (..),
+    SymbolKind (..),
     symbols,
   )
 where
@@ -17,18 +17,18 @@ import Query.Snapshot (Snapshot (..))
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
 
 -- | A name, a few words more, the whole statement and the name in it.
-data Symbol = Symbol {name :: Text, detail :: Text, kind :: Kind, whole :: Region, selection :: Region}
+data DocumentSymbol = DocumentSymbol {name :: Text, detail :: Text, kind :: SymbolKind, whole :: Region, selection :: Region}
   deriving stock (Eq, Show)
 
 -- | What a symbol stands for.
-data Kind = Part' | Value | Function | Contour' | Machining
+data SymbolKind = Part' | Value | Function | Contour' | Machining
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | The symbols in the order of the text. Statements that only set something have none.
-symbols :: Snapshot -> [Symbol]
+symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
 
-symbol :: Source -> Statement -> Maybe Symbol
+symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part what title -> named Part' what (maybe "" value title)
   LetValue what _ -> named Value what ""
@@ -60,8 +60,8 @@ symbol source (Located whole s) = case s of
   Coolant _ -> Nothing
   Auxiliary _ -> Nothing
   where
-    named kind (Located selection (Name name)) detail = Just Symbol {name, detail, kind, whole, selection}
-    unnamed words' selection = Symbol {name = slice source words', detail = "", kind = Machining, whole, selection}
+    named kind (Located selection (Name name)) detail = Just DocumentSymbol {name, detail, kind, whole, selection}
+    unnamed words' selection = DocumentSymbol {name = slice source words', detail = "", kind = Machining, whole, selection}
 
 -- | A piece of the text on one line.
 slice :: Source -> Region -> Text

@@ -22,10 +22,10 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Report.Embedded qualified as Embedded
-import Report.Report (Code (..))
+import Report.Report (ReportCode (..))
 
 data Explanation = Explanation
-  { code :: Code,
+  { code :: ReportCode,
     -- | one line, no full stop
     title :: Text,
     -- | paragraphs in Markdown, lines ready for a terminal
@@ -53,7 +53,7 @@ everything = sortOn order (mapMaybe readOne Embedded.files)
   where
     readOne (file, bytes) = either (const Nothing) Just (Encoding.decodeUtf8' bytes) >>= parse file
     -- Warnings stand behind the errors of their group.
-    order e = let Code c = code e in (Text.take 2 (Text.drop 1 c), Text.take 1 c, c)
+    order e = let ReportCode c = code e in (Text.take 2 (Text.drop 1 c), Text.take 1 c, c)
 
 -- | Read a file: a heading with the code that its name tells, paragraphs, the wrong example, the right one.
 parse :: FilePath -> Text -> Maybe Explanation
@@ -65,7 +65,7 @@ parse file text = do
   (wrong, behind) <- example "wrong" examples
   (right, rest) <- example "right" behind
   if Text.null (Text.strip rest) && not (Text.null (Text.strip prose))
-    then Just Explanation {code = Code name, title, prose = Text.strip prose, wrong, right}
+    then Just Explanation {code = ReportCode name, title, prose = Text.strip prose, wrong, right}
     else Nothing
 
 -- | The fenced block of this kind that a text begins with, and what follows it.
@@ -86,7 +86,7 @@ find word = filter isMeant everything
   where
     (letters, number) = readCode word
     isMeant e =
-      let Code c = code e
+      let ReportCode c = code e
        in number /= "" && Text.drop 1 c == number && (letters == "" || Text.take 1 c == letters)
 
 -- | A code as it was probably meant: its letters in upper case, four digits. No digits when it is none.
@@ -106,7 +106,7 @@ near word
   | otherwise = sameNumber
   where
     (letters, number) = readCode word
-    codes = [(Text.drop 1 c, c) | e <- everything, let Code c = code e]
+    codes = [(Text.drop 1 c, c) | e <- everything, let ReportCode c = code e]
     sameNumber = [c | (n, c) <- codes, n == number]
     sameLetter = [(n, c) | (n, c) <- codes, letters `notElem` ["E", "W"] || Text.take 1 c == letters]
     exchanged = [c | (n, c) <- sameLetter, n `elem` exchanges number]
@@ -123,20 +123,20 @@ exchanges number =
 
 -- | All codes with their titles, one a line.
 list :: Text
-list = Text.unlines [c <> "  " <> plain (title e) | e <- everything, let Code c = code e]
+list = Text.unlines [c <> "  " <> plain (title e) | e <- everything, let ReportCode c = code e]
 
 -- | One explanation for a terminal: no fences, programs indented.
 render :: Explanation -> Text
 render e = page (c <> ": " <> plain (title e)) (plain (prose e)) indented e
   where
-    Code c = code e
+    ReportCode c = code e
     indented content = Text.intercalate "\n" [if Text.null l then "" else "    " <> l | l <- Text.lines content]
 
 -- | One explanation for a viewer of Markdown.
 markdown :: Explanation -> Text
 markdown e = page ("# " <> c <> ": " <> title e) (prose e) fenced e
   where
-    Code c = code e
+    ReportCode c = code e
     fenced content = "```\n" <> content <> "```"
 
 page :: Text -> Text -> (Text -> Text) -> Explanation -> Text

@@ -14,7 +14,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Excerpt (Excerpt (indent, isSame, shown, width))
 import Report.Excerpt qualified as Excerpt
-import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..))
+import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
 import Report.Report qualified as Report
 import System.Console.ANSI.Codes qualified as Ansi
 
@@ -31,7 +31,7 @@ render colour path source report = Text.unlines (heading : location <> body <> a
   where
     r = cleaned report
     paint' = paint colour
-    Code code = Report.code r
+    ReportCode code = Report.code r
     heading =
       paint' (Severe (severity r)) (Report.severityWord (severity r) <> "[" <> code <> "]")
         <> paint' Title (": " <> title r)

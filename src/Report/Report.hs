@@ -3,8 +3,8 @@
 module Report.Report
   ( Report (..),
     Severity (..),
-    Code (..),
-    Place (..),
+    ReportCode (..),
+    ReportPlace (..),
     Label (..),
     report,
     quote,
@@ -26,12 +26,12 @@ data Severity = Error | Warning
   deriving stock (Eq, Ord, Show)
 
 -- | The stable code of a report, a letter and four digits: @E0412@, @W0501@.
-newtype Code = Code Text
+newtype ReportCode = ReportCode Text
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
 -- | Where a report points.
-data Place
+data ReportPlace
   = -- | a stretch of the program
     InSource Region
   | -- | a row of the tape, from 1
@@ -47,10 +47,10 @@ data Label = Label {region :: Region, words :: Text}
 -- | What is wrong, where, why, and what to do about it.
 data Report = Report
   { severity :: Severity,
-    code :: Code,
+    code :: ReportCode,
     -- | one line, lower case, no full stop
     title :: Text,
-    place :: Place,
+    place :: ReportPlace,
     -- | words beside the place itself; may be empty
     label :: Text,
     -- | other places that matter
@@ -63,7 +63,7 @@ data Report = Report
   deriving stock (Eq, Show)
 
 -- | A report with a title and a place and nothing else yet.
-report :: Severity -> Code -> Place -> Text -> Report
+report :: Severity -> ReportCode -> ReportPlace -> Text -> Report
 report severity code place title =
   Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
 

@@ -25,7 +25,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Report.Explanation (Explanation)
 import Report.Explanation qualified as Explanation
-import Report.Report (Code (..), Label (..), Place (..), Report (..))
+import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Prelude hiding (log)
 
@@ -50,15 +50,15 @@ log explanations filed = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingT
     indices = Map.fromList (zip codes [0 ..])
 
 -- | What a code means; its help is the text of @partc explain@.
-rule :: [Explanation] -> Code -> Encoding
-rule explanations code@(Code name) = pairs ("id" .= name <> maybe mempty explained found)
+rule :: [Explanation] -> ReportCode -> Encoding
+rule explanations code@(ReportCode name) = pairs ("id" .= name <> maybe mempty explained found)
   where
     found = listToMaybe [e | e <- explanations, Explanation.code e == code]
     explained e =
       pair "shortDescription" (pairs ("text" .= Explanation.title e))
         <> pair "help" (pairs ("text" .= Explanation.render e <> "markdown" .= Explanation.markdown e))
 
-result :: Map Code Int -> Filed -> Encoding
+result :: Map ReportCode Int -> Filed -> Encoding
 result indices Filed {path, source, report = r} =
   pairs $
     "ruleId" .= code
@@ -68,7 +68,7 @@ result indices Filed {path, source, report = r} =
       <> pair "locations" (list pairs located)
       <> (if null (others r) then mempty else pair "relatedLocations" (list related places))
   where
-    Code code = Report.code r
+    ReportCode code = Report.code r
     sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (hints r))
     located = case place r of
       InSource region -> [inSource source region <> (if label r == "" then mempty else pair "message" (message' (label r)))]

@@ -1,8 +1,8 @@
 -- | What can be wrong with the numbers of a sheet.
 module Sheet.Error
   ( Error (..),
-    Spot (..),
-    Misfit (..),
+    NumberPosition (..),
+    PieceMisfit (..),
     toReport,
   )
 where
@@ -11,42 +11,42 @@ import Base.Decimal qualified as Decimal
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
+import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
 import Sheet.Sheet (address, generalWords, mostArrays)
 
 -- | A number of the sheet: where it stands, and the how-manieth it is, from 1.
-data Spot = Spot {site :: Region, number :: Int}
+data NumberPosition = NumberPosition {site :: Region, number :: Int}
   deriving stock (Eq, Ord, Show)
 
 data Error
   = -- | a word that is no number
-    NotANumber Spot Text
+    NotANumber NumberPosition Text
   | -- | the general data end too early: the word at which they do, or the last one, and how many there are
-    GeneralShort Spot Int
+    GeneralShort NumberPosition Int
   | -- | a number of the general data that cannot be: what it is, what it has to be
-    GeneralWrong Spot Text Text
+    GeneralWrong NumberPosition Text Text
   | -- | the points of the approach: where it shows, and how
-    ApproachShifted Spot Text
+    ApproachShifted NumberPosition Text
   | -- | the points behind an array: where it shows, and how
-    OnwardShifted Spot Text
+    OnwardShifted NumberPosition Text
   | -- | a cipher that the system does not have, and why
-    CipherUnknown Spot Text
+    CipherUnknown NumberPosition Text
   | -- | data that do not fit the cipher: where it shows, the cipher, what it asks
-    PieceMisfit Spot Spot Misfit
+    PieceMisfit NumberPosition NumberPosition PieceMisfit
   | -- | one array more than there may be begins here
-    TooManyArrays Spot
+    TooManyArrays NumberPosition
   | -- | the sheet ends where something else is expected: its last word, what is expected
-    EndMissing Spot Text
+    EndMissing NumberPosition Text
   | -- | behind the end mark of a piece there is no link or no allowance
-    LinkMissing Spot Text
+    LinkMissing NumberPosition Text
   | -- | numbers behind the end of the program
-    BehindTheEnd Spot
+    BehindTheEnd NumberPosition
   | -- | the way to the pieces ends with a feed at which nothing can be cut
-    NoWorkingFeed Spot
+    NoWorkingFeed NumberPosition
   deriving stock (Eq, Ord, Show)
 
 -- | How a piece does not fit its cipher.
-data Misfit
+data PieceMisfit
   = -- | so many numbers before the points, for each point, behind the points, for each point once more; so many are there
     CountOff Int Int Int Int Int
   | -- | fewer than two points
@@ -117,7 +117,7 @@ toReport err = case err of
         hints = ["Write the feed of the pieces here."]
       }
 
-misfitReport :: Spot -> Spot -> Misfit -> Report
+misfitReport :: NumberPosition -> NumberPosition -> PieceMisfit -> Report
 misfitReport spot opened misfit =
   (at spot "E0907" ("the data of the piece do not fit its cipher" <> short))
     { others = [Label (site opened) "the cipher of the piece"],
@@ -138,11 +138,11 @@ misfitReport spot opened misfit =
       LoneSign -> (": a sign without a number", "A sign alone is a link, which stands behind the -0 of a piece.")
     numbers n = if n == 1 then "1 number" else Decimal.whole n <> " numbers"
 
-at :: Spot -> Code -> Text -> Report
+at :: NumberPosition -> ReportCode -> Text -> Report
 at spot code = report Error code (InSource (site spot))
 
 -- | Which number it is.
-counted :: Spot -> Text
+counted :: NumberPosition -> Text
 counted spot = "This is number " <> Decimal.whole (number spot) <> " of the sheet, at the address " <> address (number spot) <> "."
 
 stop :: Text -> Text

@@ -15,18 +15,18 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
+import Geometry.Carrier qualified as Carrier
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column qualified as Column
-import Geometry.Curve.Distance (Distance, Growth (..))
-import Geometry.Curve.Distance qualified as Distance
-import Geometry.Offset qualified as Offset
+import Geometry.Curve.ShiftDistance (Distance, Growth (..))
+import Geometry.Curve.ShiftDistance qualified as ShiftDistance
 import Geometry.Vec qualified as Vec
 import Numeric (showEFloat)
 import Part.Part (Finish)
 import Part.Part qualified as Part
 import Sheet.Sheet
-import Sheet.Unfit (Unfit (..))
+import Sheet.Unsupported (Unfit (..))
 import Text.Read (readMaybe)
 
 -- | One shift: 1 to the left of the walk, -1 to the right; whether its distance is square to the surface; the
@@ -53,9 +53,9 @@ piece at curve finish = do
         allowance = let Mm a = Part.allowance finish in here a
       }
   where
-    row p s = Row {px = here (Vec.x p), py = here (Vec.y p), surface = s}
+    row p s = PointRow {px = here (Vec.x p), py = here (Vec.y p), surface = s}
     isBevelled s = case distance s of
-      Distance.Bevelled {} -> True
+      ShiftDistance.Bevelled {} -> True
       _ -> False
 
 here :: a -> Located a
@@ -73,19 +73,19 @@ pointsOf at base = case Base.method base of
   where
     points = Vector.map Base.place (Base.rows base)
 
-shiftOf :: (Offset.Side, Distance) -> Shift
+shiftOf :: (Carrier.Side, Distance) -> Shift
 shiftOf (side, distance) = case distance of
-  Distance.Square mu inner -> Shift {sign, square = Just (Column.values mu), distance = inner}
-  Distance.Constant _ -> alone
-  Distance.Pointwise _ -> alone
-  Distance.Bevelled {} -> alone
-  Distance.Growing _ -> alone
-  Distance.Joggled _ -> alone
+  ShiftDistance.Square mu inner -> Shift {sign, square = Just (Column.values mu), distance = inner}
+  ShiftDistance.Constant _ -> alone
+  ShiftDistance.Pointwise _ -> alone
+  ShiftDistance.Bevelled {} -> alone
+  ShiftDistance.Growing _ -> alone
+  ShiftDistance.Joggled _ -> alone
   where
     alone = Shift {sign, square = Nothing, distance}
     sign = case side of
-      Offset.LeftOf -> 1
-      Offset.RightOf -> -1
+      Carrier.LeftOf -> 1
+      Carrier.RightOf -> -1
 
 -- | The side to which the distances of a piece count: that of its first distance before the points; where that is
 -- nothing or 0, the side of the first shift.
@@ -95,8 +95,8 @@ sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf 
   _ -> maybe 1 sign (listToMaybe shifts)
   where
     headOf d = case d of
-      Distance.Constant (Mm h) -> Just h
-      Distance.Growing Growth {from = Mm h} -> Just h
+      ShiftDistance.Constant (Mm h) -> Just h
+      ShiftDistance.Growing Growth {from = Mm h} -> Just h
       _ -> Nothing
 
 -- | The same shift as one to another side.
@@ -106,12 +106,12 @@ turnedTo wanted s
   | otherwise = s {sign = wanted, distance = opposite (distance s)}
   where
     opposite d = case d of
-      Distance.Constant h -> Distance.Constant (minus h)
-      Distance.Pointwise c -> Distance.Pointwise (negative c)
-      Distance.Bevelled mu height delta -> Distance.Bevelled mu (negative height) (minus delta)
-      Distance.Growing g -> Distance.Growing g {from = minus (from g), to = minus (to g)}
-      Distance.Square mu inner -> Distance.Square mu (opposite inner)
-      Distance.Joggled j -> Distance.Joggled j
+      ShiftDistance.Constant h -> ShiftDistance.Constant (minus h)
+      ShiftDistance.Pointwise c -> ShiftDistance.Pointwise (negative c)
+      ShiftDistance.Bevelled mu height delta -> ShiftDistance.Bevelled mu (negative height) (minus delta)
+      ShiftDistance.Growing g -> ShiftDistance.Growing g {from = minus (from g), to = minus (to g)}
+      ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
+      ShiftDistance.Joggled j -> ShiftDistance.Joggled j
     minus (Mm h) = Mm (negate h)
     -- Only the values are read.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
@@ -119,14 +119,14 @@ turnedTo wanted s
 -- | What a sheet has no numbers for.
 plain :: Region -> Shift -> Result w Unfit ()
 plain at s = case distance s of
-  Distance.Bevelled _ _ (Mm delta) | delta /= 0 -> refused (NoCipher at "its 4 has an allowance" "Write the allowance behind the element: allowance 0.5")
-  Distance.Growing Growth {between = Just _} -> refused (NoCipher at "its 1 changes between two points" "On a sheet the distance changes along the whole piece: make pieces of the parts.")
-  Distance.Joggled _ -> refused (NoCipher at "it has a joggle" "Keep the program as it is, or make pieces of the parts.")
-  Distance.Square _ inner -> plain at s {distance = inner}
-  Distance.Bevelled {} -> pure ()
-  Distance.Growing _ -> pure ()
-  Distance.Constant _ -> pure ()
-  Distance.Pointwise _ -> pure ()
+  ShiftDistance.Bevelled _ _ (Mm delta) | delta /= 0 -> refused (NoCipher at "its 4 has an allowance" "Write the allowance behind the element: allowance 0.5")
+  ShiftDistance.Growing Growth {between = Just _} -> refused (NoCipher at "its 1 changes between two points" "On a sheet the distance changes along the whole piece: make pieces of the parts.")
+  ShiftDistance.Joggled _ -> refused (NoCipher at "it has a joggle" "Keep the program as it is, or make pieces of the parts.")
+  ShiftDistance.Square _ inner -> plain at s {distance = inner}
+  ShiftDistance.Bevelled {} -> pure ()
+  ShiftDistance.Growing _ -> pure ()
+  ShiftDistance.Constant _ -> pure ()
+  ShiftDistance.Pointwise _ -> pure ()
 
 -- | The bevel and the height at every point, if a recalculation looks at them.
 surfaceOf :: Region -> Int -> [Shift] -> Result w Unfit (Maybe [Surface])
@@ -137,24 +137,24 @@ surfaceOf at count shifts
   | any (\s -> null (square s) && needsSquare (distance s)) shifts = refused (NoCipher at "a distance is not square to the surface" "On a sheet, distances of a piece with a bevel are square to the surface: 2(h, mu).")
   | otherwise = pure (Just (zipWith (\m h -> Surface {mu = here (degreesOf m), flange = here h}) (concatMap toList (take 1 leans)) (concatMap toList (take 1 heights) <> replicate count 0)))
   where
-    bevelled = [(Column.values mu, Column.values h) | Shift {distance = Distance.Bevelled mu h _} <- shifts]
+    bevelled = [(Column.values mu, Column.values h) | Shift {distance = ShiftDistance.Bevelled mu h _} <- shifts]
     leans = [mu | Shift {square = Just mu} <- shifts] <> map fst bevelled
     heights = map snd bevelled
     different list = case list of
       [] -> False
       x : xs -> any (/= x) xs
     needsSquare d = case d of
-      Distance.Bevelled {} -> False
+      ShiftDistance.Bevelled {} -> False
       _ -> True
 
 recalculation :: Shift -> Recalculation
 recalculation s = case distance s of
-  Distance.Growing Growth {from = Mm a, to = Mm b} -> Growing (here a) (here b)
-  Distance.Constant (Mm h) -> Constant (here h)
-  Distance.Bevelled {} -> Bevelled
-  Distance.Pointwise c -> maybe Bevelled (Pointwise . fmap here) (nonEmptyOf (Column.values c))
-  Distance.Square _ inner -> recalculation s {distance = inner}
-  Distance.Joggled _ -> Bevelled
+  ShiftDistance.Growing Growth {from = Mm a, to = Mm b} -> Growing (here a) (here b)
+  ShiftDistance.Constant (Mm h) -> Constant (here h)
+  ShiftDistance.Bevelled {} -> Bevelled
+  ShiftDistance.Pointwise c -> maybe Bevelled (Pointwise . fmap here) (nonEmptyOf (Column.values c))
+  ShiftDistance.Square _ inner -> recalculation s {distance = inner}
+  ShiftDistance.Joggled _ -> Bevelled
   where
     nonEmptyOf :: Vector Double -> Maybe (NonEmpty Double)
     nonEmptyOf = NonEmpty.nonEmpty . Vector.toList

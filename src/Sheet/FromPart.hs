@@ -17,20 +17,20 @@ import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
-import Geometry.Polyarc qualified as Polyarc
+import Geometry.Carrier qualified as Carrier
+import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Shape qualified as Shape
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Curve
-import Part.Joint qualified as Joint
+import Part.LinkCandidate qualified as LinkCandidate
 import Part.Part (Milling, Part)
 import Part.Part qualified as Part
 import Sheet.FromCurve (here)
 import Sheet.FromCurve qualified as FromCurve
 import Sheet.Sheet
-import Sheet.Unfit (Unfit (..))
+import Sheet.Unsupported (Unfit (..))
 
 -- | The sheet of a part, or all that does not fit one. The program tells the dimensions of a cone, which the part no
 -- longer knows.
@@ -149,7 +149,7 @@ wholeNumber text = if Text.length text <= 9 && not (Text.any (== '.') text) then
 
 -- | The points up to the first array, and those behind each: where the tool stands at first, the runs, the stops
 -- behind the last one.
-wayOf :: Part.Spot -> [Run] -> [Part.Stop] -> Result w Unfit (NonEmpty Waypoint, NonEmpty (NonEmpty Waypoint))
+wayOf :: Part.SpacePoint -> [Run] -> [Part.Stop] -> Result w Unfit (NonEmpty Waypoint, NonEmpty (NonEmpty Waypoint))
 wayOf spot runs final = do
   feeds <- traverse feedOfRun runs
   before <- traverse (traverse paced . stops) runs
@@ -215,13 +215,13 @@ arrayOf (at, m) = do
     Just legs -> do
       pieces' <- traverse (pieceOf m) legs
       links <- traverse linkOf (NonEmpty.init legs)
-      pure Array {joined = zipWith Joined (NonEmpty.init pieces') links, final = NonEmpty.last pieces', onward = nowhere :| []}
+      pure Array {joined = zipWith LinkedPiece (NonEmpty.init pieces') links, final = NonEmpty.last pieces', onward = nowhere :| []}
   where
     contour = Part.contour m
     name = region (Part.contourName contour)
     nowhere = Waypoint {x = here 0, y = here 0, z = here 0, feed = here 0}
 
-pieceOf :: Milling -> Part.Leg -> Result w Unfit Piece
+pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
 pieceOf m leg = case Part.source leg of
   Nothing -> refused (NoPiece at "this element" "Elements of a sheet are curves: write a line as polyline([p, q]), a curve as spline(table), and those of another contour once more.")
   Just curve -> do
@@ -235,7 +235,7 @@ pieceOf m leg = case Part.source leg of
 
 -- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all: on each element by what the bevels of
 -- the rows come to at its ends.
-swivelling :: Region -> Curve.Curve -> Piece -> [(Segment, (Double, Double))] -> Result w Unfit ()
+swivelling :: Region -> Curve.PartCurve -> Piece -> [(Segment, (Double, Double))] -> Result w Unfit ()
 swivelling at curve made leans
   | surfaced made && null leans = refused (NoCipher at "the blade does not swivel by the bevel of its cipher" "Behind an element with a 4 write: bevel mu")
   | any differs (concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- leans]) = refused (NoCipher at "the blade swivels by another bevel than that of its cipher" "Behind an element with a 4 write: bevel mu; behind another one: bevel 0")
@@ -243,7 +243,7 @@ swivelling at curve made leans
   where
     bevels = [maybe 0 (\w -> value (mu w) * pi / 180) (surface r) | r <- toList (rows made)]
     marks = Curve.along curve (Vector.fromList bevels)
-    differs (p, b) = let Mm s = Polyarc.station (Curve.laid curve) p; Rad slack = Tolerance.bevel in abs (b - between s marks) > 2 * slack
+    differs (p, b) = let Mm s = MeasuredPolyarc.station (Curve.laid curve) p; Rad slack = Tolerance.bevel in abs (b - between s marks) > 2 * slack
     between s known = case known of
       (a, x) : more@((b, y) : _)
         | s <= b || null (drop 1 more) -> if b > a then x + (y - x) * max 0 (min 1 ((s - a) / (b - a))) else y
@@ -251,15 +251,15 @@ swivelling at curve made leans
       [(_, x)] -> x
       [] -> 0
 
-linkOf :: Part.Leg -> Result w Unfit (Located Link)
+linkOf :: Part.ContourElement -> Result w Unfit (Located Link)
 linkOf leg = case Part.link leg of
   Nothing -> pure (here Intersection)
-  Just (Joint.Meet Nothing) -> pure (here Intersection)
-  Just Joint.Smooth -> pure (here Joint)
-  Just (Joint.Fillet turn (Mm r)) -> pure (here (Rounding (case turn of Shape.Clockwise -> r; Shape.CounterClockwise -> negate r)))
-  Just (Joint.Meet (Just _)) -> refused (NoLink at "an intersection with a choice")
-  Just (Joint.Fixed _) -> refused (NoPiece at "a contour in a contour" "Write its pieces down where they are walked.")
-  Just Joint.Tangent -> refused (NoLink at "a tangent")
-  Just (Joint.Chamfer _) -> refused (NoLink at "a chamfer")
+  Just (LinkCandidate.Meet Nothing) -> pure (here Intersection)
+  Just LinkCandidate.Smooth -> pure (here Joint)
+  Just (LinkCandidate.Fillet turn (Mm r)) -> pure (here (Rounding (case turn of Carrier.Clockwise -> r; Carrier.CounterClockwise -> negate r)))
+  Just (LinkCandidate.Meet (Just _)) -> refused (NoLink at "an intersection with a choice")
+  Just (LinkCandidate.Fixed _) -> refused (NoPiece at "a contour in a contour" "Write its pieces down where they are walked.")
+  Just LinkCandidate.Tangent -> refused (NoLink at "a tangent")
+  Just (LinkCandidate.Chamfer _) -> refused (NoLink at "a chamfer")
   where
     at = Part.spot leg

@@ -15,10 +15,10 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
-import Sheet.Error (Error (..), Spot (..))
+import Sheet.Error (Error (..), NumberPosition (..))
 import Sheet.PieceFromWords qualified as PieceFromWords
 import Sheet.Sheet
-import Sheet.Word (Entry (..), Symbol (..), figure)
+import Sheet.Word (SheetWord (..), WordValue (..), figure)
 import Sheet.Word qualified as Word
 import Prelude hiding (read)
 
@@ -26,14 +26,14 @@ import Prelude hiding (read)
 read :: Text -> Result w Error Sheet
 read text
   | not (null (lefts found)) = Result [] (lefts found) Nothing
-  | otherwise = either (\e -> Result [] [e] Nothing) (Result [] [] . Just) (evalStateT sheet (Before {left = rights found, final' = Spot (Region 0 0) 1}))
+  | otherwise = either (\e -> Result [] [e] Nothing) (Result [] [] . Just) (evalStateT sheet (Before {left = rights found, final' = NumberPosition (Region 0 0) 1}))
   where
     found = Word.entries text
 
 -- Reading
 
 -- | What is still to be read, and the word that was read last.
-data Before = Before {left :: [Entry], final' :: Spot}
+data Before = Before {left :: [SheetWord], final' :: NumberPosition}
 
 type Reader = StateT Before (Either Error)
 
@@ -41,25 +41,25 @@ refuse :: Error -> Reader a
 refuse = lift . Left
 
 -- | The next word, if there is one.
-next :: Reader (Maybe Entry)
+next :: Reader (Maybe SheetWord)
 next = do
   before <- gets left
   case before of
     [] -> pure Nothing
     e : rest -> Just e <$ put Before {left = rest, final' = spot e}
 
-peek :: Reader (Maybe Entry)
+peek :: Reader (Maybe SheetWord)
 peek = gets (listToMaybe . left)
 
-latest :: Reader Spot
+latest :: Reader NumberPosition
 latest = gets final'
 
 -- | The next word; at the end of the sheet, the complaint that something is expected.
-needed :: Text -> Reader Entry
+needed :: Text -> Reader SheetWord
 needed what = next >>= maybe (latest >>= \s -> refuse (EndMissing s what)) pure
 
 -- | The words up to an end mark, and the mark.
-upToMark :: Text -> Reader ([Entry], Entry)
+upToMark :: Text -> Reader ([SheetWord], SheetWord)
 upToMark what = do
   (inside, behind) <- gets (break ((== Mark) . symbol) . left)
   case behind of
@@ -121,11 +121,11 @@ generalData = do
       0 -> pure (Located (region (snd n)) Nothing)
       _ -> wrong n "the side of the tool" "It is 1, left of the walk, -1, right of it, or 0, on the pieces themselves."
 
-wrong :: (Spot, Number) -> Text -> Text -> Reader a
+wrong :: (NumberPosition, Number) -> Text -> Text -> Reader a
 wrong (s, _) what must = refuse (GeneralWrong s what must)
 
 -- | One of the general data, counted from 1.
-generalWord :: Int -> Reader (Spot, Number)
+generalWord :: Int -> Reader (NumberPosition, Number)
 generalWord count = do
   e <- next
   s <- latest
@@ -145,11 +145,11 @@ approachPoints = do
     Nothing -> refuse (ApproachShifted (spot mark) ("Before this -0 stand " <> Decimal.whole (length inside) <> " numbers, which is no whole number of points."))
 
 -- | The last point before an array: the spot of its feed.
-working :: (Spot, Waypoint) -> Reader ()
+working :: (NumberPosition, Waypoint) -> Reader ()
 working (s, w) = when (value (feed w) == rapidFeed) (refuse (NoWorkingFeed s))
 
 -- | Numbers by fours as points, each with the spot of its feed.
-fours :: [(Spot, Number)] -> Maybe [(Spot, Waypoint)]
+fours :: [(NumberPosition, Number)] -> Maybe [(NumberPosition, Waypoint)]
 fours numbers = case numbers of
   [] -> Just []
   (_, x) : (_, y) : (_, z) : (s, feed) : rest -> ((s, Waypoint {x, y, z, feed}) :) <$> fours rest
@@ -164,14 +164,14 @@ array count = do
   (onward, more) <- onwardPoints
   pure (Array {joined, final, onward}, more)
 
-piecesOfArray :: Reader ([Joined], Piece)
+piecesOfArray :: Reader ([LinkedPiece], Piece)
 piecesOfArray = do
   (one, link) <- piece
   case link of
     Nothing -> pure ([], one)
     Just l -> do
       (rest, final) <- piecesOfArray
-      pure (Joined one l : rest, final)
+      pure (LinkedPiece one l : rest, final)
 
 -- | The points behind an array, and whether another one follows.
 onwardPoints :: Reader (NonEmpty Waypoint, Bool)
@@ -190,7 +190,7 @@ onwardPoints = go []
         _ -> go (point : before)
 
 -- | A point, and the spot of its feed.
-onwardPoint :: Reader (Spot, Waypoint)
+onwardPoint :: Reader (NumberPosition, Waypoint)
 onwardPoint = do
   x <- coordinate
   y <- coordinate
@@ -220,7 +220,7 @@ piece = do
   allowance <- maybe (refuse (LinkMissing (spot left') "allowance")) pure (figure left')
   pure (body {allowance}, link)
 
-linkOf :: Entry -> Reader (Maybe (Located Link))
+linkOf :: SheetWord -> Reader (Maybe (Located Link))
 linkOf e = case symbol e of
   Figure 0 -> pure Nothing
   Figure r -> here (Rounding r)

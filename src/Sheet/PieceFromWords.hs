@@ -10,12 +10,12 @@ import Control.Monad (when)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text qualified as Text
-import Sheet.Error (Error (..), Misfit (..), Spot (..))
+import Sheet.Error (Error (..), NumberPosition (..), PieceMisfit (..))
 import Sheet.Sheet
-import Sheet.Word (Entry (..), Symbol (..), figure, isSign)
+import Sheet.Word (SheetWord (..), WordValue (..), figure, isSign)
 
 -- | The digits of a cipher, and whether it has a minus sign.
-cipherOf :: Entry -> Either Error (Bool, [Digit])
+cipherOf :: SheetWord -> Either Error (Bool, [Digit])
 cipherOf e = case symbol e of
   Figure 0 -> pure (False, [])
   Figure c | abs c == fromInteger (round c') && c' < 1e9 -> (c < 0,) <$> traverse digit (show (round c' :: Int))
@@ -35,7 +35,7 @@ cipherOf e = case symbol e of
       _ -> unknown ("It has the digit " <> Text.singleton c <> ".")
 
 -- | The data of a piece: its cipher, the words up to the end mark, the mark. It has no allowance yet.
-pieceOf :: Entry -> Bool -> [Digit] -> [Entry] -> Entry -> Either Error Piece
+pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
 pieceOf opening negative digits inside mark = do
   mapM_ (\e -> Left (PieceMisfit (spot e) (spot opening) LoneSign)) (filter isSign inside)
   let numbers = [n | e <- inside, Just n <- [figure e]]
@@ -67,18 +67,18 @@ pieceOf opening negative digits inside mark = do
     behind = length (filter (== One) digits)
     again = length (filter (== Six) digits)
     misfitAt s = PieceMisfit s (spot opening)
-    misfit :: Misfit -> Either Error a
+    misfit :: PieceMisfit -> Either Error a
     misfit = Left . misfitAt (spot mark)
     flagOf n = case value n of
       0 -> Just (False <$ n)
       1 -> Just (True <$ n)
       _ -> Nothing
 
-row :: [Number] -> Row
+row :: [Number] -> PointRow
 row numbers = case numbers of
-  [px, py, mu, flange] -> Row {px, py, surface = Just Surface {mu, flange}}
-  px : py : _ -> Row {px, py, surface = Nothing}
-  _ -> Row {px = nowhere, py = nowhere, surface = Nothing}
+  [px, py, mu, flange] -> PointRow {px, py, surface = Just Surface {mu, flange}}
+  px : py : _ -> PointRow {px, py, surface = Nothing}
+  _ -> PointRow {px = nowhere, py = nowhere, surface = Nothing}
   where
     -- Groups are of two or of four.
     nowhere = Located (Region 0 0) 0

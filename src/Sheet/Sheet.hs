@@ -5,11 +5,11 @@ module Sheet.Sheet
     Number,
     Waypoint (..),
     Array (..),
-    Joined (..),
+    LinkedPiece (..),
     Piece (..),
     Digit (..),
     Recalculation (..),
-    Row (..),
+    PointRow (..),
     Surface (..),
     Link (..),
     Side (..),
@@ -67,11 +67,11 @@ data Waypoint = Waypoint {x :: Number, y :: Number, z :: Number, feed :: Number}
   deriving stock (Eq, Show)
 
 -- | Pieces joined to one another, and the way on behind them.
-data Array = Array {joined :: [Joined], final :: Piece, onward :: NonEmpty Waypoint}
+data Array = Array {joined :: [LinkedPiece], final :: Piece, onward :: NonEmpty Waypoint}
   deriving stock (Eq, Show)
 
 -- | A piece and its link to the one behind it.
-data Joined = Joined Piece (Located Link)
+data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
 -- | A curve by points of the theoretical contour, and what is made of it. When a recalculation looks at the
@@ -80,7 +80,7 @@ data Piece = Piece
   { -- | towards which the distances count
     towards :: Located Side,
     cipher :: Located [Recalculation],
-    rows :: NonEmpty Row,
+    rows :: NonEmpty PointRow,
     -- | the feed goes down at the end
     slow :: Located Bool,
     -- | left on the piece, mm
@@ -104,7 +104,7 @@ data Recalculation
   deriving stock (Eq, Show)
 
 -- | A point, mm, and the surface there.
-data Row = Row {px :: Number, py :: Number, surface :: Maybe Surface}
+data PointRow = PointRow {px :: Number, py :: Number, surface :: Maybe Surface}
   deriving stock (Eq, Show)
 
 -- | The bevel, degrees, and the height of the flange, mm.
@@ -130,7 +130,7 @@ arrays sheet = first sheet :| others sheet
 
 -- | The pieces of an array.
 pieces :: Array -> NonEmpty Piece
-pieces array = foldr (\(Joined p _) rest -> p <| rest) (final array :| []) (joined array)
+pieces array = foldr (\(LinkedPiece p _) rest -> p <| rest) (final array :| []) (joined array)
 
 -- | The digit of a recalculation.
 digitOf :: Recalculation -> Digit

@@ -17,7 +17,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Sheet.Sheet hiding (program)
 import Sheet.Sheet qualified as Sheet
-import Surface.Print qualified as Print
+import Surface.PrintProgram qualified as PrintProgram
 import Surface.Syntax (Expr, Expr_ (..), Item, Pace (..), Setting, Statement, Statement_ (Contour, Curve, Feed, From, Machine, Mill, Part, Table, Tolerance, Tool), Stop (..))
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit (..))
@@ -28,7 +28,7 @@ program sheet = Surface.Program {Surface.statements = concat (paragraphs sheet),
 
 -- | The program as text, in the canonical layout.
 text :: Sheet -> Text
-text sheet = Text.intercalate "\n" [Print.program (Surface.Program statements []) | statements <- paragraphs sheet]
+text sheet = Text.intercalate "\n" [PrintProgram.program (Surface.Program statements []) | statements <- paragraphs sheet]
 
 -- | The name of the part, by the number of the program.
 partName :: Double -> Text
@@ -85,7 +85,7 @@ arrayStatements sheet Run {count, firstPiece, working, earlier, array} =
     at = region (cipher (NonEmpty.head (pieces array)))
     flat = isFlat sheet
     name = Name ("array_" <> Decimal.whole count)
-    links = [Just l | Joined _ l <- joined array] <> [Nothing]
+    links = [Just l | LinkedPiece _ l <- joined array] <> [Nothing]
     contour = Located at (Contour (Located at name) Surface.Open (zipWith3 (item (blade sheet)) [firstPiece ..] (NonEmpty.toList (pieces array)) links))
     feeds = [Located (region working) (Feed (measured MmPerMin working)) | Just old <- [earlier], value old /= value working]
     mill = Located at (Mill (Located at (Variable name)) (sideOf <$> side (general sheet)) (approaching <> retracting))

@@ -41,7 +41,7 @@ waypoint w = line [x w, y w, z w, feed w]
 -- | An array with its number from 0, among others up to a last one.
 array :: Int -> Int -> Array -> [Text]
 array final' count a =
-  concatMap (\(Joined p (Located _ l)) -> piece p (linkText l)) (joined a)
+  concatMap (\(LinkedPiece p (Located _ l)) -> piece p (linkText l)) (joined a)
     <> piece (final a) "0"
     <> [""]
     <> map waypoint (NonEmpty.toList (onward a))
@@ -78,7 +78,7 @@ headOf r = case r of
   Bevelled -> []
   Pointwise _ -> []
 
-row :: Row -> Text
+row :: PointRow -> Text
 row r = line ([px r, py r] <> maybe [] (\s -> [mu s, flange s]) (surface r))
 
 linkText :: Link -> Text

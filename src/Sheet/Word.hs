@@ -1,7 +1,7 @@
 -- | The words of a sheet: numbers, end marks, lone signs.
 module Sheet.Word
-  ( Symbol (..),
-    Entry (..),
+  ( WordValue (..),
+    SheetWord (..),
     entries,
     figure,
     isSign,
@@ -13,11 +13,11 @@ import Base.Region (Located (..), Region (..))
 import Data.Char (isSpace)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Sheet.Error (Error (..), Spot (..))
+import Sheet.Error (Error (..), NumberPosition (..))
 import Sheet.Sheet (Number)
 
 -- | What a word of the sheet is.
-data Symbol
+data WordValue
   = Figure Double
   | -- | @-0@
     Mark
@@ -26,10 +26,10 @@ data Symbol
   | Minus
   deriving stock (Eq, Show)
 
-data Entry = Entry {spot :: Spot, symbol :: Symbol}
+data SheetWord = SheetWord {spot :: NumberPosition, symbol :: WordValue}
 
 -- | The words of a text; what is no number is an error.
-entries :: Text -> [Either Error Entry]
+entries :: Text -> [Either Error SheetWord]
 entries text = zipWith entry [1 ..] (wordsOf text)
 
 -- | The words of a text with their places.
@@ -43,18 +43,18 @@ wordsOf = go 0
         here = Text.dropWhile isSpace rest
         from = at + Text.length rest - Text.length here
 
-entry :: Int -> Located Text -> Either Error Entry
-entry number (Located at word) = maybe (Left (NotANumber here word)) (Right . Entry here) $ case Text.uncons word of
+entry :: Int -> Located Text -> Either Error SheetWord
+entry number (Located at word) = maybe (Left (NotANumber here word)) (Right . SheetWord here) $ case Text.uncons word of
   Just ('+', "") -> Just Plus
   Just ('-', "") -> Just Minus
   Just ('+', digits) -> Figure <$> Decimal.amount digits
   Just ('-', digits) -> (\x -> if x == 0 then Mark else Figure (negate x)) <$> Decimal.amount digits
   _ -> Figure <$> Decimal.amount word
   where
-    here = Spot at number
+    here = NumberPosition at number
 
 -- | A number with its place.
-figure :: Entry -> Maybe Number
+figure :: SheetWord -> Maybe Number
 figure e = case symbol e of
   Figure x -> Just (Located (site (spot e)) x)
   Mark -> Nothing
@@ -62,7 +62,7 @@ figure e = case symbol e of
   Minus -> Nothing
 
 -- | Whether a word is a sign without digits.
-isSign :: Entry -> Bool
+isSign :: SheetWord -> Bool
 isSign e = case symbol e of
   Plus -> True
   Minus -> True

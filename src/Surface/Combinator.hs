@@ -6,7 +6,7 @@
 -- | What the grammar is built from: tokens, names, brackets, blocks, and the way on after a mistake.
 --
 -- There is one grammar and two readers of it: this module has the one that tells what is wrong and goes on behind
--- it; "Surface.Quick" has the one that gives up.
+-- it; "Surface.Combinator.Fast" has the one that gives up.
 module Surface.Combinator
   ( Parser,
     Grammar (..),
@@ -55,13 +55,13 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
-import Surface.Error (Error, Found (..))
+import Surface.Error (Error, FoundText (..))
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
-import Surface.Stream (Input (..))
 import Surface.Syntax (Expr, Statement, Statement_ (..))
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
+import Surface.TokenStream (Input (..))
 import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 

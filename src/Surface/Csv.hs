@@ -11,10 +11,10 @@ where
 import Base.Decimal (Leading (..))
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
+import Base.NumberTable (NumberTable (NumberTable))
+import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
-import Base.Rows (Rows (Rows))
-import Base.Rows qualified as Rows
 import Control.Monad.ST (ST, runST)
 import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Either (partitionEithers)
@@ -26,11 +26,11 @@ import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
 import Surface.Error (Error (..))
 import Surface.Keyword qualified as Keyword
-import Surface.Syntax (Expr_ (..), Heading (..), Line, Line_ (..), Numeral (..))
+import Surface.Syntax (Expr_ (..), Heading (..), Numeral (..), TableLine, TableLine_ (..))
 import Surface.Token (columnUnits, unitName)
 
 -- | The lines of a text whose first character has the offset given, and what cannot be read.
-table :: Int -> Text -> ([Error], [Line])
+table :: Int -> Text -> ([Error], [TableLine])
 table begin text = case filter (not . Text.all isSpace . value) (linesOf begin text) of
   [] -> ([EmptyTable (Region begin begin)], [])
   header : rest ->
@@ -45,18 +45,18 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
      in (wrong <> concat wrongs, first : others)
 
 -- | The rows from one with a number on, if the columns are known so many in each, and what is wrong with them.
-rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], Line)]
-rowsFrom separator columns k texts = [([], Located (Region.span (Rows.place found 0) (Rows.place found (count - 1))) (Numbers found)) | count > 0] <> other
+rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], TableLine)]
+rowsFrom separator columns k texts = [([], Located (Region.span (NumberTable.place found 0) (NumberTable.place found (count - 1))) (Numbers found)) | count > 0] <> other
   where
-    (found, behind) = maybe (Rows.joined 0 [],) (plain separator) columns texts
-    count = Rows.count found
+    (found, behind) = maybe (NumberTable.joined 0 [],) (plain separator) columns texts
+    count = NumberTable.count found
     other = case behind of
       [] -> []
       text : rest -> numbers separator columns (k + count) text : rowsFrom separator columns (k + count + 1) rest
 
 -- | The lines at the front with so many numbers without spaces, signs other than minus, and exponents, as most are; and those behind
 -- them.
-plain :: Char -> Int -> [Located Text] -> (Rows, [Located Text])
+plain :: Char -> Int -> [Located Text] -> (NumberTable, [Located Text])
 plain separator width texts = runST $ do
   ends <- newPrimArray (2 * few)
   cells <- newPrimArray (width * few)
@@ -64,7 +64,7 @@ plain separator width texts = runST $ do
   where
     few = 8
     -- So many rows are there, and room for so many.
-    go :: Int -> Int -> MutablePrimArray s Int -> MutablePrimArray s Double -> [Located Text] -> ST s (Rows, [Located Text])
+    go :: Int -> Int -> MutablePrimArray s Int -> MutablePrimArray s Double -> [Located Text] -> ST s (NumberTable, [Located Text])
     go k room ends cells rest = case rest of
       Located (Region from to) text : more
         | k >= room -> do
@@ -82,7 +82,7 @@ plain separator width texts = runST $ do
       shrinkMutablePrimArray cells (width * k)
       places <- unsafeFreezePrimArray ends
       found <- unsafeFreezePrimArray cells
-      pure (Rows {Rows.width, Rows.places, Rows.numbers = found}, rest)
+      pure (NumberTable {NumberTable.width, NumberTable.places, NumberTable.numbers = found}, rest)
     -- Whether a text is so many numbers; they are put one behind the other from a place on.
     row :: MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
     row cells i wanted text = case Text.uncons text of
@@ -129,7 +129,7 @@ fields separator (Located (Region at _) line) = NonEmpty.zipWith field starts pa
     -- Behind the quotation mark and the spaces that follow it.
     quotedFrom spaced = 1 + Text.length (Text.takeWhile isSpace (Text.drop 1 spaced))
 
-headings :: Char -> Located Text -> ([Error], Line)
+headings :: Char -> Located Text -> ([Error], TableLine)
 headings separator line = case partitionEithers (map heading (NonEmpty.toList (fields separator line))) of
   ([], h : hs) -> ([], Located (region line) (Header (h :| hs)))
   (wrong, _) -> (wrong, Located (region line) BrokenLine)
@@ -143,7 +143,7 @@ headings separator line = case partitionEithers (map heading (NonEmpty.toList (f
     isName word = Text.all (\c -> isAlphaNum c || c == '_') word && Text.any isAlpha (Text.take 1 word) && not (Keyword.isReserved word)
 
 -- | A row, which has its number from 1, with a cell for each column, if those are known.
-numbers :: Char -> Maybe Int -> Int -> Located Text -> ([Error], Line)
+numbers :: Char -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
 numbers separator columns k line = case partitionEithers (map number cells) of
   ([], _) | Just n <- columns, n /= length cells -> ([CellCount (region line) k n (length cells) (decimal n)], Located (region line) BrokenLine)
   ([], e : es) -> ([], Located (region line) (Entries (e :| es)))

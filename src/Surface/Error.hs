@@ -1,7 +1,7 @@
 -- | What can be wrong with the form of a program.
 module Surface.Error
   ( Error (..),
-    Found (..),
+    FoundText (..),
     toReport,
   )
 where
@@ -12,14 +12,14 @@ import Base.Region (Region)
 import Data.Char (isLetter)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code, Label (..), Place (..), Report (..), Severity (..), quote, report)
+import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
 import Surface.Keyword qualified as Keyword
 import Surface.Token (Token_ (..), columnUnits, describe, unitName)
 
 -- | A fact about the text, and where it stands.
 data Error
   = -- | a token where something else was expected, and the tokens beside it
-    Unexpected Region Found [Text] Neighbours
+    Unexpected Region FoundText [Text] Neighbours
   | -- | a bracket that is never closed: where it was missed, the bracket, what it opened
     Unclosed Region Region Text
   | -- | a word that begins no statement; the words that do
@@ -33,7 +33,7 @@ data Error
   | -- | something among the names of a table's columns that is none
     NotInHeadings Region Token_ Neighbours
   | -- | a piece of which nothing says on which side of its curve it lies; what stands there instead
-    NoSide Region Found
+    NoSide Region FoundText
   | -- | a statement in the braces of another
     Misplaced Region Text
   | -- | brackets nested deeper than so many
@@ -67,7 +67,7 @@ data Error
 type Neighbours = (Maybe Token_, Maybe Token_)
 
 -- | What stands there.
-data Found = FoundToken Token_ | FoundEnd
+data FoundText = FoundToken Token_ | FoundEnd
   deriving stock (Eq, Ord, Show)
 
 -- | The words for it.
@@ -264,10 +264,10 @@ isBroken token = case token of
   Text _ -> False
   Symbol _ -> False
 
-at :: Region -> Code -> Text -> Report
+at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
-shown :: Found -> Text
+shown :: FoundText -> Text
 shown found = case found of
   FoundToken token -> describe token
   FoundEnd -> "the end of the program"

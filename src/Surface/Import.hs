@@ -5,7 +5,7 @@
 module Surface.Import
   ( Reader (..),
     byName,
-    Loaded (..),
+    ImportedProgram (..),
     load,
   )
 where
@@ -22,7 +22,7 @@ import Data.Text qualified as Text
 import Surface.Csv qualified as Csv
 import Surface.Error (Error (..))
 import Surface.Parser qualified as Parser
-import Surface.Syntax (Line, Lines (..), Program (..), Statement, Statement_ (..))
+import Surface.Syntax (Lines (..), Program (..), Statement, Statement_ (..), TableLine)
 import System.FilePath (isAbsolute, joinPath, normalise, splitDirectories, takeDirectory, takeExtension, (</>))
 
 -- | How files are read.
@@ -38,24 +38,24 @@ byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
 byName contents = Reader {contents, identity = pure}
 
 -- | All texts, and one program of them; where each import stands, and the file that it names.
-data Loaded = Loaded {source :: Source, surface :: Result Error Error Program, imports :: [(Region, Text)]}
+data ImportedProgram = ImportedProgram {source :: Source, surface :: Result Error Error Program, imports :: [(Region, Text)]}
 
 -- | What is known between two files.
 data Progress = Progress {texts :: Source, seen :: Set FilePath, found :: [Error], named :: [(Region, Text)]}
 
 -- | Read a program and what it imports: the name of its file, for reports and for the places of the
 -- others; its text.
-load :: Monad m => Reader m -> FilePath -> Text -> m Loaded
+load :: Monad m => Reader m -> FilePath -> Text -> m ImportedProgram
 load reader path text = do
   itself <- identity reader (simple path)
   let Result {errors, output} = Parser.parse 0 text
       begin = Progress {texts = Region.fromText (Text.pack path) text, seen = Set.singleton itself, found = [], named = []}
   case output of
-    Nothing -> pure Loaded {source = texts begin, surface = Result [] errors Nothing, imports = []}
+    Nothing -> pure ImportedProgram {source = texts begin, surface = Result [] errors Nothing, imports = []}
     Just whole -> do
       (statements', progress) <- runStateT (imported reader [(itself, simple path)] path (statements whole)) begin
       pure
-        Loaded
+        ImportedProgram
           { source = texts progress,
             surface = Result [] (errors <> reverse (found progress)) (Just whole {statements = statements'}),
             imports = reverse (named progress)
@@ -98,7 +98,7 @@ imported reader stack path = fmap concat . mapM one
           filter defines <$> imported reader ((itself, file) : stack) file (maybe [] statements output)
 
 -- | The lines of a table in a file. It may be read several times; each reading has places of its own.
-linesIn :: Monad m => Reader m -> Region -> FilePath -> Text -> StateT Progress m (Maybe [Line])
+linesIn :: Monad m => Reader m -> Region -> FilePath -> Text -> StateT Progress m (Maybe [TableLine])
 linesIn reader at file name = do
   content <- lift (contents reader file)
   case content of

@@ -22,11 +22,11 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Combinator
+import Surface.Combinator.Fast qualified as FastCombinator
 import Surface.Error (Error)
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
-import Surface.Quick qualified as Quick
 import Surface.Syntax
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
@@ -42,7 +42,7 @@ parse begin text = maybe (explained begin text) (Result [] [] . Just) (sound beg
 -- | A program without mistakes. Its tokens are read as they are needed and kept nowhere.
 sound :: Int -> Text -> Maybe Program
 sound begin text = case Lexer.tokens begin text of
-  (tokens, comments) -> (\statements -> Program {statements, comments}) <$> Quick.run mostTokens program tokens
+  (tokens, comments) -> (\statements -> Program {statements, comments}) <$> FastCombinator.run mostTokens program tokens
 {-# NOINLINE sound #-}
 
 -- | The same by the reader that tells what is wrong, whether anything is or not.
@@ -155,7 +155,7 @@ accuracy = (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)
 spin :: Parser Spin
 spin = (Still <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
 
-sense :: Parser Walk
+sense :: Parser Sense
 sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
 
 definition :: Parser Statement_
@@ -177,7 +177,7 @@ lines' :: Parser Lines
 lines' = (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks"))) <|> (WrittenLines <$> block "the table" (const BrokenLine) line)
 
 -- | The columns of a table, or a value for each of them, and nothing else on the line.
-line :: Parser Line_
+line :: Parser TableLine_
 line = (Header <$> onLine NotInHeadings column) <|> (Entries <$> onLine NotInRow cell) <|> misfit NotInRow
   where
     onLine problem p = (:|) <$> p <*> several (onThisLine p) <* lineDone problem

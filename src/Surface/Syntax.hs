@@ -6,7 +6,7 @@ module Surface.Syntax
     Cutter,
     Cutter_ (..),
     Accuracy (..),
-    Motion (..),
+    DefaultPace (..),
     Spin (..),
     Switch (..),
     Expr,
@@ -14,15 +14,15 @@ module Surface.Syntax
     Numeral (..),
     Operator (..),
     Argument (..),
-    Choice (..),
+    Selector (..),
     Rank (..),
     Closure (..),
     Item,
     Item_ (..),
-    Walk (..),
+    Sense (..),
     Lines (..),
-    Line,
-    Line_ (..),
+    TableLine,
+    TableLine_ (..),
     Heading (..),
     Cipher,
     Cipher_ (..),
@@ -47,8 +47,8 @@ module Surface.Syntax
 where
 
 import Base.Name (Name)
+import Base.NumberTable (NumberTable)
 import Base.Region (Located)
-import Base.Rows (Rows)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
 import Surface.Token (Numeral (..), Unit)
@@ -101,7 +101,7 @@ data Statement_
   | -- | @drill at holes depth 12 mm { … }@
     Drill Expr Expr [Setting]
   | -- | @rapid p, q@ and @move p, q feed f@
-    Travel Motion (NonEmpty Stop)
+    Travel DefaultPace (NonEmpty Stop)
   | -- | @change 2 drill(diameter 5 mm)@
     Change Expr Cutter
   | -- | @spindle cw 800 rpm@
@@ -148,11 +148,11 @@ data Accuracy
   deriving stock (Eq, Show)
 
 -- | How the stops of a motion are reached that do not say it.
-data Motion = RapidMotion | FeedMotion
+data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | What a spindle does: turn in a sense, at a speed if one is given.
-data Spin = Spinning Walk (Maybe Expr) | Still
+data Spin = Spinning Sense (Maybe Expr) | Still
   deriving stock (Eq, Show)
 
 data Switch = SwitchOn | SwitchOff
@@ -188,12 +188,12 @@ data Operator = Add | Subtract | Multiply | Divide | Less | AtMost | Greater | A
 data Argument
   = Given {-# UNPACK #-} Expr
   | -- | @near p@, @left l@, @inside c@ …
-    Chosen (Located Choice) Expr
+    Chosen (Located Selector) Expr
   | -- | @first@ and @last@
     Ranked (Located Rank)
   deriving stock (Eq, Show)
 
-data Choice
+data Selector
   = Near
   | ToLeft
   | ToRight
@@ -206,20 +206,20 @@ data Choice
 
 -- | The lines of a table.
 data Lines
-  = WrittenLines [Line]
+  = WrittenLines [TableLine]
   | -- | the name of a file of comma-separated values
     LinesOf (Located Text)
   deriving stock (Eq, Show)
 
-type Line = Located Line_
+type TableLine = Located TableLine_
 
-data Line_
+data TableLine_
   = -- | @x y mu deg H@: the columns, with the unit of their bare numbers
     Header (NonEmpty Heading)
   | -- | a value for each column
     Entries {-# UNPACK #-} (NonEmpty Expr)
   | -- | lines one after the other with a bare number for each column, as a file has them
-    Numbers {-# UNPACK #-} Rows
+    Numbers {-# UNPACK #-} NumberTable
   | -- | a line that could not be read
     BrokenLine
   deriving stock (Eq, Show)
@@ -250,7 +250,7 @@ type Item = Located Item_
 -- | What stands in the braces of a contour.
 data Item_
   = -- | a walked element, what is asked on it, and the link to the one after it
-    Element (Maybe (Located Walk)) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
+    Element (Maybe (Located Sense)) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | -- | @for a in list { … }@
     For (Located Name) Expr [Item]
   | -- | @if c { … } else { … }@
@@ -260,7 +260,7 @@ data Item_
   deriving stock (Eq, Show)
 
 -- | The sense in which a circle is walked, or a spindle turns.
-data Walk = Clockwise | CounterClockwise
+data Sense = Clockwise | CounterClockwise
   deriving stock (Eq, Show, Enum, Bounded)
 
 type Modifier = Located Modifier_

@@ -11,11 +11,11 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Frame.Frame (Broken (..))
-import Machine.Machine (Content, FeedCode (..), OrderName (..))
+import Machine.Machine (CommandName (..), Content, FeedCode (..))
 import Machine.Machine qualified as Machine
-import Report.Report (Place (..), Report (..), report)
+import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
-import Tape.Layout qualified as Layout
+import Tape.RowMeaning qualified as RowMeaning
 
 -- | The row from 1, the frame from 1 if it is in one, the word if it is in one, and why.
 data Damage = Damage {row :: Int, frame :: Maybe Int, field :: Maybe Content, reason :: Reason}
@@ -124,12 +124,12 @@ reasonWord why = case why of
   ForeignTrack -> "a hole outside the tracks of this tape"
   BadParity -> "the number of holes is odd"
   NoDigit tracks holes -> "the holes " <> binary tracks holes <> " are no digit"
-  NotADigit c -> Layout.shown c <> " stands where a digit belongs"
+  NotADigit c -> RowMeaning.shown c <> " stands where a digit belongs"
   NoSymbol tracks holes -> "the holes " <> binary tracks holes <> " are no symbol"
-  Unexpected found wanted -> Layout.shown found <> " stands where " <> Layout.shown wanted <> " belongs"
+  Unexpected found wanted -> RowMeaning.shown found <> " stands where " <> RowMeaning.shown wanted <> " belongs"
   NotBlank -> "a hole in a row that has to be blank"
-  Missing wanted -> Layout.shown wanted <> " is missing"
-  WordOutOfPlace c -> "a word " <> Layout.shown c <> " can not stand here: it is out of order, there already, or none of this machine"
+  Missing wanted -> RowMeaning.shown wanted <> " is missing"
+  WordOutOfPlace c -> "a word " <> RowMeaning.shown c <> " can not stand here: it is out of order, there already, or none of this machine"
   MarkerMissing -> "the frame marker is missing"
   ServiceHole -> "a hole in the service track where there must be none"
   NoSign -> "the number has no sign"
@@ -156,7 +156,7 @@ brokenWord broken = case broken of
   BadCentre _ -> "the centre of the arc is none, or too far"
   NoSuchSpeed _ (FeedCode s) -> "the machine has no speed " <> Decimal.whole s <> " for this motion"
   NoSuchMotion _ -> "the machine has no such motion: an arc that it can not go, or one that its distances contradict"
-  NoSuchOrder _ (OrderName o) -> "the machine has no such command " <> o
+  NoSuchOrder _ (CommandName o) -> "the machine has no such command " <> o
   Idle _ -> "the frame moves nothing and commands nothing"
 
 -- | Holes from the highest track to the lowest.

@@ -14,9 +14,9 @@ module Tape.Punch
   )
 where
 
-import Base.Lattice (V3)
-import Base.Series (Series)
-import Base.Series qualified as Series
+import Base.LazyList (LazyList)
+import Base.LazyList qualified as LazyList
+import Base.PulseVector (Pulses3)
 import Control.Monad.ST (runST)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
@@ -26,17 +26,17 @@ import Data.Primitive.PrimArray (PrimArray (PrimArray))
 import Data.Primitive.PrimArray qualified as Primitive
 import Data.Text qualified as Text
 import Frame.Frame (Frame)
-import Machine.Machine (Machine, Measure (..), Medium (..), Spare (..))
+import Machine.Machine (AxisMeasure (..), Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Damage (..), Reason (..), toReport)
-import Tape.Layout (Row)
+import Tape.FrameReader qualified as FrameReader
+import Tape.Layout (BlankRows (..), Layout, MarkedRow (..), RowMeaning (..))
 import Tape.Layout qualified as Layout
-import Tape.Numeral (Fault (..))
-import Tape.Plan (Mark (..), Plan, Sense (..), Stretch (..))
-import Tape.Plan qualified as Plan
-import Tape.Reading qualified as Reading
-import Tape.State (State)
-import Tape.State qualified as State
+import Tape.ModalState (State)
+import Tape.ModalState qualified as ModalState
+import Tape.NumberReader (RowFault (..))
+import Tape.RowMeaning (Row)
+import Tape.RowMeaning qualified as RowMeaning
 import Tape.Symbol (Symbol)
 import Tape.Symbol qualified as Symbol
 import Tape.Tape (Tape (..))
@@ -45,18 +45,18 @@ import Prelude hiding (read)
 -- Writing -----------------------------------------------------------------------------------------
 
 -- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
-write :: Machine -> V3 -> [Frame] -> Tape
-write machine start frames = Tape (ByteString.concat (holesOf (opened plan) : punched plan (State.first (State.rising frames) start) frames <> [holesOf (closed plan)]))
+write :: Machine -> Pulses3 -> [Frame] -> Tape
+write machine start frames = Tape (ByteString.concat (holesOf (opened plan) : punched plan (ModalState.first (ModalState.rising frames) start) frames <> [holesOf (closed plan)]))
   where
-    plan = Plan.fromMachine machine
+    plan = Layout.fromMachine machine
     holesOf = ByteString.pack . map holes
 
 -- | The rows of frames with what stands between them, in pieces: they are put into one buffer, which is copied when it is full.
-punched :: Plan -> State -> [Frame] -> [ByteString]
+punched :: Layout -> State -> [Frame] -> [ByteString]
 punched plan state frames = runST (Primitive.newPrimArray (piece + most) >>= go 0 state frames)
   where
-    medium = Machine.medium (Plan.machine plan)
-    most = evenShift medium + Plan.mostRows plan + gap medium
+    medium = Machine.medium (Layout.machine plan)
+    most = evenShift medium + Layout.mostRows plan + gap medium
     go used now todo buffer = case todo of
       [] -> (: []) <$> taken used buffer
       f : more
@@ -66,10 +66,10 @@ punched plan state frames = runST (Primitive.newPrimArray (piece + most) >>= go 
               blanks at n
                 | n <= 0 = pure at
                 | otherwise = (at + n) <$ Primitive.setPrimArray buffer at n 0
-          begin <- blanks used (shiftRows medium (State.ordinal now))
-          end <- Plan.foldRows put plan now f begin
+          begin <- blanks used (shiftRows medium (ModalState.ordinal now))
+          end <- Layout.foldRows put plan now f begin
           next <- blanks end (gap medium)
-          go next (Plan.after plan now f) more buffer
+          go next (Layout.after plan now f) more buffer
     taken used buffer = do
       PrimArray filled <- Primitive.freezePrimArray buffer 0 used
       let !rows' = Short.fromShort (SBS filled)
@@ -80,42 +80,42 @@ piece :: Int
 piece = 32768
 
 -- | The rows of the same tape, each with what it means.
-rows :: Machine -> V3 -> [Frame] -> [Row]
-rows machine start frames = [Layout.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
+rows :: Machine -> Pulses3 -> [Frame] -> [Row]
+rows machine start frames = [RowMeaning.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
   where
-    plan = Plan.fromMachine machine
+    plan = Layout.fromMachine machine
 
 -- | The marks of a tape, those of each frame with its number.
-stretches :: Plan -> V3 -> [Frame] -> [(Maybe Int, [Mark])]
-stretches plan start frames = (Nothing, opened plan) : go (State.first (State.rising frames) start) frames
+stretches :: Layout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
+stretches plan start frames = (Nothing, opened plan) : go (ModalState.first (ModalState.rising frames) start) frames
   where
-    medium = Machine.medium (Plan.machine plan)
+    medium = Machine.medium (Layout.machine plan)
     go state todo = case todo of
       [] -> [(Nothing, closed plan)]
-      f : more -> (Just (State.ordinal state), shift plan (State.ordinal state) <> Plan.frameMarks plan state f <> Plan.blanks Gap (gap medium)) : go (Plan.after plan state f) more
+      f : more -> (Just (ModalState.ordinal state), shift plan (ModalState.ordinal state) <> Layout.frameMarks plan state f <> Layout.blanks Gap (gap medium)) : go (Layout.after plan state f) more
 
 -- | What stands before the first frame.
-opened :: Plan -> [Mark]
-opened plan = Plan.blanks Leader (leader medium) <> map (Plan.constant Opening) (symbolsOf plan (opening medium))
+opened :: Layout -> [MarkedRow]
+opened plan = Layout.blanks Leader (leader medium) <> map (Layout.constant Opening) (symbolsOf plan (opening medium))
   where
-    medium = Machine.medium (Plan.machine plan)
+    medium = Machine.medium (Layout.machine plan)
 
 -- | What stands behind the last frame.
-closed :: Plan -> [Mark]
-closed plan = map (Plan.constant Closing) (symbolsOf plan (closing medium)) <> Plan.blanks Trailer (leader medium)
+closed :: Layout -> [MarkedRow]
+closed plan = map (Layout.constant Closing) (symbolsOf plan (closing medium)) <> Layout.blanks Trailer (leader medium)
   where
-    medium = Machine.medium (Plan.machine plan)
+    medium = Machine.medium (Layout.machine plan)
 
 -- | What stands right before a frame, by its number from 1.
-shift :: Plan -> Int -> [Mark]
-shift plan n = Plan.blanks Shift (shiftRows (Machine.medium (Plan.machine plan)) n)
+shift :: Layout -> Int -> [MarkedRow]
+shift plan n = Layout.blanks Shift (shiftRows (Machine.medium (Layout.machine plan)) n)
 
 -- | The blank rows before a frame, by its number from 1.
 shiftRows :: Medium -> Int -> Int
 shiftRows medium n = if even n then evenShift medium else 0
 
-symbolsOf :: Plan -> Text.Text -> [Symbol]
-symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
+symbolsOf :: Layout -> Text.Text -> [Symbol]
+symbolsOf plan = map (Symbol.symbol (Layout.symbols plan)) . Text.unpack
 
 -- Reading -----------------------------------------------------------------------------------------
 
@@ -123,68 +123,68 @@ symbolsOf plan = map (Symbol.symbol (Plan.symbols plan)) . Text.unpack
 --
 -- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows that the code passes
 -- over are left out first, and blank rows are passed over between frames.
-read :: Machine -> V3 -> Tape -> Either Damage [Frame]
+read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case beginning source of
   Left fault -> Left (damage source Nothing fault)
   -- Increments do not tell where the cutter stands.
   Right behind | not (saysPlaces source) -> gathered source start behind False
   -- Only the frames tell whether the height has to be said.
   Right behind -> case (gathered source start behind True, gathered source start behind False) of
-    (Right frames, _) | State.rising frames -> Right frames
-    (Left high, Right frames) | State.rising frames -> Left high
+    (Right frames, _) | ModalState.rising frames -> Right frames
+    (Left high, Right frames) | ModalState.rising frames -> Left high
     (_, Right frames) -> Right frames
     (Left high, Left low) -> Left (if row high > row low then high else low)
     (Right _, Left low) -> Left low
   where
-    source = sourceOf (Plan.fromMachine machine) raw
+    source = sourceOf (Layout.fromMachine machine) raw
 
 -- | Read a tape on which some frames should stand. Where it has just these they are what is read: they are not made a second time.
-readBack :: Machine -> V3 -> [Frame] -> Tape -> Either Damage [Frame]
+readBack :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readBack machine start wanted tape
   | holds machine start wanted tape = Right wanted
   | otherwise = read machine start tape
 
 -- | Read a tape that was punched with these frames: anything else than them is a damage.
-readOwn :: Machine -> V3 -> [Frame] -> Tape -> Either Damage [Frame]
+readOwn :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readOwn machine start wanted tape
   | holds machine start wanted tape = Right wanted
   | otherwise = read machine start tape >>= \frames -> Left (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) wanted frames)))) Nothing Misread)
 
 -- | Whether these frames are read from a tape. If it says where the cutter is, they tell whether it says heights.
-holds :: Machine -> V3 -> [Frame] -> Tape -> Bool
+holds :: Machine -> Pulses3 -> [Frame] -> Tape -> Bool
 holds machine start wanted (Tape raw) = case beginning source of
   Left _ -> False
-  Right behind -> are wanted (framesFrom source behind (State.first (saysPlaces source && State.rising wanted) start))
+  Right behind -> are wanted (framesFrom source behind (ModalState.first (saysPlaces source && ModalState.rising wanted) start))
   where
-    source = sourceOf (Plan.fromMachine machine) raw
+    source = sourceOf (Layout.fromMachine machine) raw
     are frames series = case (frames, series) of
-      (f : fs, Series.Next g more) -> f == g && are fs more
-      ([], Series.End wrong) -> null wrong
+      (f : fs, LazyList.Next g more) -> f == g && are fs more
+      ([], LazyList.End wrong) -> null wrong
       _ -> False
 
 -- | The row of the first frame.
-beginning :: Source -> Either Fault Int
-beginning source = frontOf source >>= \at -> Reading.expect (plan source) (line source) at (symbolsOf (plan source) (opening (grid source)))
+beginning :: Source -> Either RowFault Int
+beginning source = frontOf source >>= \at -> FrameReader.expect (plan source) (line source) at (symbolsOf (plan source) (opening (grid source)))
 
 -- | Whether frames say where the cutter is, rather than how far it goes.
 saysPlaces :: Source -> Bool
-saysPlaces source = State.measure (Plan.axes (plan source)) /= Increments
+saysPlaces source = ModalState.measure (Layout.axes (plan source)) /= Increments
 
 -- | The frames from a row on, where the cutter stands before them; whether they say heights.
-gathered :: Source -> V3 -> Int -> Bool -> Either Damage [Frame]
-gathered source start behind rises = case Series.end series of
+gathered :: Source -> Pulses3 -> Int -> Bool -> Either Damage [Frame]
+gathered source start behind rises = case LazyList.end series of
   Just (n, fault) -> Left (damage source n fault)
-  Nothing -> Right (Series.toList series)
+  Nothing -> Right (LazyList.toList series)
   where
-    series = framesFrom source behind (State.first rises start)
+    series = framesFrom source behind (ModalState.first rises start)
 
 -- | What is wrong, in which frame if it is in one.
-damage :: Source -> Maybe Int -> Fault -> Damage
-damage source n (Fault at c why) = Damage (1 + origin source at) n c why
+damage :: Source -> Maybe Int -> RowFault -> Damage
+damage source n (RowFault at c why) = Damage (1 + origin source at) n c why
 
 -- | The rows to be read.
 data Source = Source
-  { plan :: Plan,
+  { plan :: Layout,
     raw :: ByteString,
     -- | without those that are passed over
     kept :: ByteString,
@@ -198,13 +198,13 @@ data Source = Source
     ending :: [Symbol]
   }
 
-sourceOf :: Plan -> ByteString -> Source
+sourceOf :: Layout -> ByteString -> Source
 sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped, grid, ending = symbolsOf plan (closing medium)}
   where
-    medium = Machine.medium (Plan.machine plan)
+    medium = Machine.medium (Layout.machine plan)
     skipped = case spare medium of
       Counted -> ByteString.empty
-      Skipped -> ByteString.pack (Machine.skips (Machine.code (Plan.machine plan)))
+      Skipped -> ByteString.pack (Machine.skips (Machine.code (Layout.machine plan)))
     kept = if ByteString.any (`ByteString.elem` raw) skipped then ByteString.filter (`ByteString.notElem` skipped) raw else raw
     grid = if ByteString.elem 0 skipped then medium {leader = 0, gap = 0, evenShift = 0} else medium
 
@@ -220,12 +220,12 @@ origin source at
 
 -- | The row behind the leader. Further blank rows are passed over before the symbols at the beginning; where there are none
 -- they may be the trailer.
-frontOf :: Source -> Either Fault Int
+frontOf :: Source -> Either RowFault Int
 frontOf source
-  | ByteString.null (kept source) && (passed < asked || not (Text.null (opening (grid source)))) = Left (Fault 0 Nothing (NoFrames asked))
-  | blankRun < ByteString.length front = Left (Fault blankRun Nothing (LeaderNotBlank asked))
-  | blankRun < wanted = Left (Fault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
-  | passed < asked = Left (Fault 0 Nothing (LeaderNotBlank asked))
+  | ByteString.null (kept source) && (passed < asked || not (Text.null (opening (grid source)))) = Left (RowFault 0 Nothing (NoFrames asked))
+  | blankRun < ByteString.length front = Left (RowFault blankRun Nothing (LeaderNotBlank asked))
+  | blankRun < wanted = Left (RowFault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
+  | passed < asked = Left (RowFault 0 Nothing (LeaderNotBlank asked))
   | spare (grid source) == Skipped && not (Text.null (opening (grid source))) = Right (blankFrom source wanted)
   | otherwise = Right wanted
   where
@@ -237,7 +237,7 @@ frontOf source
 
 -- | The blank rows before the first frame and behind the last.
 leaderAsked :: Source -> Int
-leaderAsked source = leader (Machine.medium (Plan.machine (plan source)))
+leaderAsked source = leader (Machine.medium (Layout.machine (plan source)))
 
 -- | Whether blank rows are passed over everywhere.
 skipsBlanks :: Source -> Bool
@@ -248,41 +248,41 @@ blankFrom :: Source -> Int -> Int
 blankFrom source at = at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
 -- | The frames from a row on, and behind them what is wrong with the tape, and in which frame, if anything is.
-framesFrom :: Source -> Int -> State -> Series (Maybe (Maybe Int, Fault)) Frame
+framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
 framesFrom source = go
   where
     p = plan source
     go !at !state = case endAt source at of
-      Ended -> Series.End Nothing
+      Ended -> LazyList.End Nothing
       Torn fault -> wrong Nothing fault
       Onward -> case blankRows source ShiftNotBlank (shiftRows (grid source) n) at of
         Left fault -> wrong (Just n) fault
-        Right begin -> case Reading.readFrame p state (line source) (firstFrom begin) of
+        Right begin -> case FrameReader.readFrame p state (line source) (firstFrom begin) of
           Left fault -> maybe (wrong (Just n) fault) (wrong Nothing) (tornAt source at)
           Right (f, next) -> case blankRows source GapNotBlank (gap (grid source)) next of
             Left fault -> wrong (Just n) fault
-            Right behind -> let !state' = Plan.after p state f in Series.Next f (go behind state')
+            Right behind -> let !state' = Layout.after p state f in LazyList.Next f (go behind state')
       where
-        n = State.ordinal state
-    wrong n fault = Series.End (Just (n, fault))
+        n = ModalState.ordinal state
+    wrong n fault = LazyList.End (Just (n, fault))
     firstFrom begin = case spare (grid source) of
       Counted -> begin
       Skipped -> blankFrom source begin
 
 -- | The row behind blank ones.
-blankRows :: Source -> Reason -> Int -> Int -> Either Fault Int
+blankRows :: Source -> Reason -> Int -> Int -> Either RowFault Int
 blankRows source why n at
   | n <= 0 = Right at
   | otherwise = case ByteString.findIndex (/= 0) stretch of
-    Just k -> Left (Fault (at + k) Nothing why)
+    Just k -> Left (RowFault (at + k) Nothing why)
     Nothing
-      | ByteString.length stretch < n -> Left (Fault (ByteString.length (kept source) - 1) Nothing CutOff)
+      | ByteString.length stretch < n -> Left (RowFault (ByteString.length (kept source) - 1) Nothing CutOff)
       | otherwise -> Right (at + n)
   where
     stretch = ByteString.take n (ByteString.drop at (kept source))
 
 -- | Whether the tape ends where a frame may begin.
-data End = Ended | Torn Fault | Onward
+data End = Ended | Torn RowFault | Onward
 
 endAt :: Source -> Int -> End
 endAt source at = case spare (grid source) of
@@ -307,7 +307,7 @@ blanksBehind source found
 
 -- | The blank rows behind the closing symbols, where these and nothing else stand at a row.
 tailAt :: Source -> Int -> Maybe Int
-tailAt source at = case Reading.expect (plan source) (line source) first cs of
+tailAt source at = case FrameReader.expect (plan source) (line source) first cs of
   Right behind | ByteString.all (== 0) (ByteString.drop behind (kept source)) -> Just (ByteString.length (kept source) - behind)
   _ -> Nothing
   where
@@ -317,11 +317,11 @@ tailAt source at = case Reading.expect (plan source) (line source) first cs of
       Skipped -> if null cs then at else blankFrom source at
 
 -- | Why a tape ends other than it should, if it ends at a row.
-tornAt :: Source -> Int -> Maybe Fault
+tornAt :: Source -> Int -> Maybe RowFault
 tornAt source at = case tailAt source at of
-  Just found -> Just (Fault final Nothing (TrailerLength (blanksBehind source found) (leaderAsked source)))
+  Just found -> Just (RowFault final Nothing (TrailerLength (blanksBehind source found) (leaderAsked source)))
   Nothing
-    | blankFrom source at >= ByteString.length (kept source) -> Just (Fault final Nothing (NoClosing (closing (grid source))))
+    | blankFrom source at >= ByteString.length (kept source) -> Just (RowFault final Nothing (NoClosing (closing (grid source))))
     | otherwise -> Nothing
   where
     final = max 0 (ByteString.length (kept source) - 1)

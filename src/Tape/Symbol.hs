@@ -26,7 +26,7 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (isJust)
 import Data.Word (Word8)
-import Machine.Machine (Code, Machine, Medium)
+import Machine.Machine (Machine, Medium, TapeCode)
 import Machine.Machine qualified as Machine
 
 data Symbols = Symbols
@@ -82,7 +82,7 @@ besideOf :: Medium -> Word8
 besideOf medium = complement (fromIntegral ((1 `shiftL` Machine.tracks medium) - 1 :: Int))
 
 -- | A row with the hole that makes their number even, where the code has a track for it.
-completed :: Code -> Word8 -> Word8
+completed :: TapeCode -> Word8 -> Word8
 completed code w = case Machine.evenTrack code of
   Just k | odd (popCount w) -> w `xor` setBit 0 (k - 1)
   _ -> w

@@ -1,7 +1,7 @@
 -- | What the comparison of a tape with the part has shown.
 module Verify.Proof
   ( Proof (..),
-    Passage (..),
+    ContourProof (..),
     Witness (..),
     Finding (..),
     Speed (..),
@@ -13,8 +13,8 @@ module Verify.Proof
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Lattice (V3 (..))
 import Base.Name (Name)
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
 import Control.Compensation (Unkept (..))
@@ -24,9 +24,9 @@ import Frame.Frame (Broken)
 import Frame.Frame qualified as Frame
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (FeedCode (..), Machine, OrderName (..))
+import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
-import Report.Report (Place (..), Report (label, message), report)
+import Report.Report (Report (label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 -- | A deviation of so much, in a frame, at an element of the part; where the point of the part or the
@@ -35,7 +35,7 @@ data Witness = Witness {amount :: Mm, frame :: Int, element :: Region, place :: 
   deriving stock (Eq, Show)
 
 -- | How one milled contour came out. A gouge or excess of less than nothing has no witness.
-data Passage = Passage
+data ContourProof = ContourProof
   { contour :: Located Name,
     -- | the deepest cut into the part
     gouge :: Maybe Witness,
@@ -49,11 +49,11 @@ data Passage = Passage
 
 data Proof = Proof
   { frames :: Int,
-    passages :: [Passage],
+    passages :: [ContourProof],
     -- | the last position less the one where the tape should end
-    closure :: V3,
+    closure :: Pulses3,
     -- | the largest increment of each axis, whatever its sign
-    largest :: V3,
+    largest :: Pulses3,
     -- | the first frame that is not as the program's own
     firstDifference :: Maybe Int,
     -- | in the order of the tape; none when the tape is proven
@@ -87,13 +87,13 @@ data Finding
   | -- | the frame, its speed on the tape, the one that belongs there, what asks for it
     WrongFeed Int Speed Speed Region
   | -- | the frame, the command, its number on the tape and the one that belongs there, as far as there are any
-    WrongCommand Int OrderName (Maybe Int) (Maybe Int)
+    WrongCommand Int CommandName (Maybe Int) (Maybe Int)
   | -- | a frame that the control would not take
     Refused Refusal
   | -- | the frame at the end of which the cutter is too fast to come down to what follows: how fast it is, how fast it
     -- may be
     TooFast Int Feed Feed
-  | NotClosed V3
+  | NotClosed Pulses3
   deriving stock (Eq, Show)
 
 -- | How fast a frame goes: in a rapid motion, or by its code; whether it slows down to that.
@@ -159,7 +159,7 @@ toReport machine finding = case finding of
     (wrong "E0706" (InSource region) (frameWord n <> " runs at a wrong feed: " <> speed machine found))
       { message = ["Here belongs " <> speed machine wanted <> "."]
       }
-  WrongCommand n (OrderName name) found wanted ->
+  WrongCommand n (CommandName name) found wanted ->
     (wrong "E0708" InFile (frameWord n <> maybe (" lacks the command " <> name) (\v -> " gives the command " <> name <> " " <> Decimal.whole v) found))
       { message = [maybe "The program gives no such command there." (\v -> "The program gives " <> name <> " " <> Decimal.whole v <> " there.") wanted]
       }
@@ -168,7 +168,7 @@ toReport machine finding = case finding of
     (wrong "E0713" InFile (frameWord n <> " is too fast at its end: " <> Decimal.short 2 is <> " mm/min"))
       { message = ["To come down to the feeds that follow, or to the end of the tape, it may have " <> Decimal.short 2 may <> " mm/min there."]
       }
-  NotClosed (V3 x y z) ->
+  NotClosed (Pulses3 x y z) ->
     wrong "E0707" InFile ("the tape does not end where it should: it misses by " <> Text.intercalate ", " [pulses d <> " in " <> axis | (axis, d) <- [("x", x), ("y", y), ("z", z)], d /= 0])
   where
     wrong = report Report.Error
@@ -187,7 +187,7 @@ refusalWords refusal = case refusal of
     Frame.BadCentre n -> (n, "has no centre for its arc", ["It is missing, or it is more than its fields hold."])
     Frame.NoSuchSpeed n (FeedCode c) -> (n, "has the feed code " <> Decimal.whole c <> ", which the machine does not know there", [])
     Frame.NoSuchMotion n -> (n, "asks for a motion that the machine does not have", ["That is an arc where there are none, or one that rises or leaves its quadrant or is a full circle where it must not, or a motion that goes nowhere."])
-    Frame.NoSuchOrder n (OrderName o) -> (n, "gives the command " <> o <> " twice, or with a number that it does not have", [])
+    Frame.NoSuchOrder n (CommandName o) -> (n, "gives the command " <> o <> " twice, or with a number that it does not have", [])
     Frame.Idle n -> (n, "neither moves nor commands anything", [])
   UnequalRadii n (Mm d) ->
     ( n,

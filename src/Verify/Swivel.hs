@@ -14,9 +14,9 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Box qualified as Box
+import Geometry.Carrier (Side (..))
 import Geometry.Distance qualified as Distance
-import Geometry.Offset (Side (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -25,41 +25,41 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path (leadingSide)
-import Path.Path (Path)
-import Path.Path qualified as Path
-import Path.Swivel qualified as Swivel
-import Verify.Trace (Trace (..), heights, line)
-import Verify.Trace qualified as Trace
+import Toolpath.FromPart qualified as Toolpath (leadingSide)
+import Toolpath.Swivel qualified as Swivel
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Motion (CutterMotion (..), heights, line)
+import Verify.Motion qualified as Motion
 
 -- | The strokes of a tape, those along the contours of a blade at the heights of their passes.
-levelled :: Machine -> Path -> [Trace] -> [Trace]
+levelled :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion]
 levelled machine path = foldr (\p next -> map (onLevel machine p) . next) id blades
   where
-    blades = [blade milling pass | Path.Cutting {Path.job = Located _ milling, Path.pass} <- Path.blocks path, Just _ <- [Part.gear milling]]
+    blades = [blade milling pass | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.pass} <- Toolpath.blocks path, Just _ <- [Part.gear milling]]
 
 -- | A pass along a contour with a blade: how far the tool's centre stands from it at most, its elements with their numbers, the heights of the axis at
 -- their ends.
-data Blade = Blade {level :: Mm, furthest :: Mm, allowed :: Mm, elements :: Box.Index (Int, Segment), axes :: Vector (Mm, Mm)}
+data Blade = Blade {level :: Mm, furthest :: Mm, allowed :: Mm, elements :: BoundingBox.Index (Int, Segment), axes :: Vector (Mm, Mm)}
 
-blade :: Milling -> Path.Pass -> Blade
-blade milling Path.Pass {Path.reach, Path.atHeight} =
+blade :: Milling -> Toolpath.Pass -> Blade
+blade milling Toolpath.Pass {Toolpath.reach, Toolpath.atHeight} =
   Blade
     { level = atHeight,
       furthest = (if Part.corners milling == Part.Sharp then times 2 else id) (plus reach (maximum (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling))))),
       allowed = uncurry max (Part.deepest (Part.tolerance milling)),
-      elements = Box.index (Box.ofSegment . snd) (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
+      elements = BoundingBox.index (BoundingBox.ofSegment . snd) (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
       axes = maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Swivel.bevels (Part.contour milling))
     }
   where
     height angle = plus atHeight (times (sign * angle / 2) (fromMaybe (Mm 0) (Part.gear milling)))
-    sign = case Path.leadingSide milling of
+    sign = case Toolpath.leadingSide milling of
       Right (Just RightOf) -> -1
       Right (Just LeftOf) -> 1
       Right Nothing -> 1
       Left _ -> 1
 
-onLevel :: Machine -> Blade -> Trace -> Trace
+onLevel :: Machine -> Blade -> CutterMotion -> CutterMotion
 onLevel machine b t
   | and [fits (Segment.at k (line t)) (plus low (times k (minus high low))) | k <- 0 : looked] = t {fromHeight = level b, toHeight = level b}
   | otherwise = t
@@ -69,12 +69,12 @@ onLevel machine b t
     looked = case line t of
       -- Between corners that are gone round, at which it may stand anywhere between, in the middle as well.
       Straight _ _ -> [0.5, 1]
-      Arc {} -> Trace.places t
+      Arc {} -> Motion.places t
     -- What the tool touches is nearest to it.
     fits p z = case [(minus h blur, plus h blur) | (d, i, s) <- beside p, d <= plus (nearest p) (times 2 off), let blur = blurAt i s p, Just h <- [axisAt b i s p]] of
       [] -> False
       hs -> minus z (maximum (map snd hs)) <= slack && minus (minimum (map fst hs)) z <= slack
-    beside p = [(d, i, s) | (i, s) <- Box.within (Box.inflate around (Box.ofPoints p [])) (elements b), let d = Distance.toPoint p s, d <= around]
+    beside p = [(d, i, s) | (i, s) <- BoundingBox.within (BoundingBox.inflate around (BoundingBox.ofPoints p [])) (elements b), let d = Distance.toPoint p s, d <= around]
     nearest p = minimum (around : [d | (d, _, _) <- beside p])
     off = plus (allowed b) (Machine.pulse machine)
     around = plus (furthest b) off

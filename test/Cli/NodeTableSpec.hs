@@ -16,16 +16,17 @@ import Draw.Plot qualified as Plot
 import Generate (Case (..))
 import Generate qualified
 import Generate.Run qualified as Curve
-import Geometry.Contour (Contour (..), Ends (..))
-import Geometry.Offset (Origin (..), Piece (..), Side (..))
+import Geometry.Carrier (Side (..))
+import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
+import Offset.Equidistant (OffsetSegment (..), Origin (..))
 import Part.Part (Part)
 import Part.Part qualified as Part
-import Path.FromPart qualified as FromPart
-import Path.Path qualified as Path
 import Test.Hspec
+import Toolpath.FromPart qualified as FromPart
+import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = case (Result.output (FromPart.lay winding), Result.output (Compile.analyse [] (Compile.alone "p.part" "part p\n"))) of
@@ -38,7 +39,7 @@ spec = case (Result.output (FromPart.lay winding), Result.output (Compile.analys
       Text.count "<circle" (layer "nodes" (Plot.plot winding path)) `shouldBe` 4
   _ -> it "has a path" (expectationFailure "there is none")
   where
-    waves path = [Path.segment m | Path.Cutting {Path.cut} <- Path.blocks path, m <- drop 1 (NonEmpty.init cut)]
+    waves path = [Toolpath.segment m | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks path, m <- drop 1 (NonEmpty.init cut)]
     layer name text = fst (Text.breakOn "</g>" (snd (Text.breakOn ("id=\"" <> name <> "\"") text)))
 
 -- | A line, a wave of a hundred arcs and a line, milled on the left.
@@ -51,7 +52,7 @@ winding = Generate.partOf (Vec.point (-40) 0) (Part.Mill (Located (Region 0 0) j
     ahead = Straight (out (-20) (Segment.startDirection (head along)) p) p
     behind = Straight q (out 20 (Segment.endDirection (last along)) q)
     job =
-      (Generate.job Case {contour = Contour Open (ahead :| along <> [behind]), side = LeftOf, radius = Mm 5, pieces = Piece (Along 0) ahead :| []})
+      (Generate.job Case {contour = Polyarc Open (ahead :| along <> [behind]), side = LeftOf, radius = Mm 5, pieces = OffsetSegment (Along 0) ahead :| []})
         { Part.contour = Part.Contour (Located (Region 0 0) (Name "c")) Open (NonEmpty.fromList (Curve.elements [[ahead], along, [behind]])) [],
           Part.approach = []
         }

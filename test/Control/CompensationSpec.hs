@@ -2,29 +2,29 @@
 -- the compiler's own or a damaged one.
 module Control.CompensationSpec (spec) where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus)
 import Base.Region (Located (..))
 import Base.Result qualified as Result
 import Command (inFolder)
 import Control.Compensation (Moved (..), Unkept (..))
 import Control.Compensation qualified as Compensation
-import Control.Walk qualified as Walk
+import Control.Motion qualified as Motion
 import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as FromPath
+import Frame.FromToolpath qualified as FromToolpath
 import Generate.ByControl qualified as ByControl
+import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (Arc, Straight, sweep))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
 import Geometry.Vec qualified as Vec
 import LinuxCnc qualified
-import Machine.Machine (OrderName (..))
+import Machine.Machine (CommandName (..))
 import Machines (iso6983)
 import Part.Part qualified as Part
 import System.FilePath ((</>))
@@ -62,25 +62,25 @@ compared close change =
           Left why -> classify True "refused" (counterexample (show (why, unkept)) (not (null unkept) || not (null broken) || Text.isInfixOf "Radius to end of arc" why))
           -- The model may be more narrow.
           Right walked
-            | not (null unkept) || not (null broken) || any flat fs || any spirals (Walk.run begin fs) -> classify True "refused by the model alone" (property True)
+            | not (null unkept) || not (null broken) || any flat fs || any spirals (Motion.run begin fs) -> classify True "refused by the model alone" (property True)
             | otherwise -> let found = differences close (concatMap (NonEmpty.toList . legs) moved) (map LinuxCnc.segment walked) in counterexample (unlines found <> show fs) (null found)
   where
     flat f = case motion f of
-      Round _ -> not (Walk.isRound f)
+      Round _ -> not (Motion.isRound f)
       _ -> False
     -- LinuxCNC takes now this radius of an arc and now that one; the proof refuses such an arc as it stands. No tape of the compiler's own has one.
-    spirals s = maybe False (\(a, b) -> max (minus a b) (minus b a) >= Mm 0.03) (Walk.radii iso6983 s)
+    spirals s = maybe False (\(a, b) -> max (minus a b) (minus b a) >= Mm 0.03) (Motion.radii iso6983 s)
 
 -- | The frames of a milling, from where.
-programOf :: Part.Milling -> Maybe (V3, [Frame])
+programOf :: Part.Milling -> Maybe (Pulses3, [Frame])
 programOf job = do
   from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach job]
   path <- ByControl.path (Vec.shift (Vec.vec 7 5) from) job
-  program <- Result.output (FromPath.quantise iso6983 path)
+  program <- Result.output (FromToolpath.quantise iso6983 path)
   Just (Frame.start program, map Frame.frame (Frame.planned program))
 
 -- | What LinuxCNC makes of frames. It stands at the zero of the part, and is moved to their beginning.
-interpreted :: V3 -> [Frame] -> IO (Either Text [LinuxCnc.Way])
+interpreted :: Pulses3 -> [Frame] -> IO (Either Text [LinuxCnc.Way])
 interpreted begin fs = inFolder $ \folder -> do
   let file = folder </> "a.ngc"
       onto = [(Frame.still []) {motion = Rapid, increment = begin} | begin /= 0]
@@ -116,20 +116,20 @@ damaged own = do
         g : rest | Frame.isMoving g -> take n own <> [f', g {increment = increment g + increment f - increment f'}] <> rest
         _ -> with f'
   frequency
-    [ (2, pure (madeUp f {increment = increment f + V3 d 0 0})),
-      (2, pure (madeUp f {increment = increment f + V3 0 d 0})),
+    [ (2, pure (madeUp f {increment = increment f + Pulses3 d 0 0})),
+      (2, pure (madeUp f {increment = increment f + Pulses3 0 d 0})),
       (1, pure (take n own <> drop (n + 1) own)),
-      (1, pure (with f {orders = [(o, if o `elem` [OrderName "left", OrderName "right"] then v + let Pulses k = abs d in k else v) | (o, v) <- orders f]})),
+      (1, pure (with f {orders = [(o, if o `elem` [CommandName "left", CommandName "right"] then v + let Pulses k = abs d in k else v) | (o, v) <- orders f]})),
       (1, pure (map exchanged own)),
-      (1, pure (with (if centre f == 0 then f else f {centre = centre f + V2 d d})))
+      (1, pure (with (if centre f == 0 then f else f {centre = centre f + Pulses2 d d})))
     ]
 
 exchanged :: Frame -> Frame
 exchanged f = f {orders = [(other o, v) | (o, v) <- orders f]}
   where
     other o
-      | o == OrderName "left" = OrderName "right"
-      | o == OrderName "right" = OrderName "left"
+      | o == CommandName "left" = CommandName "right"
+      | o == CommandName "right" = CommandName "left"
       | otherwise = o
 
 -- | Frames, and why they are refused.
@@ -137,27 +137,27 @@ refusals :: [(String, [Unkept], [Frame])]
 refusals =
   [ ("a good one", [], good),
     ("a short way in", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
-    ("a way in straight up", [ShortEntry 1 (Mm 0) (Mm 10)], (begun 0) {increment = V3 0 0 1000} : drop 1 good),
-    ("an arc to begin with", [RoundEntry 1], (begun 40) {motion = Round CounterClockwise, centre = V2 20000 0} : drop 1 good),
-    ("an arc to end with", [RoundExit 4], take 3 good <> [(straight (-40) 0) {motion = Round Clockwise, centre = V2 (-20000) 0, orders = [(OrderName "release", 0)]}]),
-    ("an arc as tight as the cutter", [TightArc 3 (Mm 10) (Mm 10)], take 2 good <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = V2 (-10000) 0}] <> drop 3 good),
+    ("a way in straight up", [ShortEntry 1 (Mm 0) (Mm 10)], (begun 0) {increment = Pulses3 0 0 1000} : drop 1 good),
+    ("an arc to begin with", [RoundEntry 1], (begun 40) {motion = Round CounterClockwise, centre = Pulses2 20000 0} : drop 1 good),
+    ("an arc to end with", [RoundExit 4], take 3 good <> [(straight (-40) 0) {motion = Round Clockwise, centre = Pulses2 (-20000) 0, orders = [(CommandName "release", 0)]}]),
+    ("an arc as tight as the cutter", [TightArc 3 (Mm 10) (Mm 10)], take 2 good <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = Pulses2 (-10000) 0}] <> drop 3 good),
     ("an arc behind a corner of 0.02 that is taken for none, which makes it longer by as much", [], take 2 good <> [onArc 400] <> drop 3 good),
     ("by more than a control puts up with", [Unreached 3], take 2 good <> [onArc 600] <> drop 3 good),
     ("a tip at which the way turns back by 176 degrees", [], take 2 good <> [straight (0.07 * 40) (-40)] <> drop 3 good),
     ("by 178 degrees", [Unreached 2], take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good),
     ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
-    ("on twice", [OnTwice 2], [begun 40, (straight 0 50) {orders = [(OrderName "left", 20000)]}] <> drop 2 good),
-    ("on twice at once", [OnTwice 1], (begun 40) {orders = [(OrderName "left", 20000), (OrderName "right", 20000)]} : map (\f -> f {orders = []}) (drop 1 good)),
-    ("a tool changed meanwhile", [ToolChanged 2], [begun 40, Frame.still [(OrderName "T", 2), (OrderName "M", 6)]] <> drop 1 good),
-    ("another command meanwhile", [], [begun 40, Frame.still [(OrderName "M", 8)]] <> drop 1 good),
+    ("on twice", [OnTwice 2], [begun 40, (straight 0 50) {orders = [(CommandName "left", 20000)]}] <> drop 2 good),
+    ("on twice at once", [OnTwice 1], (begun 40) {orders = [(CommandName "left", 20000), (CommandName "right", 20000)]} : map (\f -> f {orders = []}) (drop 1 good)),
+    ("a tool changed meanwhile", [ToolChanged 2], [begun 40, Frame.still [(CommandName "T", 2), (CommandName "M", 6)]] <> drop 1 good),
+    ("another command meanwhile", [], [begun 40, Frame.still [(CommandName "M", 8)]] <> drop 1 good),
     ("never off", [NeverReleased 3], take 3 good)
   ]
   where
     good = [begun 40, straight 0 50, straight 50 0, off]
-    begun x = (straight x 0) {orders = [(OrderName "left", 20000)]}
+    begun x = (straight x 0) {orders = [(CommandName "left", 20000)]}
     -- A quarter of a circle behind a corner to the right.
-    onArc aside = (straight 0 0) {motion = Round CounterClockwise, increment = V3 (-20000) (20000 + aside) 0, centre = V2 (-20000) aside}
-    off = (straight 0 40) {orders = [(OrderName "release", 0)]}
-    straight x y = (Frame.still []) {motion = Straightway, increment = V3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0}
+    onArc aside = (straight 0 0) {motion = Round CounterClockwise, increment = Pulses3 (-20000) (20000 + aside) 0, centre = Pulses2 (-20000) aside}
+    off = (straight 0 40) {orders = [(CommandName "release", 0)]}
+    straight x y = (Frame.still []) {motion = Straightway, increment = Pulses3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0}
       where
         _ = x + y :: Double

@@ -4,12 +4,12 @@ module Draw.LabelSpec (spec) where
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad (..))
 import Data.Text (Text)
-import Draw.Label (Label (Label))
+import Draw.Label (PointLabel (PointLabel))
 import Draw.Label qualified as Label
-import Draw.Sheet qualified as Sheet
+import Draw.Page qualified as Page
 import Draw.Svg qualified as Svg
-import Geometry.Box (Box (Box))
-import Geometry.Box qualified as Box
+import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Test.Hspec
@@ -22,29 +22,29 @@ spec =
       property $
         forAll labels $ \ls ->
           let placed = map covered (settled ls)
-           in cover 50 (length placed > 30) "many" (and [not (Box.meets (Box.inflate (Mm 0.599) a) b) | (k, a) <- zip [0 :: Int ..] placed, (l, b) <- zip [0 ..] placed, k < l])
+           in cover 50 (length placed > 30) "many" (and [not (BoundingBox.meets (BoundingBox.inflate (Mm 0.599) a) b) | (k, a) <- zip [0 :: Int ..] placed, (l, b) <- zip [0 ..] placed, k < l])
     it "none is left out where there is room (catches places that are taken twice)" $
       property $
         forAll (choose (1, 8)) $ \n ->
-          length (settled [Label "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2] | k <- [1 .. n :: Int]]) === n
+          length (settled [PointLabel "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2] | k <- [1 .. n :: Int]]) === n
 
-settled :: [Label] -> [(Point, Text)]
-settled = Label.settle Sheet.field (Box.index id' [])
+settled :: [PointLabel] -> [(Point, Text)]
+settled = Label.settle Page.field (BoundingBox.index id' [])
   where
-    id' = const (Box 0 0 0 0)
+    id' = const (BoundingBox 0 0 0 0)
 
 -- | So many on so little paper that they are in one another's way.
-labels :: Gen [Label]
+labels :: Gen [PointLabel]
 labels = do
   n <- choose (20, 120)
   vectorOf n (label <$> choose (0, 10 ^ (8 :: Int)) <*> choose (0, 6) <*> choose (30, 110) <*> choose (30, 90))
   where
-    label :: Int -> Double -> Double -> Double -> Label
-    label number a x y = Label (Decimal.whole number) (Vec.point x y) (Vec.polar (Mm 1) (Rad a)) [1.2, 2, 3, 4]
+    label :: Int -> Double -> Double -> Double -> PointLabel
+    label number a x y = PointLabel (Decimal.whole number) (Vec.point x y) (Vec.polar (Mm 1) (Rad a)) [1.2, 2, 3, 4]
 
 -- | What a text covers about its middle.
-covered :: (Point, Text) -> Box
-covered (p, caption) = Box (Vec.x p - w) (Vec.y p - h) (Vec.x p + w) (Vec.y p + h)
+covered :: (Point, Text) -> BoundingBox
+covered (p, caption) = BoundingBox (Vec.x p - w) (Vec.y p - h) (Vec.x p + w) (Vec.y p + h)
   where
     w = max h (Svg.textWidth Label.size caption / 2)
     h = 0.36 * Label.size

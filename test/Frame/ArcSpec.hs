@@ -1,10 +1,10 @@
 -- | The laws of arcs in whole pulses.
 module Frame.ArcSpec (spec) where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
-import Control.Walk qualified as Control
+import Control.Motion qualified as Control
 import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
@@ -12,9 +12,9 @@ import Data.Text.Encoding qualified as Encoding
 import Frame.Frame (Frame (increment), Planned (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
+import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), BrakingForm (..), Machine)
@@ -70,9 +70,9 @@ spec = do
     it "has radii at its ends that agree to two pulses (catches a centre beside the middle of the chord)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let radiiOf f = let V2 i j = centre' f; V3 x y _ = increment f in (long (V2 i j), long (V2 (x - i) (y - j)))
+          let radiiOf f = let Pulses2 i j = centre' f; Pulses3 x y _ = increment f in (long (Pulses2 i j), long (Pulses2 (x - i) (y - j)))
               centre' = Frame.centre
-              long (V2 (Pulses x) (Pulses y)) = sqrt (fromIntegral (x * x + y * y)) :: Double
+              long (Pulses2 (Pulses x) (Pulses y)) = sqrt (fromIntegral (x * x + y * y)) :: Double
            in conjoin [counterexample (show f) (abs (r - q) <= 2 + 1e-9) | f <- framesOf p, Made.roundly f, let (r, q) = radiiOf f]
     it "takes one frame where one can do (catches needless cuts)" $
       property $
@@ -112,7 +112,7 @@ spec = do
     cuts :: Text -> Text -> Maybe Int
     cuts m text = fmap (\p -> length [() | f <- Frame.planned p, Frame.role f == Frame.Cutting 0, Made.roundly (frame f)]) (Made.program (Machines.named m) (Made.pathOf text))
 
-onArc :: Testable t => Machine -> Segment -> (Frame.Program -> t) -> Property
+onArc :: Testable t => Machine -> Segment -> (Frame.FrameProgram -> t) -> Property
 onArc m a law = counterexample (show (Machine.name m, a)) $ case Made.program (bare m) (Made.along feed [a]) of
   Nothing -> counterexample ("no frames: " <> show (Made.made (bare m) (Made.along feed [a]))) False
   Just p -> counterexample (show (take 12 (framesOf p))) (law p)
@@ -121,7 +121,7 @@ onArc m a law = counterexample (show (Machine.name m, a)) $ case Made.program (b
 bare :: Machine -> Machine
 bare m = m {Machine.braking = (Machine.braking m) {Machine.brakingForm = ByControl}, Machine.orders = (Machine.orders m) {Machine.finish = []}}
 
-framesOf :: Frame.Program -> [Frame]
+framesOf :: Frame.FrameProgram -> [Frame]
 framesOf = map frame . Frame.planned
 
 feed :: Part.Pace

@@ -1,26 +1,26 @@
 -- | The laws of braking, held against a walk along the frames and along the path.
 module Frame.BrakingSpec (spec) where
 
-import Base.Lattice (V3 (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
-import Frame.Feed qualified as Feed
+import Frame.FeedCode qualified as FeedCode
 import Frame.Frame (Frame (..), Planned (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
+import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
-import Part.Part (Pace (..), Spot (Spot))
-import Path.Path (Block (..), Manner (Manner), Move (Move), Path (Path))
-import Path.Path qualified as Path
+import Part.Part (Pace (..), SpacePoint (SpacePoint))
 import Test.Hspec
 import Test.QuickCheck
+import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Toolpath (Toolpath))
+import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = do
@@ -55,7 +55,7 @@ spec = do
       fmap (map brief) (framesOn (Machines.named "n55") [to 0 60 (At (here 240)) True, to 60 120 (At (here 24)) False]) `shouldBe` Just [(6000, 240, False), (6000, 24, False)]
   where
     brief f = (pulses f, code f, braking f)
-    pulses f = let V3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
+    pulses f = let Pulses3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
     code f = let FeedCode n = speed f in n
     to a b pace slow = Move (Straight (Vec.point a 0) (Vec.point b 0)) (Manner (Mm 0, Mm 0) pace slow) (Region 0 0) False
 
@@ -63,20 +63,20 @@ here :: Double -> Located Feed
 here = Located (Region 0 0) . Feed
 
 framesOn :: Machine -> [Move] -> Maybe [Frame]
-framesOn m ms = fmap (filter Frame.isMoving . map frame . Frame.planned) (Made.program m (Path (Located (Region 0 0) (Spot (Segment.start (Path.segment (head ms))) (Mm 0))) [Travelling (Mm 0) ms] False))
+framesOn m ms = fmap (filter Frame.isMoving . map frame . Frame.planned) (Made.program m (Toolpath (Located (Region 0 0) (SpacePoint (Segment.start (Toolpath.segment (head ms))) (Mm 0))) [Travelling (Mm 0) ms] False))
 
 -- | The ways of the frames in mm with their feeds in mm/s; none in those that slow down.
 onMachine :: Testable t => [Move] -> (Machine -> [(Double, Maybe Double)] -> t) -> Property
 onMachine ms law = forAllBlind (elements (map Machines.named ["lki-fm", "lki-u", "lki-un"])) $ \m -> counterexample (show (Machine.name m)) $ case framesOn m ms of
   Nothing -> counterexample "no frames" False
   Just fs ->
-    property (law m [(l, if braking f then Nothing else Just (v / 60)) | f <- fs, let Mm l = Feed.wayOf m f, let v = maybe 0 (\(Feed x) -> x) (Feed.given m f (Mm l))])
+    property (law m [(l, if braking f then Nothing else Just (v / 60)) | f <- fs, let Mm l = FeedCode.wayOf m f, let v = maybe 0 (\(Feed x) -> x) (FeedCode.given m f (Mm l))])
 
 -- | The way on which the feeds that the machine gets are too fast for what comes behind, step by step.
 neededWay :: Machine -> [Move] -> Double
 neededWay m ms = sum [d | (k, (l, v)) <- zip [0 ..] pieces, let n = max 1 (ceiling (l / 0.01)) :: Int, let d = l / fromIntegral n, j <- [0 .. n - 1], tooFast v (l - d * (fromIntegral j + 0.5)) (events !! k)]
   where
-    pieces = [(l, speedOf (Path.pace x)) | x <- ms, let Mm l = Segment.length (Path.segment x)]
+    pieces = [(l, speedOf (Toolpath.pace x)) | x <- ms, let Mm l = Segment.length (Toolpath.segment x)]
     speedOf p = case p of
       Rapid -> snd (Machine.feedRange m) / 60
       At (Located _ (Feed v)) -> case Machine.choose m v of
@@ -84,7 +84,7 @@ neededWay m ms = sum [d | (k, (l, v)) <- zip [0 ..] pieces, let n = max 1 (ceili
         Machine.NoSuchFeed _ _ -> v / 60
     -- The lower feeds behind the end of each move, and how far behind.
     events = [[(s, v2) | (s, v2) <- limits k] | k <- [0 .. length ms - 1]]
-    limits k = concat (zipWith3 (\j x (s, (_, v)) -> [(s, v) | j > k] <> [(s + fst (pieces !! j), 10 / 60) | Path.braked x || j == length ms - 1]) [k :: Int ..] (drop k ms) (zip (starts k) (drop k pieces)))
+    limits k = concat (zipWith3 (\j x (s, (_, v)) -> [(s, v) | j > k] <> [(s + fst (pieces !! j), 10 / 60) | Toolpath.braked x || j == length ms - 1]) [k :: Int ..] (drop k ms) (zip (starts k) (drop k pieces)))
     starts k = scanl (+) (-(fst (pieces !! k))) (map fst (drop k pieces))
     tooFast v rest limitsBehind = or [v * v > v2 * v2 + 2 * 5 * (rest + s) | (s, v2) <- limitsBehind]
 

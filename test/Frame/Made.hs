@@ -22,25 +22,25 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Frame.Error (Error, Warning)
-import Frame.Frame (Frame (..), Planned (frame), Program (planned))
+import Frame.Frame (Frame (..), FrameProgram (planned), Planned (frame))
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as FromPath
+import Frame.FromToolpath qualified as FromToolpath
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 import Part.FromChecked qualified as Part
-import Part.Part (Pace, Spot (Spot))
-import Path.FromPart qualified as Path
-import Path.Path (Block (..), Move (Move), Path (Path))
-import Path.Path qualified as Path
-import Surface.Assign qualified as Surface
+import Part.Part (Pace, SpacePoint (SpacePoint))
 import Surface.Import qualified as Surface
+import Surface.Parameter qualified as Surface
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Block (..), Move (Move), Toolpath (Toolpath))
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | The path of a program that has no mistakes.
-pathOf :: Text -> Path
-pathOf text = need "path" (Path.lay part)
+pathOf :: Text -> Toolpath
+pathOf text = need "path" (Toolpath.lay part)
   where
     loaded = runIdentity (Surface.load (Surface.byName (const (pure (Left "")))) "test.part" text)
     assigned = need "assignments" (Surface.assign [] (need "syntax" (Surface.surface loaded)))
@@ -49,21 +49,21 @@ pathOf text = need "path" (Path.lay part)
     need what = fromMaybe (error ("the program of the test has no " <> what)) . Result.output
 
 -- | A path without cutting along segments that follow one another, at one height.
-along :: Pace -> [Segment] -> Path
+along :: Pace -> [Segment] -> Toolpath
 along pace segments = case segments of
   [] -> error "a path of nothing"
-  s : _ -> Path (Located nowhere (Spot (Segment.start s) (Mm 0))) [Travelling (Mm 0) [Move x (Path.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]] False
+  s : _ -> Toolpath (Located nowhere (SpacePoint (Segment.start s) (Mm 0))) [Travelling (Mm 0) [Move x (Toolpath.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]] False
   where
     nowhere = Region 0 0
 
-made :: Machine -> Path -> Result Warning Error Program
-made = FromPath.quantise
+made :: Machine -> Toolpath -> Result Warning Error FrameProgram
+made = FromToolpath.quantise
 
-program :: Machine -> Path -> Maybe Program
+program :: Machine -> Toolpath -> Maybe FrameProgram
 program machine = Result.settled . made machine
 
 -- | What each frame does in the plane.
-walked :: Machine -> Program -> [Segment]
+walked :: Machine -> FrameProgram -> [Segment]
 walked machine p = zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
   where
     frames = map frame (planned p)
@@ -73,7 +73,7 @@ roundly f = case motion f of
   Frame.Round _ -> True
   _ -> False
 
-arcsIn :: Program -> Int
+arcsIn :: FrameProgram -> Int
 arcsIn = length . filter (roundly . frame) . planned
 
 -- | How far the points of some segments are from others: in 24ths, or fewer where there are many.
@@ -83,5 +83,5 @@ worstOff those these = maximum (0 : [minimum [d | s <- those, let Mm d = Distanc
     parts = max 2 (min 24 (1000 `div` max 1 (length these))) :: Int
 
 -- | The ends of the moves along contours.
-nodesOf :: Path -> [Point]
-nodesOf path = [Segment.end (Path.segment m) | Cutting {cut} <- Path.blocks path, m <- NonEmpty.toList cut]
+nodesOf :: Toolpath -> [Point]
+nodesOf path = [Segment.end (Toolpath.segment m) | Cutting {cut} <- Toolpath.blocks path, m <- NonEmpty.toList cut]

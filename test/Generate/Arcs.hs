@@ -8,62 +8,62 @@ module Generate.Arcs
   )
 where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..))
 import Data.List (minimumBy)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
-import Frame.Frame (Frame (..), Motion (..), Planned (Planned, origin, tool), Program (Program), Role (..))
+import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (FrameProgram), Planned (Planned, origin, tool), Role (..))
 import Frame.Frame qualified as Frame
+import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (..), FeedCode, Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Spot (..))
+import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
-import Path.Path (Move, Path)
-import Path.Path qualified as Path
 import Test.QuickCheck
+import Toolpath.Toolpath (Move, Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | The frames of a path on a machine with arcs. Nothing slows down, nothing is commanded, and the machine has room for
 -- every number.
-quantise :: Machine -> Path -> Program
-quantise machine path = Program begin (go begin (concat (zipWith block [0 ..] (Path.blocks path))))
+quantise :: Machine -> Toolpath -> FrameProgram
+quantise machine path = FrameProgram begin (go begin (concat (zipWith block [0 ..] (Toolpath.blocks path))))
   where
-    Located _ (Spot p z) = Path.start path
+    Located _ (SpacePoint p z) = Toolpath.start path
     begin = rounded machine (p, z)
     block n b = case b of
-      Path.Travelling r ms -> map (Travelling,r,) ms
-      Path.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
-      Path.Commanding _ -> []
-      Path.Clearing {Path.pocket = Located _ pocket, Path.approach, Path.cleared, Path.retract} ->
+      Toolpath.Travelling r ms -> map (Travelling,r,) ms
+      Toolpath.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
+      Toolpath.Commanding _ -> []
+      Toolpath.Clearing {Toolpath.pocket = Located _ pocket, Toolpath.approach, Toolpath.cleared, Toolpath.retract} ->
         let r = Part.radius (Part.wall pocket)
          in map (Approaching n,r,) approach <> map (Cutting n,r,) (NonEmpty.toList cleared) <> map (Retracting n,r,) retract
-      Path.Cutting {Path.job = Located _ m, Path.approach, Path.cut, Path.retract} ->
+      Toolpath.Cutting {Toolpath.job = Located _ m, Toolpath.approach, Toolpath.cut, Toolpath.retract} ->
         map (Approaching n,Part.radius m,) approach <> map (Cutting n,Part.radius m,) (NonEmpty.toList cut) <> map (Retracting n,Part.radius m,) retract
     go at moves = case moves of
       [] -> []
       (role, tool, m) : rest ->
         let fs = framesOf machine at m
-         in [Planned {Frame.frame = f, Frame.role = role, origin = Path.origin m, tool} | f <- fs] <> go (at + sum (map increment fs)) rest
+         in [Planned {Frame.frame = f, Frame.role = role, origin = Toolpath.origin m, tool} | f <- fs] <> go (at + sum (map increment fs)) rest
 
-rounded :: Machine -> (Point, Mm) -> V3
-rounded machine (p, Mm z) = V3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
+rounded :: Machine -> (Point, Mm) -> Pulses3
+rounded machine (p, Mm z) = Pulses3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
   where
     on axis v = let Mm step = Machine.pulseOf machine axis in Pulses (round (v / step))
 
 -- | The frames of one move, from where the tape stands.
-framesOf :: Machine -> V3 -> Move -> [Frame]
-framesOf machine at m = case Path.segment m of
+framesOf :: Machine -> Pulses3 -> Move -> [Frame]
+framesOf machine at m = case Toolpath.segment m of
   s@Arc {} -> snd (foldl next (at, []) (inQuadrants s))
-  Straight _ q -> straight speed' at (rounded machine (q, snd (Path.heights m)))
+  Straight _ q -> straight speed' at (rounded machine (q, snd (Toolpath.heights m)))
   where
-    next (p, done) part = let fs = arcFrames machine speed' (fst (Path.heights m)) p part in (p + sum (map increment fs), done <> fs)
-    speed' = case Path.pace m of
+    next (p, done) part = let fs = arcFrames machine speed' (fst (Toolpath.heights m)) p part in (p + sum (map increment fs), done <> fs)
+    speed' = case Toolpath.pace m of
       Part.Rapid -> Machine.rapidCode machine
       Part.At (Located _ (Feed v)) -> case Machine.choose machine v of
         Machine.Given c _ -> c
@@ -72,7 +72,7 @@ framesOf machine at m = case Path.segment m of
       Machine.Arcs {Machine.quadrants = True} -> quarters s
       _ -> [s]
 
-straight :: FeedCode -> V3 -> V3 -> [Frame]
+straight :: FeedCode -> Pulses3 -> Pulses3 -> [Frame]
 straight code from to = [Frame {motion = Straightway, increment = to - from, centre = 0, speed = code, braking = False, orders = []} | to /= from]
 
 -- | An arc cut where it crosses the axes through its centre.
@@ -88,7 +88,7 @@ quarters s = case s of
     piece a b = let upTo = if b < 1 then fst (Segment.cutAt b s) else s in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
 -- | The frames of an arc: one, if a centre of whole pulses keeps it within a pulse; else those of its halves.
-arcFrames :: Machine -> FeedCode -> Mm -> V3 -> Segment -> [Frame]
+arcFrames :: Machine -> FeedCode -> Mm -> Pulses3 -> Segment -> [Frame]
 arcFrames machine code z at s = case (Segment.bulge s, candidates) of
   (Mm bulge, _) | bulge < pulse / 2 -> straight code at end
   (_, []) -> halves
@@ -96,8 +96,8 @@ arcFrames machine code z at s = case (Segment.bulge s, candidates) of
   where
     Mm pulse = Machine.pulse machine
     end = rounded machine (Segment.end s, z)
-    candidates = [f | f <- [about (V2 (i + Pulses a) (j + Pulses b)) | a <- [-3 .. 3], b <- [-3 .. 3]], null (Frame.invariants machine [f]), apart f <= 2 * pulse]
-    V3 i j _ = rounded machine (Segment.centre s, z) - at
+    candidates = [f | f <- [about (Pulses2 (i + Pulses a) (j + Pulses b)) | a <- [-3 .. 3], b <- [-3 .. 3]], null (Frame.invariants machine [f]), apart f <= 2 * pulse]
+    Pulses3 i j _ = rounded machine (Segment.centre s, z) - at
     about c = Frame {motion = Round (if positive then CounterClockwise else Clockwise), increment = end - at, centre = c, speed = code, braking = False, orders = []}
     Rad turned = Segment.sweep s
     positive = turned > 0
@@ -125,7 +125,7 @@ data Off = Off {deepest :: Double, most :: Double}
 
 -- | How far frames from a position are off from a contour with a cutter of a radius, by points close to one another on
 -- both. An arc goes with the radius of its beginning and ends where it ends.
-deviation :: Machine -> V3 -> [Frame] -> [Segment] -> Double -> Off
+deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Off
 deviation machine begin frames contour radius =
   Off {deepest = radius - minimum [nearest on p | p <- walked], most = maximum [nearest walked q | q <- on] - radius}
   where
@@ -152,22 +152,22 @@ change frames = do
       made up f' = case drop (n + 1) frames of
         g : rest | up -> take n frames <> [f', g {increment = increment g + increment f - increment f'}] <> rest
         _ -> with f'
-      V3 x y _ = increment f
-      V2 i j = centre f
+      Pulses3 x y _ = increment f
+      Pulses2 i j = centre f
   up <- arbitrary
   oneof $
-    [ pure ("x by " <> show d, made up f {increment = increment f + V3 d 0 0}),
-      pure ("y by " <> show d, made up f {increment = increment f + V3 0 d 0}),
+    [ pure ("x by " <> show d, made up f {increment = increment f + Pulses3 d 0 0}),
+      pure ("y by " <> show d, made up f {increment = increment f + Pulses3 0 d 0}),
       pure ("lost", take n frames <> drop (n + 1) frames),
       pure ("doubled", take (n + 1) frames <> drop n frames)
     ]
       <> case motion f of
         Round turn ->
-          [ pure ("i by " <> show d, with f {centre = centre f + V2 d 0}),
-            pure ("j by " <> show d, with f {centre = centre f + V2 0 d}),
+          [ pure ("i by " <> show d, with f {centre = centre f + Pulses2 d 0}),
+            pure ("j by " <> show d, with f {centre = centre f + Pulses2 0 d}),
             pure ("the long way round", with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise)}),
-            pure ("the centre on the other side", with f {centre = V2 (x - i) (y - j)}),
-            pure ("both", with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise), centre = V2 (x - i) (y - j)}),
+            pure ("the centre on the other side", with f {centre = Pulses2 (x - i) (y - j)}),
+            pure ("both", with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise), centre = Pulses2 (x - i) (y - j)}),
             pure ("its chord", with f {motion = Straightway, centre = 0})
           ]
         _ -> []

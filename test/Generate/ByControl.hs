@@ -16,19 +16,19 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, listToMaybe)
 import Generate (Case (..))
 import Generate qualified
-import Geometry.Contour (segments)
-import Geometry.Offset (Side (..))
-import Geometry.Offset qualified as Offset
+import Geometry.Carrier (Side (..))
+import Geometry.Polyarc (segments)
 import Geometry.Segment (Segment (Arc))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Offset.Equidistant qualified as Equidistant
 import Part.Part (Milling, Operation (..))
 import Part.Part qualified as Part
-import Path.FromPart qualified as FromPart
-import Path.Path (Path)
-import Path.Path qualified as Path
 import Test.QuickCheck
+import Toolpath.FromPart qualified as FromPart
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | A contour with a way in that comes from its beginning's free side, and a way out.
 cases :: Gen (Case, Milling)
@@ -55,25 +55,25 @@ cases = do
 -- | With a cutter that is so much smaller than the smallest arc about whose inside it rolls, if that fits.
 snug :: Case -> Double -> Case
 snug c less = case sort [old - less | Arc from _ centre (Rad a) <- NonEmpty.toList (segments (contour c)), (a > 0) == (side c == LeftOf), let Mm old = Segment.radius centre from, old > less + 0.1, old < 20] of
-  r : _ | Right pieces <- Offset.equidistant (side c) (Mm r) (contour c) -> c {radius = Mm r, pieces}
+  r : _ | Right pieces <- Equidistant.equidistant (side c) (Mm r) (contour c) -> c {radius = Mm r, pieces}
   _ -> c
 
 -- | The first and the last move of the cutter beside a contour, leads included.
 firstAndLast :: Milling -> Maybe (Segment, Segment)
 firstAndLast job = case laid (beginning job) job of
-  Just (Path.Cutting {Path.approach, Path.cut, Path.retract} : _) ->
-    let leads = [Path.segment m | m <- reverse (take 1 (reverse approach)), Just _ <- [Part.leadIn job]]
-        cuts = fmap Path.segment cut
-        behind = map Path.segment retract
+  Just (Toolpath.Cutting {Toolpath.approach, Toolpath.cut, Toolpath.retract} : _) ->
+    let leads = [Toolpath.segment m | m <- reverse (take 1 (reverse approach)), Just _ <- [Part.leadIn job]]
+        cuts = fmap Toolpath.segment cut
+        behind = map Toolpath.segment retract
      in Just (fromMaybe (NonEmpty.head cuts) (listToMaybe leads), fromMaybe (NonEmpty.last cuts) (listToMaybe (reverse behind)))
   _ -> Nothing
 
 -- | The blocks of a milling from a point.
-laid :: Point -> Milling -> Maybe [Path.Block]
-laid at job = Path.blocks <$> path at job
+laid :: Point -> Milling -> Maybe [Toolpath.Block]
+laid at job = Toolpath.blocks <$> path at job
 
 -- | The path of a milling from a point.
-path :: Point -> Milling -> Maybe Path
+path :: Point -> Milling -> Maybe Toolpath
 path at job = Result.output (FromPart.lay (Generate.partOf at (Mill (Located nowhere job))))
 
 -- | Where the contour begins.

@@ -31,20 +31,20 @@ import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import GHC.Exts qualified as Exts
-import Geometry.Curve (Curve, Distance (..), Ends (..), Growth (..), Joggle (..), Piece (..), Side (..))
+import Geometry.Carrier qualified as Carrier
+import Geometry.Curve (Curve, Distance (..), EndCondition (..), Growth (..), Joggle (..), Side (..), SpanShape (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape qualified as Shape
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
+import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Test.QuickCheck
 
 -- | A table of points and how it ends.
-data Table = Table Ends [Point]
+data Table = Table EndCondition [Point]
   deriving stock (Eq, Show)
 
 ok :: Show e => Either e a -> a
@@ -58,7 +58,7 @@ anyCurve = frequency [(2, smooth), (1, polyline), (1, parabola), (1, chain), (1,
 smooth :: Gen Curve
 smooth = oneof [gentle, ring, ok . splineOf <$> winding]
 
-splineOf :: Table -> Either Curve.Flaw Curve
+splineOf :: Table -> Either Curve.CurveFault Curve
 splineOf (Table ends points) = Curve.spline ends (Exts.fromList points)
 
 -- | An open spline that turns by less than a right angle, few points or many.
@@ -247,12 +247,12 @@ layered most gen = do
     go n curve = if n <= 0 then pure curve else shifts curve >>= go (n - 1)
 
 -- | Motions, mirrors, scalings, one behind the other.
-similarity :: Gen Similarity
+similarity :: Gen Transformation
 similarity = do
   v <- Vec.vec <$> choose (-50, 50) <*> choose (-50, 50)
   p <- Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
   q <- Vec.shift <$> (Vec.polar (Mm 10) . Rad <$> choose (0, 6)) <*> pure p
   a <- choose (-3, 3)
   k <- choose (0.3, 3)
-  chosen <- sublistOf [Similarity.translation v, Similarity.rotation (Rad a) p, Similarity.reflection (Shape.Line p q), Similarity.scaling k p]
-  pure (foldr Similarity.after Similarity.identity chosen)
+  chosen <- sublistOf [Transformation.translation v, Transformation.rotation (Rad a) p, Transformation.reflection (Carrier.Line p q), Transformation.scaling k p]
+  pure (foldr Transformation.after Transformation.identity chosen)

@@ -5,7 +5,7 @@
 -- where blank rows between frames are passed over a frame begins with a hole.
 module Generate.Machine (machine, frames) where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Data.Bits (shiftL, (.|.))
 import Data.Char (intToDigit, ord)
@@ -16,9 +16,9 @@ import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
-import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
-import Geometry.Shape (Turn (..))
+import Geometry.Carrier (Sense (..))
 import Machine.Machine hiding (braking, choose, orders)
 import Machine.Machine qualified as Machine
 import Test.QuickCheck
@@ -27,7 +27,7 @@ machine :: Gen Machine
 machine = oneof [inPlaces, lettered, printed]
 
 -- | What all kinds of machines share.
-data Shared = Shared {used :: [Axis], motions :: Maybe MotionCodes, arcKind :: Arcs, how :: Measure, feedTable :: FeedCodes, feedDigits :: Int, bottom :: Machine}
+data Shared = Shared {used :: [Axis], motions :: Maybe MotionCodes, arcKind :: Arcs, how :: AxisMeasure, feedTable :: FeedCodes, feedDigits :: Int, bottom :: Machine}
 
 shared :: Gen Shared
 shared = do
@@ -49,7 +49,7 @@ shared = do
           { name = MachineName "random",
             title = "",
             medium = Medium {tracks = 8, pitch = Just (Mm 2.54), suffix = "tape", leader = 0, gap = 0, evenShift = 0, spare = Counted, opening = "", closing = ""},
-            code = Code {codeName = "random", symbols = Map.empty, weights = Map.empty, evenTrack = Nothing, serviceTrack = Nothing, skips = []},
+            code = TapeCode {codeName = "random", symbols = Map.empty, weights = Map.empty, evenTrack = Nothing, serviceTrack = Nothing, skips = []},
             axes = NonEmpty.fromList forms,
             arcs = arcKind,
             layout = Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
@@ -99,7 +99,7 @@ inPlaces = do
     (bottom s)
       { medium = medium',
         code =
-          Code
+          TapeCode
             { codeName = "random",
               symbols = Map.fromList (('*', marker) : zip (map intToDigit [0 .. 9]) tetrads),
               weights = Map.fromList (zip (map intToDigit [0 .. 9]) [0 ..]),
@@ -118,7 +118,7 @@ placed s = do
   numberDigits <- choose (0, 3)
   orderBits <- arbitrary
   orderWord <- arbitrary
-  axisWords <- traverse (\a -> signed (Along a) axisDigits (if orderBits && [a] == take 1 (used s) then [OrderBit (OrderName "bits") (k - 1) | k <- [axisDigits - 1, axisDigits - 2 .. 1]] else [])) (used s)
+  axisWords <- traverse (\a -> signed (Along a) axisDigits (if orderBits && [a] == take 1 (used s) then [OrderBit (CommandName "bits") (k - 1) | k <- [axisDigits - 1, axisDigits - 2 .. 1]] else [])) (used s)
   centreWords <- traverse (\a -> signed (Centre a) centreDigits []) (if arcKind s == NoArcs then [] else [X, Y])
   mark <- elements [Marker, BrakingHole, NoHole]
   shuffle
@@ -126,7 +126,7 @@ placed s = do
         <> [plain FrameNumber numberDigits [] | numberDigits > 0]
         <> [plain (Motion m) 1 [] | Just m <- [motions s]]
         <> [plain FeedWord (feedDigits s) [mark]]
-        <> [plain (Command (OrderName "word")) 2 [] | orderWord]
+        <> [plain (Command (CommandName "word")) 2 [] | orderWord]
     )
   where
     plain c n sv = Word' "" c (form n Unsigned sv) Always
@@ -167,7 +167,7 @@ lettered = do
     (bottom s)
       { medium = medium',
         code =
-          Code
+          TapeCode
             { codeName = "random",
               symbols = Map.fromList (zip (map intToDigit [0 .. 9]) [0 ..] <> letterRows),
               weights = Map.fromList (zip (map intToDigit [0 .. 9]) [0 ..] <> zip letters [0 ..]),
@@ -200,7 +200,7 @@ addressed s addresses signs = do
           <> [(Along a, axisForm') | a <- used s]
           <> [(Centre a, axisForm') | arcKind s /= NoArcs, a <- [X, Y]]
           <> [(FeedWord, plain (feedDigits s))]
-          <> take count [(Command (OrderName "first"), plain 2), (Command (OrderName "second"), plain 1), (Command (OrderName "none"), (plain 0) {padded = True})]
+          <> take count [(Command (CommandName "first"), plain 2), (Command (CommandName "second"), plain 1), (Command (CommandName "none"), (plain 0) {padded = True})]
   shuffled <- shuffle contents
   traverse one (zip addresses shuffled)
   where
@@ -214,7 +214,7 @@ addressed s addresses signs = do
       Along _ -> elements [Always, InMotion, WhenNeeded]
       Centre _ -> elements [Always, InMotion, WhenNeeded]
       FeedWord -> elements [Always, InMotion, WhenNeeded, WhenChanged]
-      Command (OrderName "none") -> pure WhenNeeded
+      Command (CommandName "none") -> pure WhenNeeded
       Command _ -> elements [Always, InMotion, WhenNeeded]
 
 -- Text --------------------------------------------------------------------------------------------
@@ -236,7 +236,7 @@ printed = do
     (bottom s)
       { medium = medium',
         code =
-          Code
+          TapeCode
             { codeName = "random",
               symbols = ascii,
               weights = Map.empty,
@@ -253,15 +253,15 @@ ascii = Map.fromList [(c, fromIntegral (ord c)) | c <- '\n' : [' ' .. '~']]
 -- Frames ------------------------------------------------------------------------------------------
 
 -- | Where the cutter stands, and frames that the machine can be told from there.
-frames :: Machine -> Gen (V3, [Frame])
+frames :: Machine -> Gen (Pulses3, [Frame])
 frames m = do
   n <- choose (0, 12)
-  start <- let on a = Pulses <$> choose (negate (reach a), reach a) in V3 <$> on X <*> on Y <*> on Z
+  start <- let on a = Pulses <$> choose (negate (reach a), reach a) in Pulses3 <$> on X <*> on Y <*> on Z
   feeds' <- vectorOf 2 (feedOf m)
   (,) start <$> go n feeds' start
   where
     reach a = let Pulses c = capacity m a in c
-    go :: Int -> [FeedCode] -> V3 -> Gen [Frame]
+    go :: Int -> [FeedCode] -> Pulses3 -> Gen [Frame]
     go n feeds' at
       | n <= 0 = pure []
       | otherwise = do
@@ -274,7 +274,7 @@ feedOf m = case codes (feeds m) of
   Listed table -> elements (Map.keys table)
 
 -- | A frame from where the cutter stands, at one of some feeds.
-frame :: Machine -> [FeedCode] -> V3 -> Gen Frame
+frame :: Machine -> [FeedCode] -> Pulses3 -> Gen Frame
 frame m feeds' at = do
   f <- frequency ([(6, straightway)] <> [(2, rapidly) | hasRapidMotion m] <> [(2, only) | not (null (orderNames m))] <> [(6, round') | arcs m /= NoArcs])
   if null (Frame.invariants m [f]) && fits f then pure f else frame m feeds' at
@@ -299,12 +299,12 @@ frame m feeds' at = do
       given <- ordersOf m 3
       pure Frame {motion = Straightway, increment = 0, centre = 0, speed = code', braking = slow, orders = given}
 
-parts :: V3 -> [Pulses]
-parts (V3 x y z) = [x, y, z]
+parts :: Pulses3 -> [Pulses]
+parts (Pulses3 x y z) = [x, y, z]
 
 -- | A move within what the words hold; now and then one axis only, or a small one.
-move :: Machine -> V3 -> Gen V3
-move m (V3 x y z) = V3 <$> along X x <*> along Y y <*> along Z z
+move :: Machine -> Pulses3 -> Gen Pulses3
+move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
   where
     along a p = do
       let Pulses c = capacity m a
@@ -315,31 +315,31 @@ move m (V3 x y z) = V3 <$> along X x <*> along Y y <*> along Z z
       Pulses <$> frequency [(2, pure 0), (1, elements [max low (-1), min high 1]), (4, choose (low, high)), (1, elements [low, high])]
 
 -- | An arc within what the words hold, in one quadrant or anywhere.
-arc :: Machine -> V3 -> Gen (Turn, V3, V2)
+arc :: Machine -> Pulses3 -> Gen (Sense, Pulses3, Pulses2)
 arc m at = case arcs m of
   Arcs {quadrants = True} -> do
     (p, q) <- (,) <$> sign' <*> sign'
     (a, b) <- (,) <$> near <*> near
     (c, d) <- (,) <$> near <*> near
     let cross = p * q * (a * d - b * c)
-    pure (if cross > 0 then CounterClockwise else Clockwise, V3 (Pulses (p * (c - a))) (Pulses (q * (d - b))) 0, V2 (Pulses (negate (p * a))) (Pulses (negate (q * b))))
+    pure (if cross > 0 then CounterClockwise else Clockwise, Pulses3 (Pulses (p * (c - a))) (Pulses (q * (d - b))) 0, Pulses2 (Pulses (negate (p * a))) (Pulses (negate (q * b))))
   _ -> do
     turn <- elements [Clockwise, CounterClockwise]
     full <- arbitrary
-    V3 dx dy _ <- move m at
+    Pulses3 dx dy _ <- move m at
     (i, j) <- (,) <$> choose (negate reach, reach) <*> choose (negate reach, reach)
-    pure (turn, if full then 0 else V3 dx dy 0, V2 (Pulses i) (Pulses j))
+    pure (turn, if full then 0 else Pulses3 dx dy 0, Pulses2 (Pulses i) (Pulses j))
   where
     Pulses reach = centreCapacity m
     sign' = elements [-1, 1]
     near = choose (0, max 1 (reach `div` 2))
 
 -- | The commands of a machine in the order of its words.
-orderNames :: Machine -> [OrderName]
+orderNames :: Machine -> [CommandName]
 orderNames m = concat [[o | Command o <- [content w]] <> take 1 [o | OrderBit o _ <- service (form w)] | w <- wordsOf m]
 
 -- | Some commands, each with odds of one in so many.
-ordersOf :: Machine -> Int -> Gen [(OrderName, Int)]
+ordersOf :: Machine -> Int -> Gen [(CommandName, Int)]
 ordersOf m odds = concat <$> traverse some (orderNames m)
   where
     some o = do

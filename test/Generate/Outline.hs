@@ -22,15 +22,15 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Set (Set)
 import Data.Set qualified as Set
-import Geometry.Contour (Ends (..))
-import Geometry.Offset.Kernel (Side (..))
-import Geometry.Outline (Outline)
-import Geometry.Outline qualified as Outline
+import Geometry.Carrier (Side (..))
+import Geometry.FlatPolyarc (FlatPolyarc)
+import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Geometry.Polyarc (Ends (..))
 import Test.QuickCheck
 
 -- | What the kernel is asked, with how much further it stays from the segments (in turn, none if empty); the winding number of
 -- the free places; whether the outlines are known not to cross themselves.
-data Case = Case {family :: Family, outlines :: [Outline], side :: Side, radius :: Double, extras :: [Double], free :: Int, sound :: Bool}
+data Case = Case {family :: Family, outlines :: [FlatPolyarc], side :: Side, radius :: Double, extras :: [Double], free :: Int, sound :: Bool}
   deriving stock (Eq, Show)
 
 data Family = Cells | Lattice | Arcs | Noise
@@ -39,8 +39,8 @@ data Family = Cells | Lattice | Arcs | Noise
 -- | x, y, bulge.
 type Vertex = (Double, Double, Double)
 
-loop :: [Vertex] -> Outline
-loop = Outline.outline Closed
+loop :: [Vertex] -> FlatPolyarc
+loop = FlatPolyarc.outline Closed
 
 -- | Closed outlines: a third on a lattice, a third with arcs, a third noisy.
 problem :: Gen Case
@@ -52,11 +52,11 @@ open = do
   c <- problem
   case outlines c of
     o : _
-      | vs <- Outline.vertices o,
+      | vs <- FlatPolyarc.vertices o,
         length vs >= 3 -> do
         k <- choose (2, length vs)
-        let o' = Outline.outline Open (take k vs)
-        if Outline.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
+        let o' = FlatPolyarc.outline Open (take k vs)
+        if FlatPolyarc.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
 -- | Some segments want more.
@@ -69,7 +69,7 @@ uneven = do
 
 -- | Walked one way or the other.
 eitherWay :: Case -> Gen Case
-eitherWay c = elements [c, c {outlines = map Outline.reverse (outlines c), side = other (side c), free = -(free c)}]
+eitherWay c = elements [c, c {outlines = map FlatPolyarc.reverse (outlines c), side = other (side c), free = -(free c)}]
   where
     other s = case s of
       LeftOf -> RightOf
@@ -84,8 +84,8 @@ somewhere c = do
   pure c {outlines = map (turned size angle (mx, my)) (outlines c), radius = size * radius c, extras = map (size *) (extras c)}
 
 -- | Scaled, turned, moved.
-turned :: Double -> Double -> (Double, Double) -> Outline -> Outline
-turned factor angle (mx, my) o = Outline.outline (Outline.ends o) [(mx + factor * (co * x - si * y), my + factor * (co * y + si * x), b) | (x, y, b) <- Outline.vertices o]
+turned :: Double -> Double -> (Double, Double) -> FlatPolyarc -> FlatPolyarc
+turned factor angle (mx, my) o = FlatPolyarc.outline (FlatPolyarc.ends o) [(mx + factor * (co * x - si * y), my + factor * (co * y + si * x), b) | (x, y, b) <- FlatPolyarc.vertices o]
   where
     (co, si) = if angle == 0 then (1, 0) else (cos angle, sin angle)
 
@@ -221,7 +221,7 @@ withArcs = do
   inside <- arbitrary
   (sound, vs, special) <- oneof [bent, rounded, round', keyhole, slot, blob]
   radius <- frequency [(2, choose (0.05, 4)), (1, elements (1 : 0.5 : special)), (1, elements (0.5 : special))]
-  let outward = Outline.area (loop vs) < 0
+  let outward = FlatPolyarc.area (loop vs) < 0
   pure Case {family = Arcs, outlines = [loop vs], side = if inside then LeftOf else RightOf, radius, extras = [], free = (if inside then 1 else 0) - (if outward then 1 else 0), sound}
 
 -- | A star-shaped polygon with some edges bent; it may cross itself.
@@ -333,7 +333,7 @@ convex = do
   pure [(r * cos t, r * sin t, 0) | t <- angles]
 
 -- | One simple outline in general position.
-simple :: Gen Outline
+simple :: Gen FlatPolyarc
 simple = do
   ps <- oneof [starred, tangled]
   pure (loop [(x, y, 0) | (x, y) <- ps])

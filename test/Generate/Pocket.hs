@@ -19,21 +19,21 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Generate qualified
-import Geometry.Box (Box (Box))
-import Geometry.Box qualified as Box
-import Geometry.Contour qualified as Contour
+import Geometry.Carrier (Circle (Circle), Sense (..))
 import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec qualified as Vec
-import Geometry.Winding qualified as Winding
+import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Milling (Milling), Pocketing (Pocketing))
 import Part.Part qualified as Part
-import Path.FromPart qualified as FromPart
-import Path.Path (Path)
-import Path.Pocket (Loop, Room (..))
 import Test.QuickCheck
+import Toolpath.FromPart qualified as FromPart
+import Toolpath.Pocket (Loop, PocketRoom (..))
+import Toolpath.Toolpath (Toolpath)
 
 -- | Loops with the free space on their left: the outline, and islands; the cutter's radius; what it leaves; the step.
 data Pocket = Pocket {loops :: NonEmpty Loop, cutter :: Mm, left :: Mm, step :: Mm}
@@ -43,7 +43,7 @@ data Pocket = Pocket {loops :: NonEmpty Loop, cutter :: Mm, left :: Mm, step :: 
 pocket :: Gen Pocket
 pocket = do
   c <- Generate.contour <$> Generate.closedCase
-  let outline = Contour.segments (if Contour.signedArea c > 0 then c else Contour.reverse c)
+  let outline = Polyarc.segments (if Polyarc.signedArea c > 0 then c else Polyarc.reverse c)
   islands <- foldl (\before _ -> before >>= island outline) (pure []) [1 :: Int .. 3]
   sized' (outline :| islands)
 
@@ -72,10 +72,10 @@ island outline before = do
   let corners = [Vec.shift (Vec.polar (Mm r) (Rad (a - 2 * pi * fromIntegral i / fromIntegral (k :: Int)))) p | i <- [0 .. k - 1]]
       circle = let (one, other) = Segment.cutAt 0.5 (Segment.fullCircle Clockwise (Circle p (Mm r)) (Vec.shift (Vec.polar (Mm r) (Rad a)) p)) in one :| [other]
       polygon = NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))
-      fits = Winding.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all ((== 0) . Winding.about p) before
+      fits = WindingNumber.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all ((== 0) . WindingNumber.about p) before
   pure ([if round' then circle else polygon | fits] <> before)
   where
-    Box l bottom right top = foldr1 Box.union (fmap Box.ofSegment outline)
+    BoundingBox l bottom right top = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment outline)
 
 -- | The pocket as a statement asks it, with the spindle clockwise, 1.5 mm deep; more is left first, as much as is said.
 pocketing :: [Mm] -> Pocket -> Pocketing
@@ -109,20 +109,20 @@ pocketing before p =
     }
   where
     outline :| islands = loops p
-    contourOf loop = Part.Contour (here (Name "c")) Contour.Closed (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop) []
+    contourOf loop = Part.Contour (here (Name "c")) Polyarc.Closed (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop) []
 
 -- | The path of a pocket, if the cutter has room in it.
-laid :: Pocketing -> Maybe Path
-laid p = case FromPart.lay (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p))) {Part.start = Just (here (Part.Spot (Vec.point 0 0) (Mm 20)))} of
+laid :: Pocketing -> Maybe Toolpath
+laid p = case FromPart.lay (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p))) {Part.start = Just (here (Part.SpacePoint (Vec.point 0 0) (Mm 20)))} of
   Result _ [] path -> path
   Result {} -> Nothing
 
 here :: a -> Located a
 here = Located (Region 0 0)
 
-roomOf :: Pocket -> Room
+roomOf :: Pocket -> PocketRoom
 roomOf p =
-  Room
+  PocketRoom
     { walls = NonEmpty.fromList (concatMap NonEmpty.toList (loops p)),
       offsetBy = insetOf (NonEmpty.toList (loops p)),
       further = \_ _ -> Nothing,

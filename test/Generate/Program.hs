@@ -8,8 +8,8 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
+import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (..), Region (..))
-import Base.Rows qualified as Rows
 import Data.Char (isAlphaNum)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (fromMaybe)
@@ -104,7 +104,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
     inside = some' 3 (statement (n - 1))
     cipher = Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
     joggle = Joggle <$> expr n <*> expr n <*> expr n <*> expr n
-    rows = chooseInt (1, 3) >>= \width -> Rows.fromList <$> listOf1 ((Region 0 0,) . PrimArray.primArrayFromList <$> vectorOf width ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000)))
+    rows = chooseInt (1, 3) >>= \width -> NumberTable.fromList <$> listOf1 ((Region 0 0,) . PrimArray.primArrayFromList <$> vectorOf width ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000)))
     heading = Heading <$> at name <*> maybe' (elements columnUnits)
     cell = oneof [at (Literal <$> number <*> maybe' every), at (Negate <$> at (Literal <$> number <*> maybe' every)), expr (n + 1)]
 

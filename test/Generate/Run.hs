@@ -21,18 +21,18 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Generate (Case (..))
 import Generate qualified
-import Geometry.Contour (Contour (..), Ends (..))
-import Geometry.Offset (Side (..))
-import Geometry.Offset qualified as Offset
+import Geometry.Carrier (Side (..))
+import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Offset.Equidistant qualified as Equidistant
 import Part.Part (Element (..), Milling)
 import Part.Part qualified as Part
-import Path.Path (Manner (Manner), Move (Move))
 import Test.QuickCheck hiding (elements)
 import Test.QuickCheck qualified as QuickCheck
+import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
 -- | Arcs and lines, few or many, each setting out as the one before arrives; from tight to nearly straight.
 open :: Gen [Segment]
@@ -140,14 +140,14 @@ curveCase = do
   chain <- closed
   side <- QuickCheck.elements [LeftOf, RightOf]
   r <- choose (0.5, 6)
-  let contour = Contour Closed (NonEmpty.fromList chain)
-  case Offset.equidistant side (Mm r) contour of
+  let contour = Polyarc Closed (NonEmpty.fromList chain)
+  case Equidistant.equidistant side (Mm r) contour of
     Right found | wide found -> pure Case {contour, side, radius = Mm r, pieces = found}
     _ -> curveCase
   where
     -- The curves are round enough that one that is as wide as this one way is about as wide in the other.
     wide found =
-      let p :| more = fmap (Segment.start . Offset.segment) found
+      let p :| more = fmap (Segment.start . Equidistant.segment) found
        in any (\q -> Vec.distance p q >= Mm 2) more
 
 -- | The milling of a case whose contour is one curve.

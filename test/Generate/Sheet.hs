@@ -58,7 +58,7 @@ gentle strip = do
       dy <- choose (0, 5)
       mu <- choose (-4, 4)
       h <- choose (5, 20)
-      pure Row {px = here (rounded (px + dx)), py = here (rounded (py + dy)), surface = if steep then Just Surface {mu = here (rounded mu), flange = here (rounded h)} else Nothing}
+      pure PointRow {px = here (rounded (px + dx)), py = here (rounded (py + dy)), surface = if steep then Just Surface {mu = here (rounded mu), flange = here (rounded h)} else Nothing}
     rounded v = fromIntegral (round (v * 100 :: Double) :: Int) / 100
 
 here :: a -> Located a
@@ -99,7 +99,7 @@ coordinate = here <$> number
 array :: NonEmpty Waypoint -> Gen Array
 array onward = do
   count <- choose (0, 3 :: Int)
-  joined <- vectorOf count (Joined <$> piece <*> (here <$> link))
+  joined <- vectorOf count (LinkedPiece <$> piece <*> (here <$> link))
   final <- piece
   pure Array {joined, final, onward}
 
@@ -117,7 +117,7 @@ piece = do
   allowance <- oneof [pure (here 0), coordinate]
   pure Piece {towards = here (if null cipher then LeftSide else side), cipher = here cipher, rows, slow = here slow, allowance}
   where
-    row steep = Row <$> coordinate <*> coordinate <*> if steep then Just <$> (Surface <$> coordinate <*> coordinate) else pure Nothing
+    row steep = PointRow <$> coordinate <*> coordinate <*> if steep then Just <$> (Surface <$> coordinate <*> coordinate) else pure Nothing
     -- The first distance before the points has the side's sign.
     normal list = case break isGiven list of
       (before, Growing a b : rest) -> before <> (Growing (fmap abs a) b : rest)

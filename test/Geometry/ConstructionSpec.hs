@@ -2,17 +2,17 @@
 module Geometry.ConstructionSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Geometry.Fillet (Fillet (..))
-import Geometry.Fillet qualified as Fillet
-import Geometry.Intersect (Meeting (..))
-import Geometry.Intersect qualified as Intersect
+import Geometry.Carrier (Circle (Circle), Line (..), Sense (..))
+import Geometry.Carrier qualified as Carrier
+import Geometry.Construction.Fillet (Fillet (..))
+import Geometry.Construction.Fillet qualified as Fillet
+import Geometry.Construction.Intersection (Intersection (..))
+import Geometry.Construction.Intersection qualified as Intersection
+import Geometry.Construction.TangentLine qualified as TangentLine
+import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Line (..), Turn (..))
-import Geometry.Shape qualified as Shape
-import Geometry.Tangent qualified as Tangent
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Geometry.Walked (Walked (..))
 import Test.Hspec
 import Test.QuickCheck
 
@@ -22,7 +22,7 @@ spec = do
     it "lie on both curves, or the gap is right (catches a swapped radius)" $
       property $
         forAll ((,) <$> circle <*> circle) $ \(a@(Circle c1 (Mm r1)), b@(Circle c2 (Mm r2))) ->
-          case Intersect.circles a b of
+          case Intersection.circles a b of
             Apart (Mm gap) -> gap > 0 .&&. property (abs (max (apart c1 c2 - r1 - r2) (abs (r1 - r2) - apart c1 c2) - gap) < 1e-9)
             Touching p -> on a p .&&. on b p
             Crossing p q -> conjoin [on a p, on b p, on a q, on b q, property (apart p q > 0)]
@@ -35,27 +35,27 @@ spec = do
               away = Vec.shift (Vec.polar (Mm (far + share * r)) (Rad angle)) c
               a = Circle away (Mm far)
               near p = abs (apart c p - r) < 1e-9 && abs (apart away p - far) < 1e-6
-           in conjoin [counterexample (show (p, q)) (near p && near q) | (one, other) <- [(a, b), (b, a)], (p, q) <- case Intersect.circles one other of Crossing p q -> [(p, q)]; m -> error (show m)]
+           in conjoin [counterexample (show (p, q)) (near p && near q) | (one, other) <- [(a, b), (b, a)], (p, q) <- case Intersection.circles one other of Crossing p q -> [(p, q)]; m -> error (show m)]
     it "of a line and a circle come in the order of the line (catches a lost sign)" $
       property $
-        forAll ((,) <$> line <*> circle) $ \(l, c) -> case Intersect.lineCircle l c of
-          Crossing p q -> conjoin [on c p, on c q, onLine l p, onLine l q, property (Vec.dot (Shape.direction l) (Vec.to p q) > 0)]
+        forAll ((,) <$> line <*> circle) $ \(l, c) -> case Intersection.lineCircle l c of
+          Crossing p q -> conjoin [on c p, on c q, onLine l p, onLine l q, property (Vec.dot (Carrier.direction l) (Vec.to p q) > 0)]
           _ -> property True
     it "of coincident, touching and concentric circles are told apart" $ do
       let c r = Circle (Vec.point 1 2) (Mm r)
-      Intersect.circles (c 5) (c 5) `shouldBe` Same
-      Intersect.circles (c 5) (c 7) `shouldBe` Apart (Mm 2)
-      Intersect.circles (c 5) (Circle (Vec.point 9 2) (Mm 3)) `shouldBe` Touching (Vec.point 6 2)
-      Intersect.circles (c 5) (Circle (Vec.point 3 2) (Mm 3)) `shouldBe` Touching (Vec.point 6 2)
+      Intersection.circles (c 5) (c 5) `shouldBe` Same
+      Intersection.circles (c 5) (c 7) `shouldBe` Apart (Mm 2)
+      Intersection.circles (c 5) (Circle (Vec.point 9 2) (Mm 3)) `shouldBe` Touching (Vec.point 6 2)
+      Intersection.circles (c 5) (Circle (Vec.point 3 2) (Mm 3)) `shouldBe` Touching (Vec.point 6 2)
   describe "tangents" $ do
     it "touch both circles in the direction of the walk (catches a tangent on the wrong side)" $
       property $
-        forAll ((,,,) <$> turn <*> circle <*> turn <*> circle) $ \(t1, a, t2, b) -> case Tangent.directed (t1, a) (t2, b) of
+        forAll ((,,,) <$> turn <*> circle <*> turn <*> circle) $ \(t1, a, t2, b) -> case TangentLine.directed (t1, a) (t2, b) of
           Nothing -> property (noTangent (t1, a) (t2, b))
-          Just l -> touches (OnCircle t1 a) (from l) (Shape.direction l) .&&. touches (OnCircle t2 b) (to l) (Shape.direction l)
+          Just l -> touches (OnCircle t1 a) (from l) (Carrier.direction l) .&&. touches (OnCircle t2 b) (to l) (Carrier.direction l)
     it "are four for circles apart, two for crossing ones, none for one inside the other" $ do
       let far = Circle (Vec.point 20 0) (Mm 3)
-      map (\d -> length (Tangent.all (Circle (Vec.point d 0) (Mm 5)) far)) [0, 13, 19] `shouldBe` [4, 2, 0]
+      map (\d -> length (TangentLine.all (Circle (Vec.point d 0) (Mm 5)) far)) [0, 13, 19] `shouldBe` [4, 2, 0]
   describe "fillets" $
     it "touch both neighbours in the direction of the walk, at their radius (catches an arc on the wrong side)" $
       property $
@@ -74,25 +74,25 @@ spec = do
                   ]
 
 -- | The point lies on the element, and the element runs in this direction there.
-touches :: Walked -> Point -> Vec -> Property
+touches :: ElementCarrier -> Point -> Vec -> Property
 touches w p direction = case w of
-  OnLine l -> onLine l p .&&. same (Shape.direction l)
-  OnCircle t c@(Circle m _) -> on c p .&&. same (Vec.unit (Vec.scale (Shape.sense t) (Vec.left (Vec.to m p))))
+  OnLine l -> onLine l p .&&. same (Carrier.direction l)
+  OnCircle t c@(Circle m _) -> on c p .&&. same (Vec.unit (Vec.scale (Carrier.sense t) (Vec.left (Vec.to m p))))
   AtPoint q -> property (apart p q < 1e-6)
   OnCurve _ -> property False
   where
     same d = counterexample (show (direction, d)) (Vec.dot d direction > 1 - 1e-6)
 
 -- | The circles overlap as walked: the signed radii are further apart than the centres.
-noTangent :: (Turn, Circle) -> (Turn, Circle) -> Bool
+noTangent :: (Sense, Circle) -> (Sense, Circle) -> Bool
 noTangent (t1, Circle c1 (Mm r1)) (t2, Circle c2 (Mm r2)) =
-  apart c1 c2 <= abs (Shape.sense t1 * r1 - Shape.sense t2 * r2) + 1e-6
+  apart c1 c2 <= abs (Carrier.sense t1 * r1 - Carrier.sense t2 * r2) + 1e-6
 
 on :: Circle -> Point -> Property
 on (Circle c (Mm r)) p = counterexample (show (apart c p, r)) (abs (apart c p - r) < 1e-6)
 
 onLine :: Line -> Point -> Property
-onLine l p = let Mm d = Shape.signedDistance l p in counterexample (show d) (abs d < 1e-6)
+onLine l p = let Mm d = Carrier.signedDistance l p in counterexample (show d) (abs d < 1e-6)
 
 point :: Gen Point
 point = Vec.point <$> choose (-40, 40) <*> choose (-40, 40)
@@ -100,7 +100,7 @@ point = Vec.point <$> choose (-40, 40) <*> choose (-40, 40)
 circle :: Gen Circle
 circle = Circle <$> point <*> (Mm <$> oneof [choose (0.01, 1), choose (1, 40)])
 
-turn :: Gen Turn
+turn :: Gen Sense
 turn = elements [Clockwise, CounterClockwise]
 
 line :: Gen Line
@@ -109,7 +109,7 @@ line = do
   b <- point `suchThat` (\q -> apart a q > 1)
   pure (Line a b)
 
-walked :: Gen Walked
+walked :: Gen ElementCarrier
 walked = oneof [OnLine <$> line, OnCircle <$> turn <*> circle]
 
 apart :: Point -> Point -> Double

@@ -9,14 +9,14 @@ import Data.List.NonEmpty (NonEmpty (..))
 import GHC.Exts qualified as Exts
 import Generate.Curve (Table (..))
 import Generate.Curve qualified as Generate
-import Geometry.Curve (Approach (..), Curve, Ends (..), Flaw (..), Piece (..), Span (..))
+import Geometry.Curve (Approach (..), Curve, CurveFault (..), EndCondition (..), Span (..), SpanShape (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
-import Geometry.Jet (Jet (..))
+import Geometry.Curve.Spline qualified as Spline
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Segment (Segment (..))
-import Geometry.Series qualified as Series
-import Geometry.Similarity qualified as Similarity
-import Geometry.Spline qualified as Spline
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Test.Hspec
@@ -184,7 +184,7 @@ spec = do
       property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.similarity $ \s -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
-           in close 1e-6 (Curve.at (Curve.transformed s c) u) (Similarity.point s (Curve.at c u))
+           in close 1e-6 (Curve.at (Curve.transformed s c) u) (Transformation.point s (Curve.at c u))
     it "a reversed curve passes the same places the other way (catches a column that is not reversed)" $
       property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
@@ -222,14 +222,14 @@ spec = do
 
 -- Helpers -----------------------------------------------------------------------------------
 
-splineOf :: Ends -> [Point] -> Curve
+splineOf :: EndCondition -> [Point] -> Curve
 splineOf ends points = Generate.ok (Curve.spline ends (Exts.fromList points))
 
 circleOf :: Int -> Double -> Curve
 circleOf n r = splineOf Periodic [Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 0 0) | k <- [0 .. n - 1]]
 
 -- | Points of a walk, with other ends.
-tableWith :: (Ends -> Ends) -> Gen Curve
+tableWith :: (EndCondition -> EndCondition) -> Gen Curve
 tableWith f = do
   Table ends points <- Generate.winding
   pure (splineOf (f ends) points)
@@ -243,9 +243,9 @@ chord :: Curve -> Double -> Double
 chord c u = Exts.toList (Base.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
 
 -- | The derivatives by the chord length.
-firstBy, secondBy :: Double -> Jet -> Vec
-firstBy h (Jet a b) = Vec.scale (1 / h) (Vec.vec (Series.coefficient 1 a) (Series.coefficient 1 b))
-secondBy h (Jet a b) = Vec.scale (2 / h / h) (Vec.vec (Series.coefficient 2 a) (Series.coefficient 2 b))
+firstBy, secondBy :: Double -> TaylorExpansion -> Vec
+firstBy h (TaylorExpansion a b) = Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
+secondBy h (TaylorExpansion a b) = Vec.scale (2 / h / h) (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
 
 joinsTwice :: Curve -> Property
 joinsTwice c =

@@ -2,7 +2,7 @@
 module Geometry.DistanceSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Geometry.Distance (Nearest (..))
+import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -22,7 +22,7 @@ spec = do
   it "segment to segment: no pair of samples is nearer, one is nearly as near (catches a common normal that is forgotten)" $
     property $
       forAll ((,) <$> segment <*> segment) $ \(a, b) ->
-        let Nearest (Mm d) p = Distance.segments a b
+        let ClosestPoint (Mm d) p = Distance.segments a b
             sampled = minimum [apart q r | q <- samples 150 a, r <- samples 150 b]
             Mm there = Distance.toPoint p b
          in counterexample

@@ -5,16 +5,16 @@ import Base.Region (Region (Region), Source)
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object)
 import Data.Text (Text)
-import Lsp.Client qualified as Client
+import Lsp.Capability qualified as Capability
 import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Document (Document (..))
 import Lsp.Location qualified as Location
 import Lsp.Message (Outgoing (..))
 import Lsp.Talk (at, field)
 import Lsp.Uri (Uri (..))
-import Query.Facts qualified as Facts
+import Query.Mention qualified as Mention
 import Query.Snapshot (Snapshot (Snapshot))
-import Report.Report (Place (..), Report, Severity (..), report)
+import Report.Report (Report, ReportPlace (..), Severity (..), report)
 import Surface.Syntax (Program (..))
 import Test.Hspec
 
@@ -40,8 +40,8 @@ source :: Source
 source = Region.add "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
 
 shown :: Report -> [(Value, Value)]
-shown r = case Diagnostic.publish (Client.fromInitialize (object [])) (Document uri' Nothing text') (Just snapshot) of
+shown r = case Diagnostic.publish (Capability.fromInitialize (object [])) (Document uri' Nothing text') (Just snapshot) of
   Notify _ params | Array ds <- field "diagnostics" params -> [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
   other -> error (show other)
   where
-    snapshot = Snapshot source [r] (Program [] []) Facts.none [(Region 3 4, "/tmp/ж.part")]
+    snapshot = Snapshot source [r] (Program [] []) Mention.none [(Region 3 4, "/tmp/ж.part")]

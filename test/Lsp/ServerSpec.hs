@@ -3,7 +3,7 @@ module Lsp.ServerSpec (spec) where
 
 import Base.Crash (bug)
 import Base.Region qualified as Region
-import Cli.Run qualified as Cli
+import Cli.Subcommand qualified as Cli
 import Compile qualified
 import Control.Concurrent (forkIO, newEmptyMVar, putMVar, takeMVar)
 import Control.Exception (bracket)
@@ -21,8 +21,8 @@ import Lsp.Server (Host (..))
 import Lsp.Server qualified as Server
 import Lsp.Session (Ending (..))
 import Lsp.Talk (about, addressOf, field)
-import Lsp.Wire (Step (..))
-import Lsp.Wire qualified as Wire
+import Lsp.Transport (Received (..))
+import Lsp.Transport qualified as Transport
 import Query.Snapshot (Check)
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
@@ -111,13 +111,13 @@ encoded :: [(Aeson.Key, Value)] -> ByteString
 encoded fields = LazyByteString.toStrict (Aeson.encode (object (("jsonrpc" .= ("2.0" :: Text)) : fields)))
 
 send :: Handle -> ByteString -> IO ()
-send to message = ByteString.hPut to (Wire.framed message) *> hFlush to
+send to message = ByteString.hPut to (Transport.framed message) *> hFlush to
 
 -- | Say all this and hang up: the status, what is left on standard output behind the messages, the messages
 -- that are no diagnostics.
 conversation :: [String] -> [ByteString] -> IO (ExitCode, ByteString, [Value])
 conversation arguments messages = within . withServer arguments $ \to from process -> do
-  ByteString.hPut to (ByteString.concat (map Wire.framed messages))
+  ByteString.hPut to (ByteString.concat (map Transport.framed messages))
   hClose to
   out <- ByteString.hGetContents from
   status <- waitForProcess process
@@ -125,7 +125,7 @@ conversation arguments messages = within . withServer arguments $ \to from proce
   pure (status, rest, [a | a <- answers, field "method" a == Null])
 
 unframed :: ByteString -> (ByteString, [Value])
-unframed bytes = case Wire.next bytes of
+unframed bytes = case Transport.next bytes of
   Complete body rest | Just value <- Aeson.decodeStrict body -> (value :) <$> unframed rest
   _ -> (bytes, [])
 
@@ -135,7 +135,7 @@ talking arguments act = void . within . withServer arguments $ \to from _ -> act
 
 -- | The next message that arrives, and what arrives behind it.
 nextFrom :: ByteString -> Handle -> IO (ByteString, Value)
-nextFrom waiting from = case Wire.next waiting of
+nextFrom waiting from = case Transport.next waiting of
   Complete body rest | Just value <- Aeson.decodeStrict body -> pure (rest, value)
   Incomplete _ -> do
     bytes <- ByteString.hGetSome from 65536

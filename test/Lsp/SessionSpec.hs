@@ -3,7 +3,7 @@ module Lsp.SessionSpec (spec) where
 
 import Base.Region qualified as Region
 import Base.Result qualified as Result
-import Cli.Run qualified as Cli
+import Cli.Subcommand qualified as Cli
 import Compile qualified
 import Control.Monad (forM_)
 import Data.Aeson (Value (..), object, (.=))
@@ -12,10 +12,10 @@ import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText, walk)
-import Lsp.Message (Failure (..), Incoming (..), Outgoing (..), Trouble (..))
+import Lsp.Message (ErrorCode (..), Failure (..), Incoming (..), Outgoing (..))
 import Lsp.Session (Effect (..), Ending (..))
 import Lsp.Talk
-import Report.Report (Code (..), Place (..))
+import Report.Report (ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import System.FilePath (takeExtension)
 import Test.Hspec
@@ -120,7 +120,7 @@ ready = running (object [])
 opened :: Text -> Talk
 opened text = pause 0 (open addressOf 1 text ready)
 
-refusals :: Talk -> [(Value, Trouble)]
+refusals :: Talk -> [(Value, ErrorCode)]
 refusals talk = [(ident, trouble) | Send (Refusal ident (Failure trouble _)) <- heard talk]
 
 -- | A sound beginning of six lines.
@@ -133,7 +133,7 @@ wrong = header <> "let a = 1\nlet b = c\n"
 
 -- | What the command line says: the ends of the places, in the units of the protocol, and the codes.
 reported :: Text -> [((Int, Int), (Int, Int), Text)]
-reported text = [(ends Region.start r, ends Region.end r, c) | r <- Report.sorted (Result.errors result <> Result.warnings result), let Code c = Report.code r]
+reported text = [(ends Region.start r, ends Region.end r, c) | r <- Report.sorted (Result.errors result <> Result.warnings result), let ReportCode c = Report.code r]
   where
     result = Cli.checked [] (Compile.alone "/tmp/a.part" text)
     ends end r = case Report.place r of

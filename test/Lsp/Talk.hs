@@ -24,7 +24,7 @@ module Lsp.Talk
   )
 where
 
-import Cli.Run qualified as Cli
+import Cli.Subcommand qualified as Cli
 import Compile qualified
 import Data.Aeson (Value (..), object, (.=))
 import Data.Aeson.Key (Key)

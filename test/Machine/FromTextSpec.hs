@@ -24,7 +24,7 @@ import Machine.Machine hiding (choose)
 import Machine.Machine qualified as Machine
 import Machine.ToText (toText)
 import Report.Human qualified as Human
-import Report.Report (Place (..))
+import Report.Report (ReportPlace (..))
 import Report.Report qualified as Report
 import System.FilePath (takeExtension, (-<.>))
 import Test.Hspec
@@ -99,7 +99,7 @@ builtIn = do
   where
     found = BuiltIn.find . MachineName
     rows n cs = maybe [] (\m -> [p | c <- cs, Just p <- [Map.lookup c (symbols (code m))]]) (found n) :: [Word8]
-    capacity' m n = orderCapacity m (OrderName n)
+    capacity' m n = orderCapacity m (CommandName n)
     choose' = Machine.choose
     holesOf n c = case found n of
       Just m | Just p <- Map.lookup c (symbols (code m)) -> [k | k <- [1 .. 7], testBit p (k - 1)] <> [k | odd (popCount p), Just k <- [evenTrack (code m)]]
@@ -117,7 +117,7 @@ laws = do
             fmap (\read' -> read' {facts = []}) (Result.settled outcome) === Just m {facts = []}
   it "every fact keeps its mark, and the line's own comes before that around it (history made nicer than it is)" $ do
     text <- readText "examples/machines/fm-8.machine"
-    let marks = [(mark, fact) | Just m <- [Result.settled (reading text)], Fact mark fact <- facts m]
+    let marks = [(mark, fact) | Just m <- [Result.settled (reading text)], DescribedValue mark fact <- facts m]
     take 2 (filter (Text.isInfixOf "axis z" . snd) marks)
       `shouldBe` [ (Corrected, "axis z: pulse 0.0125 mm — manual, page 1: 0.125 mm, which would make its travel of 2 m one of 20 m"),
                    (Sourced, "axis z: direction reversed — manual, page 1: plus is into the part")
@@ -125,7 +125,7 @@ laws = do
     lookup Corrected (filter (Text.isInfixOf "25 = " . snd) marks) `shouldBe` Just "feeds: table: 25 = 420 — manual, page 10: 42, between 300 and 600"
     -- Words with a mark of their own within a frame with another one.
     kontur <- readText "machines/kontur-3p.machine"
-    [(mark, fact) | Just m <- [Result.settled (reading kontur)], Fact mark fact <- facts m, w <- ["\"Е\"", "\"Т\"", "\"П\""], ("frame: word " <> w) `Text.isPrefixOf` fact, "when" `Text.isInfixOf` fact]
+    [(mark, fact) | Just m <- [Result.settled (reading kontur)], DescribedValue mark fact <- facts m, w <- ["\"Е\"", "\"Т\"", "\"П\""], ("frame: word " <> w) `Text.isPrefixOf` fact, "when" `Text.isInfixOf` fact]
       `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
                    (Reconstructed, "frame: word \"Т\" along z: when needed"),
                    (Reconstructed, "frame: word \"П\" feed: when moving — П stands in the frames of the example")
@@ -171,24 +171,24 @@ furnished m = do
   let holed = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       finish' = [o NonEmpty.:| [] | Just o <- ends]
       orders' = case (listed, places) of
-        ([b, c, d, e, f, g, h], n : _) -> Orders b c (kept d) (kept e) (kept f) (unstepped g) (unstepped h) (Compensation (Order (OrderName n) Diameter) (Order (OrderName n) Diameter) (Order (OrderName n) (Fixed (least n))) <$ beside) finish'
+        ([b, c, d, e, f, g, h], n : _) -> CommandWords b c (kept d) (kept e) (kept f) (unstepped g) (unstepped h) (CompensationCommands (CommandWord (CommandName n) Diameter) (CommandWord (CommandName n) Diameter) (CommandWord (CommandName n) (Fixed (least n))) <$ beside) finish'
         _ -> noOrders
   pure m {title = heading, braking = Braking a (if holed && measured == AlongPath then slow else ByControl), limits = Limits contours, feeds = (feeds m) {feedMeasure = measured, rule = nearest, rapidFeed = quick}, orders = orders'}
   where
-    places = nub [n | w <- wordsOf m, OrderName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)], least n <= most n]
+    places = nub [n | w <- wordsOf m, CommandName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)], least n <= most n]
     event = do
       chosen <- sublistOf places
       traverse order' chosen
     order' n = do
       k <- choose (least n, most n)
       v <- elements [Fixed k, Argument, Step (Map.fromList [(k, 63), (least n, 12.5)])]
-      pure (Order (OrderName n) v)
-    fixed n = if n == "" then pure Nothing else Just . Order (OrderName n) . Fixed <$> choose (least n, most n)
+      pure (CommandWord (CommandName n) v)
+    fixed n = if n == "" then pure Nothing else Just . CommandWord (CommandName n) . Fixed <$> choose (least n, most n)
     -- In a word that stands in every frame, 0 is no command.
-    least n = if canOrder m (OrderName n) 0 then 0 else 1
-    most n = fromMaybe 0 (orderCapacity m (OrderName n))
-    kept os = [o | o@(Order _ (Fixed _)) <- os]
-    unstepped os = [o | o@(Order _ v) <- os, isPlain v]
+    least n = if canOrder m (CommandName n) 0 then 0 else 1
+    most n = fromMaybe 0 (orderCapacity m (CommandName n))
+    kept os = [o | o@(CommandWord _ (Fixed _)) <- os]
+    unstepped os = [o | o@(CommandWord _ v) <- os, isPlain v]
     isPlain v = case v of
       Step _ -> False
       Fixed _ -> True

@@ -62,7 +62,7 @@ tapeLines t =
 millimetres :: Mm -> Text
 millimetres (Mm x) = Decimal.exact x <> " mm"
 
-codeLines :: Int -> Code -> [Text]
+codeLines :: Int -> TapeCode -> [Text]
 codeLines n c =
   block "symbols" [quoted (Text.singleton s) <> " = " <> row p | (s, p) <- Map.toList (symbols c)]
     <> block "weights" [quoted (Text.singleton s) <> " = " <> Decimal.whole w | (s, w) <- Map.toList (weights c)]
@@ -108,7 +108,7 @@ contentText c = case c of
   Along _ -> "along " <> contentWord c
   Centre _ -> contentWord c
   FeedWord -> "feed"
-  Command (OrderName n) -> "command " <> quoted n
+  Command (CommandName n) -> "command " <> quoted n
 
 wordLines :: Word' -> [Text]
 wordLines w =
@@ -138,7 +138,7 @@ wordLines w =
       Priority a b c d -> Just ("priority " <> Text.unwords (map Decimal.whole [a, b, c, d]))
     serviceText s = case s of
       MinusHole -> "minus"
-      OrderBit (OrderName n) k -> quoted n <> ":" <> Decimal.whole k
+      OrderBit (CommandName n) k -> quoted n <> ":" <> Decimal.whole k
       Marker -> "marker"
       BrakingHole -> "braking"
       NoHole -> "-"
@@ -169,14 +169,14 @@ brakingLines b =
       BrakedFrames (Feed v) -> "braked-frames " <> Decimal.exact v <> " mm/min"
   ]
 
-commandLines :: Orders -> [Text]
+commandLines :: CommandWords -> [Text]
 commandLines o =
   concat [block event (concatMap orderLines os) | (event, os) <- events, not (null os)]
     <> concat [block "compensation" (block "left" (orderLines (keepLeft c)) <> block "right" (orderLines (keepRight c)) <> block "off" (orderLines (release c))) | Just c <- [compensation o]]
     <> block "finish" (concat [block "frame" (concatMap orderLines (NonEmpty.toList os)) | os <- finish o])
   where
     events = [("spindle-clockwise", spindleClockwise o), ("spindle-counterclockwise", spindleCounterClockwise o), ("spindle-off", spindleOff o), ("coolant-on", coolantOn o), ("coolant-off", coolantOff o), ("tool-change", toolChange o), ("auxiliary", auxiliary o)]
-    orderLines (Order (OrderName n) v) = case v of
+    orderLines (CommandWord (CommandName n) v) = case v of
       Fixed k -> ["set " <> quoted n <> " " <> Decimal.whole k]
       Argument -> ["set " <> quoted n <> " argument"]
       Diameter -> ["set " <> quoted n <> " diameter"]

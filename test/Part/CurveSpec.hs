@@ -11,25 +11,25 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Generate.Curve qualified as Curves
-import Geometry.Biarc qualified as Biarc
-import Geometry.Contour qualified as Contour
-import Geometry.Curve (Curve, Distance (..), Ends (..), Growth (..), Side (..))
+import Geometry.ArcFitting.Biarc qualified as Biarc
+import Geometry.Carrier (Line (Line))
+import Geometry.Curve (Curve, Distance (..), EndCondition (..), Growth (..), Side (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Distance qualified as Distance
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Line (Line))
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
+import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part qualified as Part
-import Path.Path qualified as Path
-import Report.Report (Code (..))
+import Report.Report (ReportCode (..))
 import Report.Report qualified as Report
 import Test.Hspec hiding (after, before)
 import Test.Hspec.QuickCheck (modifyMaxSuccess)
 import Test.QuickCheck
+import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = do
@@ -61,12 +61,12 @@ spec = do
       property $
         forAll ((,,) <$> course <*> motion <*> shares) $ \(points, (s, _, (begin, rest)), ts) ->
           let text = "part p\ncurve a = arcs([" <> Text.intercalate ", " (map point points) <> "])\n"
-              own = maybe [] (NonEmpty.toList . Biarc.through Contour.Open) (NonEmpty.nonEmpty points)
+              own = maybe [] (NonEmpty.toList . Biarc.through Polyarc.Open) (NonEmpty.nonEmpty points)
               on segments p = minimum [d | g <- segments, let { Mm d = Distance.toPoint p g }] `atMost` 1e-8
            in conjoin
                 [ elementsOf (text <> "contour k open { " <> what <> " }\n") `soundly` \found ->
                     conjoin [on found (moved (Segment.at t g)) | g <- own, t <- ts] .&&. near (sum (map lengthOf own)) (sum (map lengthOf found))
-                  | (what, moved) <- [("a", id), ("reversed(a)", id), (begin <> "a" <> rest, Similarity.point s)]
+                  | (what, moved) <- [("a", id), ("reversed(a)", id), (begin <> "a" <> rest, Transformation.point s)]
                 ]
     it "of two curves that cross runs along both, from crossing to crossing (catches a curve walked beyond its crossing, or its other part)" $
       property $
@@ -191,7 +191,7 @@ rounding = do
   let high = if clockwise then offset - r else offset + r
       away = if clockwise then 50 + r else 50 - r
       far = (if clockwise then negate else id) (sqrt (away * away - high * high))
-      turned x y = Similarity.point (Similarity.rotation (Rad (heading * pi / 180)) (Vec.point 0 0)) (Vec.point x y)
+      turned x y = Transformation.point (Transformation.rotation (Rad (heading * pi / 180)) (Vec.point 0 0)) (Vec.point x y)
       place x y = let p = turned x y in Vec.point (Vec.x p + 10) (Vec.y p + 20)
       Rad a = Vec.angle (Vec.to (Vec.point 0 0) (turned far high))
   pure
@@ -253,10 +253,10 @@ course = do
     rounded' p = Vec.point (digits (Vec.x p)) (digits (Vec.y p))
     digits x = fromIntegral (round (x * 1000) :: Int) / 1000
 
-exactly :: Ends -> [Point] -> Curve
+exactly :: EndCondition -> [Point] -> Curve
 exactly ends = Curves.ok . Curve.spline ends . Vector.fromList
 
-splineOf :: Text -> Ends -> [Point] -> Text
+splineOf :: Text -> EndCondition -> [Point] -> Text
 splineOf name ends points = "curve " <> name <> " = " <> (case ends of Periodic -> "closed_spline"; _ -> "spline") <> "([" <> Text.intercalate ", " (map point points) <> "])\n"
 
 -- Pieces
@@ -321,24 +321,24 @@ pieceOf PieceCase {table, closed, ciphers, side'} = foldl shifted (exactly (if c
     column f = Vector.fromList (map f table)
 
 -- | A motion, whether it mirrors, and how it is written: what stands before a thing and what behind it.
-motion :: Gen (Similarity, Bool, (Text, Text))
+motion :: Gen (Transformation, Bool, (Text, Text))
 motion = do
   a <- written (-200) 200
   x <- written (-50) 50
   y <- written (-50) 50
   elements
-    [ (Similarity.translation (Vec.vec x y), False, ("moved(", ", (" <> number x <> ", " <> number y <> "))")),
-      (Similarity.rotation (Rad (a * pi / 180)) (Vec.point x y), False, ("rotated(", ", " <> number a <> " deg, (" <> number x <> ", " <> number y <> "))")),
-      (Similarity.reflection (Line (Vec.point x y) (Vec.point (x + 3) (y + 1))), True, ("mirrored(", ", line((" <> number x <> ", " <> number y <> "), (" <> number (x + 3) <> ", " <> number (y + 1) <> ")))"))
+    [ (Transformation.translation (Vec.vec x y), False, ("moved(", ", (" <> number x <> ", " <> number y <> "))")),
+      (Transformation.rotation (Rad (a * pi / 180)) (Vec.point x y), False, ("rotated(", ", " <> number a <> " deg, (" <> number x <> ", " <> number y <> "))")),
+      (Transformation.reflection (Line (Vec.point x y) (Vec.point (x + 3) (y + 1))), True, ("mirrored(", ", line((" <> number x <> ", " <> number y <> "), (" <> number (x + 3) <> ", " <> number (y + 1) <> ")))"))
     ]
 
 -- | Whether segments, transformed, run along others from the same beginning to the same end. Each stays within 10⁻⁵ mm of its
 -- curve.
-along :: Similarity -> [Double] -> [Segment] -> [Segment] -> Property
+along :: Transformation -> [Double] -> [Segment] -> [Segment] -> Property
 along s ts before after =
-  conjoin [minimum [d | g <- after, let { Mm d = Distance.toPoint (Similarity.point s (Segment.at t b)) g }] `atMost` 2.5e-5 | b <- before, t <- ts]
-    .&&. coincide 1e-6 (Similarity.point s (Segment.start (head' before))) (Segment.start (head' after))
-    .&&. coincide 1e-6 (Similarity.point s (Segment.end (last before))) (Segment.end (last after))
+  conjoin [minimum [d | g <- after, let { Mm d = Distance.toPoint (Transformation.point s (Segment.at t b)) g }] `atMost` 2.5e-5 | b <- before, t <- ts]
+    .&&. coincide 1e-6 (Transformation.point s (Segment.start (head' before))) (Segment.start (head' after))
+    .&&. coincide 1e-6 (Transformation.point s (Segment.end (last before))) (Segment.end (last after))
 
 -- Programs
 
@@ -368,11 +368,11 @@ soundly elements' holds = maybe (counterexample "the program has mistakes" False
 -- | The cuts of a program's millings, if there are no mistakes. Ways in that cut are no concern here.
 cutsOf :: Text -> Maybe [Segment]
 cutsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
-  r | all ((== Code "E0405") . Report.code) (Result.errors r) -> concatMap cuts . Path.blocks . path <$> Result.output r
+  r | all ((== ReportCode "E0405") . Report.code) (Result.errors r) -> concatMap cuts . Toolpath.blocks . path <$> Result.output r
   _ -> Nothing
   where
     cuts b = case b of
-      Path.Cutting {Path.cut} -> map Path.segment (NonEmpty.toList cut)
+      Toolpath.Cutting {Toolpath.cut} -> map Toolpath.segment (NonEmpty.toList cut)
       _ -> []
 
 -- | What holds for the cuts of a program without mistakes.

@@ -8,7 +8,7 @@ import Compile qualified
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code)
+import Report.Report (ReportCode)
 import Report.Report qualified as Report
 import Test.Hspec
 import Test.QuickCheck
@@ -107,7 +107,7 @@ same kind n = Text.unlines $ case kind of
     there = "answer" <> number n
     image = "image" <> number n <> "(answer0)"
 
-codesOf :: [Text] -> [Code]
+codesOf :: [Text] -> [ReportCode]
 codesOf parts = sort (map Report.code (Result.errors (Compile.analyse [] (Compile.alone "p" text))))
   where
     text = Text.unlines ("part p" : parts)

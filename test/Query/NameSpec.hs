@@ -2,7 +2,7 @@
 module Query.NameSpec (spec) where
 
 import Base.Region (Region (..))
-import Cli.Run qualified as Cli
+import Cli.Subcommand qualified as Cli
 import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text

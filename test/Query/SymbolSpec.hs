@@ -2,12 +2,12 @@
 module Query.SymbolSpec (spec) where
 
 import Base.Region (Region (..))
-import Cli.Run qualified as Cli
+import Cli.Subcommand qualified as Cli
 import Compile qualified
 import Data.Text (Text)
 import Files (readText)
 import Query.Snapshot qualified as Snapshot
-import Query.Symbol (Kind (..), Symbol (..))
+import Query.Symbol (DocumentSymbol (..), SymbolKind (..))
 import Query.Symbol qualified as Symbol
 import Test.Hspec
 
@@ -29,5 +29,5 @@ spec = do
     text <- readText "examples/flange.part"
     [s | s <- outline text, let { Region from to = selection s }, from < start (whole s) || to > end (whole s)] `shouldBe` []
 
-outline :: Text -> [Symbol]
+outline :: Text -> [DocumentSymbol]
 outline text = Symbol.symbols (Snapshot.take (Cli.checked []) (Compile.alone "a.part" text))

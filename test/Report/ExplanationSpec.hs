@@ -15,7 +15,7 @@ import Files (readText)
 import Report.Embedded qualified as Embedded
 import Report.Explanation (Example (..), Explanation (..), Language (..))
 import Report.Explanation qualified as Explanation
-import Report.Report (Code (..), Place (..))
+import Report.Report (ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Reports qualified
 import System.Directory (listDirectory)
@@ -59,7 +59,7 @@ spec = do
       [(code e, l) | e <- rights found, l <- Text.lines (Explanation.render e), Text.length l > 80] `shouldBe` []
   describe "explanations" $
     forM_ (rights found) $ \e -> do
-      let Code c = code e
+      let ReportCode c = code e
       it (Text.unpack (c <> " " <> title e)) $
         if c `elem` concatMap snd raisedElsewhere
           then languageOf (wrong e) `shouldBe` Session
@@ -72,8 +72,8 @@ spec = do
             -- Whoever drills hears on this machine that its source tells of no moves in z.
             [Report.title r | r <- reportsOn (right e), Report.isError r || Report.code r == code e || Report.code r `notElem` ["W0503", "W0504"]] `shouldBe` []
   describe "find" $ do
-    let codes = [c | e <- Explanation.everything, let Code c = code e]
-        asked word = [c | e <- Explanation.find word, let Code c = code e]
+    let codes = [c | e <- Explanation.everything, let ReportCode c = code e]
+        asked word = [c | e <- Explanation.find word, let ReportCode c = code e]
     it "finds every code as a report writes it" $
       [c | c <- codes, asked c /= [c] || asked ("error[" <> c <> "]") /= [c]] `shouldBe` []
     it "does not mind small letters, missing zeros and spaces" $

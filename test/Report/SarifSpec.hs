@@ -14,7 +14,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Report.Explanation (Example (..))
 import Report.Explanation qualified as Explanation
-import Report.Report (Code (..), Label (..), Place (..), Report (..), Severity (..), report)
+import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..), report)
 import Report.Sarif (Filed (Filed))
 import Report.Sarif qualified as Sarif
 import Reports qualified
@@ -82,7 +82,7 @@ everyReport :: [Filed]
 everyReport =
   [ Filed file source r
     | e <- Explanation.everything,
-      let Code c = Explanation.code e
+      let ReportCode c = Explanation.code e
           Example _ text = Explanation.wrong e
           file = "explain/" <> c <> ".part"
           source = Region.fromText file text,

@@ -16,7 +16,7 @@ import Files (expected, readText, walk)
 import Generate.Sheet qualified as Generate
 import Machines (lkp01f)
 import Report.Human qualified as Human
-import Report.Report (Code (..), Report)
+import Report.Report (Report, ReportCode (..))
 import Report.Report qualified as Report
 import Sheet.Error (Error)
 import Sheet.Error qualified as Error
@@ -25,7 +25,7 @@ import Sheet.FromText qualified as FromText
 import Sheet.Sheet (Sheet)
 import Sheet.ToSurface qualified as ToSurface
 import Sheet.ToText qualified as ToText
-import Sheet.Unfit qualified as Unfit
+import Sheet.Unsupported qualified as Unsupported
 import System.Directory (listDirectory)
 import System.FilePath (takeExtension, (-<.>), (</>))
 import Tape.Tape (Tape (..))
@@ -48,7 +48,7 @@ spec = do
     it "stops as the Minsk-22 did where points or data of a piece are shifted" $ do
       let left = variants (const []) (Text.words rib)
           codesOf (n, text) = (n, fromLeft [] (fromTextCodes text))
-          stops code = sort [n | (n, [c]) <- map codesOf left, c == Code code]
+          stops code = sort [n | (n, [c]) <- map codesOf left, c == ReportCode code]
       -- The eight numbers of the approach.
       [n | n <- [17 .. 24], n `notElem` stops "E0904"] `shouldBe` []
       -- The data of the first piece but its cipher, and the points of the second.
@@ -63,7 +63,7 @@ spec = do
          in counterexample (Text.unpack text) $
               classify (not (null (fst (exported "x.sheet" text)))) "without a part" $ case exported "x.sheet" text of
                 ([], again) -> again === Just text
-                (codes, _) -> counterexample (show codes) (all (`notElem` codes) [Code "E0921", Code "E0922", Code "E0923", Code "E0924", Code "E0925", Code "E0926", Code "E0927"])
+                (codes, _) -> counterexample (show codes) (all (`notElem` codes) [ReportCode "E0921", ReportCode "E0922", ReportCode "E0923", ReportCode "E0924", ReportCode "E0925", ReportCode "E0926", ReportCode "E0927"])
     -- Catches a program whose text says something else than the sheet.
     modifyMaxSuccess (const 10) . prop "sheet, program, sheet: the frames are the same" $
       forAll Generate.cut $ \s ->
@@ -94,7 +94,7 @@ spec = do
       steep `shouldNotBe` blade
       forM_ [blade, steep] $ \sheet -> fmap (exported "x.part") (programOf sheet) `shouldBe` Just ([], meaning sheet)
       forM_ ["bevel 2", "bevel mu / 2", "bevel 1.2 * mu"] $ \other ->
-        (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade)) `shouldBe` (other, Just [Code "E0924"])
+        (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade)) `shouldBe` (other, Just [ReportCode "E0924"])
     it "takes a cone without a bevel for a cylinder" $ do
       let program = "part p\nmachine lkp-01f\ntool cone(diameter 12 mm, bevel 0 deg, height 8 mm)\nfeed 60\ntolerance 0.1\nfrom (0, 0, 0)\ncontour c open { polyline([(10, 10), (60, 10)]) }\nmill c left { approach (10, 30) feed 60  retract (60, 30) feed 60 }\n"
       case exported "x.part" program of
@@ -105,7 +105,7 @@ spec = do
     forM_ files $ \file -> it file $ do
       text <- readText ("test/unfit" </> file)
       let loaded = Compile.alone (Text.pack file) text
-          outcome = Compile.evaluated [] loaded `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry FromPart.fromPart)
+          outcome = Compile.evaluated [] loaded `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart)
           rendered r = Human.render Human.Plain (Text.pack file) (Compile.source loaded) r <> "\n"
       errors outcome `shouldNotBe` []
       expected (("test/unfit" </> file) -<.> "report") (Text.concat (map rendered (Report.sorted (errors outcome))))
@@ -113,23 +113,23 @@ spec = do
     meaning text = fmap ToText.write (output (FromText.read text :: Result () Error Sheet))
 
 -- | The codes of what is wrong with the numbers alone, or the sheet.
-fromTextCodes :: Text -> Either [Code] Sheet
+fromTextCodes :: Text -> Either [ReportCode] Sheet
 fromTextCodes text = case FromText.read text :: Result () Error Sheet of
   Result {errors = [], output = Just s} -> Right s
   Result {errors} -> Left (map (Report.code . Error.toReport) errors)
 
 -- | A program or a sheet as a sheet, or the codes of what is wrong.
-exported :: Text -> Text -> ([Code], Maybe Text)
+exported :: Text -> Text -> ([ReportCode], Maybe Text)
 exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.settled outcome)
   where
-    outcome = Compile.evaluated [] (Compile.alone path' text) `Result.thenSound` (Result.mapErrors id Unfit.toReport . uncurry FromPart.fromPart) :: Result Report Report Sheet
+    outcome = Compile.evaluated [] (Compile.alone path' text) `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart) :: Result Report Report Sheet
 
 -- | Each word that the change concerns changed once, with its number.
 variants :: (Text -> [Text]) -> [Text] -> [(Int, Text)]
 variants change words' = [(n, Text.unwords (before <> change w <> after)) | n <- [1 .. length words'], (before, w : after) <- [splitAt (n - 1) words'], change w /= [w]]
 
 -- | The codes of the errors, or the tape.
-judged :: Text -> Text -> IO (Either [Code] Tape)
+judged :: Text -> Text -> IO (Either [ReportCode] Tape)
 judged path' text = case Result.settled outcome of
   Nothing -> Left (map Report.code (errors outcome)) <$ evaluate (sum (map (Text.length . shown) (errors outcome)))
   Just p -> Right (tape p) <$ evaluate (let Tape bytes = tape p in ByteString.length bytes)

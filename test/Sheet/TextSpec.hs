@@ -10,11 +10,11 @@ import Sheet.FromText qualified as FromText
 import Sheet.Sheet (Sheet)
 import Sheet.ToSurface qualified as ToSurface
 import Sheet.ToText qualified as ToText
-import Surface.Bare qualified as Bare
 import Surface.Error qualified as Surface
-import Surface.Format qualified as Format
+import Surface.Formatter qualified as Formatter
 import Surface.Parser qualified as Parser
 import Surface.Syntax qualified as Surface
+import Surface.Unlocated qualified as Unlocated
 import Test.Hspec
 import Test.Hspec.QuickCheck (prop)
 import Test.QuickCheck hiding (Result (..))
@@ -40,9 +40,9 @@ spec = do
         let text = ToSurface.text s
             Result {errors, output} = Parser.parse 0 text :: Result () Surface.Error Surface.Program
          in counterexample (Text.unpack text) $
-              errors === [] .&&. fmap (Bare.statements . Surface.statements) output === Just (Bare.statements (Surface.statements (ToSurface.program s)))
+              errors === [] .&&. fmap (Unlocated.statements . Surface.statements) output === Just (Unlocated.statements (Surface.statements (ToSurface.program s)))
     prop "is in the canonical layout" $
-      forAll Generate.sheet $ \s -> let text = ToSurface.text s in Format.format text === Just text
+      forAll Generate.sheet $ \s -> let text = ToSurface.text s in Formatter.format text === Just text
   where
     meaning :: Text -> Maybe Text
     meaning t = fmap ToText.write (output (FromText.read t :: Result () Error Sheet))

@@ -12,7 +12,7 @@ import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Parser qualified as Parser
-import Surface.Print qualified as Print
+import Surface.PrintProgram qualified as PrintProgram
 import Surface.Syntax (Program)
 import Test.Hspec
 import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
@@ -37,8 +37,8 @@ spec = do
       filter (`notElem` used) (Grammar.literals grammar) `shouldBe` []
     -- The bug: a construct that the parser knows and the manual does not.
     prop "every program is a sentence of it" $
-      forAllShow Generate.program (Text.unpack . Print.program) $ \p ->
-        Grammar.recognises grammar (fst (Lexer.tokens 0 (Print.program p)))
+      forAllShow Generate.program (Text.unpack . PrintProgram.program) $ \p ->
+        Grammar.recognises grammar (fst (Lexer.tokens 0 (PrintProgram.program p)))
     -- The bug: a recogniser that says yes to everything.
     it "tells what is no sentence" $
       map (Grammar.recognises grammar . fst . Lexer.tokens 0) ["let a = 1", "let a 1", "part", "coolant on off", "let in = 3", "aux (1, 2, 3)", "aux (1, 2, 3, 4)"]

@@ -7,7 +7,7 @@ import Compile qualified
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Code (..), Place (..), Report)
+import Report.Report (Report, ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Keyword qualified as Keyword
 import Test.Hspec
@@ -42,7 +42,7 @@ spec = do
     property $
       forAllShow noise Text.unpack $ \text ->
         let unix = Text.replace "\r" "" text
-            placed t = sort [(line, column, c) | r <- reports t, InSource at <- [Report.place r], let Region.Position {Region.line, Region.column} = Region.position (Region.fromText "" t) (Region.start at); Code c = Report.code r]
+            placed t = sort [(line, column, c) | r <- reports t, InSource at <- [Report.place r], let Region.Position {Region.line, Region.column} = Region.position (Region.fromText "" t) (Region.start at); ReportCode c = Report.code r]
          in placed (Text.replace "\n" "\r\n" unix) === placed unix .&&. placed (Text.replace "\n" "\r" unix) === placed unix
   where
     nested (name, text) = it name $ codes text `shouldBe` ["E0110"]
@@ -51,7 +51,7 @@ reports :: Text -> [Report]
 reports text = Result.errors (Compile.analyse [] (Compile.alone "p.part" text))
 
 codes :: Text -> [Text]
-codes text = [c | Code c <- map Report.code (reports text)]
+codes text = [c | ReportCode c <- map Report.code (reports text)]
 
 -- | Words, signs and characters in any order, on lines.
 noise :: Gen Text

@@ -1,7 +1,7 @@
 -- | Tapes with one hole more or less, and how many of them a machine's tape gives away.
 module Tape.Holes (Share (..), share, changes) where
 
-import Base.Lattice (V3)
+import Base.PulseVector (Pulses3)
 import Data.Bits (complementBit)
 import Data.ByteString qualified as ByteString
 import Frame.Frame (Frame)
@@ -15,7 +15,7 @@ data Share = Share {tried :: Int, found :: Int, unseen :: [(Int, Int)]}
   deriving stock (Eq, Show)
 
 -- | What reading finds of all single holes in the tape of some frames.
-share :: Machine -> V3 -> [Frame] -> Share
+share :: Machine -> Pulses3 -> [Frame] -> Share
 share machine start frames =
   Share
     { tried = length results,

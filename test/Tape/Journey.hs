@@ -1,13 +1,13 @@
 -- | Frames that every machine can be told: round a plate, with arcs, rapid moves and commands where it has them.
 module Tape.Journey (machines, start, journey) where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Pulses (..))
 import Data.List (sortOn)
 import Data.Map.Strict qualified as Map
-import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
-import Geometry.Shape (Turn (..))
+import Geometry.Carrier (Sense (..))
 import Machine.Machine (Arcs (..), Axis (..), Content (..), FeedCode (..), FeedCodes (..), Machine, Service (..))
 import Machine.Machine qualified as Machine
 import Machines qualified
@@ -16,8 +16,8 @@ import Machines qualified
 machines :: [Machine]
 machines = Machines.known
 
-start :: V3
-start = V3 500 (-200) 100
+start :: Pulses3
+start = Pulses3 500 (-200) 100
 
 -- | Frames that keep the invariants of a machine; the same way round for all.
 journey :: Machine -> [Frame]
@@ -32,10 +32,10 @@ journey machine = filter (null . Frame.invariants machine . pure) (concat [comma
     commands = map Frame.still singles
     leg code slow (x, y) =
       [rapid x y | Machine.hasRapidMotion machine, x > 1000]
-        <> [Frame {motion = Straightway, increment = V3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0), centre = 0, speed = code, braking = slow && holed, orders = if y == 0 then concat (take 1 singles) else []}]
-        <> [Frame {motion = Round turn, increment = V3 (Pulses x) (Pulses y) 0, centre = c, speed = code, braking = slow && holed, orders = []} | Machine.arcs machine /= NoArcs, (turn, c) <- arcs x y]
-    rapid x y = Frame {motion = Rapid, increment = V3 (Pulses x) (Pulses y) 0, centre = 0, speed = FeedCode 0, braking = False, orders = []}
-    arcs x y = [(turn, V2 (Pulses x) 0) | abs x == abs y, turn <- [Clockwise, CounterClockwise]] <> [(Clockwise, V2 (Pulses x) 0) | x > 0, y > 0] <> [(CounterClockwise, V2 0 (Pulses y)) | x < 0, y < 0]
+        <> [Frame {motion = Straightway, increment = Pulses3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0), centre = 0, speed = code, braking = slow && holed, orders = if y == 0 then concat (take 1 singles) else []}]
+        <> [Frame {motion = Round turn, increment = Pulses3 (Pulses x) (Pulses y) 0, centre = c, speed = code, braking = slow && holed, orders = []} | Machine.arcs machine /= NoArcs, (turn, c) <- arcs x y]
+    rapid x y = Frame {motion = Rapid, increment = Pulses3 (Pulses x) (Pulses y) 0, centre = 0, speed = FeedCode 0, braking = False, orders = []}
+    arcs x y = [(turn, Pulses2 (Pulses x) 0) | abs x == abs y, turn <- [Clockwise, CounterClockwise]] <> [(Clockwise, Pulses2 (Pulses x) 0) | x > 0, y > 0] <> [(CounterClockwise, Pulses2 0 (Pulses y)) | x < 0, y < 0]
     holed = or [s == BrakingHole | w <- Machine.wordsOf machine, s <- Machine.service (Machine.form w)]
     hasZ = Machine.capacity machine Z > 0
 

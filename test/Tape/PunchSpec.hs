@@ -1,7 +1,7 @@
 -- | Tapes of all machines: written and read back, and damaged in every possible way.
 module Tape.PunchSpec (spec) where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Pulses (..))
 import Base.Result qualified as Result
 import Data.ByteString (ByteString)
@@ -13,24 +13,24 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Data.Word (Word8)
 import Files (readText)
-import Frame.Frame (Frame (..), Motion (..))
+import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Generate.Machine qualified as Generate
-import Geometry.Shape (Turn (..))
+import Geometry.Carrier (Sense (..))
 import Machine.FromText qualified as FromText
-import Machine.Machine (Arcs (..), AxisForm (..), FeedCode (..), Item (..), Machine, Measure (..), OrderName (..), Presence (..), Spare (..))
+import Machine.Machine (Arcs (..), AxisForm (..), AxisMeasure (..), CommandName (..), FeedCode (..), LayoutItem (..), Machine, Presence (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
 import Report.Report qualified as Report
-import Tape.Bare qualified as Bare
+import Tape.FrameReader qualified as FrameReader
+import Tape.FrameReader.Fast qualified as FastFrameReader
 import Tape.Holes qualified as Holes
 import Tape.Journey (journey, machines, start)
 import Tape.Layout qualified as Layout
-import Tape.Plan qualified as Plan
+import Tape.ModalState qualified as ModalState
 import Tape.Punch (Damage (..), Reason (..))
 import Tape.Punch qualified as Punch
-import Tape.Reading qualified as Reading
-import Tape.State qualified as State
+import Tape.RowMeaning qualified as RowMeaning
 import Tape.Tape (Tape (..))
 import Tape.Tape qualified as Tape
 import Test.Hspec
@@ -52,7 +52,7 @@ randomMachines = do
     own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
   it "frames may end with a word that mostly is left out (catches a frame that is taken for finished before it)" $ do
     machine <- machineOf "test/machines/no-end.machine"
-    let fs = [along 1000 0, (along 0 1000) {orders = [(OrderName "M", 8)]}, along 1000 1000]
+    let fs = [along 1000 0, (along 0 1000) {orders = [(CommandName "M", 8)]}, along 1000 1000]
     Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
   it "decode after encode gives the frames (catches a word that writer and reader see differently)" $
     checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
@@ -65,7 +65,7 @@ randomMachines = do
               Punch.readBack m at wanted t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      ByteString.pack (map Layout.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
+      ByteString.pack (map RowMeaning.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
   it "one row changed is refused or gives frames that are written just so (catches a reader that guesses)" $
     withMaxSuccess 5000 . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       let rows = rowsOf (Punch.write m at fs)
@@ -77,20 +77,20 @@ randomMachines = do
                     Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
   it "frames that go straight are read in one go as they are word by word (catches a shortcut that reads something else)" $
     checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) -> forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
-      let plan = Plan.fromMachine m
-          states = scanl (Plan.after plan) (State.first (State.rising fs) at) fs
-          rowsFor state f = map Plan.holes (Plan.frameMarks plan state f)
-          readBoth state rows = (Bare.readFrame plan state (Short.pack rows) 0, Reading.wordByWord plan state (Short.pack rows) 0)
+      let plan = Layout.fromMachine m
+          states = scanl (Layout.after plan) (ModalState.first (ModalState.rising fs) at) fs
+          rowsFor state f = map Layout.holes (Layout.frameMarks plan state f)
+          readBoth state rows = (FastFrameReader.readFrame plan state (Short.pack rows) 0, FrameReader.wordByWord plan state (Short.pack rows) 0)
           isRead state f = case readBoth state (rowsFor state f) of
-            (Bare.Read g end, slowly) -> Plan.isPlain plan && slowly == Right (g, end) && g == f
-            (Bare.NotBare, _) -> not (Plan.isPlain plan && State.isBare f && Frame.isMoving f)
+            (FastFrameReader.Read g end, slowly) -> Layout.isPlain plan && slowly == Right (g, end) && g == f
+            (FastFrameReader.NotBare, _) -> not (Layout.isPlain plan && ModalState.isBare f && Frame.isMoving f)
           isSame state rows = case readBoth state rows of
-            (Bare.Read g end, slowly) -> slowly == Right (g, end)
-            (Bare.NotBare, _) -> True
+            (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
+            (FastFrameReader.NotBare, _) -> True
           changedRow rows = take k rows <> [w] <> drop (k + 1) rows
           -- As if nothing had been said before.
-          unsaid state = (State.first (State.rising fs) (State.place state)) {State.ordinal = State.ordinal state}
-       in cover 20 (Plan.isPlain plan && any (\f -> State.isBare f && Frame.isMoving f) fs) "frames that go straight" $
+          unsaid state = (ModalState.first (ModalState.rising fs) (ModalState.place state)) {ModalState.ordinal = ModalState.ordinal state}
+       in cover 20 (Layout.isPlain plan && any (\f -> ModalState.isBare f && Frame.isMoving f) fs) "frames that go straight" $
             conjoin [counterexample (show f) (isRead state f && isSame state (changedRow (rowsFor state f)) && isSame state (rowsFor (unsaid state) f)) | (state, f) <- zip states fs]
   it "an axis that points the other way turns its numbers and the arcs about (catches a sign that is forgotten)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
@@ -120,13 +120,13 @@ covered m fs =
     . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
     . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "feeds said once"
 
-mirroredPlace :: V3 -> V3
-mirroredPlace (V3 x y z) = V3 (negate x) y z
+mirroredPlace :: Pulses3 -> Pulses3
+mirroredPlace (Pulses3 x y z) = Pulses3 (negate x) y z
 
 mirroredFrame :: Frame -> Frame
-mirroredFrame f = f {increment = mirroredPlace (increment f), centre = V2 (negate i) j, motion = turnedBack (motion f)}
+mirroredFrame f = f {increment = mirroredPlace (increment f), centre = Pulses2 (negate i) j, motion = turnedBack (motion f)}
   where
-    V2 i j = centre f
+    Pulses2 i j = centre f
     turnedBack m = case m of
       Round Clockwise -> Round CounterClockwise
       Round CounterClockwise -> Round Clockwise
@@ -136,7 +136,7 @@ mirroredFrame f = f {increment = mirroredPlace (increment f), centre = V2 (negat
 
 -- | A straight frame of a feed of 60.
 along :: Pulses -> Pulses -> Frame
-along x y = (Frame.still []) {motion = Straightway, increment = V3 x y 0, speed = FeedCode 60}
+along x y = (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
 
 machineOf :: FilePath -> IO Machine
 machineOf file = readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
@@ -144,7 +144,7 @@ machineOf file = readText file >>= maybe (fail "the description has errors") pur
 pages :: Spec
 pages = do
   it "5121: four digits, four, three and one, signs and commands in the service track" $
-    written lkp01f [straight (-1234) 56 (-7) 5 [(OrderName "aux", 5)]]
+    written lkp01f [straight (-1234) 56 (-7) 5 [(CommandName "aux", 5)]]
       `shouldBe` blank 25 <> [0x11, 0x15, 0x06, 0x17] <> [0x00, 0x00, 0x08, 0x09] <> [0x10, 0x00, 0x0A] <> [0x18] <> blank 3 <> blank 25
   it "5121: two blank rows stand before every even frame" $
     [k | (k, 0x11) <- zip [0 :: Int ..] (written lkp01f (replicate 3 (straight 1 0 0 1 [])))] `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
@@ -152,12 +152,12 @@ pages = do
     written lkiU [(straight 12 0 (-3) 40 []) {Frame.braking = True}]
       `shouldBe` blank 25 <> [0x1F, 1] <> [0, 0, 0, 0, 1, 5] <> blank 6 <> [0x10, 0, 0, 0, 0, 6] <> blank 12 <> [0x17, 0] <> [0xF] <> blank 3 <> blank 25
   it "БЦК-5: the frame that is printed" $
-    take 14 (drop 25 (written kontur3p [(straight 0 6000 0 27 []) {orders = [(OrderName "spindle", 8)]}]))
+    take 14 (drop 25 (written kontur3p [(straight 0 6000 0 27 []) {orders = [(CommandName "spindle", 8)]}]))
       `shouldBe` [9, 18, 5, 6, 0, 0, 0, 21, 2, 7, 22, 0, 8, 16]
   it "ISO-7bit: X has holes 4 5 7 8, 3 has 1 2 5 6, + has 1 2 4 6" $
     [w | w <- written n55 [straight 3 0 0 60 []], w `elem` [0xD8, 0x33, 0x2B]] `shouldBe` [0xD8, 0x2B, 0x33]
   it "a text: positions in mm, each when it changes or was not said yet" $
-    text iso6983 (V3 100 200 300) [straight 5000 0 0 60 [], straight 0 (-200) 0 60 [], (straight 10 10 0 70 []) {motion = Round Clockwise, centre = V2 10 0}, Frame.still [(OrderName "release", 0)]]
+    text iso6983 (Pulses3 100 200 300) [straight 5000 0 0 60 [], straight 0 (-200) 0 60 [], (straight 10 10 0 70 []) {motion = Round Clockwise, centre = Pulses2 10 0}, Frame.still [(CommandName "release", 0)]]
       `shouldBe` ["%", "G21 G17 G90 G94 G40 G49 G80", "G1 X5.100 Y0.200 F60", "G1 Y0.000", "G2 X5.110 Y0.010 I0.010 J0.000 F70", "G40", "%"]
   it "a tape has metres, a text has none" $ do
     Tape.metres lkp01f (Tape (ByteString.replicate 1000 0)) `shouldBe` Just 2.54
@@ -169,7 +169,7 @@ wantedFor fs = do
   k <- choose (0, length fs)
   elements [fs, fs, fs, take k fs, drop k fs, fs <> take 1 fs, [f {increment = increment f * sign k} | f <- fs]]
   where
-    sign k = if even k then V3 1 1 0 else V3 1 1 (-1)
+    sign k = if even k then Pulses3 1 1 0 else Pulses3 1 1 (-1)
 
 oneHole :: Spec
 oneHole = do
@@ -195,7 +195,7 @@ oneHole = do
 
 -- | The frame of every row of a machine's journey.
 frameRows :: Machine -> [Maybe Int]
-frameRows m = map Layout.frame (Punch.rows m start (journey m))
+frameRows m = map RowMeaning.frame (Punch.rows m start (journey m))
 
 frameAt :: [Maybe Int] -> Int -> Maybe Int
 frameAt frames row = case drop (row - 1) frames of
@@ -269,8 +269,8 @@ faultLine lines' = faultOf n55 (blank 25 <> map even' (ByteString.unpack (Encodi
   where
     even' w = if odd (length [() | k <- [0 .. 6 :: Int], w `div` (2 ^ k) `mod` 2 == 1]) then w + 128 else w
 
-straight :: Int -> Int -> Int -> Int -> [(OrderName, Int)] -> Frame
-straight x y z s given = Frame {motion = Straightway, increment = V3 (Pulses x) (Pulses y) (Pulses z), centre = 0, speed = FeedCode s, braking = False, orders = given}
+straight :: Int -> Int -> Int -> Int -> [(CommandName, Int)] -> Frame
+straight x y z s given = Frame {motion = Straightway, increment = Pulses3 (Pulses x) (Pulses y) (Pulses z), centre = 0, speed = FeedCode s, braking = False, orders = given}
 
 tapeOf :: Machine -> Tape
 tapeOf m = Punch.write m start (journey m)
@@ -281,7 +281,7 @@ rowsOf (Tape rows) = rows
 written :: Machine -> [Frame] -> [Word8]
 written m fs = ByteString.unpack (rowsOf (Punch.write m start fs))
 
-text :: Machine -> V3 -> [Frame] -> [Text.Text]
+text :: Machine -> Pulses3 -> [Frame] -> [Text.Text]
 text m at fs = Text.lines (Encoding.decodeUtf8 (rowsOf (Punch.write m at fs)))
 
 blank :: Int -> [Word8]

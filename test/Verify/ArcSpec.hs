@@ -1,7 +1,7 @@
 -- | The proof of tapes with arcs: the flange and random contours on machines that walk arcs, and every change of theirs.
 module Verify.ArcSpec (spec) where
 
-import Base.Lattice (V2 (..), V3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -11,29 +11,28 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Flange qualified
-import Frame.Frame (Frame (..), Motion (..), Program)
+import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
 import Generate (Case (..))
 import Generate qualified
 import Generate.Arcs (Off (..))
 import Generate.Arcs qualified as Arcs
-import Geometry.Contour (Contour (..), Ends (..))
-import Geometry.Offset (Side (..))
-import Geometry.Offset qualified as Offset
+import Geometry.Carrier (Circle (Circle), Sense (..), Side (..))
+import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Shape (Circle (Circle), Turn (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Braking (deceleration), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
+import Offset.Equidistant qualified as Equidistant
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path
-import Path.Path (Path)
-import Path.Path qualified as Path
 import Test.Hspec
 import Test.QuickCheck
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Finding (..), Refusal (..))
 import Verify.Proof qualified as Proof
@@ -64,7 +63,7 @@ spec = do
     it "with another centre it gouges or leaves material, also where its ends do not tell (catches a circle taken for a point)" $
       [ (s, d)
         | (s, (path, program)) <- rounds,
-          d <- [V2 5 0, V2 (-5) 0, V2 0 5, V2 0 (-5)],
+          d <- [Pulses2 5 0, Pulses2 (-5) 0, Pulses2 0 5, Pulses2 0 (-5)],
           not (any (\f -> isGouge f || isExcess f) (findings uncut path program [if isCircle f then f {centre = centre f + d} else f | f <- own program]))
       ]
         `shouldBe` []
@@ -72,7 +71,7 @@ spec = do
       [ s
         | (s, (path, program)) <- rounds,
           f : fs <- [own program],
-          let loop = Frame {motion = Round Clockwise, increment = 0, centre = V2 (-1000) 0, speed = speed f, braking = False, orders = []},
+          let loop = Frame {motion = Round Clockwise, increment = 0, centre = Pulses2 (-1000) 0, speed = speed f, braking = False, orders = []},
           not (any isGouge (findings uncut path program (loop : f : fs)))
       ]
         `shouldBe` []
@@ -93,7 +92,7 @@ spec = do
     own program = map Frame.frame (Frame.planned program)
     rounds = [(s, circle s) | s <- [LeftOf, RightOf]]
     circle s =
-      let path = laid (if s == LeftOf then Vec.point 0 0 else Vec.point 60 0) (Mm 0.02) s (Contour Closed (Segment.fullCircle CounterClockwise (Circle (Vec.point 0 0) (Mm 20)) (Vec.point 20 0) :| []))
+      let path = laid (if s == LeftOf then Vec.point 0 0 else Vec.point 60 0) (Mm 0.02) s (Polyarc Closed (Segment.fullCircle CounterClockwise (Circle (Vec.point 0 0) (Mm 20)) (Vec.point 20 0) :| []))
        in (path, Arcs.quantise uncut path)
     isCircle f = increment f == 0
     mirrored f = case motion f of
@@ -106,13 +105,13 @@ quick name = m {Machine.braking = (Machine.braking m) {deceleration = 1e12}}
   where
     m = Machines.named name
 
-findings :: Machine -> Path -> Program -> [Frame] -> [Finding]
+findings :: Machine -> Toolpath -> FrameProgram -> [Frame] -> [Finding]
 findings machine path program fs = Proof.findings (Verify.prove machine path program fs)
 
 -- | A contour milled with a cutter of radius 5, from a point straight to its beginning.
-laid :: Point -> Mm -> Side -> Contour -> Path
-laid from tolerance side walked = case Offset.equidistant side (Mm 5) walked of
-  Right pieces | Just path <- Result.output (Path.lay (Generate.partOf from (Part.Mill (Located (Region 0 0) (Generate.job Case {contour = walked, side, radius = Mm 5, pieces}) {Part.tolerance = Part.OnPath tolerance})))) -> path
+laid :: Point -> Mm -> Side -> Polyarc -> Toolpath
+laid from tolerance side walked = case Equidistant.equidistant side (Mm 5) walked of
+  Right pieces | Just path <- Result.output (Toolpath.lay (Generate.partOf from (Part.Mill (Located (Region 0 0) (Generate.job Case {contour = walked, side, radius = Mm 5, pieces}) {Part.tolerance = Part.OnPath tolerance})))) -> path
   _ -> error "no path"
 
 -- | The flange: its own frames are proven, and its changes are found.
@@ -126,10 +125,10 @@ flange name = describe (Text.unpack name) $ do
     machine = quick name
     path' = path Flange.analysis
     program = Arcs.quantise machine path'
-    contour = concat [map Part.segment (NonEmpty.toList (Part.elements (Part.contour m))) | Path.Cutting {Path.job = Located _ m} <- Path.blocks path']
+    contour = concat [map Part.segment (NonEmpty.toList (Part.elements (Part.contour m))) | Toolpath.Cutting {Toolpath.job = Located _ m} <- Toolpath.blocks path']
 
 -- | A change that sampling shows to cut too deep is a gouge, one that leaves too much an excess.
-changed :: Machine -> Path -> Program -> [Segment] -> Double -> Property
+changed :: Machine -> Toolpath -> FrameProgram -> [Segment] -> Double -> Property
 changed machine path program contour radius =
   forAll (Arcs.change (map Frame.frame (Frame.planned program))) $ \(what, fs) ->
     let Off {deepest, most} = Arcs.deviation machine (Frame.start program) fs contour radius
@@ -149,24 +148,24 @@ arcs =
     ("a half", [], half),
     ("three quarters", [], long),
     ("a full circle", [], quarter {increment = 0}),
-    ("radii that differ by 2 pulses", [], quarter {increment = V3 (-1000) 1002 0}),
-    ("radii that differ by 3 pulses", ["radii"], quarter {increment = V3 (-1000) 1003 0}),
+    ("radii that differ by 2 pulses", [], quarter {increment = Pulses3 (-1000) 1002 0}),
+    ("radii that differ by 3 pulses", ["radii"], quarter {increment = Pulses3 (-1000) 1003 0}),
     ("no centre", ["centre"], quarter {centre = 0}),
     ("no centre and no way", ["centre"], quarter {centre = 0, increment = 0}),
-    ("the end at the centre", ["sweep"], quarter {increment = V3 (-1000) 0 0}),
-    ("the end beyond the beginning", ["sweep"], quarter {increment = V3 1 0 0}),
-    ("an arc that rises", ["motion"], quarter {increment = V3 (-1000) 1000 1}),
+    ("the end at the centre", ["sweep"], quarter {increment = Pulses3 (-1000) 0 0}),
+    ("the end beyond the beginning", ["sweep"], quarter {increment = Pulses3 1 0 0}),
+    ("an arc that rises", ["motion"], quarter {increment = Pulses3 (-1000) 1000 1}),
     ("a straight frame that goes nowhere", ["motion"], quarter {motion = Straightway, centre = 0, increment = 0})
   ]
 
 quarter, half, long :: Frame
-quarter = Frame {motion = Round CounterClockwise, increment = V3 (-1000) 1000 0, centre = V2 (-1000) 0, speed = FeedCode 1, braking = False, orders = []}
-half = quarter {increment = V3 (-2000) 0 0}
-long = quarter {increment = V3 (-1000) (-1000) 0}
+quarter = Frame {motion = Round CounterClockwise, increment = Pulses3 (-1000) 1000 0, centre = Pulses2 (-1000) 0, speed = FeedCode 1, braking = False, orders = []}
+half = quarter {increment = Pulses3 (-2000) 0 0}
+long = quarter {increment = Pulses3 (-1000) (-1000) 0}
 
 -- | Why a frame is refused.
 refusals :: Machine -> Frame -> [String]
-refusals machine f = [why r | Refused r <- findings machine (Path.Path (Located (Region 0 0) (Part.Spot (Vec.point 0 0) (Mm 0))) [] False) (Frame.Program 0 []) [f]]
+refusals machine f = [why r | Refused r <- findings machine (Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [] False) (Frame.FrameProgram 0 []) [f]]
   where
     why r = case r of
       UnequalRadii _ _ -> "radii"
@@ -178,18 +177,18 @@ refusals machine f = [why r | Refused r <- findings machine (Path.Path (Located 
 
 -- | What is found of an arc of radius 25 from one axis to the other with a cutter of radius 5, beside the middle of an arc of
 -- radius 20: its beginning or its end is so many pulses further out than it should be.
-findingsBeside :: Turn -> Bool -> Int -> [Finding]
+findingsBeside :: Sense -> Bool -> Int -> [Finding]
 findingsBeside turn atStart d = findings machine path (Arcs.quantise machine path) [f]
   where
     machine = quick "lki-u"
-    path = laid (Vec.point (fromIntegral sx * 0.02) (fromIntegral sy * 0.02)) (Mm 0.001) RightOf (Contour Open (middle :| []))
+    path = laid (Vec.point (fromIntegral sx * 0.02) (fromIntegral sy * 0.02)) (Mm 0.001) RightOf (Polyarc Open (middle :| []))
     middle = Segment.arc CounterClockwise (Vec.point 0 0) (on (pi / 6)) (on (pi / 3))
     on a = Vec.shift (Vec.polar (Mm 20) (Rad a)) (Vec.point 0 0)
     off here = Pulses (1250 + if here then d else 0)
     ((sx, sy), (ex, ey)) = case turn of
       CounterClockwise -> ((off atStart, 0), (0, off (not atStart)))
       Clockwise -> ((0, off atStart), (off (not atStart), 0))
-    f = Frame {motion = Round turn, increment = V3 (ex - sx) (ey - sy) 0, centre = V2 (-sx) (-sy), speed = FeedCode 1, braking = False, orders = []}
+    f = Frame {motion = Round turn, increment = Pulses3 (ex - sx) (ey - sy) 0, centre = Pulses2 (-sx) (-sy), speed = FeedCode 1, braking = False, orders = []}
 
 isGouge, isExcess, isNotFollowed :: Finding -> Bool
 isGouge f = case f of

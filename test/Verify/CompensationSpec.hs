@@ -12,22 +12,22 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Files (readText)
-import Frame.Frame (Frame (..), Planned, Program, Role (..))
+import Frame.Frame (Frame (..), FrameProgram, Planned, Role (..))
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as FromPath
+import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
 import Generate.Arcs qualified as Arcs
 import Generate.ByControl qualified as ByControl
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Machine.Machine (OrderName (..))
+import Machine.Machine (CommandName (..))
 import Machines (iso6983)
 import Part.Part (Milling)
 import Part.Part qualified as Part
-import Path.Path (Path)
 import Test.Hspec
 import Test.QuickCheck hiding (Fixed)
+import Toolpath.Toolpath (Toolpath)
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Finding (..), Refusal (..))
 import Verify.Proof qualified as Proof
@@ -43,7 +43,7 @@ spec = do
     changes "the other side" $ \_ fs -> [[f {orders = map exchanged (orders f)} | f <- fs]]
     changes "a diameter of one unit more or less" $ \_ fs -> [[f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]} | f <- fs] | d <- [1, -1]]
     changes "a lost order to keep the cutter beside the contour" $ \_ fs -> [[f {orders = filter (not . isKeep . fst) (orders f)} | f <- fs]]
-    changes "a lost release" $ \_ fs -> [[f {orders = filter ((/= OrderName "release") . fst) (orders f)} | f <- fs]]
+    changes "a lost release" $ \_ fs -> [[f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- fs]]
     changes "a lost frame along the edge" $ \ps fs -> [take n fs <> drop (n + 1) fs | n <- cutting ps]
   it "of random contours every change is found by which the control cuts too deep or leaves too much (catches a proof of what the frames say, a corner that is not looked at)" $
     property $
@@ -69,7 +69,7 @@ spec = do
   describe "programs" $ mapM_ program' ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
   it "a lost release is refused by the control" $ do
     (path, program) <- compiled "flange"
-    [n | Refused (NotKept (NeverReleased n)) <- findings path program [f {orders = filter ((/= OrderName "release") . fst) (orders f)} | f <- own program]] `shouldBe` [length (own program)]
+    [n | Refused (NotKept (NeverReleased n)) <- findings path program [f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- own program]] `shouldBe` [length (own program)]
   where
     program' name = it (name <> " is proven") $ do
       (path, program) <- compiled name
@@ -84,7 +84,7 @@ changes what change =
         Nothing -> property Discard
         Just (path, program) -> conjoin [counterexample (show fs) (findings path program fs /= []) | fs <- change (Frame.planned program) (own program), fs /= own program]
 
-own :: Program -> [Frame]
+own :: FrameProgram -> [Frame]
 own program = map Frame.frame (Frame.planned program)
 
 -- | The numbers of the frames along the edge, from 0.
@@ -102,14 +102,14 @@ deviation centre job = (r - minimum [nearest on p | p <- walked], maximum [neare
     dense apart s = let Mm l = Segment.length s; n = max 16 (ceiling (l / apart)) :: Int in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
     nearest ps q = sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps]) :: Double
 
-exchanged :: (OrderName, Int) -> (OrderName, Int)
+exchanged :: (CommandName, Int) -> (CommandName, Int)
 exchanged (o, v)
-  | o == OrderName "left" = (OrderName "right", v)
-  | o == OrderName "right" = (OrderName "left", v)
+  | o == CommandName "left" = (CommandName "right", v)
+  | o == CommandName "right" = (CommandName "left", v)
   | otherwise = (o, v)
 
-isKeep :: OrderName -> Bool
-isKeep o = o == OrderName "left" || o == OrderName "right"
+isKeep :: CommandName -> Bool
+isKeep o = o == CommandName "left" || o == CommandName "right"
 
 isExcess, isGouge, isExcessOrRefused, isLost, isNeverBegun :: Finding -> Bool
 isExcess f = case f of
@@ -130,7 +130,7 @@ isNeverBegun f = case f of
   NeverBegun _ -> True
   _ -> False
 
-findings :: Path -> Program -> [Frame] -> [Finding]
+findings :: Toolpath -> FrameProgram -> [Frame] -> [Finding]
 findings path program fs = Proof.findings (Verify.prove iso6983 path program fs)
 
 tolerant :: (Generate.Case, Milling) -> Gen Milling
@@ -138,7 +138,7 @@ tolerant (_, job) = pure job {Part.tolerance = Part.OnPath (Mm 0.02)}
 
 -- | A milling by a control, where the one without is proven, to a little less: a way in or out that goes through the part, or grazes it, is
 -- no matter of the control's.
-made :: Milling -> Maybe (Path, Program)
+made :: Milling -> Maybe (Toolpath, FrameProgram)
 made job = do
   (plainly, frames) <- laid job {Part.byControl = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
   if null (findings plainly frames (own frames)) then laid job else Nothing
@@ -146,10 +146,10 @@ made job = do
     laid m = do
       from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach m]
       path <- ByControl.path (Vec.shift (Vec.vec 7 5) from) m
-      program <- Result.output (FromPath.quantise iso6983 path)
+      program <- Result.output (FromToolpath.quantise iso6983 path)
       Just (path, program)
 
-compiled :: String -> IO (Path, Program)
+compiled :: String -> IO (Toolpath, FrameProgram)
 compiled name = do
   text <- readText ("test/programs/mill/good/compensation-" <> name <> ".part") :: IO Text
   case Result.settled (Compile.analyse [] (Compile.alone "p.part" text) `Result.thenSound` \a -> (,) (path a) . Compile.program <$> Compile.punch iso6983 (path a)) of

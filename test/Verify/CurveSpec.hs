@@ -5,9 +5,9 @@ import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.List.NonEmpty qualified as NonEmpty
-import Frame.Frame (Frame (..), Program)
+import Frame.Frame (Frame (..), FrameProgram)
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as FromPath
+import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
 import Generate.Run qualified as Curve
 import Geometry.Distance qualified as Distance
@@ -17,10 +17,10 @@ import Machine.Machine (Machine)
 import Machines qualified
 import Part.Part (Milling)
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path
-import Path.Path (Path)
 import Test.Hspec
 import Test.QuickCheck
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Toolpath)
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Finding (..))
 import Verify.Proof qualified as Proof
@@ -70,9 +70,9 @@ lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
 
 -- | What holds for the path and the frames of a milling from a point.
-punched :: Testable p => Point -> Milling -> (Path -> Program -> p) -> Property
-punched begin job holds = case Path.lay (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
-  Result.Result _ [] (Just path) -> case Result.output (FromPath.quantise lkp01f path) of
+punched :: Testable p => Point -> Milling -> (Toolpath -> FrameProgram -> p) -> Property
+punched begin job holds = case Toolpath.lay (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
+  Result.Result _ [] (Just path) -> case Result.output (FromToolpath.quantise lkp01f path) of
     Just program -> property (holds path program)
     Nothing -> counterexample "no frames" False
   r -> counterexample (show (Result.errors r)) False
@@ -86,7 +86,7 @@ inParts counts job = job {Part.contour = (Part.contour job) {Part.elements = Non
       Arc {} -> Curve.parts n (Part.segment e)
 
 -- | The frames with so many of them, from a share of all on, made one; and how far it is from where they went.
-shortened :: Program -> Double -> Int -> ([Frame], Double)
+shortened :: FrameProgram -> Double -> Int -> ([Frame], Double)
 shortened program from count = (earlier <> [f {increment = sum (map increment (f : more))} | f : more <- [away]] <> behind, maximum (0 : map off positions))
   where
     frames = map Frame.frame (Frame.planned program)

@@ -1,7 +1,7 @@
 -- | The proof finds every change of the flange's tape that moves the path or changes a feed.
 module Verify.FromTapeSpec (spec) where
 
-import Base.Lattice (V3 (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -11,19 +11,19 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Flange qualified
 import Frame.Frame (Frame (increment, orders, speed))
 import Frame.Frame qualified as Frame
-import Frame.FromPath qualified as FromPath
+import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Machine.Machine (FeedCode (..), Machine, OrderName (..))
+import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machines qualified
 import Part.Part qualified as Part
-import Path.FromPart qualified as Path
-import Path.Path (Path)
-import Path.Path qualified as Path
 import Test.Hspec
 import Test.QuickCheck
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Finding (..), Proof (..))
 import Verify.Proof qualified as Proof
@@ -60,7 +60,7 @@ spec = do
     case Compile.analyse [] (Compile.alone "p.part" "part p\ntool mill(diameter 10 mm)\nfeed 60\ntolerance 0.02\nfrom (30, 0)\ncontour c closed { ccw circle((0, 0), 20) }\nmill c on { }\n") of
       r
         | Just a <- Result.settled r,
-          Just program <- Result.output (FromPath.quantise iso6983 (path a)) ->
+          Just program <- Result.output (FromToolpath.quantise iso6983 (path a)) ->
           let fs = map Frame.frame (Frame.planned program)
               halves = [n | (n, f) <- zip [0 ..] fs, Frame.centre f /= 0]
            in [any isExcess (findings (Verify.prove iso6983 (path a) program (take n fs <> drop (n + 1) fs))) | n <- halves] `shouldBe` [True, True]
@@ -72,7 +72,7 @@ spec = do
   it "random contours with random cutters are proven; for a tolerance that their chords exceed they are not (catches a proof that looks at nodes only)" $
     property $
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c -> case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
-        (Just rough, Just fine) -> case Result.output (FromPath.quantise lkp01f rough) of
+        (Just rough, Just fine) -> case Result.output (FromToolpath.quantise lkp01f rough) of
           Just program ->
             let fs = map Frame.frame (Frame.planned program)
                 coarse = any ((> 0.06) . chordError) (cutSegments rough)
@@ -97,20 +97,20 @@ spec = do
     property $
       forAll ((,,) <$> (Generate.settings <*> (Generate.job <$> Generate.closedCase)) <*> elements [[], [Mm (-1)], [Mm (-1.5), Mm (-3)]] <*> elements [Part.OnPath (Mm 0.05), Part.Band (Mm 0.02) (Mm 0.06)]) $ \(settled, levels, tolerance) ->
         let job = settled {Part.levels = levels, Part.clearance = Just (Mm 5), Part.tolerance = tolerance, Part.approach = []}
-            pieces = maybe [] ways (Result.output (Path.lay (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))))
+            pieces = maybe [] ways (Result.output (Toolpath.lay (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))))
          in case pieces of
               [] -> discard
-              entry : _ -> case Path.lay (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
-                Result.Result _ [] (Just laid) -> case Result.output (FromPath.quantise lkp01f laid) of
+              entry : _ -> case Toolpath.lay (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
+                Result.Result _ [] (Just laid) -> case Result.output (FromToolpath.quantise lkp01f laid) of
                   Nothing -> discard
                   Just program -> counterexample (show (Part.corners job, Part.leadIn job, Part.leadOut job, Part.allowances job, Part.radius job, levels, tolerance)) $ Proof.toReports lkp01f (Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))) === []
                 _ -> discard
   it "with a tolerance of 0 inside no chord gouges but by a pulse (catches chords that cut the corner of the band)" $
     property $
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
-        case Result.output (Path.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = Part.Band (Mm 0) (Mm 0.1)})))) of
+        case Result.output (Toolpath.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = Part.Band (Mm 0) (Mm 0.1)})))) of
           Nothing -> discard
-          Just laid -> case Result.output (FromPath.quantise lkp01f laid) of
+          Just laid -> case Result.output (FromToolpath.quantise lkp01f laid) of
             Nothing -> discard
             Just program ->
               let p = Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))
@@ -123,11 +123,11 @@ spec = do
        in tapeAnalysis `seq` Verify.prove lkp01f (path analysis) own (map Frame.frame (Frame.planned tapeProgram))
     punched text = case Compile.analyse [] (Compile.alone "p.part" (deepHead <> text <> "\n")) of
       r
-        | Just a <- Result.settled r, Just p <- Result.output (FromPath.quantise lkp01f (path a)) -> (a, p)
+        | Just a <- Result.settled r, Just p <- Result.output (FromToolpath.quantise lkp01f (path a)) -> (a, p)
         | otherwise -> error (show (Result.errors r))
     deepHead = "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\nfrom (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
     -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
-    ways laid = [Segment.end (Path.segment m) | b <- take 1 (Path.blocks laid), m <- Path.moves b, Segment.length (Path.segment m) > Mm 0]
+    ways laid = [Segment.end (Toolpath.segment m) | b <- take 1 (Toolpath.blocks laid), m <- Toolpath.moves b, Segment.length (Toolpath.segment m) > Mm 0]
 
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
@@ -144,18 +144,18 @@ chordError s = case s of
   Straight _ _ -> 0
   Arc {start, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
-     in r * (1 - cos (abs a / fromIntegral (FromPath.chordCount lkp01f (Mm 0.3) s) / 2))
+     in r * (1 - cos (abs a / fromIntegral (FromToolpath.chordCount lkp01f (Mm 0.3) s) / 2))
 
-cutSegments :: Path -> [Segment]
-cutSegments p = [Path.segment m | Path.Cutting {Path.cut} <- Path.blocks p, m <- NonEmpty.toList cut]
+cutSegments :: Toolpath -> [Segment]
+cutSegments p = [Toolpath.segment m | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks p, m <- NonEmpty.toList cut]
 
 -- | Tapes that differ in one digit or one sign and are legal: the frame's number, the changed frame, all frames.
 changes :: [(Int, Frame, [Frame])]
 changes =
   [ (n, f', replaceFrame n f')
     | (n, f) <- zip [1 ..] Flange.frames,
-      V3 x y z <- [increment f],
-      d <- [V3 x' y z | x' <- digitChanges 4 x] <> [V3 x y' z | y' <- digitChanges 4 y] <> [V3 x y z' | z' <- digitChanges 3 z],
+      Pulses3 x y z <- [increment f],
+      d <- [Pulses3 x' y z | x' <- digitChanges 4 x] <> [Pulses3 x y' z | y' <- digitChanges 4 y] <> [Pulses3 x y z' | z' <- digitChanges 3 z],
       d /= 0,
       let f' = f {increment = d}
   ]
@@ -198,12 +198,12 @@ doubledFirst fs = case fs of
   f : rest -> [f {increment = half (increment f)}, f {increment = increment f - half (increment f)}] <> rest
   [] -> []
   where
-    half (V3 x y z) = V3 (x `div` 2) (y `div` 2) (z `div` 2)
+    half (Pulses3 x y z) = Pulses3 (x `div` 2) (y `div` 2) (z `div` 2)
 
 -- | With an auxiliary command in the last frame.
 commanded :: [Frame] -> [Frame]
 commanded fs = case reverse fs of
-  f : rest -> reverse (f {orders = [(OrderName "aux", 7)]} : rest)
+  f : rest -> reverse (f {orders = [(CommandName "aux", 7)]} : rest)
   [] -> []
 
 isNotFollowed :: Finding -> Bool
@@ -225,7 +225,7 @@ isFound n f p =
     && any (\finding -> isOpen finding || leavesBandFrom (if cutting then n else 1) finding) (findings p)
     && (not cutting || moved <= 3 || any (leavesBandFrom n) (findings p))
   where
-    V3 (Pulses x) (Pulses y) _ = increment f - increment (Flange.frames !! (n - 1))
+    Pulses3 (Pulses x) (Pulses y) _ = increment f - increment (Flange.frames !! (n - 1))
     moved = max (abs x) (abs y)
     cutting = Frame.role (Frame.planned Flange.program !! (n - 1)) == Frame.Cutting 0 && n < length Flange.frames - 12
 

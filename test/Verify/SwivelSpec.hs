@@ -1,7 +1,7 @@
 -- | The proof of a blade: how far it is turned along an element.
 module Verify.SwivelSpec (spec) where
 
-import Base.Lattice (V3 (..))
+import Base.PulseVector (Pulses3 (..))
 import Base.Result qualified as Result
 import Compile (Analysis (..), Punched (..))
 import Compile qualified
@@ -22,10 +22,10 @@ spec =
         Compile.analyse [] (Compile.alone "blade-upright-ends.part" text) `Result.thenSound` \a -> Compile.punch iso6983 (path a) `Result.thenSound` \p -> pure (path a, program p)
     let frames = map Frame.frame (Frame.planned program)
         (onto, along) = break rises frames
-        rises f = let V3 _ _ z = increment f in z > 0
+        rises f = let Pulses3 _ _ z = increment f in z > 0
         -- Not as far down before the element, and not as far up behind it.
         risen d = case (reverse onto, along) of
           (element : final : earlier, first : behind) -> reverse earlier <> [final `by` d, element, first `by` negate d] <> behind
           _ -> frames
-        by f d = let V3 x y z = increment f in f {increment = V3 x y (z + d)}
+        by f d = let Pulses3 x y z = increment f in f {increment = Pulses3 x y (z + d)}
     [d | d <- [0, 500, 1000, 2000], Proof.isProven (Verify.prove iso6983 way program (risen d))] `shouldBe` [0]

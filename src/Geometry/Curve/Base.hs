@@ -4,13 +4,13 @@
 -- that it came from, so that columns of numbers beside the points can be interpolated in the same way.
 module Geometry.Curve.Base
   ( Base (..),
-    Course (..),
+    SpanList (..),
     spans,
     asSegments,
-    Method (..),
-    Ends (..),
-    Row (..),
-    Flaw (..),
+    CurveKind (..),
+    EndCondition (..),
+    Knot (..),
+    CurveFault (..),
     polyline,
     spline,
     parabola,
@@ -21,7 +21,7 @@ module Geometry.Curve.Base
     ruler,
     chords,
     fractions,
-    Spot (..),
+    SpanPoint (..),
     spot,
     jet,
     reversed,
@@ -39,37 +39,37 @@ import Data.Maybe (isJust, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
-import Geometry.Curve.Span (Piece, Span (..))
+import Geometry.Curve.Span (Span (..), SpanShape)
 import Geometry.Curve.Span qualified as Span
-import Geometry.Jet (Approach (..), Jet (..))
-import Geometry.Jet qualified as Jet
-import Geometry.Ruler (Ruler)
-import Geometry.Ruler qualified as Ruler
+import Geometry.Curve.Spline (Cubics)
+import Geometry.Curve.Spline qualified as Spline
+import Geometry.Numeric.ArcLength (ArcLength)
+import Geometry.Numeric.ArcLength qualified as ArcLength
+import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion (..))
+import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
-import Geometry.Spline (Cubics)
-import Geometry.Spline qualified as Spline
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
 data Base = Base
-  { method :: Method,
+  { method :: CurveKind,
     -- | the rows of the table, in the order of the walk; made when they are asked for
-    rows :: ~(Vector Row),
+    rows :: ~(Vector Knot),
     -- | at least one
-    course :: Course,
+    course :: SpanList,
     -- | whether the end is the beginning
     closed :: Bool,
     -- | along the base; read by 'ruler'
-    measure :: ~Ruler
+    measure :: ~ArcLength
   }
   deriving stock (Eq, Show)
 
 -- | The spans in order.
-data Course
+data SpanList
   = -- | cubics in x and as many in y
     Cubical Cubics Cubics
   | -- | some of them arcs
@@ -77,11 +77,11 @@ data Course
   deriving stock (Eq, Show)
 
 -- | How the points became spans.
-data Method
+data CurveKind
   = -- | a straight line from each row to the next
     Polyline
   | -- | a cubic from each row to the next
-    Spline Ends
+    Spline EndCondition
   | -- | a parabola through rows 1–3, 3–5, …
     Parabola
   | -- | pieces given as such
@@ -89,7 +89,7 @@ data Method
   deriving stock (Eq, Show)
 
 -- | What holds at the ends of a spline.
-data Ends
+data EndCondition
   = -- | no curvature
     Natural
   | -- | these directions, of length 1
@@ -99,11 +99,11 @@ data Ends
   deriving stock (Eq, Show)
 
 -- | A point of the table and its parameter on the curve.
-data Row = Row {at :: Double, place :: Point}
+data Knot = Knot {at :: Double, place :: Point}
   deriving stock (Eq, Show)
 
 -- | Why there is no such curve. Rows and pieces count from 1.
-data Flaw
+data CurveFault
   = -- | fewer points than are needed, and how many that is
     TooFew Int
   | -- | this row and the next are one point
@@ -127,17 +127,17 @@ data Flaw
   deriving stock (Eq, Show)
 
 -- | A base of these spans.
-made :: Method -> Bool -> Vector Row -> Course -> Base
+made :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
 made method closed rows course = base
   where
-    base = Base {method, rows, course, closed, measure = Ruler.measured speed (map fromIntegral [0 .. count base])}
+    base = Base {method, rows, course, closed, measure = ArcLength.measured speed (map fromIntegral [0 .. count base])}
     speed u = let s = spot After u base in speedAt base (number s) (local s)
 
 -- | How fast the place changes, in mm for 1 of the parameter, in a span at its own parameter.
 speedAt :: Base -> Int -> Double -> Double
 speedAt base i t = case course base of
   Cubical xs ys -> let a = Spline.rate (Spline.at xs i) t; b = Spline.rate (Spline.at ys i) t in sqrt (a * a + b * b)
-  Mixed parts -> Vec.norm (Jet.velocity (Span.jet 1 (parts Vector.! i) t))
+  Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.jet 1 (parts Vector.! i) t))
 
 -- | The spans one by one.
 spans :: Base -> Vector Span
@@ -162,7 +162,7 @@ asSegments base = case course base of
       | otherwise = s {Segment.start = p}
 
 -- | Cubics where all spans are.
-coursed :: Vector Span -> Course
+coursed :: Vector Span -> SpanList
 coursed parts = case traverse polynomial parts of
   Just both -> let part f = Spline.generate (Vector.length both) (\i -> f (both Vector.! i)) in Cubical (part fst) (part snd)
   Nothing -> Mixed parts
@@ -172,7 +172,7 @@ coursed parts = case traverse polynomial parts of
       Round _ -> Nothing
 
 -- | Straight from point to point; closed when the last is the first.
-polyline :: Vector Point -> Either Flaw Base
+polyline :: Vector Point -> Either CurveFault Base
 polyline points = do
   distinct 2 points
   Right (made Polyline (closes points) (numbered points) (Cubical (lines' Vec.x) (lines' Vec.y)))
@@ -183,7 +183,7 @@ polyline points = do
 -- | A cubic spline by the chord length from point to point; continuous up to the second derivative by it. At
 -- clamped ends the derivative by the chord length is the direction given. The points of a periodic one may or may not
 -- repeat the first at the end.
-spline :: Ends -> Vector Point -> Either Flaw Base
+spline :: EndCondition -> Vector Point -> Either CurveFault Base
 spline ends points = case ends of
   Natural -> do
     distinct 2 points
@@ -203,7 +203,7 @@ spline ends points = case ends of
     Right (made (Spline Periodic) True (numbered points) (cubics Spline.Periodic Spline.Periodic round'))
 
 -- | The spans of a spline, from what holds at the ends for x and for y.
-cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> Course
+cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> SpanList
 cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
   where
     steps = distances points
@@ -227,7 +227,7 @@ fractions base = Vector.generate (count base) (\i -> maybe 0.5 (\row -> at row -
 
 -- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the template). A span is a
 -- parabola; its parameter is proportional to x, which rises or falls all along.
-parabola :: Vector Point -> Either Flaw Base
+parabola :: Vector Point -> Either CurveFault Base
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)
   | even (Vector.length points) = Left (EvenCount (Vector.length points))
@@ -235,7 +235,7 @@ parabola points
     distinct 3 points
     maybe (Right ()) (Left . NotMonotone . (+ 1)) (Vector.findIndex (<= 0) (Vector.zipWith advance points (Vector.drop 1 points)))
     let middles = Vector.generate (Vector.length points `div` 2) middle
-        row i p = Row {at = if even i then fromIntegral (i `div` 2) else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2), place = p}
+        row i p = Knot {at = if even i then fromIntegral (i `div` 2) else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2), place = p}
         through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
         across = Spline.generate (Vector.length middles) (\i -> Spline.line (x (2 * i)) (x (2 * i + 2)))
     Right (made Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
@@ -247,18 +247,18 @@ parabola points
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
 -- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
-ofPieces :: NonEmpty Piece -> Vector Double -> Either Flaw Base
+ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
 ofPieces = ofSpans . vector Span.ofPiece
 
 -- | The same of lines and arcs.
-ofChain :: NonEmpty Segment -> Vector Double -> Either Flaw Base
+ofChain :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
 ofChain = ofSpans . vector Span.ofSegment
 
-ofSpans :: Vector Span -> Vector Double -> Either Flaw Base
+ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
 ofSpans parts parameters = do
   joined parts
   maybe (Right ()) (Left . Disordered) (find (not . ordered) [1 .. count'])
-  Right base {rows = Vector.map (\u -> Row {at = u, place = Jet.place (jet 0 base (spot After u base))}) parameters}
+  Right base {rows = Vector.map (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spot After u base))}) parameters}
   where
     base = chain Vector.empty parts
     n = fromIntegral (Vector.length parts)
@@ -266,7 +266,7 @@ ofSpans parts parameters = do
     ordered i = let u = parameters Vector.! (i - 1) in u >= 0 && u <= n && (i >= count' || parameters Vector.! i > u)
 
 -- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the chain is closed.
-ofSegments :: NonEmpty Segment -> Either Flaw Base
+ofSegments :: NonEmpty Segment -> Either CurveFault Base
 ofSegments segments = do
   joined parts
   Right base {rows = numbered (if closed base then starts else Vector.snoc starts (Segment.end (NonEmpty.last segments)))}
@@ -284,14 +284,14 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
       a : rest -> let b = f a in b `seq` Just (b, rest)
 
 -- | A base of spans that join, of which there is one at least.
-chain :: Vector Row -> Vector Span -> Base
+chain :: Vector Knot -> Vector Span -> Base
 chain rows parts = made Joined (Vec.near first final) rows (coursed parts)
   where
     (first, _) = Span.ends (Vector.head parts)
     (_, final) = Span.ends (Vector.last parts)
 
 -- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
-joined :: Vector Span -> Either Flaw ()
+joined :: Vector Span -> Either CurveFault ()
 joined parts
   | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
   | Just i <- find (\i -> not (Vec.near (snd (Span.ends (span' i))) (fst (Span.ends (span' (i + 1)))))) [1 .. n - 1] = Left (Disjoint i)
@@ -301,7 +301,7 @@ joined parts
     span' i = parts Vector.! (i - 1)
 
 -- | There are enough points, and none is the next one's place.
-distinct :: Int -> Vector Point -> Either Flaw ()
+distinct :: Int -> Vector Point -> Either CurveFault ()
 distinct needed points
   | Vector.length points < needed = Left (TooFew needed)
   | otherwise = maybe (Right ()) (Left . Coincident) (find (\i -> Vec.near (points Vector.! (i - 1)) (points Vector.! i)) [1 .. Vector.length points - 1])
@@ -312,8 +312,8 @@ closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points
   _ -> False
 
 -- | Rows at the ends of the spans.
-numbered :: Vector Point -> Vector Row
-numbered = Vector.imap (\i p -> Row {at = fromIntegral i, place = p})
+numbered :: Vector Point -> Vector Knot
+numbered = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
 
 -- | How many spans there are: the parameter of the end.
 count :: Base -> Int
@@ -322,17 +322,17 @@ count base = case course base of
   Mixed parts -> Vector.length parts
 
 -- | Along the base.
-ruler :: Base -> Ruler
+ruler :: Base -> ArcLength
 ruler = measure
 
 -- | A place on a curve: the parameter, the number of its span, the span's own parameter, and the side from which it is
 -- reached.
-data Spot = Spot {parameter :: Double, number :: Int, local :: Double, approach :: Approach}
+data SpanPoint = SpanPoint {parameter :: Double, number :: Int, local :: Double, approach :: Approach}
   deriving stock (Eq, Show)
 
 -- | The place with a parameter; beyond the ends, the end.
-spot :: Approach -> Double -> Base -> Spot
-spot approach u base = Spot {parameter, number, local = parameter - fromIntegral number, approach}
+spot :: Approach -> Double -> Base -> SpanPoint
+spot approach u base = SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
   where
     n = count base
     parameter = max 0 (min (fromIntegral n) u)
@@ -341,9 +341,9 @@ spot approach u base = Spot {parameter, number, local = parameter - fromIntegral
       Before -> max 0 (ceiling parameter - 1)
 
 -- | The power series of the place up to an order.
-jet :: Int -> Base -> Spot -> Jet
+jet :: Int -> Base -> SpanPoint -> TaylorExpansion
 jet n base s = case course base of
-  Cubical xs ys -> Jet (Spline.series n (Spline.at xs (number s)) (local s)) (Spline.series n (Spline.at ys (number s)) (local s))
+  Cubical xs ys -> TaylorExpansion (Spline.series n (Spline.at xs (number s)) (local s)) (Spline.series n (Spline.at ys (number s)) (local s))
   Mixed parts -> Span.jet n (parts Vector.! number s) (local s)
 
 -- | The same walked from its end.
@@ -360,7 +360,7 @@ reversed base = made method' (closed base) (Vector.imap back (backwards base (ro
       Joined -> Joined
 
 -- | Other spans in their place, of the same kinds.
-mapped :: (Vector Span -> Vector Span) -> Base -> Course
+mapped :: (Vector Span -> Vector Span) -> Base -> SpanList
 mapped f base = coursed (f (spans base))
 
 -- | What belongs to the rows, in the order of the reversed base.
@@ -376,8 +376,8 @@ unrepeated base = case (rows base Vector.!? 0, rows base Vector.!? (Vector.lengt
   _ -> False
 
 -- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
-transformed :: Similarity -> Base -> Base
-transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Similarity.point s (place row)}) (rows base)) (mapped (Vector.map (Span.transformed s)) base)
+transformed :: Transformation -> Base -> Base
+transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Transformation.point s (place row)}) (rows base)) (mapped (Vector.map (Span.transformed s)) base)
   where
     method' = case method base of
       Spline (Clamped from to) -> Spline (Clamped (Vec.unit (Span.image s from)) (Vec.unit (Span.image s to)))

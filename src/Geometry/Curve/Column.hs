@@ -5,7 +5,7 @@
 -- base, periodic: the parameter's speed jumps there from piece to piece.
 module Geometry.Curve.Column
   ( Column (..),
-    Course (..),
+    Interpolation (..),
     column,
     knots,
     series,
@@ -14,26 +14,26 @@ module Geometry.Curve.Column
   )
 where
 
+import Base.BinarySearch qualified as BinarySearch
 import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..))
-import Base.Search qualified as Search
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
-import Geometry.Curve.Base (Base, Method (..), Spot (..))
+import Geometry.Curve.Base (Base, CurveKind (..), SpanPoint (..))
 import Geometry.Curve.Base qualified as Base
-import Geometry.Jet qualified as Jet
-import Geometry.Ruler qualified as Ruler
-import Geometry.Series (Series)
-import Geometry.Series qualified as Series
-import Geometry.Spline (Boundary (..), Cubic (..), Cubics)
-import Geometry.Spline qualified as Spline
+import Geometry.Curve.Spline (Boundary (..), Cubic (..), Cubics)
+import Geometry.Curve.Spline qualified as Spline
+import Geometry.Numeric.ArcLength qualified as ArcLength
+import Geometry.Numeric.PowerSeries (PowerSeries)
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 
 -- | Row values, in whatever unit, and what they are between the rows.
-data Column = Column {values :: Vector Double, course :: Course}
+data Column = Column {values :: Vector Double, course :: Interpolation}
   deriving stock (Eq, Show)
 
-data Course
+data Interpolation
   = -- | a cubic for every span of the base
     BySpan Cubics
   | -- | the lengths along the base, in mm, where one cubic follows another, the ends included
@@ -60,7 +60,7 @@ column base values
       Joined -> byLength base values
 
 -- | The spline by the length along the base. Of two values and more; a single one is the same everywhere.
-byLength :: Base -> Vector Double -> Course
+byLength :: Base -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (Base.count base) (const (Cubic 0 0 0 0)))
   [v] -> BySpan (Spline.generate (Base.count base) (const (Cubic v 0 0 0)))
@@ -69,33 +69,33 @@ byLength base values = case Vector.toList values of
     | Base.closed base && aroundOnce && Vector.length values >= 4 -> spline Periodic stations values
     | otherwise -> spline Natural stations values
   where
-    Mm whole = Ruler.total (Base.ruler base)
-    stations = Unboxed.convert (Vector.map (\row -> let Mm s = Ruler.lengthTo (Base.ruler base) (Base.at row) in s) (Base.rows base))
+    Mm whole = ArcLength.total (Base.ruler base)
+    stations = Unboxed.convert (Vector.map (\row -> let Mm s = ArcLength.lengthTo (Base.ruler base) (Base.at row) in s) (Base.rows base))
     aroundOnce = Unboxed.take 1 stations == Unboxed.singleton 0 && Unboxed.last stations == whole && Vector.take 1 values == Vector.drop (Vector.length values - 1) values
     spline boundary at vs = ByLength at (Spline.interpolate boundary (Unboxed.zipWith (-) (Unboxed.drop 1 at) at) (Unboxed.fromList (Vector.toList vs)))
 
 -- | The power series of the value up to an order.
-series :: Int -> Base -> Column -> Spot -> Series
+series :: Int -> Base -> Column -> SpanPoint -> PowerSeries
 series n base c spot = case course c of
   BySpan cubics -> Spline.series n (Spline.at cubics (number spot)) (local spot)
   ByLength stations cubics
-    | here < Unboxed.head stations -> Series.polynomial (tangentAt 0) fraction
-    | here > Unboxed.last stations -> Series.polynomial (tangentAt 1) fraction
-    | otherwise -> Series.polynomial (Spline.coefficients (Spline.at cubics i)) fraction
+    | here < Unboxed.head stations -> PowerSeries.polynomial (tangentAt 0) fraction
+    | here > Unboxed.last stations -> PowerSeries.polynomial (tangentAt 1) fraction
+    | otherwise -> PowerSeries.polynomial (Spline.coefficients (Spline.at cubics i)) fraction
     where
       -- Before the first row and behind the last the column goes on straight.
       tangentAt t =
         let ahead = Spline.series 1 (Spline.at cubics i) t
-            rise = Series.coefficient 1 ahead
-         in [Series.value ahead - rise * t, rise]
-      Mm here = Ruler.lengthTo (Base.ruler base) (parameter spot)
+            rise = PowerSeries.coefficient 1 ahead
+         in [PowerSeries.value ahead - rise * t, rise]
+      Mm here = ArcLength.lengthTo (Base.ruler base) (parameter spot)
       i = stretchAt here stations
       from = stations Unboxed.! i
       width = stations Unboxed.! (i + 1) - from
       run = case n of
-        0 -> Series.constant 0 here
-        _ -> Series.integral here (Jet.speed (Base.jet n base spot))
-      fraction = Series.scale (1 / width) (Series.plusConstant (-from) run)
+        0 -> PowerSeries.constant 0 here
+        _ -> PowerSeries.integral here (TaylorExpansion.speed (Base.jet n base spot))
+      fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) run)
 
 -- | The parameters of the base at which one cubic follows another, in rising order, but for the ends of its spans.
 knots :: Base -> Column -> [Double]
@@ -105,7 +105,7 @@ knots base c = case course c of
 
 -- | The number of the stretch between two of these lengths that a length belongs to, or the outer one on its side.
 stretchAt :: Double -> Unboxed.Vector Double -> Int
-stretchAt s stations = Search.lastBelow (Unboxed.length stations - 1) s stations
+stretchAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
 
 -- | The values times a factor, on a base that may be another.
 scaled :: Base -> Double -> Column -> Column

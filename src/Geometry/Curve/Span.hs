@@ -1,7 +1,7 @@
 -- | Spans: what curves are made of, one behind the other.
 module Geometry.Curve.Span
   ( Span (..),
-    Piece (..),
+    SpanShape (..),
     ofPiece,
     ofSegment,
     ends,
@@ -15,16 +15,16 @@ module Geometry.Curve.Span
 where
 
 import Base.Quantity (Rad (..))
-import Geometry.Jet (Jet (..))
+import Geometry.Curve.Spline (Cubic (..))
+import Geometry.Curve.Spline qualified as Spline
+import Geometry.Numeric.PowerSeries (PowerSeries)
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Series (Series)
-import Geometry.Series qualified as Series
-import Geometry.Similarity (Similarity)
-import Geometry.Similarity qualified as Similarity
-import Geometry.Spline (Cubic (..))
-import Geometry.Spline qualified as Spline
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
@@ -37,7 +37,7 @@ data Span
   deriving stock (Eq, Show)
 
 -- | A part of a curve as it is given.
-data Piece
+data SpanShape
   = -- | a straight line from one point to another
     Line Point Point
   | -- | @y = a·x² + b·x + c@ with a (1/mm), b, c (mm), from one x to another
@@ -46,7 +46,7 @@ data Piece
     Circular Segment
   deriving stock (Eq, Show)
 
-ofPiece :: Piece -> Span
+ofPiece :: SpanShape -> Span
 ofPiece piece = case piece of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
   Quadratic a b c from to ->
@@ -79,9 +79,9 @@ isPoint s = case s of
   Round g -> Segment.length g <= Tolerance.coincident
 
 -- | The power series of the place up to an order.
-jet :: Int -> Span -> Double -> Jet
+jet :: Int -> Span -> Double -> TaylorExpansion
 jet n s t = case s of
-  Polynomial x y -> Jet (Spline.series n x t) (Spline.series n y t)
+  Polynomial x y -> TaylorExpansion (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
     -- Each derivative turns by a quarter and grows by the sweep.
     let turned = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
@@ -90,12 +90,12 @@ jet n s t = case s of
   Round (Straight p q) -> along n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
 -- | From a point, by these coefficients.
-along :: Int -> Point -> [Vec] -> Jet
-along n p terms = Jet (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
+along :: Int -> Point -> [Vec] -> TaylorExpansion
+along n p terms = TaylorExpansion (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
   where
     parts = map components (take (n + 1) terms)
-    part :: Double -> [Double] -> Series
-    part c cs = Series.plusConstant c (Series.fromList n cs)
+    part :: Double -> [Double] -> PowerSeries
+    part c cs = PowerSeries.plusConstant c (PowerSeries.fromList n cs)
 
 -- | The same walked from its end.
 reversed :: Span -> Span
@@ -104,19 +104,19 @@ reversed s = case s of
   Round g -> Round (Segment.reverse g)
 
 -- | Moved, turned, scaled, mirrored: the coefficients are so.
-transformed :: Similarity -> Span -> Span
+transformed :: Transformation -> Span -> Span
 transformed s g = case g of
   Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
-    let p = Similarity.point s (Vec.point x0 y0)
+    let p = Transformation.point s (Vec.point x0 y0)
         (a1, b1) = components (image s (Vec.vec x1 y1))
         (a2, b2) = components (image s (Vec.vec x2 y2))
         (a3, b3) = components (image s (Vec.vec x3 y3))
      in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
-  Round arc -> Round (Similarity.segment s arc)
+  Round arc -> Round (Transformation.segment s arc)
 
 -- | A displacement turned, scaled, mirrored.
-image :: Similarity -> Vec -> Vec
-image s v = Vec.to (Similarity.point s origin) (Similarity.point s (Vec.shift v origin))
+image :: Transformation -> Vec -> Vec
+image s v = Vec.to (Transformation.point s origin) (Transformation.point s (Vec.shift v origin))
   where
     origin = Vec.point 0 0
 

@@ -9,14 +9,14 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (isJust, isNothing)
 import GHC.Exts qualified as Exts
 import Generate.Curve qualified as Generate
-import Geometry.Curve (Approach (..), Curve, Distance (..), Ends (..), Flaw (..), Growth (..), Joggle (..), Piece (..), Side (..))
+import Geometry.Curve (Approach (..), Curve, CurveFault (..), Distance (..), EndCondition (..), Growth (..), Joggle (..), Side (..), SpanShape (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column qualified as Column
-import Geometry.Curve.Fold (Fold (..))
-import Geometry.Jet (Jet (..))
+import Geometry.Curve.Cusp (Cusp (..))
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Segment (Segment (..))
-import Geometry.Series qualified as Series
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Test.Hspec
@@ -211,7 +211,7 @@ spec = do
         forAll touching $ \c -> forAll (Generate.columnOf c 0 2) $ \col -> forAll (elements [1, 2]) $ \u ->
           let s = Curve.shifted LeftOf (Pointwise col) c
               rate approach = Vec.dot (velocity approach s) (Vec.left (Curve.tangentFrom approach c u)) / Vec.norm (velocity approach c)
-              velocity approach curve = let Jet a b = Curve.jet approach 1 curve u in Vec.vec (Series.coefficient 1 a) (Series.coefficient 1 b)
+              velocity approach curve = let TaylorExpansion a b = Curve.jet approach 1 curve u in Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
            in near' 1e-9 (rate Before) (rate After)
 
 -- Helpers -----------------------------------------------------------------------------------
@@ -241,9 +241,9 @@ inner c = let bs = nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.row
 derivativesLaw :: Curve -> Double -> Double -> Property
 derivativesLaw c u e = alike (1e-4 * (1 + Vec.norm first)) first byFirst .&&. alike (1e-2 * (1 + Vec.norm second + Vec.norm first)) second bySecond
   where
-    Jet a b = Curve.jet After 2 c u
-    first = Vec.vec (Series.coefficient 1 a) (Series.coefficient 1 b)
-    second = Vec.scale 2 (Vec.vec (Series.coefficient 2 a) (Series.coefficient 2 b))
+    TaylorExpansion a b = Curve.jet After 2 c u
+    first = Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
+    second = Vec.scale 2 (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
     byFirst = refined (\h -> Vec.scale (1 / (2 * h)) (Vec.to (Curve.at c (u - h)) (Curve.at c (u + h))))
     bySecond = refined (\h -> Vec.scale (1 / (h * h)) (Vec.add (Vec.to (Curve.at c u) (Curve.at c (u - h))) (Vec.to (Curve.at c u) (Curve.at c (u + h)))))
     refined f = Vec.add (Vec.scale (4 / 3) (f (e / 2))) (Vec.scale (-1 / 3) (f e))

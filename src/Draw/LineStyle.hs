@@ -1,0 +1,121 @@
+-- | The signs of the drawing: its pens, its colours and its marks. The legend shows the same.
+module Draw.LineStyle
+  ( black,
+    blue,
+    red,
+    matterColour,
+    restColour,
+    contourPen,
+    edgePen,
+    bedPen,
+    pathPen,
+    feedPen,
+    rapidPen,
+    framePen,
+    axisPen,
+    small,
+    arrowAt,
+    arrowOn,
+    axisArrow,
+    node,
+    origin,
+    cutter,
+    cross,
+    start,
+    diamond,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Data.Text (Text)
+import Draw.Svg (Pen (..), Svg, TextStyle (..))
+import Draw.Svg qualified as Svg
+import Geometry.Carrier (Sense (..))
+import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+
+-- | The inks: dark enough to print well without colour.
+black, grey, blue, red :: Text
+black = "#000000"
+grey = "#909090"
+blue = "#0b3d91"
+red = "#a01818"
+
+-- | The pens. Where the cutter runs on a contour, an edge and its white bed take the contour's place.
+contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen :: Pen
+contourPen = Pen black 0.6 []
+edgePen = Pen black 1.3 []
+bedPen = Pen "white" 0.9 []
+pathPen = Pen blue 0.35 [6, 1, 0.8, 1]
+feedPen = Pen red 0.2 []
+rapidPen = Pen red 0.2 [2, 1.2]
+cutterPen = Pen black 0.2 []
+framePen = Pen black 0.35 []
+axisPen = Pen grey 0.13 []
+
+-- | The grey of cut material.
+matterColour :: Text
+matterColour = "#e4e4e4"
+
+-- | What stays standing because the cutter does not get there.
+restColour :: Text
+restColour = "#f0a090"
+
+-- | Small letters, for coordinates and the legend.
+small :: TextStyle
+small = TextStyle {size = 2.5, ink = black, bold = False}
+
+-- | An arrow at a fraction of a segment that has a length.
+arrowAt :: Text -> Double -> Segment -> Svg
+arrowAt colour fraction s = Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
+
+-- | An arrow at a fraction of a segment that has room for one.
+arrowOn :: Text -> Double -> Segment -> [Svg]
+arrowOn colour fraction s
+  | room < 4 = []
+  | otherwise = [arrowAt colour fraction s]
+  where
+    Mm room = Segment.length s
+
+-- | The head of an axis.
+axisArrow :: Vec -> Point -> Svg
+axisArrow = Svg.arrow grey 2.4
+
+-- | A node of the path, with a number or without one.
+node :: Bool -> Point -> Svg
+node numbered = Svg.dot blue (if numbered then 0.6 else 0.35)
+
+-- | The sign of a workpiece's zero: a circle, two of its quarters black.
+origin :: Point -> [Svg]
+origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 []) r p]
+  where
+    r = 1.5
+    rim a = Vec.shift (Vec.vec (r * cos a) (r * sin a)) p
+    quarter a =
+      let (from, to) = (rim a, rim (a - pi / 2))
+       in Svg.area black [Straight p from, Segment.arc Clockwise p from to]
+
+-- | A cutter of a radius, with the cross of its axis.
+cutter :: Double -> Point -> [Svg]
+cutter reach p = Svg.ring cutterPen reach p : map bar (cross reach p)
+  where
+    bar s = Svg.stroke cutterPen [s]
+
+-- | The cross of a cutter of a radius.
+cross :: Double -> Point -> [Segment]
+cross reach p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
+  where
+    arm = max 1.6 (min 3 (reach + 1))
+    bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
+
+-- | Where the cutter stands before the first move.
+start :: Point -> [Svg]
+start p = [Svg.area "white" (diamond p), Svg.loop (Pen black 0.25 []) (diamond p)]
+
+-- | The outline of that mark.
+diamond :: Point -> [Segment]
+diamond p = zipWith Straight corners (drop 1 corners <> take 1 corners)
+  where
+    corners = [Vec.shift v p | v <- [Vec.vec 2.6 0, Vec.vec 0 2.6, Vec.vec (-2.6) 0, Vec.vec 0 (-2.6)]]

@@ -1,0 +1,147 @@
+-- | The picture of a tape as text: a line for every row, its holes and what they mean. A tape without holes, a text, is shown
+-- line by line.
+module Draw.TapeRows
+  ( RowRange (..),
+    picture,
+    extent,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Data.Bits (testBit)
+import Data.List (foldl')
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, mapMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Tape.Layout (RowMeaning (..))
+import Tape.RowMeaning (Row (..))
+import Tape.RowMeaning qualified as RowMeaning
+
+-- | What to show. Frames and rows are counted from 1, the first and the last of them are shown.
+data RowRange = Everything | Frames Int Int | Rows Int Int
+  deriving stock (Eq, Show)
+
+-- | The picture of the rows of a tape; nothing if none of them is in the range.
+picture :: Machine -> RowRange -> [Row] -> Maybe Text
+picture machine range rows = case (Machine.pitch (Machine.medium machine), found) of
+  (_, []) -> Nothing
+  (Just _, _) -> Just (Text.unlines (heading (Machine.tracks (Machine.medium machine)) : found))
+  (Nothing, _) -> Just (Text.unlines found)
+  where
+    found = pictureLines machine range rows
+
+-- | Its lines without the heading.
+pictureLines :: Machine -> RowRange -> [Row] -> [Text]
+pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
+  Just _ -> concatMap (holed machine) (folded (chosen range (zip [1 ..] rows)))
+  Nothing -> mapMaybe (printed machine) (chosen' range (zip [1 ..] (textLines rows)))
+  where
+    chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
+
+-- | What a range counts, and how much of that a tape has whose rows are these: frames; rows with holes, or lines of a text.
+extent :: Machine -> RowRange -> [Row] -> (Text, Int)
+extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
+  (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
+  (_, Just _) -> ("row", length rows)
+  (_, Nothing) -> ("line", length (textLines rows))
+
+-- | A row with its number.
+type Numbered = (Int, Row)
+
+chosen :: RowRange -> [Numbered] -> [Numbered]
+chosen range = filter (uncurry (inRange range)) . untilEnd
+  where
+    -- Nothing behind the range is looked at.
+    untilEnd = case range of
+      Everything -> id
+      Rows _ b -> takeWhile ((<= b) . fst)
+      Frames _ b -> takeWhile (maybe True (<= b) . frame . snd)
+
+inRange :: RowRange -> Int -> Row -> Bool
+inRange range n row = case range of
+  Everything -> True
+  Rows a b -> a <= n && n <= b
+  Frames a b -> maybe False (\k -> a <= k && k <= b) (frame row)
+
+-- Holes -------------------------------------------------------------------------------------------
+
+-- | The tracks above their columns.
+heading :: Int -> Text
+heading tracks = "   row  " <> acrossTracks tracks Decimal.whole
+
+-- | Something for every track from the highest, and the sprocket hole between them.
+acrossTracks :: Int -> (Int -> Text) -> Text
+acrossTracks tracks each = Text.unwords (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
+
+-- | Behind which track, counted from the lowest, the sprocket holes lie: the second of a five-track tape, the third of
+-- wider ones.
+sprocket :: Int -> Int
+sprocket tracks = if tracks <= 5 then 2 else 3
+
+-- | Rows, and blank ones of one kind together.
+folded :: [Numbered] -> [NonEmpty Numbered]
+folded = NonEmpty.groupBy together
+  where
+    together (_, a) (_, b) = isBlank a && sense a == sense b && frame a == frame b
+
+isBlank :: Row -> Bool
+isBlank row = case sense row of
+  Blank _ -> True
+  Opening _ -> False
+  Closing _ -> False
+  Constant _ -> False
+  Separator _ -> False
+  CheckSymbol _ -> False
+  InWord {} -> False
+
+-- | Up to so many blank rows are shown one by one.
+fewBlanks :: Int
+fewBlanks = 3
+
+-- | The line of a row; of many blank rows one line with their number.
+holed :: Machine -> NonEmpty Numbered -> [Text]
+holed machine group@((n, row) :| _)
+  | count > fewBlanks = [Text.justifyRight 6 ' ' (Decimal.whole n) <> "  " <> dots <> "  " <> meaning row <> ", " <> Decimal.whole count <> " rows"]
+  | otherwise = map line (NonEmpty.toList group)
+  where
+    count = NonEmpty.length group
+    tracks = Machine.tracks (Machine.medium machine)
+    dots = acrossTracks tracks (const "⋮")
+    line (k, r) = Text.justifyRight 6 ' ' (Decimal.whole k) <> "  " <> acrossTracks tracks (hole r) <> "  " <> frameWord r <> meaning r
+    hole r k = if testBit (holes r) (k - 1) then "●" else "·"
+    frameWord r = maybe "" (\k -> "frame " <> Decimal.whole k <> ": ") (frame r)
+
+-- Text --------------------------------------------------------------------------------------------
+
+-- | The rows of each line, its end included.
+textLines :: [Row] -> [[Row]]
+textLines rows = case break ((== Just '\n') . symbol) rows of
+  ([], []) -> []
+  (line, []) -> [line]
+  (line, end : more) -> (line <> [end]) : textLines more
+
+-- | A line of text with what its words say.
+printed :: Machine -> (Int, [Row]) -> Maybe Text
+printed machine (n, line) = case line of
+  [] -> Nothing
+  first : _ -> Just (Text.stripEnd (Text.justifyRight 6 ' ' (Decimal.whole n) <> "  " <> Text.justifyLeft 44 ' ' shown <> "  " <> place first <> Text.intercalate ", " (wordsOf line)))
+  where
+    shown = Text.pack (filter (/= '\n') (map (fromMaybe '?' . symbol) line))
+    place row = maybe "" (\k -> "frame " <> Decimal.whole k <> ": ") (frame row)
+    wordsOf rows = case rows of
+      [] -> []
+      r : more -> case sense r of
+        InWord c k _ -> RowMeaning.wordMeaning machine c k : wordsOf (dropWhile (sameWord (sense r)) more)
+        Opening _ -> "opening" : wordsOf (filter (isWord . sense) more)
+        Closing _ -> "closing" : wordsOf (filter (isWord . sense) more)
+        _ -> wordsOf more
+    sameWord a row = case (a, sense row) of
+      (InWord c _ _, InWord c' _ _) -> c == c'
+      _ -> False
+    isWord s = case s of
+      InWord {} -> True
+      _ -> False

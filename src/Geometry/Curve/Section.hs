@@ -1,0 +1,275 @@
+-- | Pieces of curves, y over x, through two rows of a table: straight lines, parabolas and circular arcs.
+--
+-- Beside its ends, a parabola or an arc has one number t, and y rises with t at
+-- every x between the ends. The largest deviation in y over the rows between is therefore least where two rows
+-- miss by the same amount to either side, or where t has come to its limit.
+module Geometry.Curve.Section
+  ( -- * Tables
+    PointTable,
+    table,
+    rows,
+    row,
+    PointTableFault (..),
+
+    -- * Pieces
+    Section (..),
+    SectionShape (..),
+    SectionKind (..),
+    kind,
+    height,
+    missed,
+    SectionFormula (..),
+    formula,
+    segment,
+
+    -- * Making them
+    parabola,
+    best,
+    bestWithin,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.Maybe (fromMaybe)
+import Data.Vector.Unboxed (Vector)
+import Data.Vector.Unboxed qualified as Vector
+import Geometry.Carrier (Sense (..))
+import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- Tables ----------------------------------------------------------------------------------------
+
+-- | At least two rows whose x rises throughout or falls throughout; in mm.
+data PointTable = PointTable {xs :: Vector Double, ys :: Vector Double}
+  deriving stock (Eq, Show)
+
+-- | What is wrong with a table. Rows are counted from 1.
+data PointTableFault
+  = -- | how many rows there are
+    TooFewRows Int
+  | -- | the first row whose x does not go on the way the first two do
+    OutOfOrder Int
+  deriving stock (Eq, Show)
+
+-- | A table of points, if x rises or falls strictly.
+table :: [Point] -> Either PointTableFault PointTable
+table points = case points of
+  p : q : _ -> case [k | (k, a, b) <- zip3 [2 ..] points (drop 1 points), not (sameWay (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))] of
+    k : _ -> Left (OutOfOrder k)
+    [] -> Right (PointTable (Vector.fromList (map Vec.x points)) (Vector.fromList (map Vec.y points)))
+  _ -> Left (TooFewRows (length points))
+  where
+    sameWay a b c d = (b > a && d > c) || (b < a && d < c)
+
+-- | How many rows a table has.
+rows :: PointTable -> Int
+rows t = Vector.length (xs t)
+
+-- | A row, counted from 0.
+row :: PointTable -> Int -> Point
+row t k = Vec.point (xs t Vector.! k) (ys t Vector.! k)
+
+-- Pieces ----------------------------------------------------------------------------------------
+
+-- | A piece through two rows of the table.
+data Section = Section
+  { -- | its first row, counted from 1
+    first :: Int,
+    -- | its last row
+    final :: Int,
+    from :: Point,
+    to :: Point,
+    curve :: SectionShape,
+    -- | the largest deviation in y at its rows
+    largest :: Mm
+  }
+  deriving stock (Eq, Show)
+
+-- | What a piece is beyond its ends.
+data SectionShape
+  = Line
+  | -- | the factor a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
+    Parabola Double
+  | -- | the angle between chord and arc at the ends, half of what the arc turns by; positive above the chord
+    Arc Rad
+  deriving stock (Eq, Show)
+
+-- | The kinds of pieces, the simplest first.
+data SectionKind = LineKind | ParabolaKind | ArcKind
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+-- | What kind of piece it is.
+kind :: SectionShape -> SectionKind
+kind c = case c of
+  Line -> LineKind
+  Parabola _ -> ParabolaKind
+  Arc _ -> ArcKind
+
+-- | y of a piece at an x between its ends, in mm.
+height :: Section -> Double -> Double
+height p x
+  | x == Vec.x (from p) = Vec.y (from p)
+  | x == Vec.x (to p) = Vec.y (to p)
+  | otherwise = Vec.y (from p) + rise (chordOf (from p) (to p)) (curve p) (x - Vec.x (from p))
+
+-- | A piece as an equation.
+data SectionFormula
+  = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that hardly bends
+    Polynomial Double Double Double
+  | -- | centre and radius
+    Circle Point Mm
+  deriving stock (Eq, Show)
+
+-- | The equation of a piece.
+formula :: Section -> SectionFormula
+formula p = case curve p of
+  Line -> polynomial 0
+  Parabola a -> polynomial a
+  Arc (Rad t)
+    | flat t -> polynomial 0
+    | otherwise -> let c = centre p t in Circle c (Vec.distance c (from p))
+  where
+    Chord w h = chordOf (from p) (to p)
+    (x1, y1, x2) = (Vec.x (from p), Vec.y (from p), Vec.x (to p))
+    polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
+
+-- | By how much a piece is above a point, in y.
+missed :: Section -> Point -> Double
+missed p q = height p (Vec.x q) - Vec.y q
+
+-- | The parabola through three points, with respect to the first and the last.
+parabola :: Point -> Point -> Point -> SectionShape
+parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
+  where
+    Chord w h = chordOf a b
+    Chord x up = chordOf a m
+
+-- | Whether an arc is as good as its chord.
+flat :: Double -> Bool
+flat t = Rad (2 * abs t) <= Tolerance.straight
+
+-- | The centre of an arc: on the perpendicular bisector of its chord.
+centre :: Section -> Double -> Point
+centre p t = Vec.shift (Vec.scale (-(way / (2 * tan t))) (Vec.left (Vec.to (from p) (to p)))) (Vec.between 0.5 (from p) (to p))
+  where
+    Chord w _ = chordOf (from p) (to p)
+    way = signum w
+
+-- | The piece as a segment, if it is a line or an arc.
+segment :: Section -> Maybe Segment
+segment p = case curve p of
+  Line -> Just (Straight (from p) (to p))
+  Parabola _ -> Nothing
+  Arc (Rad t)
+    | flat t -> Just (Straight (from p) (to p))
+    | otherwise -> Just (Segment.arc (if (t > 0) == (Vec.x (to p) > Vec.x (from p)) then Clockwise else CounterClockwise) (centre p t) (from p) (to p))
+
+-- | From one end of a piece to the other, in x and in y.
+data Chord = Chord Double Double
+
+chordOf :: Point -> Point -> Chord
+chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
+
+-- | How far a piece has risen so far in x from its first end.
+rise :: Chord -> SectionShape -> Double -> Double
+rise chord@(Chord w h) c x = case c of
+  Line -> x * h / w
+  Parabola a -> x * h / w + a * x * (x - w)
+  Arc (Rad t) -> arcRise chord (tan t) x
+
+-- | The same for an arc, from the tangent of its angle with the chord. The circles through (0, 0) and (w, h) are
+-- @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, μ the tangent; the arc is the root that is on the chord for μ = 0.
+arcRise :: Chord -> Double -> Double -> Double
+arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
+  where
+    mu = -(signum w * tangent)
+    p = mu * h + w
+    q = mu * x * (x - w) + x * h
+{-# INLINE arcRise #-}
+
+-- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its rows.
+best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
+best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
+
+-- | The same as far as the deviation is no more than a limit; else one beyond the limit that it is no less than. Two rows that say
+-- so are given, and may be tried first where a piece ends a little further on.
+bestWithin :: Double -> Maybe (Int, Int) -> PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape, Maybe (Int, Int))
+bestWithin limit known t@(PointTable xs ys) k i j = case k of
+  LineKind
+    | Just (p, r) <- known, max (abs (relative Line p)) (abs (relative Line r)) > limit -> (max (abs (relative Line p)) (abs (relative Line r)), Line, known)
+    | otherwise -> let (p, low, r, high) = extremes i j (relative Line) in (max (-low) high, Line, Just (p, r))
+  _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0, Nothing)
+  ParabolaKind ->
+    let q m = let x = across m in x * (x - w)
+        off m = relative Line m
+        (worst, s, rows') = least limit known (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
+     in (worst, Parabola s, Just rows')
+  ArcKind ->
+    let steepest = pi / 2 - atan2 (abs h) (abs w)
+        off a m = arcRise chord (tan a) (across m) - up m
+        (worst, s, rows') = least limit known (\p r -> root steepest (\a -> off a p + off a r)) off' i j
+        off' a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
+     in (worst, Arc (Rad s), Just rows')
+  where
+    chord@(Chord w h) = chordOf (row t i) (row t j)
+    across m = Vector.unsafeIndex xs m - Vector.unsafeIndex xs i
+    up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
+    relative c m = rise chord c (across m) - up m
+
+-- | The rows strictly between two with the lowest and with the highest value. Without any, the value is 0.
+extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
+extremes i j value
+  | j <= i + 1 = (i, 0, i, 0)
+  | otherwise = let v = value (i + 1) in go (i + 2) (i + 1) v (i + 1) v
+  where
+    go m low vLow high vHigh
+      | m >= j = (low, vLow, high, vHigh)
+      | v < vLow = go (m + 1) m v high vHigh
+      | v > vHigh = go (m + 1) low vLow m v
+      | otherwise = go (m + 1) low vLow high vHigh
+      where
+        v = value m
+{-# INLINE extremes #-}
+
+-- | The parameter that makes the largest deviation of the rows between two least, that deviation, and the rows that tell. It is where
+-- some two rows balance; a row that misses by more takes the place of the one that misses to the same side. The amount by
+-- which the two miss rises every time, so there is an end, where it is no longer asked for beyond the limit; it takes about four
+-- rounds, or one or two from rows that are nearly right.
+least :: Double -> Maybe (Int, Int) -> (Int -> Int -> Double) -> (Double -> Int -> Double) -> Int -> Int -> (Double, Double, (Int, Int))
+least limit known balance off i j = uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) known)
+  where
+    (low0, _, high0, _) = extremes i j (off 0)
+    go before found one other
+      | level > limit = (level, t, (low, high))
+      | worst <= level * (1 + 1e-13) || level <= before = min found (worst, t, (low, high))
+      | vHigh >= -vLow = go level (min found (worst, t, (low, high))) low high'
+      | otherwise = go level (min found (worst, t, (low, high))) low' high
+      where
+        t = balance one other
+        (low, high) = if off t one <= off t other then (one, other) else (other, one)
+        level = max (abs (off t low)) (abs (off t high))
+        (low', vLow, high', vHigh) = extremes i j (off t)
+        worst = max (-vLow) vHigh
+{-# INLINE least #-}
+
+-- | Where a rising function is 0, to the last digit or nearly so; the end of the range where it does not come to 0. A secant cuts off
+-- what is on one side of the zero; the value of an end that has stayed is halved, so that it moves, too (the Illinois rule).
+root :: Double -> (Double -> Double) -> Double
+root limit f
+  | f (-limit) >= 0 = -limit
+  | f limit <= 0 = limit
+  | otherwise = go (100 :: Int) (-limit) (f (-limit)) limit (f limit)
+  where
+    go left low below high above
+      | left <= 0 || not (low < t && t < high) || high - low < 1e-16 || v == 0 = t
+      | v < 0 = onward t v high above
+      | otherwise = back low below t v
+      where
+        t = low + (high - low) * (below / (below - above))
+        v = f t
+        onward a va b vb = let u = a + (b - a) * (va / (va - vb)) in if abs (u - a) < 1e-16 then u else go (left - 1) a va b (0.5 * vb)
+        back a va b vb = let u = a + (b - a) * (va / (va - vb)) in if abs (b - u) < 1e-16 then u else go (left - 1) a (0.5 * va) b vb
+{-# INLINE root #-}

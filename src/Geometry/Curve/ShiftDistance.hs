@@ -1,0 +1,207 @@
+-- | How far a curve is shifted, place by place: the ciphers.
+--
+-- A distance is known for the curve that it shifts; it may depend on that curve's true length. It is in mm, positive
+-- to the side that the shift names.
+module Geometry.Curve.ShiftDistance
+  ( Distance (..),
+    Growth (..),
+    Joggle (..),
+    ramp,
+    ShiftInterval,
+    stretch,
+    marks,
+    knots,
+    Below (..),
+    vanishes,
+    series,
+    scaled,
+    reversed,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, plus, times)
+import Geometry.Curve.Base (Base, SpanPoint (..))
+import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.Column (Column)
+import Geometry.Curve.Column qualified as Column
+import Geometry.Numeric.ArcLength (ArcLength)
+import Geometry.Numeric.ArcLength qualified as ArcLength
+import Geometry.Numeric.PowerSeries (PowerSeries)
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
+import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
+
+data Distance
+  = -- | everywhere the same (cipher 2)
+    Constant Mm
+  | -- | from row to row (cipher 6), mm
+    Pointwise Column
+  | -- | for a bevel μ (radians) and a height H (mm): @H·tan μ + δ@ (cipher 4)
+    Bevelled Column Column Mm
+  | -- | evenly along the true length (cipher 1)
+    Growing Growth
+  | -- | measured square to a surface that stands at the bevel μ (radians): the distance divided by @cos μ@
+    Square Column Distance
+  | -- | local, zero elsewhere
+    Joggled Joggle
+  deriving stock (Eq, Show)
+
+-- | From one distance to another, over the whole curve or between two parameters of it in rising order; the first
+-- distance before them, the second one behind.
+data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
+  deriving stock (Eq, Show)
+
+-- | Between two parameters, in rising order, the distance is a depth; inside of them it is reached and left on ramps
+-- of two arcs of a radius each. The radius is more than half of the depth; a depth below zero goes to the other side.
+data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
+  deriving stock (Eq, Show)
+
+-- | The length of a joggle's ramp, @√(d·(4r − d))@.
+ramp :: Joggle -> Mm
+ramp Joggle {depth = Mm d, radius = Mm r} = Mm (sqrt (max 0 (abs d * (4 * r - abs d))))
+
+-- | Where on the curve that is shifted a distance changes its formula, and the lengths up to where it begins and ends
+-- to change.
+data ShiftInterval = ShiftInterval
+  { -- | parameters, in rising order
+    marks :: [Double],
+    first :: Mm,
+    final :: Mm
+  }
+
+-- | The distance and the curve that it shifts tell a stretch from another.
+instance Eq ShiftInterval where
+  _ == _ = True
+
+instance Show ShiftInterval where
+  show _ = "Stretch"
+
+-- | Of a distance on a curve with this ruler.
+stretch :: ArcLength -> Distance -> ShiftInterval
+stretch ruler distance = case distance of
+  Constant _ -> whole
+  Pointwise _ -> whole
+  Bevelled {} -> whole
+  Growing Growth {between = Nothing} -> whole
+  Growing Growth {between = Just (a, b)} -> ShiftInterval {marks = [a, b], first = ArcLength.lengthTo ruler a, final = ArcLength.lengthTo ruler b}
+  Square _ inner -> stretch ruler inner
+  Joggled joggle@Joggle {begins, ends} ->
+    let first = ArcLength.lengthTo ruler begins
+        final = ArcLength.lengthTo ruler ends
+        on share = ArcLength.parameterAt ruler (plus first (times share (ramp joggle)))
+        off share = ArcLength.parameterAt ruler (minus final (times share (ramp joggle)))
+     in ShiftInterval {marks = [begins, on 0.5, on 1, off 1, off 0.5, ends], first, final}
+  where
+    whole = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total ruler}
+
+-- | The parameters of the base, in rising order, at which the third derivative of a distance may jump, but for its marks and the ends of the base's spans.
+knots :: Base -> Distance -> [Double]
+knots base distance = case distance of
+  Constant _ -> []
+  Pointwise c -> Column.knots base c
+  -- Both columns are of one table.
+  Bevelled mu _ _ -> Column.knots base mu
+  Growing _ -> []
+  Square mu _ -> Column.knots base mu
+  Joggled _ -> []
+
+-- | Whether a distance is 0 about a spot.
+vanishes :: Distance -> SpanPoint -> Bool
+vanishes distance spot = case distance of
+  Joggled Joggle {begins, ends} -> not (spot `isPast` begins) || spot `isPast` ends
+  Square _ inner -> vanishes inner spot
+  Constant h -> h == Mm 0
+  Pointwise _ -> False
+  Bevelled {} -> False
+  Growing _ -> False
+
+-- | What is known of the curve that is shifted: the base under all layers, the way along it (worked out only for
+-- distances that depend on it), its place near the spot.
+data Below = Below {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
+
+-- | The power series of the distance at a spot up to an order; the place below is known to one order more.
+series :: Int -> Below -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
+series n below known distance spot = case distance of
+  Constant (Mm h) -> PowerSeries.constant n h
+  Pointwise c -> Column.series n (under below) c spot
+  Bevelled mu height (Mm delta) ->
+    PowerSeries.plusConstant delta (PowerSeries.multiply (Column.series n (under below) height spot) (PowerSeries.tangent (Column.series n (under below) mu spot)))
+  Growing growth -> grown n below known growth spot
+  Square mu inner -> PowerSeries.divide (series n below known inner spot) (PowerSeries.cosine (Column.series n (under below) mu spot))
+  Joggled joggle -> joggled n below known joggle spot
+
+-- | @h1 + (h2 − h1)·s/S@ with the length s of S (Kolsanova, cipher 1).
+grown :: Int -> Below -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
+grown n below known Growth {from = Mm h1, to = Mm h2, between} spot = case between of
+  Nothing -> inside
+  Just _ -> case passed spot (marks known) of
+    0 -> PowerSeries.constant n h1
+    1 -> inside
+    _ -> PowerSeries.constant n h2
+  where
+    Mm s1 = first known
+    Mm s2 = final known
+    inside
+      | s2 > s1 = PowerSeries.plusConstant h1 (PowerSeries.scale ((h2 - h1) / (s2 - s1)) (PowerSeries.plusConstant (-s1) (run n below spot)))
+      | otherwise = PowerSeries.constant n h1
+
+-- | With t from the ramp's beginning: @r − √(r² − t²)@ up to its middle, then @d − (r − √(r² − (ℓ − t)²))@.
+joggled :: Int -> Below -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
+joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot = PowerSeries.scale (signum depth) $
+  case passed spot (marks known) of
+    1 -> low (PowerSeries.plusConstant (-s1) here)
+    2 -> high (PowerSeries.plusConstant (-s1) here)
+    3 -> PowerSeries.constant n d
+    4 -> high (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
+    5 -> low (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
+    _ -> PowerSeries.constant n 0
+  where
+    d = abs depth
+    here = run n below spot
+    Mm s1 = first known
+    Mm s2 = final known
+    Mm l = ramp joggle
+    sag t = PowerSeries.plusConstant r (PowerSeries.scale (-1) (PowerSeries.power 0.5 (PowerSeries.plusConstant (r * r) (PowerSeries.scale (-1) (PowerSeries.multiply t t)))))
+    low t = sag t
+    high t = PowerSeries.plusConstant d (PowerSeries.scale (-1) (sag (PowerSeries.plusConstant (-l) t)))
+
+-- | The true length up to the spot.
+run :: Int -> Below -> SpanPoint -> PowerSeries
+run n below spot = case n of
+  0 -> PowerSeries.constant 0 here
+  _ -> PowerSeries.integral here (TaylorExpansion.speed (near below))
+  where
+    Mm here = ArcLength.lengthTo (along below) (parameter spot)
+
+-- | How many of the marks lie before the spot.
+passed :: SpanPoint -> [Double] -> Int
+passed spot = length . filter (spot `isPast`)
+
+-- | Whether a mark lies before a spot.
+isPast :: SpanPoint -> Double -> Bool
+isPast spot mark = case approach spot of
+  After -> mark <= parameter spot
+  Before -> mark < parameter spot
+
+-- | The distance of a curve that is larger by a factor, on its new base. Angles stay.
+scaled :: Base -> Double -> Distance -> Distance
+scaled on k distance = case distance of
+  Constant h -> Constant (times k h)
+  Pointwise c -> Pointwise (Column.scaled on k c)
+  Bevelled mu height delta -> Bevelled (Column.scaled on 1 mu) (Column.scaled on k height) (times k delta)
+  Growing growth -> Growing growth {from = times k (from growth), to = times k (to growth)}
+  Square mu inner -> Square (Column.scaled on 1 mu) (scaled on k inner)
+  Joggled joggle -> Joggled joggle {depth = times k (depth joggle), radius = times k (radius joggle)}
+
+-- | The distance of the curve that is walked from its end: given the base as it was and as it is.
+reversed :: Base -> Base -> Distance -> Distance
+reversed old new distance = case distance of
+  Constant h -> Constant h
+  Pointwise c -> Pointwise (back c)
+  Bevelled mu height delta -> Bevelled (back mu) (back height) delta
+  Growing growth -> Growing Growth {from = to growth, to = from growth, between = fmap (\(a, b) -> (n - b, n - a)) (between growth)}
+  Square mu inner -> Square (back mu) (reversed old new inner)
+  Joggled joggle -> Joggled joggle {begins = n - ends joggle, ends = n - begins joggle}
+  where
+    back = Column.reversed old new
+    n = fromIntegral (Base.count old)

@@ -1,0 +1,202 @@
+-- | Interpolation of a table of numbers by piecewise cubics that are continuous up to the second derivative.
+--
+-- The system for the second derivatives is tridiagonal and solved in one pass forwards and one backwards.
+module Geometry.Curve.Spline
+  ( -- * One of them
+    Cubic (..),
+    coefficients,
+    line,
+    value,
+    rate,
+    series,
+    reversed,
+
+    -- * Many of them
+    Cubics,
+    generate,
+    count,
+    at,
+
+    -- * Through values
+    Boundary (..),
+    interpolate,
+    parabolas,
+  )
+where
+
+import Control.Monad.ST (ST)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Data.Vector.Unboxed qualified as Unboxed
+import Data.Vector.Unboxed.Mutable qualified as Mutable
+import Geometry.Numeric.PowerSeries (PowerSeries)
+import Geometry.Numeric.PowerSeries qualified as PowerSeries
+
+-- | @c₀ + c₁·t + c₂·t² + c₃·t³@ for t from 0 to 1.
+data Cubic = Cubic Double Double Double Double
+  deriving stock (Eq, Show)
+
+-- | From the constant on.
+coefficients :: Cubic -> [Double]
+coefficients (Cubic a b c d) = [a, b, c, d]
+
+-- | From one value to another.
+line :: Double -> Double -> Cubic
+line p q = Cubic p (q - p) 0 0
+
+value :: Cubic -> Double -> Double
+value (Cubic a b c d) t = a + t * (b + t * (c + t * d))
+
+-- | The first derivative.
+rate :: Cubic -> Double -> Double
+rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
+
+-- | The power series about a place, up to an order.
+series :: Int -> Cubic -> Double -> PowerSeries
+series n (Cubic a b c d) t =
+  PowerSeries.ofFour n (a + t * (b + t * (c + t * d))) (b + t * (2 * c + 3 * t * d)) (c + 3 * t * d) d
+
+-- | The same walked from 1 to 0.
+reversed :: Cubic -> Cubic
+reversed (Cubic a b c d) = Cubic (a + b + c + d) (-(b + 2 * c + 3 * d)) (c + 3 * d) (-d)
+
+-- | Cubics in order, four coefficients each.
+newtype Cubics = Cubics (Unboxed.Vector Double)
+  deriving newtype (Eq, Show)
+
+-- | So many cubics.
+generate :: Int -> (Int -> Cubic) -> Cubics
+generate n cubic = Cubics $
+  Unboxed.create $ do
+    array <- Mutable.unsafeNew (4 * n)
+    let go i
+          | i >= n = pure array
+          | otherwise = case cubic i of
+            Cubic a b c d -> do
+              Mutable.unsafeWrite array (4 * i) a
+              Mutable.unsafeWrite array (4 * i + 1) b
+              Mutable.unsafeWrite array (4 * i + 2) c
+              Mutable.unsafeWrite array (4 * i + 3) d
+              go (i + 1)
+    go 0
+{-# INLINE generate #-}
+
+-- | How many they are.
+count :: Cubics -> Int
+count (Cubics array) = Unboxed.length array `div` 4
+
+-- | One of them by its number from 0, which is below their count.
+at :: Cubics -> Int -> Cubic
+at (Cubics array) i = Cubic (coefficient 0) (coefficient 1) (coefficient 2) (coefficient 3)
+  where
+    coefficient k = Unboxed.unsafeIndex array (4 * i + k)
+{-# INLINE at #-}
+
+-- | What holds at the ends of a spline.
+data Boundary
+  = -- | the second derivative is zero
+    Natural
+  | -- | these first derivatives, by the parameter
+    Clamped Double Double
+  | -- | the end goes over into the beginning; the last value is the first
+    Periodic
+  deriving stock (Eq, Show)
+
+-- | The cubics between neighbouring values, given the steps of the parameter between them (above zero, one fewer
+-- than values, at least one; at least three for a periodic one). Each cubic's own parameter runs from 0 to 1.
+interpolate :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Cubics
+interpolate boundary steps values = generate (Unboxed.length steps) cubic
+  where
+    second = secondDerivatives boundary steps values
+    -- With h the step and M the second derivatives at its ends.
+    cubic i = Cubic p (q - p - h * h * (2 * m + m') / 6) (h * h * m / 2) (h * h * (m' - m) / 6)
+      where
+        h = Unboxed.unsafeIndex steps i
+        p = Unboxed.unsafeIndex values i
+        q = Unboxed.unsafeIndex values (i + 1)
+        m = Unboxed.unsafeIndex second i
+        m' = Unboxed.unsafeIndex second (i + 1)
+
+-- | One equation: the factors of the unknown before, its own and the one behind, and the right side.
+data Row = Row Double Double Double Double
+
+-- | The second derivatives M at all values. With steps h and slopes Δ between neighbours, what makes the first
+-- derivative continuous is @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} = 6·(Δ_i − Δ_{i−1})@.
+secondDerivatives :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Unboxed.Vector Double
+secondDerivatives boundary steps values = case boundary of
+  Natural -> Unboxed.concat [Unboxed.singleton 0, tridiagonal (n - 1) (\i -> inner (i + 1)), Unboxed.singleton 0]
+  Clamped from to ->
+    tridiagonal (n + 1) $ \i ->
+      if i == 0
+        then Row 0 (2 * step 0) (step 0) (6 * (rise 0 - from))
+        else if i == n then Row (step (n - 1)) (2 * step (n - 1)) 0 (6 * (to - rise (n - 1))) else inner i
+  Periodic -> let m = cyclic n (\i -> if i == 0 then row (step (n - 1)) (step 0) (rise (n - 1)) (rise 0) else inner i) in Unboxed.snoc m (Unboxed.unsafeIndex m 0)
+  where
+    n = Unboxed.length steps
+    step = Unboxed.unsafeIndex steps
+    rise i = (Unboxed.unsafeIndex values (i + 1) - Unboxed.unsafeIndex values i) / step i
+    inner i = row (step (i - 1)) (step i) (rise (i - 1)) (rise i)
+    row h h' slope slope' = Row h (2 * (h + h')) h' (6 * (slope' - slope))
+
+-- | So many equations by their numbers from 0. Elimination without pivoting; the diagonal of a spline's system outweighs
+-- the rest of its row.
+tridiagonal :: Int -> (Int -> Row) -> Unboxed.Vector Double
+tridiagonal n row = Unboxed.create $ do
+  above <- Mutable.unsafeNew (max 0 n)
+  solved <- Mutable.unsafeNew (max 0 n)
+  eliminated above solved 0 0 0
+  pure solved
+  where
+    eliminated :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> Double -> ST s ()
+    eliminated above solved i c' d'
+      | i >= n = backwards above solved (n - 1) 0
+      | otherwise = case row i of
+        Row a b c d -> do
+          let pivot = b - a * c'
+              c'' = c / pivot
+              d'' = (d - a * d') / pivot
+          Mutable.unsafeWrite above i c''
+          Mutable.unsafeWrite solved i d''
+          eliminated above solved (i + 1) c'' d''
+    backwards :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> ST s ()
+    backwards above solved i next
+      | i < 0 = pure ()
+      | otherwise = do
+        c <- Mutable.unsafeRead above i
+        d <- Mutable.unsafeRead solved i
+        let m = d - c * next
+        Mutable.unsafeWrite solved i m
+        backwards above solved (i - 1) m
+{-# INLINE tridiagonal #-}
+
+-- | The same where the first row's unknown before is the last one and the last row's unknown behind the first: the
+-- two corners are taken out as a matrix of rank one (Sherman and Morrison).
+cyclic :: Int -> (Int -> Row) -> Unboxed.Vector Double
+cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
+  where
+    Row beta firstDiagonal _ _ = row 0
+    Row _ _ alpha _ = row (n - 1)
+    gamma = -firstDiagonal
+    altered i (Row a b c d)
+      | i == 0 = Row 0 (b - gamma) c d
+      | i == n - 1 = Row a (b - alpha * beta / gamma) 0 d
+      | otherwise = Row a b c d
+    plain = tridiagonal n (\i -> altered i (row i))
+    corner = tridiagonal n (\i -> altered i (column i (row i)))
+    column i (Row a b c _) = Row a b c (if i == 0 then gamma else if i == n - 1 then alpha else 0)
+    weighed v = Unboxed.head v + beta * Unboxed.last v / gamma
+    factor = weighed plain / (1 + weighed corner)
+{-# INLINE cyclic #-}
+
+-- | Parabolas (Lagrange) through values 1–3, 3–5, …, given where between its neighbours each middle value lies, as a
+-- fraction of the parameter. The values are odd in number.
+parabolas :: Vector Double -> Unboxed.Vector Double -> Cubics
+parabolas fractions values = generate (Vector.length fractions) (\i -> parabola i (fractions Vector.! i))
+  where
+    parabola i f = Cubic p (first - f * second) second 0
+      where
+        p = values Unboxed.! (2 * i)
+        q = values Unboxed.! (2 * i + 1)
+        r = values Unboxed.! (2 * i + 2)
+        first = (q - p) / f
+        second = (r - q) / (1 - f) - first

@@ -1,0 +1,96 @@
+-- | Answers to requests about an open document.
+module Lsp.Request
+  ( Subject (..),
+    Method,
+    method,
+  )
+where
+
+import Base.Region (Source)
+import Base.Region qualified as Region
+import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.=))
+import Data.Aeson.Types (Parser)
+import Data.Maybe qualified as Maybe
+import Data.Text (Text)
+import Lsp.Capability (Client (..))
+import Lsp.Document (Document (..))
+import Lsp.Location qualified as Location
+import Lsp.Position qualified as Position
+import Query.Formatting qualified as Formatting
+import Query.Name qualified as Name
+import Query.Snapshot (Snapshot)
+import Query.Snapshot qualified as Snapshot
+import Query.Symbol (SymbolKind (..))
+import Query.Symbol qualified as Symbol
+import Surface.Formatter qualified as Formatter
+
+-- | A document, what its text says, and what the last text without errors said.
+data Subject = Subject {document :: Document, now :: Snapshot, sound :: Maybe Snapshot}
+
+-- | Parameters to an answer.
+type Method = Client -> Subject -> Value -> Parser Value
+
+-- | The method of a name.
+method :: Text -> Maybe Method
+method name = lookup name table
+
+table :: [(Text, Method)]
+table =
+  [ ("textDocument/hover", hover),
+    ("textDocument/definition", definition),
+    ("textDocument/documentSymbol", symbols),
+    ("textDocument/formatting", formatting)
+  ]
+
+-- | The offset that a request points at.
+pointed :: Subject -> Value -> Parser Int
+pointed subject = withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
+
+-- | The program that the present text gives.
+source :: Subject -> Source
+source = Snapshot.source . now
+
+hover :: Method
+hover client subject params = maybe Null shown . Name.hover (now subject) (sound subject) <$> pointed subject params
+  where
+    shown h = object ["contents" .= contents h, "range" .= Position.range (source subject) (Name.place h)]
+    contents h
+      | markdown client = markup "markdown" ("```part\n" <> line h <> "\n```\n" <> Name.meaning h)
+      | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
+    line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
+
+-- | Text of a kind that the client knows.
+markup :: Text -> Text -> Value
+markup kind text = object ["kind" .= kind, "value" .= text]
+
+definition :: Method
+definition _ subject params = maybe Null shown . Name.definition (now subject) (sound subject) <$> pointed subject params
+  where
+    shown target = Location.location (uri (document subject)) (Name.source target) (Name.region target)
+
+symbols :: Method
+symbols client subject _ = pure (toJSON (map shown (Symbol.symbols (now subject))))
+  where
+    shown s = object (["name" .= Symbol.name s, "kind" .= number (Symbol.kind s)] <> placed s)
+    placed s
+      | hierarchical client =
+        [ "detail" .= Symbol.detail s,
+          "range" .= Position.range (source subject) (Symbol.whole s),
+          "selectionRange" .= Position.range (source subject) (Symbol.selection s)
+        ]
+      | otherwise = ["location" .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)]
+
+formatting :: Method
+formatting _ subject _ = pure (toJSON (map edit (Maybe.maybeToList (Formatter.format text >>= Formatting.change text))))
+  where
+    text = Region.text (source subject)
+    edit change = object ["range" .= Position.range (source subject) (Formatting.place change), "newText" .= Formatting.put change]
+
+-- | The protocol's number of a kind of symbol.
+number :: SymbolKind -> Int
+number kind = case kind of
+  Part' -> 4 -- package
+  Value -> 13 -- variable
+  Function -> 12 -- function
+  Contour' -> 5 -- class
+  Machining -> 24 -- event

@@ -1,0 +1,65 @@
+{-# OPTIONS_GHC -O2 #-}
+
+-- | The closed loops that bound what the cutter's centre can reach, in flat arrays.
+module Offset.Loop
+  ( OffsetLoops (..),
+    none,
+    count,
+    size,
+    outline,
+    outlines,
+    area,
+    only,
+  )
+where
+
+import Data.Int (Int32)
+import Data.Primitive.PrimArray
+import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
+import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Geometry.Polyarc (Ends (..))
+
+-- | One loop after the other, each segment with the number of the segment of the raw equidistant that it is a part of.
+data OffsetLoops = OffsetLoops
+  { -- | where the loops begin, and where one more would
+    starts :: PrimArray Int,
+    xs :: PrimArray Double,
+    ys :: PrimArray Double,
+    bulges :: PrimArray Double,
+    raws :: PrimArray Int32
+  }
+
+none :: OffsetLoops
+none = OffsetLoops (primArrayFromList [0]) (primArrayFromList []) (primArrayFromList []) (primArrayFromList []) (primArrayFromList [])
+
+count :: OffsetLoops -> Int
+count l = sizeofPrimArray (starts l) - 1
+
+-- | How many segments a loop has.
+size :: OffsetLoops -> Int -> Int
+size l k = indexPrimArray (starts l) (k + 1) - indexPrimArray (starts l) k
+
+-- | One loop by itself.
+outline :: OffsetLoops -> Int -> FlatPolyarc
+outline l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
+  where
+    cut :: PrimArray Double -> PrimArray Double
+    cut s = clonePrimArray s (indexPrimArray (starts l) k) (size l k)
+
+-- | Each loop by itself.
+outlines :: OffsetLoops -> [FlatPolyarc]
+outlines l = map (outline l) [0 .. count l - 1]
+
+-- | The area inside of all, in mm²; loops that are walked clockwise count as holes.
+area :: OffsetLoops -> Double
+area = sum . map FlatPolyarc.area . outlines
+
+-- | The loops for which something holds.
+only :: (Int -> Bool) -> OffsetLoops -> OffsetLoops
+only keep l
+  | length kept == count l = l
+  | otherwise = OffsetLoops {starts = primArrayFromList (scanl (+) 0 (map (size l) kept)), xs = gathered (xs l), ys = gathered (ys l), bulges = gathered (bulges l), raws = gathered (raws l)}
+  where
+    kept = filter keep [0 .. count l - 1]
+    begin = indexPrimArray (starts l)
+    gathered a = mconcat [clonePrimArray a (begin k) (size l k) | k <- kept]

@@ -1,0 +1,100 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 -fno-full-laziness #-}
+
+-- | The places where a chain crosses itself, when it does so in general position: not at an end of a segment, and not
+-- along one.
+module Offset.SelfIntersection
+  ( SelfIntersections (..),
+    SearchResult (..),
+    find,
+    firstOf,
+    proper,
+    decreases,
+  )
+where
+
+import Control.Monad (when)
+import Control.Monad.ST (ST, runST)
+import Data.Int (Int32)
+import Data.Primitive.MutVar
+import Data.Primitive.PrimArray
+import Geometry.ClosedPolyarcs (ClosedPolyarcs)
+import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
+import Geometry.Index.SegmentTree (SegmentTree)
+import Geometry.Index.SegmentTree qualified as SegmentTree
+import Offset.SegmentIntersection (Visitor (..))
+import Offset.SegmentIntersection qualified as SegmentIntersection
+
+-- | Of each crossing: x, y, and how far along the chords of both segments; and the segments. Each has two occurrences, one on
+-- either segment: @2h@ and @2h + 1@ of the crossing @h@.
+data SelfIntersections = SelfIntersections {count :: Int, reals :: PrimArray Double, segments :: PrimArray Int32}
+
+data SearchResult
+  = SearchResult SelfIntersections
+  | -- | somewhere a segment ends on another one, or touches it, to within rounding
+    Unclear
+
+-- | All crossings of a chain. The tolerance in mm is that of rounding, and the margin of the boxes.
+find :: Double -> ClosedPolyarcs -> SegmentTree -> SearchResult
+find !tolerance !c !bs = runST $ do
+  state <- newPrimArray 2
+  writePrimArray state 0 (0 :: Int)
+  writePrimArray state 1 0
+  rs <- newPrimArray 0 >>= newMutVar
+  ss <- newPrimArray 0 >>= newMutVar
+  let unclear = writePrimArray state 1 1
+      record !i !s !j !t !x !y !turn = do
+        k <- readPrimArray state 0
+        grow (sizeofPrimArray (ClosedPolyarcs.xs c) `quot` 2) rs ss k
+        r <- readMutVar rs
+        writePrimArray r (4 * k) x
+        writePrimArray r (4 * k + 1) y
+        writePrimArray r (4 * k + 2) s
+        writePrimArray r (4 * k + 3) t
+        g <- readMutVar ss
+        -- The second one crosses to the left of the first: what is left of the first loses one.
+        writePrimArray g (2 * k) (fromIntegral (2 * i + (if turn > 0 then 1 else 0)))
+        writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if turn > 0 then 0 else 1)))
+        writePrimArray state 0 (k + 1)
+        when (turn == 0) unclear
+      visitor = Visitor {crossing = record, resting = \_ _ -> unclear, touching = \_ _ _ _ -> unclear}
+  SegmentTree.pairs bs ((== 0) <$> readPrimArray state 1) (SegmentIntersection.meet tolerance c visitor)
+  k <- readPrimArray state 0
+  bad <- readPrimArray state 1
+  if bad /= 0
+    then pure Unclear
+    else do
+      r <- readMutVar rs >>= unsafeFreezePrimArray
+      g <- readMutVar ss >>= unsafeFreezePrimArray
+      pure (SearchResult (SelfIntersections k r g))
+
+-- | Two segments that cross, if there are such; what ends on another one or touches it does not cross it.
+proper :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
+proper tolerance c bs = runST $ do
+  found <- newMutVar Nothing
+  let visitor = Visitor {crossing = \i _ j _ _ _ _ -> writeMutVar found (Just (i, j)), resting = \_ _ -> pure (), touching = \_ _ _ _ -> pure ()}
+  SegmentTree.pairs bs ((== Nothing) <$> readMutVar found) (SegmentIntersection.meet tolerance c visitor)
+  readMutVar found
+
+-- | Room for one more: none at first, then for so many, and then always twice as much. Room that is not used costs no
+-- memory, but what was copied does.
+grow :: Int -> MutVar s (MutablePrimArray s Double) -> MutVar s (MutablePrimArray s Int32) -> Int -> ST s ()
+grow some rs ss k = do
+  g <- readMutVar ss
+  room <- getSizeofMutablePrimArray g
+  when (2 * k + 2 > room) $ do
+    r <- readMutVar rs
+    let more = if room == 0 then max 16 some else 2 * room
+    resizeMutablePrimArray r (4 * more) >>= writeMutVar rs
+    resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
+
+-- | The two segments of a crossing.
+firstOf :: SelfIntersections -> Int -> (Int, Int)
+firstOf c h = (half (2 * h), half (2 * h + 1))
+  where
+    half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
+
+-- | Whether an occurrence takes one from what is on the left of its segment.
+decreases :: SelfIntersections -> Int -> Bool
+decreases c o = odd (indexPrimArray (segments c) o)
+{-# INLINE decreases #-}

@@ -1,0 +1,65 @@
+-- | Reports for programs: one line for an editor's problem matcher, or one JSON object a line.
+module Report.Line
+  ( short,
+    json,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Region (Position (..), Region (..), Source)
+import Base.Region qualified as Region
+import Data.Aeson (Series, object, pairs, (.=))
+import Data.Aeson.Encoding (encodingToLazyByteString)
+import Data.ByteString.Lazy qualified as LazyByteString
+import Data.Text (Text)
+import Data.Text.Encoding qualified as Encoding
+import Report.Excerpt qualified as Excerpt
+import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
+import Report.Report qualified as Report
+
+-- | @file:line:col: error[E0123]: text@. A report about a tape has the row in the line's place.
+short :: Text -> Source -> Report -> Text
+short path source r =
+  at <> ": " <> Report.severityWord (severity r) <> "[" <> code <> "]: " <> Excerpt.visible (title r) <> "\n"
+  where
+    ReportCode code = Report.code r
+    at = case place r of
+      InSource region ->
+        let Position {file, line, column} = Region.position source (start region)
+         in file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
+      InTape row -> path <> ":" <> Decimal.whole row <> ":1"
+      InFile -> path <> ":1:1"
+
+-- | One JSON object and a line end. Lines and columns count characters, from 1; @end@ is the
+-- position behind the last character.
+json :: Text -> Source -> Report -> Text
+json path source r =
+  Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (pairs fields))) <> "\n"
+  where
+    ReportCode code = Report.code r
+    fields =
+      "schemaVersion" .= (1 :: Int)
+        <> "severity" .= Report.severityWord (severity r)
+        <> "code" .= code
+        <> "file" .= file'
+        <> placed
+        <> "title" .= title r
+        <> "label" .= label r
+        <> "message" .= message r
+        <> "hints" .= hints r
+        <> "related" .= map related (others r)
+    file' = case place r of
+      InSource region -> let Position {file} = Region.position source (start region) in file
+      InTape _ -> path
+      InFile -> path
+    placed :: Series
+    placed = case place r of
+      InSource region -> "start" .= position (start region) <> "end" .= position (end region)
+      InTape row -> "row" .= row
+      InFile -> mempty
+    position offset =
+      let Position {line, column} = Region.position source offset
+       in object ["line" .= line, "column" .= column]
+    related (Label region words') =
+      let Position {file} = Region.position source (start region)
+       in object ["file" .= file, "start" .= position (start region), "end" .= position (end region), "label" .= words']

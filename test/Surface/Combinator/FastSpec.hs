@@ -1,0 +1,37 @@
+-- | The reader for programs without a mistake gives what the one that explains gives.
+module Surface.Combinator.FastSpec (spec) where
+
+import Base.Result (Result (..))
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Generate.Program qualified as Generate
+import Surface.Error (Error)
+import Surface.Parser qualified as Parser
+import Surface.PrintProgram qualified as PrintProgram
+import Surface.Syntax (Program)
+import Test.Hspec
+import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
+import Test.QuickCheck hiding (Result)
+
+spec :: Spec
+spec = describe "one grammar, two readers" . modifyMaxSuccess (const 500) $ do
+  -- The bug: a place, a value or a comment that the quick reader loses; a program without a mistake that it does not read.
+  prop "a program is the same by both" $
+    forAllShow (PrintProgram.program <$> Generate.program) Text.unpack $ \text ->
+      both text .&&. null (errors (parse text))
+  -- The bug: a mistake over which the quick reader goes, or goes on another way.
+  prop "a program with a few mistakes has the same ones by both" $
+    forAllShow (Generate.program >>= damaged 3 . PrintProgram.program) Text.unpack both
+  where
+    both text = parse text === Parser.explained 0 text
+    parse text = Parser.parse 0 text :: Result () Error Program
+
+-- | A text with so many pieces replaced by signs and words.
+damaged :: Int -> Text -> Gen Text
+damaged count text
+  | count <= 0 = pure text
+  | otherwise = do
+    at <- choose (0, Text.length text)
+    gone <- choose (0, 4)
+    new <- elements ["", "(", ")", "{", "}", "[", "]", "\n", ",", "=", "+", "..", "\"", "--", " 3 ", " x ", " if ", " for ", " else ", " and ", " fillet ", "\nlet ", "\nmill "]
+    damaged (count - 1) (Text.take at text <> new <> Text.drop (at + gone) text)

@@ -1,0 +1,114 @@
+-- | The law of the edge that a control is sent: what the control makes of it is the path that is proven.
+--
+-- The control is modelled on what LinuxCNC does, move by move as it reads them, and shares nothing with the equidistant.
+module Toolpath.CompensationSpec (spec) where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Located (..), Region (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
+import Generate (Case (..))
+import Generate.ByControl (beginning, cases, firstAndLast, laid)
+import Geometry.Carrier (Sense (..), Side (..))
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part (Milling)
+import Part.Part qualified as Part
+import Test.Hspec hiding (before)
+import Test.QuickCheck
+import Toolpath.Toolpath (Sent)
+import Toolpath.Toolpath qualified as Toolpath
+
+spec :: Spec
+spec =
+  describe "a control" $ do
+    it "makes of the edge that it is sent the path that is proven (catches an edge that does not begin where the control meets it, a lead of the wrong radius, a last corner that is not gone round)" $
+      property $
+        forAll cases $ \(c, job) -> case sentOf job of
+          Nothing -> property Discard
+          Just _ | turnsIn c -> property Discard
+          Just (r, sent, moves) ->
+            let made = unbroken (map Toolpath.segment (Toolpath.before sent) <> control r sent <> map Toolpath.segment (Toolpath.behind sent))
+                proven = unbroken (map Toolpath.segment moves)
+             in counterexample (show (made, proven, side c)) (length made === length proven .&&. conjoin (zipWith same made proven))
+    it "gets a straight way in that is longer than the cutter's radius (catches one measured from the path)" $
+      property $
+        forAll ((,) <$> cases <*> choose (0.1, 3)) $ \((_, job), share) ->
+          case sentOf (nearer share job) of
+            Nothing -> property Discard
+            Just (r, sent, _) -> let Mm l = Segment.length (Toolpath.segment (Toolpath.entry sent)) in counterexample (show (l, r)) (l > r)
+
+same :: Segment -> Segment -> Property
+same a b = conjoin [let Mm d = Vec.distance (Segment.at t a) (Segment.at t b) in counterexample (show (t, a, b)) (d < 1e-5) | t <- [0, 0.3, 0.7, 1]]
+
+-- The control
+
+-- | What a control makes of an edge: the moves of the cutter's centre, one after the other.
+control :: Double -> Sent -> [Segment]
+control r sent = onto : go entered (NonEmpty.toList edges)
+  where
+    left = if Toolpath.side sent == LeftOf then 1 else -1
+    edges = fmap Toolpath.segment (Toolpath.edge sent)
+    entry = Toolpath.segment (Toolpath.entry sent)
+    first = NonEmpty.head edges
+    entered = meeting (beside (Segment.startDirection entry) (Segment.end entry)) (Segment.startDirection entry) (beside (Segment.startDirection first) (Segment.start first)) (Segment.startDirection first)
+    onto = Straight (Segment.start entry) entered
+    beside d p = Vec.shift (Vec.scale (left * r) (Vec.left d)) p
+    go at es = case es of
+      [] -> [Straight at (Segment.end (Toolpath.segment (Toolpath.exit sent)))]
+      e : rest ->
+        let finish = beside (Segment.endDirection e) (Segment.end e)
+            along = case e of
+              Straight _ _ -> Straight at finish
+              Arc {centre, sweep} -> Arc {Segment.start = at, Segment.end = finish, centre, sweep}
+         in along : case rest of
+              next : _
+                | Rad t <- Vec.turn (Segment.endDirection e) (Segment.startDirection next),
+                  abs t > 1e-6 ->
+                  let out = beside (Segment.startDirection next) (Segment.start next)
+                   in Segment.arc (if left > 0 then Clockwise else CounterClockwise) (Segment.end e) finish out : go out rest
+              _ -> go finish rest
+
+-- | Whether somewhere the contour turns slightly towards the cutter. A control goes straight on there, the path to where the
+-- ways meet: less than 'Geometry.Tolerance.slightRest' apart.
+turnsIn :: Case -> Bool
+turnsIn c = or [t * left > 1e-7 | (_, a, b) <- Polyarc.joints (contour c), let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b)]
+  where
+    left = if side c == LeftOf then 1 else -1
+
+-- | Where two lines meet, each by a point and its direction.
+meeting :: Point -> Vec.Vec -> Point -> Vec.Vec -> Point
+meeting p u q v = Vec.shift (Vec.scale (Vec.cross (Vec.to p q) v / Vec.cross u v) u) p
+
+-- | Without moves that have no length, and straight ways in one, however they are divided.
+unbroken :: [Segment] -> [Segment]
+unbroken = foldr join [] . filter long
+  where
+    long s = let Mm l = Segment.length s in l > 1e-6
+    join s rest = case (s, rest) of
+      (Straight a b, Straight _ c : more) | Rad t <- Vec.turn (Vec.to a b) (Vec.to b c), abs t < 1e-6 -> Straight a c : more
+      _ -> s : rest
+
+-- Millings
+
+-- | The way in at a share of its length in radii.
+nearer :: Double -> Milling -> Milling
+nearer share job = case (firstAndLast job {Part.byControl = Nothing, Part.approach = [], Part.retract = []}, Part.approach job) of
+  (Just (begin, _), [s]) ->
+    let Mm r = Part.radius job
+        p = Segment.start begin
+        v = Vec.unit (Vec.to p (value (Part.place s)))
+     in job {Part.approach = [s {Part.place = Located nowhere (Vec.shift (Vec.scale (share * r) v) p)}]}
+  _ -> job
+
+-- | The radius, what is sent, and the moves that are proven; nothing where the control would refuse it.
+sentOf :: Milling -> Maybe (Double, Sent, [Toolpath.Move])
+sentOf job = case laid (maybe (beginning job) (value . Part.place) (listToMaybe (Part.approach job))) job of
+  Just [b@Toolpath.Cutting {Toolpath.sent = Just s}] -> let Mm r = Part.radius job in Just (r, s, Toolpath.moves b)
+  _ -> Nothing
+
+nowhere :: Region
+nowhere = Region 0 0
