@@ -1,39 +1,33 @@
 #!/usr/bin/env bash
 # Puts the bug of every test/mutants/*.mutant into a copy of the sources, one at a time, and runs the law
-# that should notice it. Fails when a law does not. Names as arguments choose some of them.
+# that has to notice it. Fails at once when a mutant no longer applies, and in the end when a law has
+# not noticed its bug. Names as arguments choose some of the mutants.
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 copy=$top/build/mutants
 stack() { command stack --work-dir .stack-work "$@"; }
+mutants() { python3 "$top/scripts/mutants.py" "$@"; }
+
+mutants check "$@" || { echo "these mutants do not apply to the sources as they are"; exit 1; }
 
 mkdir -p "$copy"
-# Only what differs is copied, whatever its time: the build takes files by their times.
+# Only files that differ are copied, whatever their times: the build compares times.
 (cd "$top" && git ls-files --cached --others --exclude-standard | while IFS= read -r f; do
   [ ! -f "$f" ] || cmp -s "$f" "$copy/$f" || cp --parents "$f" "$copy"
 done)
 cd "$copy" || exit 1
-# What was removed since is removed here too.
+# Files that were removed since are removed here too.
 find app bench src test machines explain -type f | while IFS= read -r f; do [ -f "$top/$f" ] || rm -f "$f"; done
 
-chosen=()
-if [ $# -gt 0 ]; then for n in "$@"; do chosen+=("test/mutants/$n.mutant"); done; else chosen=(test/mutants/*.mutant); fi
+chosen=("$@")
+if [ $# -eq 0 ]; then for f in "$top"/test/mutants/*.mutant; do chosen+=("$(basename "$f" .mutant)"); done; fi
 
 survivors=0
-for mutant in "${chosen[@]}"; do
-  name=$(basename "$mutant" .mutant)
-  law=$(sed -n 's/^law: //p' "$mutant")
-  file=$(sed -n 's/^file: //p' "$mutant")
+for name in "${chosen[@]}"; do
+  law=$(mutants law "$name")
+  file=$(mutants file "$name")
   cp "$top/$file" "$file.sound"
-  perl -0777 -e '
-    my ($mutant, $file) = @ARGV;
-    open my $m, "<", $mutant; my $t = do { local $/; <$m> };
-    my ($old, $new) = $t =~ /--- instead of\n(.*)\n--- put\n(.*)\n/s or die "not a mutant\n";
-    open my $s, "<", $file; my $c = do { local $/; <$s> };
-    my $at = index($c, $old);
-    die "its text is not in $file exactly once\n" if $at < 0 || index($c, $old, $at + 1) >= 0;
-    substr($c, $at, length $old) = $new;
-    open my $o, ">", $file; print $o $c;
-  ' "$mutant" "$file" || { echo "$name: cannot be put in"; survivors=$((survivors + 1)); cp -p "$file.sound" "$file"; continue; }
+  mutants apply "$name" "$copy"
   if ! stack build --fast --test --no-run-tests >build.log 2>&1; then
     echo "$name: does not build"; tail -n 20 build.log; survivors=$((survivors + 1))
   elif out=$(timeout 300 stack --verbosity error test --fast --test-arguments "--match '$law'" 2>&1); then

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Reads test/mutants/*.mutant and puts their bugs into the sources.
+
+    mutants.py check [NAME...]     every mutant applies: its expression occurs exactly once in its definition
+    mutants.py law NAME            prints the law that has to fail
+    mutants.py file NAME           prints the file that the mutant changes
+    mutants.py apply NAME ROOT     puts the bug into the file below ROOT
+
+A mutant is a text:
+
+    law: the name of the test that has to fail
+    bug: what is wrong then
+    module: Geometry.Curve.PointSearch        (or  file: docs/language.md)
+    definition: merged                        (a top-level name; none for a file)
+    --- instead of
+    the expression as it is
+    --- put
+    the expression with the bug
+
+Expressions are compared token by token: neither line breaks nor comments matter.
+"""
+import glob
+import os
+import re
+import sys
+
+TOP = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+TOKEN = re.compile(
+    r"""(?P<skip>\s+|--+(?![!#$%&*+./<=>?@\\^|~:])[^\n]*|\{-.*?-\})
+      |(?P<token>"(?:[^"\\]|\\.)*"|'(?:[^'\\\n]|\\[^\n]{1,6}?)'
+        |\d[\w.]*|(?:[A-Z][\w']*\.)*[\w'#]+|[!#$%&*+./<=>?@\\^|~:-]+|.)""",
+    re.S | re.X,
+)
+
+
+def tokens(text):
+    """The tokens of a text with their offsets: (token, begin, end)."""
+    return [(m["token"], m.start(), m.end()) for m in TOKEN.finditer(text) if m["token"] is not None]
+
+
+class Unfit(Exception):
+    """A mutant that cannot be put in, and why."""
+
+
+def parse(name):
+    """A mutant's fields, its expression and the expression with the bug."""
+    with open(os.path.join(TOP, "test", "mutants", name + ".mutant"), encoding="utf-8") as stream:
+        text = stream.read()
+    match = re.fullmatch(r"(.*?)--- instead of\n(.*)\n--- put\n(.*?)\n?", text, re.S)
+    if not match:
+        raise Unfit("is not written as a mutant")
+    fields = dict(re.findall(r"^(\w+): (.*)$", match[1], re.M))
+    return fields, match[2], match[3]
+
+
+def path_of(fields):
+    """The file that a mutant changes, from the root of the project."""
+    if "file" in fields:
+        return fields["file"]
+    return os.path.join("src", *fields["module"].split(".")) + ".hs"
+
+
+def extent(source, definition):
+    """The offsets at which a top-level definition begins and ends, its signature left out."""
+    starts = [m for m in re.finditer(r"^(?=\S)(?!--|\{-)", source, re.M)]
+    blocks = []
+    for here, following in zip(starts, starts[1:] + [None]):
+        end = following.start() if following else len(source)
+        head = re.match(r"\(?([\w'$!#%&*+./<=>?@\\^|~:-]+)\)?", source[here.start() : end])
+        words = source[here.start() : end].split(None, 2)
+        names = {head[1]} if head else set()
+        if words and words[0] in ("data", "newtype", "type", "instance") and len(words) > 1:
+            names = {words[1]}
+        is_signature = re.match(r"\(?[^\s()]+\)?(\s*,\s*[^\s()]+)*\s*::", source[here.start() : end])
+        if definition in names and not is_signature:
+            blocks.append((here.start(), end))
+    if not blocks:
+        raise Unfit("there is no definition " + definition)
+    return blocks[0][0], blocks[-1][1]
+
+
+def place(source, fields, old):
+    """The offsets of the expression in the source."""
+    if "file" in fields:
+        at = source.find(old)
+        if at < 0 or source.find(old, at + 1) >= 0:
+            raise Unfit("its text does not occur exactly once")
+        return at, at + len(old)
+    begin, end = extent(source, fields["definition"])
+    wanted = [token for token, _, _ in tokens(old)]
+    found = tokens(source[begin:end])
+    names = [token for token, _, _ in found]
+    hits = [i for i in range(len(names) - len(wanted) + 1) if names[i : i + len(wanted)] == wanted]
+    if len(hits) != 1:
+        raise Unfit("its expression occurs %d times in %s" % (len(hits), fields["definition"]))
+    first = hits[0]
+    return begin + found[first][1], begin + found[first + len(wanted) - 1][2]
+
+
+def mutated(source, fields, old, new):
+    """The source with the bug; further lines are indented as the first one is."""
+    begin, end = place(source, fields, old)
+    if "module" in fields:
+        column = begin - (source.rfind("\n", 0, begin) + 1)
+        new = new.replace("\n", "\n" + " " * column)
+    return source[:begin] + new + source[end:]
+
+
+def apply(name, root):
+    fields, old, new = parse(name)
+    path = os.path.join(root, path_of(fields))
+    if not os.path.exists(path):
+        raise Unfit("there is no file " + path_of(fields))
+    with open(path, encoding="utf-8") as stream:
+        source = stream.read()
+    return path, mutated(source, fields, old, new)
+
+
+def names_of(arguments):
+    if arguments:
+        return arguments
+    paths = sorted(glob.glob(os.path.join(TOP, "test", "mutants", "*.mutant")))
+    return [os.path.splitext(os.path.basename(path))[0] for path in paths]
+
+
+def main():
+    command, arguments = sys.argv[1], sys.argv[2:]
+    if command == "check":
+        unfit = 0
+        for name in names_of(arguments):
+            try:
+                apply(name, TOP)
+            except Unfit as reason:
+                print("%s: %s" % (name, reason))
+                unfit += 1
+        return 1 if unfit else 0
+    if command == "apply":
+        path, text = apply(arguments[0], arguments[1])
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        return 0
+    fields, _, _ = parse(arguments[0])
+    print(fields["law"] if command == "law" else path_of(fields))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
