@@ -1,11 +1,18 @@
--- | The command @partc@: sets up the streams, runs the command line, turns the end into an exit status.
+-- | The command @partc@: sets up the streams, runs the command line, turns the end into an exit
+-- status.
 module Main (main) where
 
 import Base.Crash (Bug)
 import Cli.Options qualified as Options
 import Cli.Output (Exit (..))
 import Cli.Subcommand qualified as Subcommand
-import Control.Exception (AsyncException (UserInterrupt), Handler (..), SomeException, catches, toException)
+import Control.Exception
+  ( AsyncException (UserInterrupt),
+    Handler (..),
+    SomeException,
+    catches,
+    toException,
+  )
 import Data.Version (showVersion)
 import GHC.IO.Encoding (mkTextEncoding, setFileSystemEncoding, setLocaleEncoding, utf8)
 import Options.Applicative qualified as Opt
@@ -25,7 +32,9 @@ main = do
 
 work :: IO ExitCode
 work = do
-  parsed <- Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version)) <$> getArgs
+  parsed <-
+    Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version))
+      <$> getArgs
   name <- getProgName
   statusOf <$> case parsed of
     -- The help and the version are results as well.
@@ -51,6 +60,8 @@ anything e = sorry (show e)
 
 sorry :: String -> IO ExitCode
 sorry what = do
-  hPutStrLn stderr "This is a bug in partc. Please send us the program that you compiled and these lines:"
+  hPutStrLn
+    stderr
+    "This is a bug in partc. Please send us the program that you compiled and these lines:"
   hPutStrLn stderr what
   pure (ExitFailure 70)

@@ -1,4 +1,5 @@
--- | Contours in files that every program of the benchmark reads: little-endian doubles, x y bulge for each vertex.
+-- | Contours in files that every program of the benchmark reads: little-endian doubles, x y bulge
+-- for each vertex.
 module ContourFile
   ( write,
     read,
@@ -26,7 +27,8 @@ builder FlatPolyarc {xs, ys, bulges} = foldMap vertex [0 .. PrimArray.sizeofPrim
   where
     vertex i = foldMap (\a -> Builder.doubleLE (PrimArray.indexPrimArray a i)) [xs, ys, bulges]
 
--- | A closed contour. It goes through a small buffer, so that nothing but the contour stays in memory.
+-- | A closed contour. It goes through a small buffer, so that nothing but the contour stays in
+-- memory.
 read :: FilePath -> IO FlatPolyarc
 read file = withBinaryFile file ReadMode $ \handle -> do
   count <- (`div` 24) . fromIntegral <$> hFileSize handle

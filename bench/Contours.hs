@@ -81,7 +81,8 @@ contour family n = case family of
 type Vertex = (Double, Double, Double)
 
 generated :: Int -> (Int -> Vertex) -> FlatPolyarc
-generated n vertex = FlatPolyarc Closed (array (\(x, _, _) -> x)) (array (\(_, y, _) -> y)) (array (\(_, _, b) -> b))
+generated n vertex =
+  FlatPolyarc Closed (array (\(x, _, _) -> x)) (array (\(_, y, _) -> y)) (array (\(_, _, b) -> b))
   where
     array part = PrimArray.generatePrimArray n (part . vertex)
 
@@ -97,13 +98,19 @@ onCircle r a = (r * cos a, r * sin a, 0)
 
 -- | For every lobe an outer and an inner corner, each rounded: arc, line, arc, line.
 flange :: Int -> Int -> Vertex
-flange n i = if even i then (px - ix * cut, py - iy * cut, tan (turn / 4)) else (px + ox * cut, py + oy * cut, 0)
+flange n i =
+  if even i
+    then (px - ix * cut, py - iy * cut, tan (turn / 4))
+    else (px + ox * cut, py + oy * cut, 0)
   where
     lobes = n `div` 4
     k = i `div` 2
     r = ring lobes
     h = if lobes >= 12 then 4 else 0.5 * r
-    corner j = let (x, y, _) = onCircle (if even j then r + h else r - h) (whole j * pi / whole lobes) in (x, y)
+    corner j =
+      let (x, y, _) =
+            onCircle (if even j then r + h else r - h) (whole j * pi / whole lobes)
+       in (x, y)
     (px, py) = corner k
     (qx, qy) = corner (if k == 0 then 2 * lobes - 1 else k - 1)
     (sx, sy) = corner (if k == 2 * lobes - 1 then 0 else k + 1)
@@ -161,7 +168,8 @@ moore n i = (4 * whole cx + noise (2 * i), 4 * whole cy + noise (2 * i + 1), 0)
       _ -> (side + y, side - 1 - x)
     noise place = 0.7 * (2 * Noise.uniform 3 (fromIntegral place) - 1)
 
--- | Hilbert's curve through a grid of that side, a power of two: the cell at a step, from (0, 0) to (side − 1, 0).
+-- | Hilbert's curve through a grid of that side, a power of two: the cell at a step, from (0, 0) to
+-- (side − 1, 0).
 hilbert :: Int -> Int -> (Int, Int)
 hilbert side = go 1 0 0
   where

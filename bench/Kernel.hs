@@ -1,9 +1,11 @@
 {-# OPTIONS_GHC -fno-full-laziness #-}
 
--- | @kernel SMALL FILE D RUNS BATCHES@: the offset of one closed contour by D mm, outwards when it is counter-clockwise, RUNS times in each
--- batch. Prints for every batch the nanoseconds of processor time of one run, then what came out of the last one and how far the
--- first one raised the peak of memory. Before that the contour of SMALL is offset a hundred times, so that the code, and the place where
--- new data goes, are in memory by then. The peers in bench/peers take the same arguments and print the same lines.
+-- | @kernel SMALL FILE D RUNS BATCHES@: the offset of one closed contour by D mm, outwards when it
+-- is counter-clockwise, RUNS times in each batch. Prints for every batch the nanoseconds of
+-- processor time of one run, then what came out of the last one and how far the first one raised
+-- the peak of memory. Before that the contour of SMALL is offset a hundred times, so that the code,
+-- and the place where new data goes, are in memory by then. The peers in bench/peers take the same
+-- arguments and print the same lines.
 module Main (main) where
 
 import Base.Quantity (Mm (..))
@@ -25,7 +27,11 @@ main :: IO ()
 main = do
   arguments <- getArgs
   case arguments of
-    [small, file, d, r, b] | Just distance <- readMaybe d, Just runs <- readMaybe r, Just batches <- readMaybe b -> measure small file distance runs batches
+    [small, file, d, r, b]
+      | Just distance <- readMaybe d,
+        Just runs <- readMaybe r,
+        Just batches <- readMaybe b ->
+        measure small file distance runs batches
     _ -> die "kernel SMALL FILE D RUNS BATCHES"
 
 measure :: FilePath -> FilePath -> Double -> Int -> Int -> IO ()
@@ -48,8 +54,8 @@ measure small file distance runs batches = do
   putStrLn ("vertices " <> show (sum (map (PrimArray.sizeofPrimArray . FlatPolyarc.xs) result)))
   putStrLn ("memory " <> show (1024 * (after - before)))
 
--- | Nanoseconds of processor time of one of so many runs, and what the last one gave. Collecting the garbage of a run is part of
--- it; that of the runs before is collected before the clock starts.
+-- | Nanoseconds of processor time of one of so many runs, and what the last one gave. Collecting
+-- the garbage of a run is part of it; that of the runs before is collected before the clock starts.
 timed :: Int -> Double -> FlatPolyarc -> IO (Integer, ReachableRegion)
 timed runs distance source = do
   performGC
@@ -74,4 +80,11 @@ peak :: IO Int
 peak = do
   status <- readFile "/proc/self/status"
   -- Read now, not when it is asked for.
-  evaluate (sum [k | line <- lines status, "VmHWM:" : number : _ <- [words line], Just k <- [readMaybe number]])
+  evaluate
+    ( sum
+        [ k
+          | line <- lines status,
+            "VmHWM:" : number : _ <- [words line],
+            Just k <- [readMaybe number]
+        ]
+    )

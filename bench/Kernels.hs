@@ -25,20 +25,32 @@ import Table qualified
 -- | Ours; those that keep arcs; those that know chords only, by the sagitta in mm.
 data Peers = Peers {ours :: Peer, keepers :: [Peer], chorders :: [Double -> Peer]}
 
--- | One contour and one distance, and what became of it: ours and the keepers, then the chorders where they were asked.
-data Case = Case {family :: Family, segments :: Int, distance :: Double, exact :: [Either Text Outcome], chorded :: [Either Text Outcome], finer :: [Either Text Outcome]}
+-- | One contour and one distance, and what became of it: ours and the keepers, then the chorders
+-- where they were asked.
+data Case = Case
+  { family :: Family,
+    segments :: Int,
+    distance :: Double,
+    exact :: [Either Text Outcome],
+    chorded :: [Either Text Outcome],
+    finer :: [Either Text Outcome]
+  }
 
 -- | Sagittas of the chords in mm; the first is the one that is timed.
 coarse, fine :: Double
 coarse = 0.01
 fine = 0.001
 
--- | Run all up to about so many segments, with the files in a folder. Gives the names of the page's places and their texts, and what does not
--- hold.
+-- | Run all up to about so many segments, with the files in a folder. Gives the names of the page's
+-- places and their texts, and what does not hold.
 compared :: FilePath -> Int -> Peers -> IO ([(Text, Text)], [Text])
 compared folder most peers = do
   createDirectoryIfMissing True folder
-  cases <- sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat <$> forM [(f, n) | f <- [minBound ..], n <- Contours.sizes f, 10 * n <= 11 * most] (uncurry (ofContour folder peers))
+  cases <-
+    sortOn (\c -> (fromEnum (family c), negate (distance c), segments c)) . concat
+      <$> forM
+        [(f, n) | f <- [minBound ..], n <- Contours.sizes f, 10 * n <= 11 * most]
+        (uncurry (ofContour folder peers))
   pure
     ( [ ("times", timesOf peers cases),
         ("memory", memoryOf peers cases),
@@ -53,11 +65,37 @@ ofContour folder peers family segments = do
   small <- written (Contours.small family)
   file <- written segments
   forM (Contours.distances family) $ \distance -> do
-    Text.putStr (Contours.name family <> " " <> signed distance <> ", " <> Decimal.whole segments <> " segments:")
+    Text.putStr
+      ( Contours.name family
+          <> " "
+          <> signed distance
+          <> ", "
+          <> Decimal.whole segments
+          <> " segments:"
+      )
     exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
-    chorded <- if bearable then Peer.interleaved (if few then 3 else 1) small file distance (if few then 3 else 1) 1 (map ($ coarse) (chorders peers)) else pure []
-    finer <- if middling then Peer.interleaved 1 small file distance 1 0 (map ($ fine) (chorders peers)) else pure []
-    Text.putStrLn (Text.concat ["  " <> either (const "fails") (Table.number . perSegment segments) o | o <- exact <> chorded])
+    chorded <-
+      if bearable
+        then
+          Peer.interleaved
+            (if few then 3 else 1)
+            small
+            file
+            distance
+            (if few then 3 else 1)
+            1
+            (map ($ coarse) (chorders peers))
+        else pure []
+    finer <-
+      if middling
+        then Peer.interleaved 1 small file distance 1 0 (map ($ fine) (chorders peers))
+        else pure []
+    Text.putStrLn
+      ( Text.concat
+          [ "  " <> either (const "fails") (Table.number . perSegment segments) o
+            | o <- exact <> chorded
+          ]
+      )
     hFlush stdout
     pure Case {family, segments, distance, exact, chorded, finer}
   where
@@ -80,7 +118,9 @@ perSegment :: Int -> Outcome -> Double
 perSegment segments o = Peer.middle (times o) / fromIntegral segments
 
 signed :: Double -> Text
-signed d = (if d > 0 then "+" else "−") <> (if abs d == fromIntegral whole then Decimal.whole whole else Decimal.fixed 1 (abs d))
+signed d =
+  (if d > 0 then "+" else "−")
+    <> (if abs d == fromIntegral whole then Decimal.whole whole else Decimal.fixed 1 (abs d))
   where
     whole = round (abs d) :: Int
 
@@ -97,22 +137,34 @@ at i list = listToMaybe (drop i list)
 timesOf :: Peers -> [Case] -> Text
 timesOf peers cases =
   Table.table
-    (["input", "segments", Peer.title (ours peers)] <> map Peer.title (keepers peers) <> map (Peer.title . ($ coarse)) (chorders peers) <> ["ours / " <> Peer.title k | k <- keepers peers] <> ["growth of " <> Peer.title p | p <- ours peers : keepers peers])
+    ( ["input", "segments", Peer.title (ours peers)]
+        <> map Peer.title (keepers peers)
+        <> map (Peer.title . ($ coarse)) (chorders peers)
+        <> ["ours / " <> Peer.title k | k <- keepers peers]
+        <> ["growth of " <> Peer.title p | p <- ours peers : keepers peers]
+    )
     (map (\c -> row c (before c)) cases)
   where
     count = 1 + length (keepers peers)
-    before c = foldl (\found x -> if label x == label c && segments x < segments c then Just x else found) Nothing cases
+    before c =
+      foldl
+        (\found x -> if label x == label c && segments x < segments c then Just x else found)
+        Nothing
+        cases
     row c earlier =
       [label c, Decimal.whole (segments c)]
         <> [cell (Table.number . perSegment (segments c)) (Just o) | o <- exact c]
-        <> [cell (Table.number . perSegment (segments c)) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
+        <> [ cell (Table.number . perSegment (segments c)) (at i (chorded c))
+             | i <- [0 .. length (chorders peers) - 1]
+           ]
         <> [maybe "–" Table.number (quotient (exact c) i) | i <- [1 .. count - 1]]
         <> [maybe "" growth (both i c earlier) | i <- [0 .. count - 1]]
     quotient outcomes i = case (at 0 outcomes, at i outcomes) of
       (Just (Right a), Just (Right b)) -> Just (Peer.middle (times a) / Peer.middle (times b))
       _ -> Nothing
     both i c earlier = case (at i (exact c), earlier >>= at i . exact, earlier) of
-      (Just (Right now), Just (Right then'), Just e) -> Just ((segments e, Peer.middle (times then')), (segments c, Peer.middle (times now)))
+      (Just (Right now), Just (Right then'), Just e) ->
+        Just ((segments e, Peer.middle (times then')), (segments c, Peer.middle (times now)))
       _ -> Nothing
     growth (a, b) = Decimal.fixed 2 (Table.exponent a b)
 
@@ -120,8 +172,13 @@ timesOf peers cases =
 memoryOf :: Peers -> [Case] -> Text
 memoryOf peers cases =
   Table.table
-    (["input", "segments"] <> map Peer.title (ours peers : keepers peers) <> map (Peer.title . ($ coarse)) (chorders peers))
-    [ [label c, Decimal.whole (segments c)] <> [cell (bytes c) (Just o) | o <- exact c] <> [cell (bytes c) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
+    ( ["input", "segments"]
+        <> map Peer.title (ours peers : keepers peers)
+        <> map (Peer.title . ($ coarse)) (chorders peers)
+    )
+    [ [label c, Decimal.whole (segments c)]
+        <> [cell (bytes c) (Just o) | o <- exact c]
+        <> [cell (bytes c) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
       | c <- cases
     ]
   where
@@ -131,13 +188,41 @@ memoryOf peers cases =
 agreement :: [Case] -> Text
 agreement cases =
   Table.table
-    ["input", "segments", "area, mm²", "apart", "length, mm", "apart", "loops", "of the peer", "open"]
+    [ "input",
+      "segments",
+      "area, mm²",
+      "apart",
+      "length, mm",
+      "apart",
+      "loops",
+      "of the peer",
+      "open"
+    ]
     [row c | c <- cases]
   where
     row c = case exact c of
       Right a : Right b : _ ->
-        [label c, Decimal.whole (segments c), Decimal.fixed 2 (area a), relative area a b, Decimal.fixed 2 (long a), relative long a b, Decimal.whole (loops a), Decimal.whole (loops b), Decimal.whole (open b)]
-      Right a : _ -> [label c, Decimal.whole (segments c), Decimal.fixed 2 (area a), "–", Decimal.fixed 2 (long a), "–", Decimal.whole (loops a), "–", "–"]
+        [ label c,
+          Decimal.whole (segments c),
+          Decimal.fixed 2 (area a),
+          relative area a b,
+          Decimal.fixed 2 (long a),
+          relative long a b,
+          Decimal.whole (loops a),
+          Decimal.whole (loops b),
+          Decimal.whole (open b)
+        ]
+      Right a : _ ->
+        [ label c,
+          Decimal.whole (segments c),
+          Decimal.fixed 2 (area a),
+          "–",
+          Decimal.fixed 2 (long a),
+          "–",
+          Decimal.whole (loops a),
+          "–",
+          "–"
+        ]
       _ -> [label c, Decimal.whole (segments c)] <> replicate 7 "–"
     relative part a b = scientific (apart part a b)
 
@@ -148,14 +233,32 @@ apart part a b = abs (part a - part b) / max 1e-300 (abs (part a))
 scientific :: Double -> Text
 scientific x
   | x == 0 = "0"
-  | otherwise = let e = floor (logBase 10 x) :: Int in Decimal.fixed 1 (x / 10 ^^ e) <> "e" <> (if e < 0 then "−" <> Decimal.whole (-e) else Decimal.whole e)
+  | otherwise =
+    let e =
+          floor (logBase 10 x) :: Int
+     in Decimal.fixed 1 (x / 10 ^^ e)
+          <> "e"
+          <> (if e < 0 then "−" <> Decimal.whole (-e) else Decimal.whole e)
 
--- | How far the chorders' boundaries lie from ours in the mean, in sagittas: the difference of the areas by the length.
+-- | How far the chorders' boundaries lie from ours in the mean, in sagittas: the difference of the
+-- areas by the length.
 chordsOf :: Peers -> [Case] -> Text
 chordsOf peers cases =
   Table.table
-    (["input", "segments"] <> concat [[Peer.title (p coarse) <> ", " <> s | s <- ["0.01 mm", "0.001 mm"]] | p <- chorders peers])
-    [[label c, Decimal.whole (segments c)] <> concat [[shown c coarse (at i (chorded c)), shown c fine (at i (finer c))] | i <- [0 .. length (chorders peers) - 1]] | c <- cases, not (null (finer c))]
+    ( ["input", "segments"]
+        <> concat
+          [ [Peer.title (p coarse) <> ", " <> s | s <- ["0.01 mm", "0.001 mm"]]
+            | p <- chorders peers
+          ]
+    )
+    [ [label c, Decimal.whole (segments c)]
+        <> concat
+          [ [shown c coarse (at i (chorded c)), shown c fine (at i (finer c))]
+            | i <- [0 .. length (chorders peers) - 1]
+          ]
+      | c <- cases,
+        not (null (finer c))
+    ]
   where
     shown c sagitta o = case (exact c, o) of
       (Right a : _, Just (Right b)) -> Decimal.fixed 2 (sagittas sagitta a b)
@@ -167,18 +270,47 @@ sagittas sagitta a b = abs (area a - area b) / long a / sagitta
 
 -- | What does not hold of a case.
 broken :: Int -> Case -> [Text]
-broken kept c = map ((label c <> ", " <> Decimal.whole (segments c) <> " segments: ") <>) (failures <> differences <> chords <> known)
+broken kept c =
+  map
+    ((label c <> ", " <> Decimal.whole (segments c) <> " segments: ") <>)
+    (failures <> differences <> chords <> known)
   where
     failures = [why | Left why <- take 1 (exact c)]
     others = take kept (drop 1 (exact c))
     differences = case exact c of
-      Right a : _ -> [what <> " of the peer is " <> scientific d <> " apart" <> (if open b > 0 then "; it returned " <> Decimal.whole (open b) <> " open pieces" else "") | Right b <- others, (what, d) <- [("the area", apart area a b), ("the length", apart long a b)], d > 1e-9]
+      Right a : _ ->
+        [ what
+            <> " of the peer is "
+            <> scientific d
+            <> " apart"
+            <> ( if open b > 0
+                   then "; it returned " <> Decimal.whole (open b) <> " open pieces"
+                   else ""
+               )
+          | Right b <- others,
+            (what, d) <- [("the area", apart area a b), ("the length", apart long a b)],
+            d > 1e-9
+        ]
       _ -> []
     -- A boundary may be off by the chords of the contour and those of the offset.
     chords = case exact c of
-      Right a : _ -> [Decimal.fixed 2 (sagittas s a b) <> " sagittas of " <> Decimal.fixed 3 s <> " mm between ours and a peer with chords" | (s, os) <- [(coarse, chorded c), (fine, finer c)], Right b <- os, sagittas s a b > 2]
+      Right a : _ ->
+        [ Decimal.fixed 2 (sagittas s a b)
+            <> " sagittas of "
+            <> Decimal.fixed 3 s
+            <> " mm between ours and a peer with chords"
+          | (s, os) <- [(coarse, chorded c), (fine, finer c)],
+            Right b <- os,
+            sagittas s a b > 2
+        ]
       _ -> []
     -- Known from independent computations.
     known = case (family c, segments c, distance c, exact c) of
-      (Star, 1000000, 5, Right a : _) | loops a /= 1 || abs (area a - 79584382771.36) > 1e-9 * area a -> ["one loop of 79584382771.36 mm² was expected, not " <> Decimal.whole (loops a) <> " of " <> Decimal.fixed 2 (area a)]
+      (Star, 1000000, 5, Right a : _)
+        | loops a /= 1 || abs (area a - 79584382771.36) > 1e-9 * area a ->
+          [ "one loop of 79584382771.36 mm² was expected, not "
+              <> Decimal.whole (loops a)
+              <> " of "
+              <> Decimal.fixed 2 (area a)
+          ]
       _ -> []

@@ -1,6 +1,8 @@
--- | The benchmark of the product: the kernel beside its peers, the stages, the whole compile beside LinuxCNC's interpreter.
+-- | The benchmark of the product: the kernel beside its peers, the stages, the whole compile beside
+-- LinuxCNC's interpreter.
 --
--- @bench PAGE FOLDER TOOLS… [-- PART…]@ is what scripts/bench.sh starts; the tools are given as NAME=COMMAND. It prints as it goes and
+-- @bench PAGE FOLDER TOOLS… [-- PART…]@ is what scripts/bench.sh starts; the tools are given as
+--  NAME=COMMAND. It prints as it goes and
 -- writes its tables between the markers of the page.
 module Main (main) where
 
@@ -25,11 +27,13 @@ main :: IO ()
 main = do
   arguments <- getArgs
   case arguments of
-    page : folder : options -> run page folder [(name, drop 1 value) | o <- options, let (name, value) = break (== '=') o]
+    page : folder : options ->
+      run page folder [(name, drop 1 value) | o <- options, let (name, value) = break (== '=') o]
     _ -> die "bench PAGE FOLDER NAME=COMMAND…"
 
--- | The options: kernel, stages, partc, cost: commands that have to be there; cavalier, chords, rs274: those that may be missing; parts:
--- which halves to run; most: the most segments and elements; seconds: how long a compile may take; about: lines on the machine.
+-- | The options: kernel, stages, partc, cost: commands that have to be there; cavalier, chords,
+-- rs274: those that may be missing; parts: which halves to run; most: the most segments and
+-- elements; seconds: how long a compile may take; about: lines on the machine.
 run :: FilePath -> FilePath -> [(String, String)] -> IO ()
 run page folder options = do
   place "machine" (Text.unlines ["- " <> l | l <- Text.lines (Text.pack (option "about" ""))])
@@ -39,7 +43,9 @@ run page folder options = do
     let notes = if null broken then ["Nothing differs."] else map ("- " <>) broken
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
-  when ("whole" `elem` parts) $ Whole.besideInterpreter tools (folder </> "programs") (programs most) (2 * seconds) >>= place "whole"
+  when ("whole" `elem` parts) $
+    Whole.besideInterpreter tools (folder </> "programs") (programs most) (2 * seconds)
+      >>= place "whole"
   where
     option name otherwise' = fromMaybe otherwise' (lookup name options)
     parts = words (option "parts" "kernel stages whole")
@@ -54,10 +60,29 @@ run page folder options = do
       Peers
         { ours = Peer "ours" (words (option "kernel" "kernel")),
           keepers = [Peer "cavalier_contours" (words c) | Just c <- [lookup "cavalier" options]],
-          chorders = [\sagitta -> Peer title (words c <> [library, show sagitta]) | Just c <- [lookup "chords" options], (title, library) <- [("GEOS", "geos"), ("Clipper2", "clipper2")]]
+          chorders =
+            [ \sagitta -> Peer title (words c <> [library, show sagitta])
+              | Just c <- [lookup "chords" options],
+                (title, library) <- [("GEOS", "geos"), ("Clipper2", "clipper2")]
+            ]
         }
-    tools = Tools {timer = option "stages" "stages", partc = option "partc" "partc", cost = words (option "cost" "cost.py"), interpreter = lookup "rs274" options}
+    tools =
+      Tools
+        { timer = option "stages" "stages",
+          partc = option "partc" "partc",
+          cost = words (option "cost" "cost.py"),
+          interpreter = lookup "rs274" options
+        }
 
 -- | What is compiled whole.
 programs :: Int -> [(Kind, Int)]
-programs most = [(k, n) | (k, n) <- [(k, n) | k <- [Corners, Lobes, Rows, Wavy, ArcsFile, LinesFile, CornersFile, HolesFile], n <- [10000, 100000]] <> [(LinesFile, 1000000)], n <= most]
+programs most =
+  [ (k, n)
+    | (k, n) <-
+        [ (k, n)
+          | k <- [Corners, Lobes, Rows, Wavy, ArcsFile, LinesFile, CornersFile, HolesFile],
+            n <- [10000, 100000]
+        ]
+          <> [(LinesFile, 1000000)],
+      n <= most
+  ]

@@ -1,5 +1,5 @@
--- | Numbers that look random and are the same everywhere: the finaliser of splitmix64 (Steele, Lea, Flood 2014) of a seed and a
--- place in its stream.
+-- | Numbers that look random and are the same everywhere: the finaliser of splitmix64 (Steele, Lea,
+-- Flood 2014) of a seed and a place in its stream.
 module Noise
   ( bits,
     uniform,

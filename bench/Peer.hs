@@ -21,13 +21,32 @@ import Text.Read (readMaybe)
 data Peer = Peer {title :: Text, start :: [String]}
 
 -- | What came out: nanoseconds of each batch; mm², mm; loops, open pieces, vertices; bytes.
-data Outcome = Outcome {times :: [Double], area :: Double, long :: Double, loops :: Int, open :: Int, vertices :: Int, memory :: Double}
+data Outcome = Outcome
+  { times :: [Double],
+    area :: Double,
+    long :: Double,
+    loops :: Int,
+    open :: Int,
+    vertices :: Int,
+    memory :: Double
+  }
   deriving stock (Eq, Show)
 
--- | Every program once in each of so many rounds; each begins anew, so that none profits from the one before. A program
--- that fails once is not asked again. The first file is the small contour that each begins with, the second the one that counts.
-interleaved :: Int -> FilePath -> FilePath -> Double -> Int -> Int -> [Peer] -> IO [Either Text Outcome]
-interleaved rounds small file distance runs batches peers = foldM once (map (const (Right Nothing)) peers) [1 .. rounds] <&> map (>>= maybe (Left "not run") Right)
+-- | Every program once in each of so many rounds; each begins anew, so that none profits from the
+-- one before. A program that fails once is not asked again. The first file is the small contour
+-- that each begins with, the second the one that counts.
+interleaved ::
+  Int ->
+  FilePath ->
+  FilePath ->
+  Double ->
+  Int ->
+  Int ->
+  [Peer] ->
+  IO [Either Text Outcome]
+interleaved rounds small file distance runs batches peers =
+  foldM once (map (const (Right Nothing)) peers) [1 .. rounds]
+    <&> map (>>= maybe (Left "not run") Right)
   where
     once found _ = traverse further (zip peers found)
     further (peer, before) = case before of
@@ -37,23 +56,42 @@ interleaved rounds small file distance runs batches peers = foldM once (map (con
         pure (fmap (\o -> Just o {times = maybe [] times earlier <> times o}) new)
 
 offset :: Peer -> FilePath -> FilePath -> Double -> Int -> Int -> IO (Either Text Outcome)
-offset peer small file distance runs batches = (>>= read') <$> command 300 (start peer <> [small, file, show distance, show runs, show batches])
+offset peer small file distance runs batches =
+  (>>= read') <$> command 300 (start peer <> [small, file, show distance, show runs, show batches])
   where
     read' out =
-      let found key = [v | line <- Text.lines out, [k, w] <- [Text.words line], k == key, Just v <- [readMaybe (Text.unpack w)]]
-       in case (found "run", found "area", found "length", map found ["loops", "open", "vertices"], found "memory") of
-            (ts@(_ : _), [area], [long], [[loops], [open], [vertices]], [memory]) -> Right Outcome {times = ts, area, long, loops, open, vertices, memory}
+      let found key =
+            [ v
+              | line <- Text.lines out,
+                [k, w] <- [Text.words line],
+                k == key,
+                Just v <- [readMaybe (Text.unpack w)]
+            ]
+       in case ( found "run",
+                 found "area",
+                 found "length",
+                 map found ["loops", "open", "vertices"],
+                 found "memory"
+               ) of
+            (ts@(_ : _), [area], [long], [[loops], [open], [vertices]], [memory]) ->
+              Right Outcome {times = ts, area, long, loops, open, vertices, memory}
             _ -> Left ("what it printed is not understood: " <> Text.take 200 out)
 
--- | What a command prints, unless it takes longer than so many seconds or fails. Of what it then says the first line tells why; the
--- next ones name places.
+-- | What a command prints, unless it takes longer than so many seconds or fails. Of what it then
+-- says the first line tells why; the next ones name places.
 command :: Int -> [String] -> IO (Either Text Text)
 command seconds wanted = do
   (status, out, err) <- readProcessWithExitCode "timeout" (show seconds : wanted) ""
   pure $ case status of
     ExitSuccess -> Right (Text.pack out)
     ExitFailure 124 -> Left ("longer than " <> Text.pack (show seconds) <> " s")
-    ExitFailure n -> Left (Text.unwords (concatMap Text.words (take 1 (Text.lines (Text.pack (err <> out))))) <> " (status " <> Text.pack (show n) <> ")")
+    ExitFailure n ->
+      Left
+        ( Text.unwords (concatMap Text.words (take 1 (Text.lines (Text.pack (err <> out)))))
+            <> " (status "
+            <> Text.pack (show n)
+            <> ")"
+        )
 
 -- | The median.
 middle :: [Double] -> Double

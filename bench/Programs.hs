@@ -18,17 +18,22 @@ data Kind
     Corners
   | -- | a contour of circles that are joined by tangents
     Lobes
-  | -- | statements of many kinds: points, circles, tangent lines, functions and their calls, assertions, contours, holes
+  | -- | statements of many kinds: points, circles, tangent lines, functions and their calls,
+    -- assertions, contours, holes
     Statements
-  | -- | a closed spline through the rows of a table, 3 mm apart, so smooth that one arc goes along many rows
+  | -- | a closed spline through the rows of a table, 3 mm apart, so smooth that one arc goes along
+    -- many rows
     Rows
   | -- | the same with noise of 0.1 mm: every row bends it
     Wavy
-  | -- | closed arcs through the rows of a file of comma-separated values, 19 mm apart, with noise of 2 mm: each arc needs a frame of its own
+  | -- | closed arcs through the rows of a file of comma-separated values, 19 mm apart, with noise
+    -- of 2 mm: each arc needs a frame of its own
     ArcsFile
-  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved: each line needs a frame of its own
+  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved:
+    -- each line needs a frame of its own
     LinesFile
-  | -- | the same milled round: it has as many inner corners, into which no cutter comes, as outer ones, round which it goes on an arc
+  | -- | the same milled round: it has as many inner corners, into which no cutter comes, as outer
+    -- ones, round which it goes on an arc
     CornersFile
   | -- | a hole at each row of such a file, 3 mm apart
     HolesFile
@@ -46,8 +51,8 @@ name kind = case kind of
   CornersFile -> "corners, csv"
   HolesFile -> "holes, csv"
 
--- | How many elements there are at most: ten times as many would take more than a million frames, or more room than a drawing has; and what is
--- written by hand is no larger.
+-- | How many elements there are at most: ten times as many would take more than a million frames,
+-- or more room than a drawing has; and what is written by hand is no larger.
 most :: Kind -> Int
 most kind = if kind `elem` [Rows, Wavy, LinesFile] then 1000000 else 100000
 
@@ -62,20 +67,44 @@ written kind n = case kind of
   Statements -> Written (statements n) []
   Rows -> inline 0
   Wavy -> inline 0.1
-  ArcsFile -> Written (curved "closed_arcs" "outside" "" (6 * fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 6 2))]
+  ArcsFile ->
+    Written
+      (curved "closed_arcs" "outside" "" (6 * fromIntegral n) "table t from \"rows.csv\"\n")
+      [("rows.csv", Text.unlines ("x,y" : rows "," n 6 2))]
   LinesFile -> cornered "on" ""
   CornersFile -> cornered "outside" " rest allowed"
-  HolesFile -> Written (header "holes" 2 (0.7 * fromIntegral n + 40) <> "clearance 5 mm\ntable t from \"rows.csv\"\ndrill at points_of(t) depth 3 mm\n") [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
+  HolesFile ->
+    Written
+      ( header "holes" 2 (0.7 * fromIntegral n + 40)
+          <> "clearance 5 mm\ntable t from \"rows.csv\"\ndrill at points_of(t) depth 3 mm\n"
+      )
+      [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
   where
-    cornered side more = Written (curved "polyline" side more (fromIntegral n) "table t from \"rows.csv\"\n") [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
-    inline noise = Written (curved "closed_spline" "outside" "" (fromIntegral n) (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))) []
+    cornered side more =
+      Written
+        (curved "polyline" side more (fromIntegral n) "table t from \"rows.csv\"\n")
+        [("rows.csv", Text.unlines ("x,y" : take (n + 1) (cycle (rows "," n 1 0.5))))]
+    inline noise =
+      Written
+        ( curved
+            "closed_spline"
+            "outside"
+            ""
+            (fromIntegral n)
+            (Text.unlines (["table t {", "x y"] <> rows " " n 1 noise <> ["}"]))
+        )
+        []
 
 -- | Elements around a circle, so far apart that half of what lies between them is given.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text
 ring half n element =
   header "ring" 10 (r + 20)
     <> "contour c closed {\n"
-    <> Text.unlines ["  " <> element (coordinate (r * cos a)) (coordinate (r * sin a)) | k <- [0 .. n - 1], let a = 2 * pi * fromIntegral k / fromIntegral n]
+    <> Text.unlines
+      [ "  " <> element (coordinate (r * cos a)) (coordinate (r * sin a))
+        | k <- [0 .. n - 1],
+          let a = 2 * pi * fromIntegral k / fromIntegral n
+      ]
     <> "}\nmill c outside { }\n"
   where
     r = half / sin (pi / fromIntegral n)
@@ -85,7 +114,12 @@ curved :: Text -> Text -> Text -> Double -> Text -> Text
 curved through side more r table =
   header "wave" 6 (0.7 * r + 40)
     <> table
-    <> ("curve skin = " <> through <> "(t)\ncontour c closed { skin }\nmill c " <> side <> " { start near (")
+    <> ( "curve skin = "
+           <> through
+           <> "(t)\ncontour c closed { skin }\nmill c "
+           <> side
+           <> " { start near ("
+       )
     <> coordinate r
     <> (", 0)" <> more <> " }\n")
 
@@ -96,7 +130,9 @@ rows separator n scale noise = map row [0 .. n - 1]
     count = fromIntegral n :: Double
     row k =
       let a = 2 * pi * fromIntegral k / count
-          d = 0.5 * scale * count * (1 + 0.1 * sin (5 * a)) + noise * (2 * Noise.uniform 7 (fromIntegral k) - 1)
+          d =
+            0.5 * scale * count * (1 + 0.1 * sin (5 * a))
+              + noise * (2 * Noise.uniform 7 (fromIntegral k) - 1)
        in coordinate (d * cos a) <> separator <> coordinate (d * sin a)
 
 header :: Text -> Int -> Double -> Text
@@ -113,7 +149,15 @@ header part diameter away =
 statements :: Int -> Text
 statements n =
   Text.unlines
-    ( ["part many", "machine lkp-01f", "tool mill(diameter 2 mm)", "feed 60 mm/min", "tolerance 0.02 mm", "clearance 5 mm", "from (-20, -20, 5)", "let twice(x) = 2 * x"]
+    ( [ "part many",
+        "machine lkp-01f",
+        "tool mill(diameter 2 mm)",
+        "feed 60 mm/min",
+        "tolerance 0.02 mm",
+        "clearance 5 mm",
+        "from (-20, -20, 5)",
+        "let twice(x) = 2 * x"
+      ]
         <> take n (concatMap group [0 ..])
     )
   where

@@ -1,12 +1,14 @@
--- | @random COUNT SEED FILE PEER [LIMIT [JUDGE]]@: writes so many random contours with their offsets to a file, lets a peer
--- (bench/peers/cavalier, @areas@) offset them, offsets them with the kernel, and compares areas, lengths and numbers of loops. The
--- peer answers twice, the second time with a millionth of its tolerances: what agrees with one of both answers is no difference.
+-- | @random COUNT SEED FILE PEER [LIMIT [JUDGE]]@: writes so many random contours with their
+-- offsets to a file, lets a peer (bench/peers/cavalier, @areas@) offset them, offsets them with the
+-- kernel, and compares areas, lengths and numbers of loops. The peer answers twice, the second time
+-- with a millionth of its tolerances: what agrees with one of both answers is no difference.
 --
--- What differs is judged. The places further away than the offset are those further away than an offset that is larger by however
--- little, and at such a one nothing is in special position. So the peer is asked again for offsets that are a little larger and a
--- little smaller, and a judge that knows nothing of either (bench/peers/judge.py) for one that is a little larger. Where
--- the kernel's answer is the limit of all larger ones it is right. It prints how many differ in which way, and at most LIMIT
--- of those that the judges do not decide for the kernel.
+-- What differs is judged. The places further away than the offset are those further away than an
+-- offset that is larger by however little, and at such a one nothing is in special position. So the
+-- peer is asked again for offsets that are a little larger and a little smaller, and a judge that
+-- knows nothing of either (bench/peers/judge.py) for one that is a little larger. Where the
+-- kernel's answer is the limit of all larger ones it is right. It prints how many differ in which
+-- way, and at most LIMIT of those that the judges do not decide for the kernel.
 --
 -- @random - SEED INDEX@ prints one contour.
 module Main (main) where
@@ -37,11 +39,22 @@ main :: IO ()
 main = do
   arguments <- getArgs
   case arguments of
-    ["-", s, i] | Just seed <- readMaybe s, Just index <- readMaybe i -> printed (RandomContour.contour seed index)
+    ["-", s, i]
+      | Just seed <- readMaybe s,
+        Just index <- readMaybe i ->
+        printed (RandomContour.contour seed index)
     c : s : file : peer : rest
       | Just count <- readMaybe c,
         Just seed <- readMaybe s ->
-        compared Task {seed, file, peer, limit = fromMaybe 20 (readMaybe =<< listToMaybe rest), judge = drop 1 rest} count
+        compared
+          Task
+            { seed,
+              file,
+              peer,
+              limit = fromMaybe 20 (readMaybe =<< listToMaybe rest),
+              judge = drop 1 rest
+            }
+          count
     _ -> die "random COUNT SEED FILE PEER [LIMIT [JUDGE]] or random - SEED INDEX"
 
 -- | The offset, then x y bulge for each vertex.
@@ -49,18 +62,38 @@ printed :: (FlatPolyarc, Double) -> IO ()
 printed (o, d) = do
   print d
   forM_ [0 .. PrimArray.sizeofPrimArray (FlatPolyarc.xs o) - 1] $ \i ->
-    putStrLn (unwords [show (PrimArray.indexPrimArray a i) | a <- [FlatPolyarc.xs o, FlatPolyarc.ys o, FlatPolyarc.bulges o]])
+    putStrLn
+      ( unwords
+          [ show (PrimArray.indexPrimArray a i)
+            | a <- [FlatPolyarc.xs o, FlatPolyarc.ys o, FlatPolyarc.bulges o]
+          ]
+      )
 
--- | The seed; the file to write to; the peer's program; how many lines to print; the judge's program and its arguments, if there is one.
-data Task = Task {seed :: Word64, file :: FilePath, peer :: FilePath, limit :: Int, judge :: [String]}
+-- | The seed; the file to write to; the peer's program; how many lines to print; the judge's
+-- program and its arguments, if there is one.
+data Task = Task
+  { seed :: Word64,
+    file :: FilePath,
+    peer :: FilePath,
+    limit :: Int,
+    judge :: [String]
+  }
 
 -- | What an offset comes to: area, length, closed loops, open pieces.
 data Sums = Sums {area :: Double, long :: Double, loops :: Int, open :: Int}
 
--- | A contour by its number; the kernel's answer, the peer's two, and the peer's for a slightly larger offset.
-data Answer = Answer {index :: Int, ours :: Either Text Sums, theirs :: Sums, narrower :: Sums, larger :: Sums}
+-- | A contour by its number; the kernel's answer, the peer's two, and the peer's for a slightly
+-- larger offset.
+data Answer = Answer
+  { index :: Int,
+    ours :: Either Text Sums,
+    theirs :: Sums,
+    narrower :: Sums,
+    larger :: Sums
+  }
 
--- | What is said of a slightly smaller offset by the peer, and of a slightly larger one by the judge.
+-- | What is said of a slightly smaller offset by the peer, and of a slightly larger one by the
+-- judge.
 data Beside = Beside {smaller :: Sums, judged :: Maybe Sums}
 
 data Class
@@ -72,7 +105,8 @@ data Class
     Passage
   | -- | the kernel's answer is the limit of larger offsets, the peer's is not and has open pieces
     Torn
-  | -- | the kernel's answer is the limit of larger offsets, the peer's is neither that nor the one of smaller ones
+  | -- | the kernel's answer is the limit of larger offsets, the peer's is neither that nor the one
+    -- of smaller ones
     Mixed
   | -- | both answers are the limit of larger offsets; they differ in their digits
     Digits
@@ -82,9 +116,13 @@ named :: Class -> String
 named c = case c of
   Failed -> "on which the kernel gives no answer"
   Undecided -> "not decided for the kernel"
-  Passage -> "where the kernel is right and the peer gives the limit of smaller offsets: passages that the offset closes exactly are kept"
+  Passage ->
+    "where the kernel is right and the peer gives the limit of smaller offsets: passages that the \
+    \offset closes exactly are kept"
   Torn -> "where the kernel is right and the peer leaves pieces open"
-  Mixed -> "where the kernel is right and the peer gives the limit of neither: some passages are kept, others closed"
+  Mixed ->
+    "where the kernel is right and the peer gives the limit of neither: some passages are kept, \
+    \others closed"
   Digits -> "where both are right but for digits"
 
 -- | Write, let the peer work, compare, let the judges work.
@@ -92,25 +130,64 @@ compared :: Task -> Int -> IO ()
 compared task count = do
   given <- asked task 1 (file task) [peer task, file task] indices
   second <- asked task 1 (file task) [peer task, file task, "1e-11"] indices
-  largers <- asked task (1 + nudge) (file task <> ".larger") [peer task, file task <> ".larger", "1e-11"] indices
+  largers <-
+    asked
+      task
+      (1 + nudge)
+      (file task <> ".larger")
+      [peer task, file task <> ".larger", "1e-11"]
+      indices
   begin <- getCPUTime
   let found = zipWith4 (\i -> Answer i (kernels (seed task) i)) indices given second largers
-      different = [a | a <- found, not (same task a (theirs a) || same task a (narrower a)) || not (isLimit task a)]
+      different =
+        [ a
+          | a <- found,
+            not (same task a (theirs a) || same task a (narrower a)) || not (isLimit task a)
+        ]
       those = map index different
   end <- length different `seq` getCPUTime
-  smallers <- asked task (1 - nudge) (file task <> ".smaller") [peer task, file task <> ".smaller", "1e-11"] those
-  judgeds <- if null (judge task) then pure (map (const Nothing) those) else map Just <$> asked task (1 + chordNudge) (file task <> ".judged") (judge task <> [file task <> ".judged"]) those
+  smallers <-
+    asked
+      task
+      (1 - nudge)
+      (file task <> ".smaller")
+      [peer task, file task <> ".smaller", "1e-11"]
+      those
+  judgeds <-
+    if null (judge task)
+      then pure (map (const Nothing) those)
+      else
+        map Just
+          <$> asked
+            task
+            (1 + chordNudge)
+            (file task <> ".judged")
+            (judge task <> [file task <> ".judged"])
+            those
   let besides = zipWith Beside smallers judgeds
       classes = [(classOf task a b, a, b) | (a, b) <- zip different besides]
-  mapM_ (Text.putStrLn . line task) (take (limit task) [(a, b) | (c, a, b) <- classes, c == Failed || c == Undecided])
-  forM_ [minBound .. maxBound] $ \c -> forM_ (zip [0 ..] ["on a grid", "with arcs", "noisy"]) $ \(kind, name) -> do
-    let n = length [() | (c', a, _) <- classes, c' == c, index a `mod` 3 == (kind :: Int)]
-    when (n > 0) $ putStrLn (name <> ": " <> show n <> " of " <> show ((count + 2 - kind) `div` 3) <> " " <> named c)
-  putStrLn (show (length different) <> " of " <> show count <> " differ; " <> show ((end - begin) `div` 1000000000) <> " ms for ours")
+  mapM_
+    (Text.putStrLn . line task)
+    (take (limit task) [(a, b) | (c, a, b) <- classes, c == Failed || c == Undecided])
+  forM_ [minBound .. maxBound] $ \c ->
+    forM_ (zip [0 ..] ["on a grid", "with arcs", "noisy"]) $ \(kind, name) -> do
+      let n = length [() | (c', a, _) <- classes, c' == c, index a `mod` 3 == (kind :: Int)]
+      when (n > 0) $
+        putStrLn
+          (name <> ": " <> show n <> " of " <> show ((count + 2 - kind) `div` 3) <> " " <> named c)
+  putStrLn
+    ( show (length different)
+        <> " of "
+        <> show count
+        <> " differ; "
+        <> show ((end - begin) `div` 1000000000)
+        <> " ms for ours"
+    )
   where
     indices = [0 .. count - 1]
 
--- | So much larger or smaller is an offset beside the one asked, as a part; and for a judge that knows chords only.
+-- | So much larger or smaller is an offset beside the one asked, as a part; and for a judge that
+-- knows chords only.
 nudge, chordNudge :: Double
 nudge = 1e-8
 chordNudge = 1e-7
@@ -120,7 +197,12 @@ asked :: Task -> Double -> FilePath -> [String] -> [Int] -> IO [Sums]
 asked task factor to command those = do
   withBinaryFile to WriteMode $ \handle -> forM_ those $ \i -> do
     let (o, d) = RandomContour.contour (seed task) i
-    Builder.hPutBuilder handle (Builder.word64LE (fromIntegral (PrimArray.sizeofPrimArray (FlatPolyarc.xs o))) <> Builder.doubleLE (factor * d) <> ContourFile.builder o)
+    Builder.hPutBuilder
+      handle
+      ( Builder.word64LE (fromIntegral (PrimArray.sizeofPrimArray (FlatPolyarc.xs o)))
+          <> Builder.doubleLE (factor * d)
+          <> ContourFile.builder o
+      )
   printed' <- case command of
     program : arguments -> readProcess program arguments ""
     [] -> pure ""
@@ -139,7 +221,13 @@ kernels s i = case Equidistant.offset d source of
   Left why -> Left (Text.pack why)
   Right reach ->
     let result = Equidistant.outlines reach
-     in Right Sums {area = sum (map FlatPolyarc.area result), long = sum [l | o <- result, let Mm l = FlatPolyarc.length o], loops = length result, open = 0}
+     in Right
+          Sums
+            { area = sum (map FlatPolyarc.area result),
+              long = sum [l | o <- result, let Mm l = FlatPolyarc.length o],
+              loops = length result,
+              open = 0
+            }
   where
     (source, d) = RandomContour.contour s i
 
@@ -147,7 +235,11 @@ kernels s i = case Equidistant.offset d source of
 same :: Task -> Answer -> Sums -> Bool
 same task a other = case ours a of
   Left _ -> False
-  Right own -> loops own == loops other && open other == 0 && near (abs (FlatPolyarc.area source)) (area own) (area other) && near around (long own) (long other)
+  Right own ->
+    loops own == loops other
+      && open other == 0
+      && near (abs (FlatPolyarc.area source)) (area own) (area other)
+      && near around (long own) (long other)
   where
     (source, _) = RandomContour.contour (seed task) (index a)
     -- What a result of rounding errors alone may come to is measured by the source.
@@ -158,10 +250,15 @@ same task a other = case ours a of
 isLimit :: Task -> Answer -> Bool
 isLimit task a = either (const False) (\own -> limitOf task a nudge own (larger a)) (ours a)
 
--- | Whether one answer is the limit of others: as many loops, an area and a length that differ by no more than a part of the offset
--- explains. Two arcs of a radius d that touch lose 4d√(2ε) of their lengths when both grow by a part ε; on a grid up to twenty pairs do.
+-- | Whether one answer is the limit of others: as many loops, an area and a length that differ by
+-- no more than a part of the offset explains. Two arcs of a radius d that touch lose 4d√(2ε) of
+-- their lengths when both grow by a part ε; on a grid up to twenty pairs do.
 limitOf :: Task -> Answer -> Double -> Sums -> Sums -> Bool
-limitOf task a by own other = loops own == loops other && open own == 0 && abs (area own - area other) <= margin && abs (long own - long other) <= margin
+limitOf task a by own other =
+  loops own == loops other
+    && open own == 0
+    && abs (area own - area other) <= margin
+    && abs (long own - long other) <= margin
   where
     (source, d) = RandomContour.contour (seed task) (index a)
     Mm around = FlatPolyarc.length source
@@ -171,7 +268,9 @@ classOf :: Task -> Answer -> Beside -> Class
 classOf task a beside = case ours a of
   Left _ -> Failed
   Right own
-    | not (limit' nudge own (larger a)) || not (maybe True (limit' chordNudge own) (judged beside)) -> Undecided
+    | not (limit' nudge own (larger a))
+        || not (maybe True (limit' chordNudge own) (judged beside)) ->
+      Undecided
     | any (\t -> limit' nudge t (larger a)) peers -> Digits
     | any (\t -> limit' nudge t (smaller beside)) peers -> Passage
     | all ((> 0) . open) peers -> Torn
@@ -181,10 +280,26 @@ classOf task a beside = case ours a of
     peers = [theirs a, narrower a]
 
 line :: Task -> (Answer, Beside) -> Text
-line task (a, beside) = Text.intercalate "; " (("contour " <> shown (index a) <> ", offset " <> shown d) : either ("the kernel fails: " <>) (said "ours") (ours a) : said "theirs" (theirs a) : said "narrower" (narrower a) : said "larger" (larger a) : said "smaller" (smaller beside) : maybe [] (pure . said "judge") (judged beside))
+line task (a, beside) =
+  Text.intercalate
+    "; "
+    ( ("contour " <> shown (index a) <> ", offset " <> shown d) :
+      either ("the kernel fails: " <>) (said "ours") (ours a) :
+      said "theirs" (theirs a) :
+      said "narrower" (narrower a) :
+      said "larger" (larger a) :
+      said "smaller" (smaller beside) : maybe [] (pure . said "judge") (judged beside)
+    )
   where
     (_, d) = RandomContour.contour (seed task) (index a)
-    said who s = who <> " " <> Text.unwords [shown (area s), shown (long s), shown (loops s) <> (if open s > 0 then "+" <> shown (open s) else "")]
+    said who s =
+      who
+        <> " "
+        <> Text.unwords
+          [ shown (area s),
+            shown (long s),
+            shown (loops s) <> (if open s > 0 then "+" <> shown (open s) else "")
+          ]
 
 shown :: Show a => a -> Text
 shown = Text.pack . show

@@ -1,8 +1,9 @@
--- | @stages KIND N MACHINE@: the stages of one compile, from the text to the proof, one after the other in one process. Prints the
--- milliseconds of processor time of each, and then the most kilobytes that the process has held.
+-- | @stages KIND N MACHINE@: the stages of one compile, from the text to the proof, one after the
+-- other in one process. Prints the milliseconds of processor time of each, and then the most
+-- kilobytes that the process has held.
 --
--- Each stage ends when a number that needs its whole output is known. What a stage leaves to be computed later counts where it
--- is computed; so does the collection of garbage.
+-- Each stage ends when a number that needs its whole output is known. What a stage leaves to be
+-- computed later counts where it is computed; so does the collection of garbage.
 module Main (main) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -60,19 +61,56 @@ stages :: Machine -> Written -> IO ()
 stages machine Written {text, files} = do
   _ <- evaluate (sum (map Text.length (text : map snd files)))
   performGC
-  surface <- stage "parse" (sum . map itemsOf . Surface.statements) (pure (reported (Compile.surface (runIdentity (Compile.load (Import.byName reader) "bench.part" text)))))
-  checked <- stage "check" (round . sum . map weight . Checked.statements) (pure (plain (Checked.check surface)))
-  part <- stage "part" (sum . map (round . contourLength) . Part.contours) (pure (plain (Part.evaluate checked)))
+  surface <-
+    stage
+      "parse"
+      (sum . map itemsOf . Surface.statements)
+      ( pure
+          ( reported
+              ( Compile.surface
+                  (runIdentity (Compile.load (Import.byName reader) "bench.part" text))
+              )
+          )
+      )
+  checked <-
+    stage
+      "check"
+      (round . sum . map weight . Checked.statements)
+      (pure (plain (Checked.check surface)))
+  part <-
+    stage
+      "part"
+      (sum . map (round . contourLength) . Part.contours)
+      (pure (plain (Part.evaluate checked)))
   path <- stage "path" (round . pathLength) (pure (plain (Toolpath.lay part)))
-  program <- stage "frames" (sum . map (distance . increment . Frame.frame) . Frame.planned) (pure (plain (Frame.quantise machine path)))
-  tape <- stage "tape" Tape.rowCount (pure (Right (Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program)))))
+  program <-
+    stage
+      "frames"
+      (sum . map (distance . increment . Frame.frame) . Frame.planned)
+      (pure (plain (Frame.quantise machine path)))
+  tape <-
+    stage
+      "tape"
+      Tape.rowCount
+      ( pure
+          ( Right
+              (Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program)))
+          )
+      )
   _ <- stage "verify" (length . show . Proof.findings) (pure (proof path program tape))
   status <- readFile "/proc/self/status"
-  putStrLn (unwords ("memory" : concat [take 1 (drop 1 (words line)) | line <- lines status, take 6 line == "VmHWM:"]))
+  putStrLn
+    ( unwords
+        ( "memory" :
+          concat [take 1 (drop 1 (words line)) | line <- lines status, take 6 line == "VmHWM:"]
+        )
+    )
   where
     reader there = pure (maybe (Left "no such file") Right (lookup (takeFileName there) files))
     proof :: Toolpath -> Frame.FrameProgram -> Tape -> Either Text Proof.Proof
-    proof path program tape = reported (Compile.readBack machine program tape) >>= reported . Compile.prove machine path program
+    proof path program tape =
+      reported (Compile.readBack machine program tape)
+        >>= reported . Compile.prove machine path program
 
 -- | Time a stage by a number that needs its whole output.
 stage :: String -> (a -> Int) -> IO (Either Text a) -> IO a
@@ -80,7 +118,9 @@ stage title summary action = do
   begin <- getCPUTime
   result <- action
   case result of
-    Left why -> Text.putStrLn ("failed " <> Text.pack title <> ": " <> why) >> die "a program of the benchmark has errors"
+    Left why ->
+      Text.putStrLn ("failed " <> Text.pack title <> ": " <> why)
+        >> die "a program of the benchmark has errors"
     Right value -> do
       _ <- evaluate (summary value)
       end <- getCPUTime
@@ -101,19 +141,44 @@ plain r = case (Result.errors r, Result.output r) of
 
 itemsOf :: Surface.Statement -> Int
 itemsOf s = case Region.value s of
-  Surface.Contour _ _ items -> sum [1 | Region.Located _ (Surface.Element _ e _ _) <- items, Region.start (Region.region e) >= 0]
+  Surface.Contour _ _ items ->
+    sum
+      [1 | Region.Located _ (Surface.Element _ e _ _) <- items, Region.start (Region.region e) >= 0]
   _ -> 1
 
 weight :: Checked.Statement -> Double
 weight s = case Region.value s of
-  Checked.Contour _ _ items -> sum [x + y | Region.Located _ (Checked.Element _ (Region.Located _ (Checked.Pair (Region.Located _ (Checked.Number x)) (Region.Located _ (Checked.Number y)))) _ _) <- items]
+  Checked.Contour _ _ items ->
+    sum
+      [ x + y
+        | Region.Located
+            _
+            ( Checked.Element
+                _
+                ( Region.Located
+                    _
+                    ( Checked.Pair
+                        (Region.Located _ (Checked.Number x))
+                        (Region.Located _ (Checked.Number y))
+                      )
+                  )
+                _
+                _
+              ) <-
+            items
+      ]
   _ -> 1
 
 contourLength :: Part.Contour -> Double
-contourLength c = let Mm l = total (map (Segment.length . Part.segment) (NonEmpty.toList (Part.elements c))) in l
+contourLength c =
+  let Mm l = total (map (Segment.length . Part.segment) (NonEmpty.toList (Part.elements c))) in l
 
 pathLength :: Toolpath -> Double
-pathLength p = let Mm l = total (map (Segment.length . Toolpath.segment) (concatMap Toolpath.moves (Toolpath.blocks p))) in l
+pathLength p =
+  let Mm l =
+        total
+          (map (Segment.length . Toolpath.segment) (concatMap Toolpath.moves (Toolpath.blocks p)))
+   in l
 
 distance :: Pulses3 -> Int
 distance (Pulses3 (Pulses x) (Pulses y) (Pulses z)) = abs x + abs y + abs z

@@ -34,7 +34,8 @@ number x
 exponent :: (Int, Double) -> (Int, Double) -> Double
 exponent (n, t) (n', t') = logBase (fromIntegral n' / fromIntegral n) (t' / t)
 
--- | Put a text where a page says @<!-- NAME -->@ … @<!-- end of NAME -->@; whether there is such a place.
+-- | Put a text where a page says @<!-- NAME -->@ … @<!-- end of NAME -->@; whether there is such a
+-- place.
 replace :: FilePath -> Text -> Text -> IO Bool
 replace file name text = do
   page <- Text.readFile file

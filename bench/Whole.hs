@@ -1,4 +1,5 @@
--- | The whole compile: its stages and their growth, and @partc compile@ beside LinuxCNC's interpreter reading the result.
+-- | The whole compile: its stages and their growth, and @partc compile@ beside LinuxCNC's
+-- interpreter reading the result.
 module Whole
   ( Tools (..),
     staged,
@@ -20,16 +21,22 @@ import System.IO (hFlush, stdout)
 import Table qualified
 import Text.Read (readMaybe)
 
--- | The programs that are run: the one that times stages, partc, the one that tells what a command costs, the interpreter if it is there.
-data Tools = Tools {timer :: FilePath, partc :: FilePath, cost :: [String], interpreter :: Maybe FilePath}
+-- | The programs that are run: the one that times stages, partc, the one that tells what a command
+-- costs, the interpreter if it is there.
+data Tools = Tools
+  { timer :: FilePath,
+    partc :: FilePath,
+    cost :: [String],
+    interpreter :: Maybe FilePath
+  }
 
 -- Stages ------------------------------------------------------------------------------------------
 
 -- | Milliseconds of each stage, in order, and the peak of memory in kilobytes.
 data Staged = Staged {stages :: [(Text, Double)], peak :: Double}
 
--- | Every kind of program on two machines, by tens up to so many elements, if there can be so many. A size is left out when the one before it lets expect more than
--- the seconds that are allowed.
+-- | Every kind of program on two machines, by tens up to so many elements, if there can be so many.
+-- A size is left out when the one before it lets expect more than the seconds that are allowed.
 staged :: Tools -> Int -> Double -> IO Text
 staged tools most allowed =
   Table.table (["program", "machine", "size"] <> names <> ["sum", "µs per element", "MB"]) . concat
@@ -40,24 +47,38 @@ staged tools most allowed =
 -- | A size and its runs, or why there are none.
 type Size = (Int, Either Text [Staged])
 
--- | The sizes take turns, so that a machine that becomes slower for a while does so for all of them: growth is told between what was measured side by side.
+-- | The sizes take turns, so that a machine that becomes slower for a while does so for all of
+-- them: growth is told between what was measured side by side.
 ofKind :: Tools -> Int -> Double -> (Kind, Text) -> IO [Table.Row]
 ofKind tools most allowed (kind, machine) = do
   once <- foldM first [] (takeWhile (<= min most largest) [100, 1000, 10000, 100000, 1000000])
   sizes <- foldM (\sizes turn -> traverse (again turn) sizes) (reverse once) [2 .. 5]
   let medians = [(n, middles <$> runs) | (n, runs) <- sizes]
-  forM_ medians $ \(n, s) -> Text.putStrLn (Programs.name kind <> " on " <> machine <> ", " <> Decimal.whole n <> ": " <> either id (\s' -> Table.number (total s') <> " ms") s)
+  forM_ medians $ \(n, s) ->
+    Text.putStrLn
+      ( Programs.name kind
+          <> " on "
+          <> machine
+          <> ", "
+          <> Decimal.whole n
+          <> ": "
+          <> either id (\s' -> Table.number (total s') <> " ms") s
+      )
   hFlush stdout
   pure (concatMap (rows [(n, s) | (n, Right s) <- medians, n == 1000]) medians)
   where
     -- A million rows on one machine are enough.
     largest = if machine == "iso6983" then Programs.most kind else min 100000 (Programs.most kind)
-    first before n = (: before) . (n,) <$> (if expected before > 1000 * allowed then pure (Left "–") else fmap (: []) <$> run n)
+    first before n =
+      (: before) . (n,)
+        <$> (if expected before > 1000 * allowed then pure (Left "–") else fmap (: []) <$> run n)
     again turn (n, runs) = case runs of
       Right done | turn <= turns n (middles done) -> (\new -> (n, (: done) <$> new)) <$> run n
       _ -> pure (n, runs)
     run :: Int -> IO (Either Text Staged)
-    run n = (>>= parsed) <$> Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine]
+    run n =
+      (>>= parsed)
+        <$> Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine]
     -- A program of ten times as many elements takes somewhat more than ten times as long.
     expected :: [Size] -> Double
     expected before = case before of
@@ -66,29 +87,54 @@ ofKind tools most allowed (kind, machine) = do
       [] -> 0
     -- Twelve seconds are enough for a size.
     turns :: Int -> Staged -> Int
-    turns n s = min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
+    turns n s =
+      min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
     rows thousand (n, outcome) = case outcome of
       Left why -> [start n <> (if why == "–" then replicate 10 why else [Text.take 80 why])]
       Right s ->
-        (start n <> map (Table.number . snd) (stages s) <> [Table.number (total s), Table.number (1000 * total s / fromIntegral n), Table.number (peak s / 1024)]) :
-          [ ["", "", "growth"] <> zipWith (\(_, a) (_, b) -> growth (m, a) (n, b)) (stages old) (stages s) <> [growth (m, total old) (n, total s), "", ""]
+        ( start n
+            <> map (Table.number . snd) (stages s)
+            <> [ Table.number (total s),
+                 Table.number (1000 * total s / fromIntegral n),
+                 Table.number (peak s / 1024)
+               ]
+        ) :
+          [ ["", "", "growth"]
+              <> zipWith (\(_, a) (_, b) -> growth (m, a) (n, b)) (stages old) (stages s)
+              <> [growth (m, total old) (n, total s), "", ""]
             | n > 1000,
               (m, old) <- thousand
           ]
     start n = [Programs.name kind, machine, Decimal.whole n]
-    growth a@(_, t) b@(_, t') = if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
+    growth a@(_, t) b@(_, t') =
+      if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
 
 total :: Staged -> Double
 total = sum . map snd . stages
 
 -- | The medians of several runs, all of the same stages.
 middles :: [Staged] -> Staged
-middles runs = Staged {stages = [(name, Peer.middle [t | r <- runs, (n, t) <- stages r, n == name]) | (name, _) <- concatMap stages (take 1 runs)], peak = Peer.middle (map peak runs)}
+middles runs =
+  Staged
+    { stages =
+        [ (name, Peer.middle [t | r <- runs, (n, t) <- stages r, n == name])
+          | (name, _) <- concatMap stages (take 1 runs)
+        ],
+      peak = Peer.middle (map peak runs)
+    }
 
 parsed :: Text -> Either Text Staged
 parsed out = do
-  numbers <- maybe (Left "what was printed is not understood") Right (traverse (pair . Text.words) (Text.lines out))
-  pure Staged {stages = filter ((/= "memory") . fst) numbers, peak = sum [v | ("memory", v) <- numbers]}
+  numbers <-
+    maybe
+      (Left "what was printed is not understood")
+      Right
+      (traverse (pair . Text.words) (Text.lines out))
+  pure
+    Staged
+      { stages = filter ((/= "memory") . fst) numbers,
+        peak = sum [v | ("memory", v) <- numbers]
+      }
   where
     pair line = case line of
       [name, value] -> (name,) <$> readMaybe (Text.unpack value)
@@ -100,11 +146,23 @@ parsed out = do
 besideInterpreter :: Tools -> FilePath -> [(Kind, Int)] -> Double -> IO Text
 besideInterpreter tools folder programs allowed = do
   createDirectoryIfMissing True folder
-  Table.table ["program", "size", "lines written", "partc, s", "rs274, s", "ratio", "partc, µs per element", "rs274, µs per line", "MB"] <$> (reverse . snd <$> foldM further ([], []) programs)
+  Table.table
+    [ "program",
+      "size",
+      "lines written",
+      "partc, s",
+      "rs274, s",
+      "ratio",
+      "partc, µs per element",
+      "rs274, µs per line",
+      "MB"
+    ]
+    <$> (reverse . snd <$> foldM further ([], []) programs)
   where
     -- What takes too long takes longer still when it is larger.
     further (failed, rows) (kind, n)
-      | kind `elem` failed = pure (failed, ([Programs.name kind, Decimal.whole n] <> replicate 7 "–") : rows)
+      | kind `elem` failed =
+        pure (failed, ([Programs.name kind, Decimal.whole n] <> replicate 7 "–") : rows)
       | otherwise = do
         (fails, row) <- beside (kind, n)
         pure ([kind | fails] <> failed, row : rows)
@@ -125,11 +183,23 @@ besideInterpreter tools folder programs allowed = do
           (Left _, _) -> pure (Left "nothing to read")
           (_, Nothing) -> pure (Left "rs274 is not installed")
         pure (compiled, judged)
-      count <- either (const (pure 0)) (const (length . Text.lines <$> Text.readFile result)) (traverse fst rounds)
+      count <-
+        either
+          (const (pure 0))
+          (const (length . Text.lines <$> Text.readFile result))
+          (traverse fst rounds)
       let ours = traverse fst rounds
           theirs = traverse snd rounds
           cells = either (const "–") Table.number
-      Text.putStrLn (Programs.name kind <> ", " <> Decimal.whole n <> ": partc " <> either id (\rs -> Table.number (seconds rs) <> " s") ours <> ", rs274 " <> either id (\rs -> Table.number (seconds rs) <> " s") theirs)
+      Text.putStrLn
+        ( Programs.name kind
+            <> ", "
+            <> Decimal.whole n
+            <> ": partc "
+            <> either id (\rs -> Table.number (seconds rs) <> " s") ours
+            <> ", rs274 "
+            <> either id (\rs -> Table.number (seconds rs) <> " s") theirs
+        )
       hFlush stdout
       let fails = either (const True) (const False) ours
           row =

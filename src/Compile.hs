@@ -5,8 +5,8 @@
 -- >                                  ▲                        │
 -- >                                  └── Verify ◀── Control ◀─┘  read, run, compare
 --
--- Every stage is a pure function to a 'Result': the warnings, the errors, and the output as far as it is
--- sound. Stages up to the path go on beside errors, so that one run reports all independent
+-- Every stage is a pure function to a 'Result': the warnings, the errors, and the output as far as
+-- it is sound. Stages up to the path go on beside errors, so that one run reports all independent
 -- mistakes; nothing is punched unless there are none.
 module Compile
   ( Analysis (..),
@@ -79,12 +79,17 @@ import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Verify
 
--- | All texts, and one program of them; where each import stands, and the file that it names; the descriptions of
--- machines that it names.
-data LoadedProgram = LoadedProgram {source :: Source, surface :: Result Report Report Surface.Program, imports :: [(Region, Text)], descriptions :: Descriptions}
+-- | All texts, and one program of them; where each import stands, and the file that it names; the
+-- descriptions of machines that it names.
+data LoadedProgram = LoadedProgram
+  { source :: Source,
+    surface :: Result Report Report Surface.Program,
+    imports :: [(Region, Text)],
+    descriptions :: Descriptions
+  }
 
--- | Read a program and what it imports, or an input sheet: the name of its file, for reports and for the
--- places of the others; its text.
+-- | Read a program and what it imports, or an input sheet: the name of its file, for reports and
+-- for the places of the others; its text.
 load :: Monad m => Surface.Reader m -> FilePath -> Text -> m LoadedProgram
 load reader path text
   | isSheet path =
@@ -97,7 +102,10 @@ load reader path text
         }
   | otherwise = do
     loaded <- Surface.load reader path text
-    descriptions <- traverse (described (Surface.contents reader) (takeDirectory path)) (maybe [] filesNamed (output (Surface.surface loaded)))
+    descriptions <-
+      traverse
+        (described (Surface.contents reader) (takeDirectory path))
+        (maybe [] filesNamed (output (Surface.surface loaded)))
     pure
       LoadedProgram
         { source = Surface.source loaded,
@@ -106,11 +114,21 @@ load reader path text
           descriptions
         }
   where
-    filesNamed written = [file | Located _ (Surface.Machine (Located _ (Surface.Described file))) <- Surface.statements written]
+    filesNamed written =
+      [ file
+        | Located _ (Surface.Machine (Located _ (Surface.Described file))) <-
+            Surface.statements written
+      ]
 
 -- | A program of one text that can import nothing.
 alone :: Text -> Text -> LoadedProgram
-alone path text = runIdentity (load (Surface.byName (const (pure (Left "only one text is looked at")))) (Text.unpack path) text)
+alone path text =
+  runIdentity
+    ( load
+        (Surface.byName (const (pure (Left "only one text is looked at"))))
+        (Text.unpack path)
+        text
+    )
 
 -- | Without the program itself, when only its places are asked for any more.
 withoutSurface :: LoadedProgram -> LoadedProgram
@@ -132,7 +150,9 @@ data Analysis = Analysis
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   -- Of the checked program only the mentions are held while the path is laid.
-  (mentions, part) <- (\(checked, part) -> let found = Checked.mentions checked in found `seq` (found, part)) <$> evaluated values loaded
+  (mentions, part) <-
+    (\(checked, part) -> let found = Checked.mentions checked in found `seq` (found, part))
+      <$> evaluated values loaded
   path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.lay part)
   pure Analysis {mentions, part, path}
 
@@ -151,24 +171,44 @@ data Punched = Punched {program :: FrameProgram, tape :: Tape}
 -- | From the path to the tape.
 punch :: Machine -> Toolpath -> Result Report Report Punched
 punch machine path = do
-  program <- mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
-  pure Punched {program, tape = Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program))}
+  program <-
+    mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
+  pure
+    Punched
+      { program,
+        tape = Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program))
+      }
 
 -- | From a tape back to its frames; where the cutter stands before the first.
 readTape :: Machine -> Pulses3 -> Tape -> Result Report Report [Frame]
-readTape machine begin tape = mapErrors id Tape.toReport (Result.fromEither (Tape.read machine begin tape))
+readTape machine begin tape =
+  mapErrors id Tape.toReport (Result.fromEither (Tape.read machine begin tape))
 
 -- | The same of a tape on which the frames of a program should stand.
 readBack :: Machine -> FrameProgram -> Tape -> Result Report Report [Frame]
-readBack machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
+readBack machine program tape =
+  mapErrors
+    id
+    Tape.toReport
+    ( Result.fromEither
+        (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape)
+    )
 
--- | The same of a tape that was punched just now: it has to hold the frames of the program, one by one.
+-- | The same of a tape that was punched just now: it has to hold the frames of the program, one by
+-- one.
 readOwn :: Machine -> FrameProgram -> Tape -> Result Report Report [Frame]
-readOwn machine program tape = mapErrors id Tape.toReport (Result.fromEither (Tape.readOwn machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape))
+readOwn machine program tape =
+  mapErrors
+    id
+    Tape.toReport
+    ( Result.fromEither
+        (Tape.readOwn machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape)
+    )
 
 -- | Compare a tape's frames with the part; errors when it is not proven.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Result Report Report Proof
-prove machine path program frames = asked `seq` Result.failing (Verify.toReports machine proof) proof
+prove machine path program frames =
+  asked `seq` Result.failing (Verify.toReports machine proof) proof
   where
     -- The moves along the contours are not held while the tape is compared.
     asked = Toolpath.withoutCuts path
@@ -180,7 +220,12 @@ prove machine path program frames = asked `seq` Result.failing (Verify.toReports
 type Descriptions = [(Text, Either Text Text)]
 
 -- | Read a description beside a folder.
-described :: Monad m => (FilePath -> m (Either Text Text)) -> FilePath -> Text -> m (Text, Either Text Text)
+described ::
+  Monad m =>
+  (FilePath -> m (Either Text Text)) ->
+  FilePath ->
+  Text ->
+  m (Text, Either Text Text)
 described contents folder file = (file,) <$> contents (folder </> Text.unpack file)
 
 -- | Whether a name is that of a description file rather than of a machine that is built in.

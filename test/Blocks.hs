@@ -25,28 +25,46 @@ data Block = Block {program :: Text, picture :: Maybe Text}
 
 -- | All documents.
 documents :: IO [FilePath]
-documents = ("README.md" :) . map ("docs" </>) . sort . filter ((== ".md") . takeExtension) <$> listDirectory "docs"
+documents =
+  ("README.md" :) . map ("docs" </>) . sort . filter ((== ".md") . takeExtension)
+    <$> listDirectory "docs"
 
 -- | The programs of a document.
 blocks :: Text -> [Block]
-blocks text = [Block {program, picture = pictureBelow (Text.drop 3 rest)} | piece <- drop 1 (Text.splitOn "```part\n" text), let (program, rest) = Text.breakOn "```" piece]
+blocks text =
+  [ Block {program, picture = pictureBelow (Text.drop 3 rest)}
+    | piece <- drop 1 (Text.splitOn "```part\n" text),
+      let (program, rest) = Text.breakOn "```" piece
+  ]
 
 -- | The picture that stands right below a program: @![…](pictures/NAME.svg)@.
 pictureBelow :: Text -> Maybe Text
-pictureBelow below = case Text.breakOn "](pictures/" (Text.takeWhile (/= '\n') (Text.stripStart below)) of
-  (before, rest) | Text.isPrefixOf "![" before, (name, end) <- Text.breakOn ".svg)" (Text.drop 11 rest), not (Text.null end) -> Just name
-  _ -> Nothing
+pictureBelow below =
+  case Text.breakOn "](pictures/" (Text.takeWhile (/= '\n') (Text.stripStart below)) of
+    (before, rest)
+      | Text.isPrefixOf "![" before,
+        (name, end) <- Text.breakOn ".svg)" (Text.drop 11 rest),
+        not (Text.null end) ->
+        Just name
+    _ -> Nothing
 
--- | A program of a document; a piece of one stands behind the head that docs/language.md gives. Files are
--- imported from where the document stands.
+-- | A program of a document; a piece of one stands behind the head that docs/language.md gives.
+-- Files are imported from where the document stands.
 load :: FilePath -> Block -> IO LoadedProgram
 load file block = do
   manual <- readText "docs/language.md"
   let head' = Text.concat [program b <> "\n" | b <- take 1 (blocks manual)]
       isWhole = "part " `elem` map (Text.take 5) (Text.lines (program block))
       title = Maybe.fromMaybe "example" (picture block)
-      named = Text.replace "part example \"One head for the examples\"" ("part " <> Text.replace "-" "_" title) head'
-  Compile.load (Import.byName reader) file (if isWhole then program block else named <> program block)
+      named =
+        Text.replace
+          "part example \"One head for the examples\""
+          ("part " <> Text.replace "-" "_" title)
+          head'
+  Compile.load
+    (Import.byName reader)
+    file
+    (if isWhole then program block else named <> program block)
   where
     reader there = first why <$> try (readText there)
     why :: IOException -> Text

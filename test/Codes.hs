@@ -21,4 +21,7 @@ inSources = do
 
 -- | A letter and four digits.
 isCode :: Text -> Bool
-isCode t = Text.length t == 5 && Text.take 1 t `elem` ["E", "W"] && Text.all (`elem` ['0' .. '9']) (Text.drop 1 t)
+isCode t =
+  Text.length t == 5
+    && Text.take 1 t `elem` ["E", "W"]
+    && Text.all (`elem` ['0' .. '9']) (Text.drop 1 t)

@@ -24,5 +24,11 @@ spec = do
   it "docs/language.md lists every report code that there is, and no other" $ do
     codes <- Codes.inSources
     manual <- readText "docs/language.md"
-    let listed = Set.fromList [c | line <- Text.lines manual, c <- take 1 (drop 1 (map Text.strip (Text.splitOn "|" line))), Codes.isCode c]
+    let listed =
+          Set.fromList
+            [ c
+              | line <- Text.lines manual,
+                c <- take 1 (drop 1 (map Text.strip (Text.splitOn "|" line))),
+                Codes.isCode c
+            ]
     listed `shouldBe` codes

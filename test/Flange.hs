@@ -47,8 +47,8 @@ expect r = case Result.settled r of
   Just a -> a
   Nothing -> error ("the flange has errors: " <> show (Result.errors r))
 
--- | The 18 nodes of the equidistant, computed from the drawing independently of this program, in the
--- paper's order and numbering, to 0.0001 mm.
+-- | The 18 nodes of the equidistant, computed from the drawing independently of this program, in
+-- the paper's order and numbering, to 0.0001 mm.
 exactNodes :: [(Double, Double)]
 exactNodes =
   [ (4.9343, 40.9132),

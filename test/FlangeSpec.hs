@@ -24,25 +24,39 @@ spec :: Spec
 spec = do
   it "all 18 nodes of the equidistant agree with the drawing to 0.001 mm" $ do
     length nodes `shouldBe` 18
-    [(e, d) | e <- Flange.exactNodes, let { d = minimum (map (apart e) nodes) }, d > 0.001] `shouldBe` []
+    [(e, d) | e <- Flange.exactNodes, let d = minimum (map (apart e) nodes), d > 0.001]
+      `shouldBe` []
   it "the nodes come in the paper's order; node 0 of the paper is the second from the entry" $
-    [e | (e, n) <- zip Flange.exactNodes (drop 1 nodes <> take 1 nodes), apart e n > 0.001] `shouldBe` []
+    [e | (e, n) <- zip Flange.exactNodes (drop 1 nodes <> take 1 nodes), apart e n > 0.001]
+      `shouldBe` []
   it "its tape is proven, within tolerance and one pulse" $ do
     let proof = Compile.prove lkp01f (path Flange.analysis) Flange.program Flange.frames
     Result.errors proof `shouldBe` []
     fmap Proof.isProven (Result.output proof) `shouldBe` Just True
   it "its page shows what is computed, node by node, and the figures of the tape" $ do
     page <- Text.readFile "docs/flange.md"
-    let rows = [(ours, x, y) | [_, ours, _, _, _, _, x, y, _] <- map cells (Text.lines page), Just _ <- [number ours]]
-    [(n, px, py) | (n, px, py) <- rows, Just k <- [number n], (x, y) <- take 1 (drop (round k) nodes), (px, py) /= (Decimal.fixed 3 x, Decimal.fixed 3 y)] `shouldBe` []
+    let rows =
+          [ (ours, x, y)
+            | [_, ours, _, _, _, _, x, y, _] <- map cells (Text.lines page),
+              Just _ <- [number ours]
+          ]
+    [(n, px, py) | (n, px, py) <- rows, Just k <- [number n], (x, y) <- take 1 (drop (round k) nodes), (px, py) /= (Decimal.fixed 3 x, Decimal.fixed 3 y)]
+      `shouldBe` []
     length rows `shouldBe` 18
     Text.lines page `shouldContain` ["| frames | " <> Decimal.whole (length Flange.frames) <> " |"]
-    page `shouldSatisfy` Text.isInfixOf (maybe "?" (Decimal.fixed 2) (Tape.metres lkp01f Flange.tape) <> " m")
+    page
+      `shouldSatisfy` Text.isInfixOf
+        (maybe "?" (Decimal.fixed 2) (Tape.metres lkp01f Flange.tape) <> " m")
   it "its program on the first page of the documentation is the one among the examples" $ do
     page <- Text.readFile "README.md"
     page `shouldSatisfy` Text.isInfixOf (Text.strip (snd (Text.breakOn "part flange" Flange.text)))
   where
     cells line = map Text.strip (drop 1 (init (Text.splitOn "|" line)))
     number text = either (const Nothing) (Just . fst) (Text.double text)
-    nodes = [(Vec.x p, Vec.y p) | Cutting {cut} <- Toolpath.blocks (path Flange.analysis), m <- NonEmpty.toList cut, let p = Segment.start (segment m)]
+    nodes =
+      [ (Vec.x p, Vec.y p)
+        | Cutting {cut} <- Toolpath.blocks (path Flange.analysis),
+          m <- NonEmpty.toList cut,
+          let p = Segment.start (segment m)
+      ]
     apart (a, b) (c, d) = let Mm l = Vec.distance (Vec.point a b) (Vec.point c d) in l

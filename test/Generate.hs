@@ -61,7 +61,8 @@ data Case = Case {contour :: Polyarc, side :: Side, radius :: Mm, pieces :: NonE
 radiusOf :: Case -> Double
 radiusOf c = let Mm r = radius c in r
 
--- | Closed contours, with sharp outer corners now and then, walked either way, the cutter on either side.
+-- | Closed contours, with sharp outer corners now and then, walked either way, the cutter on either
+-- side.
 closedCase :: Gen Case
 closedCase = fitting (oneof [polygon True, bulged]) =<< elements [LeftOf, RightOf]
 
@@ -97,7 +98,11 @@ polygon sharp = do
       corner k = (vs !! ((k + n - 1) `mod` n), vs !! (k `mod` n), vs !! ((k + 1) `mod` n))
   roundings <- traverse (rounding . corner) [0 .. n - 1]
   let ends k = roundings !! (k `mod` n)
-      walk = concat [[Straight (snd' (ends k)) (fst' (ends (k + 1)))] <> middle' (ends (k + 1)) | k <- [0 .. n - 1]]
+      walk =
+        concat
+          [ [Straight (snd' (ends k)) (fst' (ends (k + 1)))] <> middle' (ends (k + 1))
+            | k <- [0 .. n - 1]
+          ]
   pure (Polyarc Closed (NonEmpty.fromList (chain (filter ((> Mm 1e-3) . Segment.length) walk))))
   where
     chain ss = NonEmpty.toList (Polyarc.chained id const Closed (NonEmpty.fromList ss))
@@ -127,7 +132,12 @@ bulged :: Gen Polyarc
 bulged = do
   n <- choose (2, 6)
   r <- choose (20, 60)
-  let vs = [Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 7 (-3)) | k <- [0 .. n - 1 :: Int]]
+  let vs =
+        [ Vec.shift
+            (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n)))
+            (Vec.point 7 (-3))
+          | k <- [0 .. n - 1 :: Int]
+        ]
   arcs <- traverse (uncurry arcOver) (zip vs (drop 1 vs <> take 1 vs))
   pure (Polyarc Closed (NonEmpty.fromList arcs))
   where
@@ -147,11 +157,21 @@ vertices = do
   x <- choose (-200, 200)
   y <- choose (-200, 200)
   let angle k j = 2 * pi * (fromIntegral k + j) / fromIntegral n
-  pure [Vec.shift (Vec.polar (Mm r) (Rad (angle k j))) (Vec.point x y) | (k, j, r) <- zip3 [0 :: Int ..] jitters radii]
+  pure
+    [ Vec.shift (Vec.polar (Mm r) (Rad (angle k j))) (Vec.point x y)
+      | (k, j, r) <- zip3 [0 :: Int ..] jitters radii
+    ]
 
 -- | The path of a cutter around a contour that it fits, from a point well away, with a tolerance.
 milled :: Mm -> Case -> Maybe Toolpath
-milled tolerance c = Result.output (FromPart.lay (partOf (begin c) (Mill (Located (Region 0 0) (job c) {Part.tolerance = Part.OnPath tolerance}))))
+milled tolerance c =
+  Result.output
+    ( FromPart.lay
+        ( partOf
+            (begin c)
+            (Mill (Located (Region 0 0) (job c) {Part.tolerance = Part.OnPath tolerance}))
+        )
+    )
 
 -- | Where the equidistant of a case begins.
 begin :: Case -> Point
@@ -165,7 +185,15 @@ outside c = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
 job :: Case -> Milling
 job c =
   Milling
-    { Part.contour = Part.Contour (here (Name "c")) (ends (contour c)) (fmap (\s -> Element s (Region 0 0) Part.plainFinish False False Nothing) (segments (contour c))) [],
+    { Part.contour =
+        Part.Contour
+          (here (Name "c"))
+          (ends (contour c))
+          ( fmap
+              (\s -> Element s (Region 0 0) Part.plainFinish False False Nothing)
+              (segments (contour c))
+          )
+          [],
       Part.work = Part.Milled,
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,
@@ -231,7 +259,19 @@ partOf at operation =
 
 -- | One move from the zero point.
 straightPath :: Double -> Double -> Toolpath
-straightPath x y = Toolpath.Toolpath (Located nowhere (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [Toolpath.Travelling (Mm 0) [Toolpath.Move (Straight (Vec.point 0 0) (Vec.point x y)) (Toolpath.Manner (Mm 0, Mm 0) Part.Rapid False) nowhere False]] False
+straightPath x y =
+  Toolpath.Toolpath
+    (Located nowhere (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
+    [ Toolpath.Travelling
+        (Mm 0)
+        [ Toolpath.Move
+            (Straight (Vec.point 0 0) (Vec.point x y))
+            (Toolpath.Manner (Mm 0, Mm 0) Part.Rapid False)
+            nowhere
+            False
+        ]
+    ]
+    False
   where
     nowhere = Region 0 0
 
@@ -240,7 +280,11 @@ data Motion = Motion {mirrored :: Bool, turned :: Rad, shifted :: Vec}
   deriving stock (Show)
 
 motion :: Gen Motion
-motion = Motion <$> arbitrary <*> (Rad <$> choose (-4, 4)) <*> (Vec.vec <$> choose (-500, 500) <*> choose (-500, 500))
+motion =
+  Motion
+    <$> arbitrary
+      <*> (Rad <$> choose (-4, 4))
+      <*> (Vec.vec <$> choose (-500, 500) <*> choose (-500, 500))
 
 movePoint :: Motion -> Point -> Point
 movePoint m p = Vec.shift (shifted m) (Vec.shift (Vec.rotate (turned m) v) (Vec.point 0 0))
@@ -250,7 +294,8 @@ movePoint m p = Vec.shift (shifted m) (Vec.shift (Vec.rotate (turned m) v) (Vec.
 move :: Motion -> Segment -> Segment
 move m s = case s of
   Straight a b -> Straight (movePoint m a) (movePoint m b)
-  Arc a b c (Rad sweep) -> Arc (movePoint m a) (movePoint m b) (movePoint m c) (Rad (if mirrored m then -sweep else sweep))
+  Arc a b c (Rad sweep) ->
+    Arc (movePoint m a) (movePoint m b) (movePoint m c) (Rad (if mirrored m then -sweep else sweep))
 
 -- | Frames that keep the machine's invariants: straight ones, and ones that only command.
 frames :: Machine -> Gen [Frame]
@@ -260,10 +305,16 @@ frames machine = listOf (oneof (moving : [commanding | not (null commands)]))
       d <- increment' `suchThat` (/= 0)
       code <- elements codes
       os <- frequency ((3, pure []) : [(1, given) | not (null commands)])
-      pure (Frame.still os) {Frame.motion = Frame.Straightway, Frame.increment = d, Frame.speed = code}
+      pure
+        (Frame.still os) {Frame.motion = Frame.Straightway, Frame.increment = d, Frame.speed = code}
     commanding = Frame.still <$> given
     given = sequenceA [(o,) <$> choose (1, most) | (o, most) <- take 1 commands]
-    commands = [(o, most) | Machine.CommandWord {Machine.order = o, Machine.value = Machine.Argument} <- Machine.auxiliary (Machine.orders machine), Just most <- [Machine.orderCapacity machine o]]
+    commands =
+      [ (o, most)
+        | Machine.CommandWord {Machine.order = o, Machine.value = Machine.Argument} <-
+            Machine.auxiliary (Machine.orders machine),
+          Just most <- [Machine.orderCapacity machine o]
+      ]
     codes = case Machine.codes (Machine.feeds machine) of
       Machine.Listed table -> Map.keys table
       Machine.Direct a b -> map Machine.FeedCode [a, (a + b) `div` 2, b]

@@ -62,7 +62,10 @@ table =
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
     Layer Single "Compile" (Only ["Sheet", "Tape", "Control", "Verify"]),
-    Layer Folder "Query" (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Toolpath", "Compile"]),
+    Layer
+      Folder
+      "Query"
+      (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Toolpath", "Compile"]),
     Layer Folder "Lsp" (Only ["Query"]),
     Layer Folder "Cli" Above,
     Layer Program "app" Above
@@ -72,7 +75,8 @@ table =
 effectful :: Set Text
 effectful = Set.fromList ["Cli", "app"]
 
--- | The modules of pure layers that may do what pure modules may not, each with the imports it is allowed.
+-- | The modules of pure layers that may do what pure modules may not, each with the imports it is
+-- allowed.
 sanctioned :: Map Text [Text]
 sanctioned =
   Map.fromList
@@ -128,7 +132,9 @@ data Problem
 check :: [Layer] -> [Source] -> [Fault]
 check layers sources = concatMap faults sources
   where
-    homes = Map.fromList [(moduleName path, home) | Source path _ <- sources, Just home <- [layerOf layers path]]
+    homes =
+      Map.fromList
+        [(moduleName path, home) | Source path _ <- sources, Just home <- [layerOf layers path]]
     reaches = reachable layers
     faults (Source path text) =
       Fault path
@@ -163,7 +169,8 @@ layerOf layers path = case splitDirectories (dropExtension path) of
 
 -- | The name that a file's path gives to its module.
 moduleName :: FilePath -> Text
-moduleName path = Text.intercalate "." (map Text.pack (drop 1 (splitDirectories (dropExtension path))))
+moduleName path =
+  Text.intercalate "." (map Text.pack (drop 1 (splitDirectories (dropExtension path))))
 
 -- | For every layer, all it may import, itself left out.
 reachable :: [Layer] -> Map Text (Set Text)
@@ -179,21 +186,26 @@ upward :: [Layer] -> [(Text, Text)]
 upward layers = concat (zipWith bad layers (scanl (flip (Set.insert . layerName)) Set.empty layers))
   where
     bad (Layer _ _ Above) _ = []
-    bad (Layer _ name (Only names)) above = [(name, other) | other <- names, other `Set.notMember` above]
+    bad (Layer _ name (Only names)) above =
+      [(name, other) | other <- names, other `Set.notMember` above]
     layerName (Layer _ name _) = name
 
 isImpure :: Text -> Bool
-isImpure name = name `notElem` pureAfterAll && or [name == root || (root <> ".") `Text.isPrefixOf` name | root <- impure]
+isImpure name =
+  name `notElem` pureAfterAll
+    && or [name == root || (root <> ".") `Text.isPrefixOf` name | root <- impure]
 
 -- | One line for a person.
 render :: Fault -> String
 render (Fault path problem) = path <> ": " <> Text.unpack (say problem)
   where
     say Unplaced = "lies in no layer of the table"
-    say (Forbidden home other name) = home <> " may not import " <> other <> " (here " <> name <> ")"
+    say (Forbidden home other name) =
+      home <> " may not import " <> other <> " (here " <> name <> ")"
     say (Impure name) = "a pure module may not import " <> name
     say Unlisted = "has no export list"
-    say (TooLong count) = "has " <> Text.pack (show count) <> " lines; at most " <> Text.pack (show longest)
+    say (TooLong count) =
+      "has " <> Text.pack (show count) <> " lines; at most " <> Text.pack (show longest)
 
 -- The reader --------------------------------------------------------------------------------
 
@@ -242,7 +254,9 @@ afterComment = go (1 :: Int)
 afterString :: Text -> Text
 afterString text = case Text.unpack (Text.take 2 unremarkable) of
   '\\' : '^' : _ -> afterString (Text.drop 3 unremarkable)
-  '\\' : c : _ | isSpace c -> afterString (Text.drop 1 (Text.dropWhile isSpace (Text.drop 1 unremarkable)))
+  '\\' : c : _
+    | isSpace c ->
+      afterString (Text.drop 1 (Text.dropWhile isSpace (Text.drop 1 unremarkable)))
   '\\' : _ -> afterString (Text.drop 2 unremarkable)
   _ -> Text.drop 1 unremarkable
   where
@@ -302,17 +316,33 @@ spec = do
     it "notices a row that points upwards" $
       upward [Layer Folder "A" (Only ["B"]), Layer Folder "B" (Only [])] `shouldBe` [("A", "B")]
     it "lets a layer import what its imports may" $
-      Map.lookup "Checked" (reachable table) `shouldBe` Just (Set.fromList ["Base", "Report", "Surface"])
+      Map.lookup "Checked" (reachable table)
+        `shouldBe` Just (Set.fromList ["Base", "Report", "Surface"])
     it "gives Compile every stage, and neither Draw nor Cli" $
       Map.lookup "Compile" (reachable table)
         `shouldBe` Just
           ( Set.fromList
-              ["Base", "Report", "Sheet", "Surface", "Checked", "Geometry", "Offset", "Part", "Toolpath", "Machine", "Frame", "Tape", "Control", "Verify"]
+              [ "Base",
+                "Report",
+                "Sheet",
+                "Surface",
+                "Checked",
+                "Geometry",
+                "Offset",
+                "Part",
+                "Toolpath",
+                "Machine",
+                "Frame",
+                "Tape",
+                "Control",
+                "Verify"
+              ]
           )
 
   describe "check" $ do
     it "passes modules that keep the rules" $
-      faultsOf [good "src/Base/Name.hs" [], good "src/Surface/Parser.hs" ["Base.Name", "Data.Text"]] `shouldBe` []
+      faultsOf [good "src/Base/Name.hs" [], good "src/Surface/Parser.hs" ["Base.Name", "Data.Text"]]
+        `shouldBe` []
     it "finds an edge that points upwards" $
       faultsOf [good "src/Base/Name.hs" ["Surface.Parser"], good "src/Surface/Parser.hs" []]
         `shouldBe` [Fault "src/Base/Name.hs" (Forbidden "Base" "Surface" "Surface.Parser")]
@@ -320,9 +350,15 @@ spec = do
       faultsOf [good "src/Geometry/Arc.hs" ["Report.Report"], good "src/Report/Report.hs" []]
         `shouldBe` [Fault "src/Geometry/Arc.hs" (Forbidden "Geometry" "Report" "Report.Report")]
     it "follows the table through several rows" $
-      faultsOf [good "src/Frame/Chord.hs" ["Surface.Syntax"], good "src/Surface/Syntax.hs" []] `shouldBe` []
+      faultsOf [good "src/Frame/Chord.hs" ["Surface.Syntax"], good "src/Surface/Syntax.hs" []]
+        `shouldBe` []
     it "keeps Draw and Cli out of Compile" $
-      faultsOf [good "src/Compile.hs" ["Draw.Svg", "Cli.Main", "Verify.Gouge"], good "src/Draw/Svg.hs" [], good "src/Cli/Main.hs" [], good "src/Verify/Gouge.hs" []]
+      faultsOf
+        [ good "src/Compile.hs" ["Draw.Svg", "Cli.Main", "Verify.Gouge"],
+          good "src/Draw/Svg.hs" [],
+          good "src/Cli/Main.hs" [],
+          good "src/Verify/Gouge.hs" []
+        ]
         `shouldBe` [ Fault "src/Compile.hs" (Forbidden "Compile" "Draw" "Draw.Svg"),
                      Fault "src/Compile.hs" (Forbidden "Compile" "Cli" "Cli.Main")
                    ]
@@ -330,15 +366,22 @@ spec = do
       faultsOf [good "src/Draw/Svg.hs" ["Compile"], good "src/Compile.hs" []]
         `shouldBe` [Fault "src/Draw/Svg.hs" (Forbidden "Draw" "Compile" "Compile")]
     it "tells a library's Control from the layer of that name" $
-      faultsOf [good "src/Base/Result.hs" ["Control.Monad"], good "src/Control/Interpolate.hs" []] `shouldBe` []
+      faultsOf [good "src/Base/Result.hs" ["Control.Monad"], good "src/Control/Interpolate.hs" []]
+        `shouldBe` []
     it "refuses a folder that the table does not know" $
       faultsOf [good "src/Utils/Text.hs" []] `shouldBe` [Fault "src/Utils/Text.hs" Unplaced]
     it "refuses a top-level module that the table does not know" $
       faultsOf [good "src/Prelude2.hs" [], good "src/Base.hs" []]
         `shouldBe` [Fault "src/Prelude2.hs" Unplaced, Fault "src/Base.hs" Unplaced]
     it "finds effects in a pure layer" $
-      faultsOf [good "src/Part/Evaluate.hs" ["System.IO", "Data.IORef", "Control.Exception", "System.Process", "Systematic"]]
-        `shouldBe` map (Fault "src/Part/Evaluate.hs" . Impure) ["System.IO", "Data.IORef", "Control.Exception", "System.Process"]
+      faultsOf
+        [ good
+            "src/Part/Evaluate.hs"
+            ["System.IO", "Data.IORef", "Control.Exception", "System.Process", "Systematic"]
+        ]
+        `shouldBe` map
+          (Fault "src/Part/Evaluate.hs" . Impure)
+          ["System.IO", "Data.IORef", "Control.Exception", "System.Process"]
     it "lets pure modules of an effectful family pass" $
       faultsOf [good "src/Report/Human.hs" ["System.Console.ANSI.Codes", "System.Console.ANSI"]]
         `shouldBe` [Fault "src/Report/Human.hs" (Impure "System.Console.ANSI")]
@@ -350,7 +393,8 @@ spec = do
         ]
         `shouldBe` [Fault "src/Base/Crash.hs" (Impure "System.IO")]
     it "wants an export list" $
-      faultsOf [Source "src/Base/Name.hs" "module Base.Name where\n"] `shouldBe` [Fault "src/Base/Name.hs" Unlisted]
+      faultsOf [Source "src/Base/Name.hs" "module Base.Name where\n"]
+        `shouldBe` [Fault "src/Base/Name.hs" Unlisted]
     it "wants a header" $
       faultsOf [Source "app/Main.hs" "main = pure ()\n"] `shouldBe` [Fault "app/Main.hs" Unlisted]
     it "counts lines" $ do
@@ -359,38 +403,52 @@ spec = do
 
   describe "imports" $ do
     it "reads the plain form" $
-      importsOf ["import Data.Text", "import Base.Name (Name)"] `shouldBe` ["Data.Text", "Base.Name"]
+      importsOf ["import Data.Text", "import Base.Name (Name)"]
+        `shouldBe` ["Data.Text", "Base.Name"]
     it "reads qualified before the name" $
       importsOf ["import qualified Data.Map.Strict as Map"] `shouldBe` ["Data.Map.Strict"]
     it "reads qualified after the name" $
       importsOf ["import Data.Map.Strict qualified as Map"] `shouldBe` ["Data.Map.Strict"]
     it "reads package imports, safe imports and pragmas" $
-      importsOf ["import \"containers\" Data.Set", "import safe qualified \"text\" Data.Text", "import {-# SOURCE #-} Base.Name"]
+      importsOf
+        [ "import \"containers\" Data.Set",
+          "import safe qualified \"text\" Data.Text",
+          "import {-# SOURCE #-} Base.Name"
+        ]
         `shouldBe` ["Data.Set", "Data.Text", "Base.Name"]
     it "reads an import over several lines" $
-      importsOf ["import", "  qualified", "  -- why", "  Data.Text", "  as Text"] `shouldBe` ["Data.Text"]
+      importsOf ["import", "  qualified", "  -- why", "  Data.Text", "  as Text"]
+        `shouldBe` ["Data.Text"]
     it "reads hiding and nested lists" $
-      importsOf ["import Prelude hiding (lookup, (++))", "import A (B (..), (-->))", "import C"] `shouldBe` ["Prelude", "A", "C"]
+      importsOf ["import Prelude hiding (lookup, (++))", "import A (B (..), (-->))", "import C"]
+        `shouldBe` ["Prelude", "A", "C"]
     it "reads imports that share a line" $
       importsOf ["import A; import B"] `shouldBe` ["A", "B"]
     it "passes over line comments" $
       importsOf ["-- import A", "--- import B", "import C -- import D"] `shouldBe` ["C"]
     it "takes an operator with dashes for no comment" $
-      importsOf ["x = a --> b; import A", "y = f.--.g; import B", "import C"] `shouldBe` ["A", "B", "C"]
+      importsOf ["x = a --> b; import A", "y = f.--.g; import B", "import C"]
+        `shouldBe` ["A", "B", "C"]
     it "passes over block comments, nested ones too" $
       importsOf ["{- import A {- import B -} import C -}", "import D"] `shouldBe` ["D"]
     it "passes over strings" $
-      importsOf ["x = \"import A \\\" import B\"", "y = \"{-\"", "z = \"\\", "  \\ import C\"", "import D"] `shouldBe` ["D"]
+      importsOf
+        ["x = \"import A \\\" import B\"", "y = \"{-\"", "z = \"\\", "  \\ import C\"", "import D"]
+        `shouldBe` ["D"]
     it "passes over character literals and primes" $
-      importsOf ["q = ['\"', '\\'', '\\\\', '\\x41']", "f' = foldl' import' 'A", "import D"] `shouldBe` ["D"]
+      importsOf ["q = ['\"', '\\'', '\\\\', '\\x41']", "f' = foldl' import' 'A", "import D"]
+        `shouldBe` ["D"]
     it "passes over foreign imports" $
-      importsOf ["foreign import ccall \"math.h sin\" sine :: Double -> Double", "import A"] `shouldBe` ["A"]
+      importsOf ["foreign import ccall \"math.h sin\" sine :: Double -> Double", "import A"]
+        `shouldBe` ["A"]
 
   describe "listsExports" $ do
     it "sees a list" $
       listed "module A (b) where" `shouldBe` True
     it "sees a list after comments and pragmas" $
-      listed "{-# LANGUAGE CPP #-}\n-- | module B where\nmodule A\n  ( -- * Section\n    b,\n  )\nwhere" `shouldBe` True
+      listed
+        "{-# LANGUAGE CPP #-}\n-- | module B where\nmodule A\n  ( -- * Section\n    b,\n  )\nwhere"
+        `shouldBe` True
     it "sees that there is none" $
       listed "module A where\nf (x) = x" `shouldBe` False
   where
@@ -398,8 +456,15 @@ spec = do
     importsOf = imports . tokenise . Text.unlines
     listed = listsExports . tokenise
     good path names =
-      Source path (Text.unlines (("module " <> moduleName path <> " (x) where") : ["import " <> name | name <- names]))
-    long count = Source "src/Base/Name.hs" (Text.unlines ("module Base.Name (x) where" : replicate (count - 1) "--"))
+      Source
+        path
+        ( Text.unlines
+            (("module " <> moduleName path <> " (x) where") : ["import " <> name | name <- names])
+        )
+    long count =
+      Source
+        "src/Base/Name.hs"
+        (Text.unlines ("module Base.Name (x) where" : replicate (count - 1) "--"))
 
 -- Files -------------------------------------------------------------------------------------
 

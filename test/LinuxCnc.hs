@@ -1,6 +1,7 @@
--- | A judge from outside for programs of modern controls: the interpreter of LinuxCNC, run by itself as @rs274@. It
--- prints the canonical calls, what a machine would do, with four decimals. What it does not complain about it
--- may still have understood otherwise than was meant: so its moves are laid beside the way that was wanted.
+-- | A judge from outside for programs of modern controls: the interpreter of LinuxCNC, run by
+-- itself as @rs274@. It prints the canonical calls, what a machine would do, with four decimals.
+-- What it does not complain about it may still have understood otherwise than was meant: so its
+-- moves are laid beside the way that was wanted.
 module LinuxCnc
   ( installed,
 
@@ -65,22 +66,25 @@ data Canonical
     Rounding Double Sense Point Place
   deriving stock (Eq, Show)
 
--- | Run a file. What the interpreter says against it, and calls that are not understood here, are reasons. It keeps its table of
--- tools in the home folder, where another one that runs may break it off: so each has a home of its own.
+-- | Run a file. What the interpreter says against it, and calls that are not understood here, are
+-- reasons. It keeps its table of tools in the home folder, where another one that runs may break it
+-- off: so each has a home of its own.
 canonical :: FilePath -> IO (Either Text [Canonical])
 canonical file = withSystemTempDirectory "partc-rs274" $ \home -> do
   (status, out, err) <- readProcessWithExitCode "env" ["HOME=" <> home, "rs274", "-g", file] ""
   -- It tells that it is at work, there where it complains.
   let complaint = Text.strip (Text.unlines (filter (/= "executing") (Text.lines (Text.pack err))))
   pure $ case status of
-    ExitFailure n -> Left (if Text.null complaint then "rs274 fails with status " <> said n else complaint)
+    ExitFailure n ->
+      Left (if Text.null complaint then "rs274 fails with status " <> said n else complaint)
     ExitSuccess
       | Text.null complaint -> parse (Text.pack out)
       | otherwise -> Left complaint
 
 -- Canonical calls ---------------------------------------------------------------------------------
 
--- | What holds for the next call: mm in a unit of length, the feed in such units, the plane of arcs.
+-- | What holds for the next call: mm in a unit of length, the feed in such units, the plane of
+-- arcs.
 data State = State {scale :: Double, feed :: Double, level :: Bool}
 
 -- | The moves among the calls that the interpreter prints.
@@ -106,13 +110,19 @@ call state line = case name of
   "ARC_FEED" -> moved arc
   _
     -- Places are counted from these.
-    | name `elem` origins -> traverse number (drop (if name == "SET_G5X_OFFSET" then 1 else 0) arguments) >>= \ns -> if all (== 0) ns then nothing else Left "the zero has moved"
+    | name `elem` origins ->
+      traverse number (drop (if name == "SET_G5X_OFFSET" then 1 else 0) arguments) >>= \ns ->
+        if all (== 0) ns then nothing else Left "the zero has moved"
     | name `elem` harmless -> nothing
     | otherwise -> Left "a call that is not known"
   where
-    -- The number of the call and that of the line stand before it: "   18 N..... ARC_FEED(10.0000, 20.0000, …)".
+    -- The number of the call and that of the line stand before it: "   18 N..... ARC_FEED(10.0000,
+    -- 20.0000, …)".
     (name, given) = Text.breakOn "(" (Text.unwords (drop 2 (Text.words line)))
-    arguments = filter (not . Text.null) (Text.split (`elem` [',', ' ']) (Text.dropWhileEnd (== ')') (Text.drop 1 given)))
+    arguments =
+      filter
+        (not . Text.null)
+        (Text.split (`elem` [',', ' ']) (Text.dropWhileEnd (== ')') (Text.drop 1 given)))
     nothing = Right (state, Nothing)
     rate = feed state * scale state
     moved make = (\m -> (state, Just m)) <$> (traverse number arguments >>= make)
@@ -123,15 +133,32 @@ call state line = case name of
       [x, y, i, j, turns, z, 0, 0, 0]
         | not (level state) -> Left "an arc in another plane"
         | abs turns /= 1 -> Left "an arc of several turns"
-        | otherwise -> Rounding rate (if turns > 0 then CounterClockwise else Clockwise) (Vec.point (i * scale state) (j * scale state)) <$> place [x, y, z, 0, 0, 0]
+        | otherwise ->
+          Rounding
+            rate
+            (if turns > 0 then CounterClockwise else Clockwise)
+            (Vec.point (i * scale state) (j * scale state))
+            <$> place [x, y, z, 0, 0, 0]
       _ -> Left "an arc that is not understood"
 
 origins, harmless :: [Text]
 origins = ["SET_G5X_OFFSET", "SET_G92_OFFSET", "SET_XY_ROTATION", "USE_TOOL_LENGTH_OFFSET"]
 harmless =
   ["COMMENT", "SET_FEED_REFERENCE", "SET_FEED_MODE", "ON_RESET", "PROGRAM_END", "PALLET_SHUTTLE"]
-    <> ["SET_SPINDLE_SPEED", "SET_SPINDLE_MODE", "START_SPINDLE_CLOCKWISE", "START_SPINDLE_COUNTERCLOCKWISE", "STOP_SPINDLE_TURNING"]
-    <> ["FLOOD_ON", "FLOOD_OFF", "MIST_OFF", "MIST_ON", "SELECT_TOOL", "CHANGE_TOOL", "START_CHANGE"]
+    <> [ "SET_SPINDLE_SPEED",
+         "SET_SPINDLE_MODE",
+         "START_SPINDLE_CLOCKWISE",
+         "START_SPINDLE_COUNTERCLOCKWISE",
+         "STOP_SPINDLE_TURNING"
+       ]
+    <> [ "FLOOD_ON",
+         "FLOOD_OFF",
+         "MIST_OFF",
+         "MIST_ON",
+         "SELECT_TOOL",
+         "CHANGE_TOOL",
+         "START_CHANGE"
+       ]
 
 number :: Text -> Either Text Double
 number t = case Read.signed Read.double t of
@@ -158,7 +185,13 @@ ways from@(Place _ _ height) (c : rest) = case c of
   Feeding f to -> straight to (AtFeed f)
   Rounding f turn centre to ->
     let (a, b) = (flat from, flat to)
-        whole = Segment.Arc {start = a, end = b, centre, sweep = Rad (if turn == Clockwise then -2 * pi else 2 * pi)}
+        whole =
+          Segment.Arc
+            { start = a,
+              end = b,
+              centre,
+              sweep = Rad (if turn == Clockwise then -2 * pi else 2 * pi)
+            }
      in continue to (if a == b then whole else Segment.arc turn centre a b) (AtFeed f)
   where
     straight to = continue to (Straight (flat from) (flat to))
@@ -171,8 +204,8 @@ flat (Place x y _) = Vec.point x y
 data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Asked}
   deriving stock (Eq, Show)
 
--- | How far the cutter may be from a way that the control can hold: half of the last decimal of two ends, and four decimals
--- of what is printed.
+-- | How far the cutter may be from a way that the control can hold: half of the last decimal of two
+-- ends, and four decimals of what is printed.
 exactly :: Mm
 exactly = Mm 0.002
 
@@ -180,21 +213,38 @@ exactly = Mm 0.002
 roundedFeed :: Double
 roundedFeed = 0.5 + 1e-6
 
--- | How a way differs from the one that is wanted. The moves have to come in the order of the legs: each leg takes those that lie
--- on it, until it is covered whole and its end is reached.
+-- | How a way differs from the one that is wanted. The moves have to come in the order of the legs:
+-- each leg takes those that lie on it, until it is covered whole and its end is reached.
 differences :: [Leg] -> [Way] -> [Text]
 differences wantedLegs = go (zip [1 :: Int ..] wantedLegs)
   where
     go wanting walked = case wanting of
-      [] -> [said (length walked) <> " moves too many, first " <> said (take 1 walked) | not (null walked)]
+      [] ->
+        [ said (length walked) <> " moves too many, first " <> said (take 1 walked)
+          | not (null walked)
+        ]
       (n, leg) : others ->
         let near = takeWhile (lies leg) walked
          in case [k | k <- [1 .. length near], reached leg (take k near)] of
-              k : _ -> ["leg " <> said n <> why | w <- take k near, why <- hasty leg w] <> go others (drop k walked)
+              k : _ ->
+                ["leg " <> said n <> why | w <- take k near, why <- hasty leg w]
+                  <> go others (drop k walked)
               []
                 | small leg -> go others walked
-                | otherwise -> ["leg " <> said n <> " is not retraced: " <> said leg <> "; " <> said (length near) <> " moves lie on it, the next ones are " <> said (take 2 (drop (length near) walked))]
-    small leg = all (\(s, (a, b)) -> Segment.length s <= within leg && abs (b - a) <= mm (within leg)) (chain leg)
+                | otherwise ->
+                  [ "leg "
+                      <> said n
+                      <> " is not retraced: "
+                      <> said leg
+                      <> "; "
+                      <> said (length near)
+                      <> " moves lie on it, the next ones are "
+                      <> said (take 2 (drop (length near) walked))
+                  ]
+    small leg =
+      all
+        (\(s, (a, b)) -> Segment.length s <= within leg && abs (b - a) <= mm (within leg))
+        (chain leg)
     hasty leg w = [" runs at another speed: " <> said w | not (same (speed w) (wanted leg))]
     same a b = case (a, b) of
       (InRapid, InRapid) -> True
@@ -217,13 +267,21 @@ reached leg walked = case reverse walked of
 
 -- | Whether a move lies on the leg, in the plane and in height.
 lies :: Leg -> Way -> Bool
-lies leg way = null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (chain leg))) (segment way)) && and [any (holds p h) (chain leg) | (p, h) <- ends]
+lies leg way =
+  null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (chain leg))) (segment way))
+    && and [any (holds p h) (chain leg) | (p, h) <- ends]
   where
-    ends = [(Segment.start (segment way), fst (heights way)), (Segment.end (segment way), snd (heights way))]
+    ends =
+      [ (Segment.start (segment way), fst (heights way)),
+        (Segment.end (segment way), snd (heights way))
+      ]
     holds p h (s, (a, b))
       | Distance.toPoint p s > within leg = False
-      | Segment.length s <= within leg = min a b - mm (within leg) <= h && h <= max a b + mm (within leg)
-      | otherwise = abs (a + along s p * (b - a) - h) <= mm (within leg) * (1 + abs (b - a) / mm (Segment.length s))
+      | Segment.length s <= within leg =
+        min a b - mm (within leg) <= h && h <= max a b + mm (within leg)
+      | otherwise =
+        abs (a + along s p * (b - a) - h)
+          <= mm (within leg) * (1 + abs (b - a) / mm (Segment.length s))
     -- Close to the start of an arc the fraction may be that of a whole turn.
     along s p
       | Vec.distance p (Segment.start s) <= within leg && Segment.start s /= Segment.end s = 0
@@ -232,23 +290,44 @@ lies leg way = null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (
 mm :: Mm -> Double
 mm (Mm d) = d
 
--- | The arcs whose radius is not the same at both ends: a control that checks it more narrowly would refuse them.
+-- | The arcs whose radius is not the same at both ends: a control that checks it more narrowly
+-- would refuse them.
 radii :: [Way] -> [Text]
 radii walked = mapMaybe uneven [s | Way {segment = s@Arc {}} <- walked]
   where
     uneven s =
-      let (Mm a, Mm b) = (Vec.distance (centre s) (Segment.start s), Vec.distance (centre s) (Segment.end s))
-       in if abs (a - b) <= mm exactly then Nothing else Just ("the radius is " <> said a <> " at the start and " <> said b <> " at the end")
+      let (Mm a, Mm b) =
+            (Vec.distance (centre s) (Segment.start s), Vec.distance (centre s) (Segment.end s))
+       in if abs (a - b) <= mm exactly
+            then Nothing
+            else
+              Just
+                ("the radius is " <> said a <> " at the start and " <> said b <> " at the end")
 
--- | What a path wants of a machine that can go along arcs: a line or an arc exactly, a curve within the tolerance.
+-- | What a path wants of a machine that can go along arcs: a line or an arc exactly, a curve within
+-- the tolerance.
 legs :: Toolpath -> (Place, [Leg])
-legs path = (beginning, concatMap (\block -> map (leg (allowed block)) (Toolpath.runs (Toolpath.moves block))) (Toolpath.blocks path))
+legs path =
+  ( beginning,
+    concatMap
+      (\block -> map (leg (allowed block)) (Toolpath.runs (Toolpath.moves block)))
+      (Toolpath.blocks path)
+  )
   where
-    beginning = let Located _ (SpacePoint p (Mm h)) = Toolpath.start path in Place (Vec.x p) (Vec.y p) h
-    leg slack run = Leg {chain = fmap whole run, within = if Toolpath.isCurve run then slack else exactly, wanted = asked (Toolpath.pace (NonEmpty.head run))}
+    beginning =
+      let Located _ (SpacePoint p (Mm h)) = Toolpath.start path in Place (Vec.x p) (Vec.y p) h
+    leg slack run =
+      Leg
+        { chain = fmap whole run,
+          within = if Toolpath.isCurve run then slack else exactly,
+          wanted = asked (Toolpath.pace (NonEmpty.head run))
+        }
     whole m = let (Mm a, Mm b) = Toolpath.heights m in (Toolpath.segment m, (a, b))
     allowed block = case block of
-      Toolpath.Cutting {Toolpath.job = Located _ job} -> let (Mm a, Mm b) = Part.deepest (Part.tolerance job) in Mm (max a b + mm exactly)
+      Toolpath.Cutting {Toolpath.job = Located _ job} ->
+        let (Mm a, Mm b) =
+              Part.deepest (Part.tolerance job)
+         in Mm (max a b + mm exactly)
       _ -> exactly
     asked pace = case pace of
       Rapid -> InRapid

@@ -1,4 +1,5 @@
--- | What LinuxCNC makes of programs for modern controls. Its interpreter is there where @make@ has installed the packages.
+-- | What LinuxCNC makes of programs for modern controls. Its interpreter is there where @make@ has
+-- installed the packages.
 module LinuxCncSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -39,7 +40,8 @@ spec = do
         ( Text.unlines
             [ "    1 N..... USE_LENGTH_UNITS(CANON_UNITS_INCHES)",
               "    2 N0020  SET_FEED_RATE(10.0000)",
-              "    3 N..... ARC_FEED(1.0000, 2.0000, 1.0000, 1.0000, 1, 0.0000, 0.0000, 0.0000, 0.0000)"
+              "    3 N..... ARC_FEED(1.0000, 2.0000, 1.0000, 1.0000, 1, 0.0000, 0.0000, 0.0000, \
+              \0.0000)"
             ]
         )
         `shouldBe` Right [Rounding 254 CounterClockwise (Vec.point 25.4 25.4) (Place 25.4 50.8 0)]
@@ -57,41 +59,83 @@ spec = do
     let onward = Feeding 60 (Place 10 5 0)
         back = Rounding 60 Clockwise (p (15, 5)) (Place 20 5 0)
         walked = LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), onward, back]
-        instead moves = LinuxCnc.differences wanted (LinuxCnc.ways (Place 0 0 0) (Traverse (Place 10 0 0) : moves))
-        wanted = [rapid (0, 0) (10, 0), feed60 (Straight (p (10, 0)) (p (10, 5))), feed60 (halfTurn (15, 5) (10, 5) (20, 5))]
+        instead moves =
+          LinuxCnc.differences
+            wanted
+            (LinuxCnc.ways (Place 0 0 0) (Traverse (Place 10 0 0) : moves))
+        wanted =
+          [ rapid (0, 0) (10, 0),
+            feed60 (Straight (p (10, 0)) (p (10, 5))),
+            feed60 (halfTurn (15, 5) (10, 5) (20, 5))
+          ]
     it "finds nothing in a way that is retraced" $ LinuxCnc.differences wanted walked `shouldBe` []
-    it "notices a leg that is left out" $ LinuxCnc.differences wanted (take 2 walked) `shouldSatisfy` some
+    it "notices a leg that is left out" $
+      LinuxCnc.differences wanted (take 2 walked) `shouldSatisfy` some
     it "notices a move too many" $ LinuxCnc.differences (take 2 wanted) walked `shouldSatisfy` some
     it "notices an arc in the other sense, which has the same ends" $
       instead [onward, Rounding 60 CounterClockwise (p (15, 5)) (Place 20 5 0)] `shouldSatisfy` some
     it "notices an end that is 0.003 mm off" $
       instead [Feeding 60 (Place 10 5.003 0), back] `shouldSatisfy` some
-    it "notices a move in the wrong order" $ LinuxCnc.differences wanted (reverse walked) `shouldSatisfy` some
+    it "notices a move in the wrong order" $
+      LinuxCnc.differences wanted (reverse walked) `shouldSatisfy` some
     it "notices rapid through the material, and a wrong feed" $ do
       instead [Traverse (Place 10 5 0), back] `shouldSatisfy` some
       instead [Feeding 62 (Place 10 5 0), back] `shouldSatisfy` some
     it "notices a height that is not that of the way" $
-      instead [Feeding 60 (Place 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (Place 20 5 (-1))] `shouldSatisfy` some
-    let round60 = [rapid (0, 0) (10, 0), feed60 (Segment.fullCircle CounterClockwise (Circle (p (0, 0)) (Mm 10)) (p (10, 0)))]
+      instead [Feeding 60 (Place 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (Place 20 5 (-1))]
+        `shouldSatisfy` some
+    let round60 =
+          [ rapid (0, 0) (10, 0),
+            feed60 (Segment.fullCircle CounterClockwise (Circle (p (0, 0)) (Mm 10)) (p (10, 0)))
+          ]
         half turn to = Rounding 60 turn (p (0, 0)) (Place to 0 0)
     it "lets a way go in several moves, and a whole circle in two" $
-      LinuxCnc.differences round60 (LinuxCnc.ways (Place 0 0 0) [Traverse (Place 4 0 0), Traverse (Place 10 0 0), half CounterClockwise (-10), half CounterClockwise 10])
+      LinuxCnc.differences
+        round60
+        ( LinuxCnc.ways
+            (Place 0 0 0)
+            [ Traverse (Place 4 0 0),
+              Traverse (Place 10 0 0),
+              half CounterClockwise (-10),
+              half CounterClockwise 10
+            ]
+        )
         `shouldBe` []
     it "does not take half of a circle, there and back, for the whole one" $
-      LinuxCnc.differences round60 (LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), half CounterClockwise (-10), half Clockwise 10])
+      LinuxCnc.differences
+        round60
+        ( LinuxCnc.ways
+            (Place 0 0 0)
+            [Traverse (Place 10 0 0), half CounterClockwise (-10), half Clockwise 10]
+        )
         `shouldSatisfy` some
     it "notices radii that differ by 0.003 mm, which LinuxCNC itself lets pass" $
-      [null (LinuxCnc.radii (LinuxCnc.ways (Place 0 (-10) 0) [Rounding 60 CounterClockwise (p (0, 0)) (Place 0 (10 + d) 0)])) | d <- [0, 0.001, 0.003]]
+      [ null
+          ( LinuxCnc.radii
+              ( LinuxCnc.ways
+                  (Place 0 (-10) 0)
+                  [Rounding 60 CounterClockwise (p (0, 0)) (Place 0 (10 + d) 0)]
+              )
+          )
+        | d <- [0, 0.001, 0.003]
+      ]
         `shouldBe` [True, True, False]
 
   present <- runIO LinuxCnc.installed
-  examples <- runIO (sort . filter ((`elem` [".part", ".sheet"]) . takeExtension) <$> listDirectory "examples")
+  examples <-
+    runIO
+      (sort . filter ((`elem` [".part", ".sheet"]) . takeExtension) <$> listDirectory "examples")
   describe "LinuxCNC" $
     if present
       then do
         interpreter
-        describe "retraces the path of every example" $ forM_ examples $ \file -> it file (retraced ("examples" </> file))
-      else it "runs programs" (pendingWith "rs274 is not installed (scripts/setup.sh installs linuxcnc-uspace)")
+        describe "retraces the path of every example" $
+          forM_ examples $ \file ->
+            it file (retraced ("examples" </> file))
+      else
+        it
+          "runs programs"
+          (pendingWith "rs274 is not installed (scripts/setup.sh installs linuxcnc-uspace)")
   where
     some = not . null
 
@@ -99,8 +143,19 @@ spec = do
 interpreter :: Spec
 interpreter = do
   it "retraces lines, arcs of both senses, a circle in two halves and a descent" $
-    run ["G0 X10 Y0 Z5", "G1 Z-2 F20", "X20 F60", "G3 X30 Y10 I0 J10", "G2 X40 Y20 I10 J0", "G2 X60 Y20 I10 J0", "G2 X40 Y20 I-10 J0", "G0 Z5"] >>= \result ->
-      fmap (LinuxCnc.differences everything . LinuxCnc.ways (Place 0 0 0)) result `shouldBe` Right []
+    run
+      [ "G0 X10 Y0 Z5",
+        "G1 Z-2 F20",
+        "X20 F60",
+        "G3 X30 Y10 I0 J10",
+        "G2 X40 Y20 I10 J0",
+        "G2 X60 Y20 I10 J0",
+        "G2 X40 Y20 I-10 J0",
+        "G0 Z5"
+      ]
+      >>= \result ->
+        fmap (LinuxCnc.differences everything . LinuxCnc.ways (Place 0 0 0)) result
+          `shouldBe` Right []
   it "gives the radius of an arc at both ends as it was written" $
     run ["G0 X0 Y-10", "G3 X0 Y10.001 I0 J10 F60", "G3 X0 Y-10 I0 J-10.0005"] >>= \result ->
       fmap (LinuxCnc.radii . LinuxCnc.ways (Place 0 0 0)) result `shouldBe` Right []
@@ -109,33 +164,83 @@ interpreter = do
   it "refuses to cut without a feed" $ run ["G1 X10"] >>= refused "zero feed rate"
   it "refuses a letter twice, and a program without its end" $ do
     run ["G0 X10 X20"] >>= refused "Multiple x words"
-    inFolder (\folder -> ByteString.writeFile (folder </> "a.ngc") "%\nG21\nG0 X10\n" >> LinuxCnc.canonical (folder </> "a.ngc")) >>= refused "no percent sign"
-  it "is not taken at its word when it has something to say" $ run ["(MSG, tighten the clamp)", "G0 X1"] >>= refused "MESSAGE"
+    inFolder
+      ( \folder ->
+          ByteString.writeFile (folder </> "a.ngc") "%\nG21\nG0 X10\n"
+            >> LinuxCnc.canonical (folder </> "a.ngc")
+      )
+      >>= refused "no percent sign"
+  it "is not taken at its word when it has something to say" $
+    run ["(MSG, tighten the clamp)", "G0 X1"] >>= refused "MESSAGE"
   describe "with the correction of the cutter's radius" $ do
-    it "keeps the cutter on the side that is asked, round a corner that sticks out and into one that does not" $ do
-      let contour = ["G1 X0 Y-15 F60", "Y40", "X60", "Y80", "G40", "G1 X20 Y100"]
-          beside word legs' = (\result -> fmap (LinuxCnc.differences (rapid (0, 0) (0, -40) : map feed60 legs') . LinuxCnc.ways (Place 0 0 0)) result) <$> run (["G0 X0 Y-40", word] <> contour)
-      left <- beside "G41.1 D20" (lines' [(0, -40), (-10, -15), (-10, 40)] <> [arcTo (0, 40) (-10, 40) (0, 50)] <> lines' [(0, 50), (50, 50), (50, 80), (20, 100)])
-      left `shouldBe` Right []
-      right <- beside "G42.1 D20" (lines' [(0, -40), (10, -15), (10, 30), (60, 30)] <> [arcAbout (60, 40) (60, 30) (70, 40)] <> lines' [(70, 40), (70, 80), (20, 100)])
-      right `shouldBe` Right []
-    -- On the straight on which compensation begins, and on that on which it ends, the cutter's centre goes as the path does, if the edge is the right one.
+    it
+      "keeps the cutter on the side that is asked, round a corner that sticks out and into one \
+      \that does not"
+      $ do
+        let contour = ["G1 X0 Y-15 F60", "Y40", "X60", "Y80", "G40", "G1 X20 Y100"]
+            beside word legs' =
+              ( \result ->
+                  fmap
+                    ( LinuxCnc.differences (rapid (0, 0) (0, -40) : map feed60 legs')
+                        . LinuxCnc.ways (Place 0 0 0)
+                    )
+                    result
+              )
+                <$> run (["G0 X0 Y-40", word] <> contour)
+        left <-
+          beside
+            "G41.1 D20"
+            ( lines' [(0, -40), (-10, -15), (-10, 40)]
+                <> [arcTo (0, 40) (-10, 40) (0, 50)]
+                <> lines' [(0, 50), (50, 50), (50, 80), (20, 100)]
+            )
+        left `shouldBe` Right []
+        right <-
+          beside
+            "G42.1 D20"
+            ( lines' [(0, -40), (10, -15), (10, 30), (60, 30)]
+                <> [arcAbout (60, 40) (60, 30) (70, 40)]
+                <> lines' [(70, 40), (70, 80), (20, 100)]
+            )
+        right `shouldBe` Right []
+    -- On the straight on which compensation begins, and on that on which it ends, the cutter's
+    -- centre goes as the path does, if the edge is the right one.
     mapM_
-      (\name -> it ("retraces the path of the program " <> name <> ", from its edge (catches an edge or a diameter that is another)") (retraced ("test/programs/mill/good/compensation-" <> name <> ".part")))
+      ( \name ->
+          it
+            ( "retraces the path of the program "
+                <> name
+                <> ", from its edge (catches an edge or a diameter that is another)"
+            )
+            (retraced ("test/programs/mill/good/compensation-" <> name <> ".part"))
+      )
       ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
     it "refuses an entry that is no longer than the radius" $ do
-      run ["G0 X0 Y-25", "G41.1 D20", "G1 X0 Y-15 F60", "Y40", "G40", "G1 X-40"] >>= refused "entry move is not greater than the tool radius"
-      run ["G0 X0 Y-25.001", "G41.1 D20", "G1 X0 Y-15 F60", "Y40", "G40", "G1 X-40"] >>= (`shouldNotSatisfy` isLeft)
+      run ["G0 X0 Y-25", "G41.1 D20", "G1 X0 Y-15 F60", "Y40", "G40", "G1 X-40"]
+        >>= refused "entry move is not greater than the tool radius"
+      run ["G0 X0 Y-25.001", "G41.1 D20", "G1 X0 Y-15 F60", "Y40", "G40", "G1 X-40"]
+        >>= (`shouldNotSatisfy` isLeft)
     it "refuses an arc into which the cutter does not fit" $
-      run ["G0 X-40 Y0", "G41.1 D20", "G1 X0 Y0 F60", "G3 X8 Y8 I0 J8", "G40", "G1 Y50"] >>= refused "Tool radius not less than arc radius"
+      run ["G0 X-40 Y0", "G41.1 D20", "G1 X0 Y0 F60", "G3 X8 Y8 I0 J8", "G40", "G1 Y50"]
+        >>= refused "Tool radius not less than arc radius"
     it "refuses a corner whose side is too short" $
-      run ["G0 X-40 Y0", "G41.1 D20", "G1 X0 F60", "X40", "Y9", "X80", "G40", "G1 Y40"] >>= refused "concave corner cannot be reached"
+      run ["G0 X-40 Y0", "G41.1 D20", "G1 X0 F60", "X40", "Y9", "X80", "G40", "G1 Y40"]
+        >>= refused "concave corner cannot be reached"
     it "refuses to leave along an arc" $
-      run ["G0 X0 Y-40", "G41.1 D20", "G1 X0 Y-15 F60", "Y40", "G40", "G2 X10 Y50 I10 J0"] >>= refused "must be straight"
+      run ["G0 X0 Y-40", "G41.1 D20", "G1 X0 Y-15 F60", "Y40", "G40", "G2 X10 Y50 I10 J0"]
+        >>= refused "must be straight"
   where
     everything =
-      [ Leg {chain = (still (0, 0) (10, 0), (0, 5)) :| [], within = LinuxCnc.exactly, wanted = InRapid},
-        Leg {chain = (still (10, 0) (10, 0), (5, -2)) :| [], within = LinuxCnc.exactly, wanted = AtFeed 20}
+      [ Leg
+          { chain = (still (0, 0) (10, 0), (0, 5)) :| [],
+            within = LinuxCnc.exactly,
+            wanted = InRapid
+          },
+        Leg
+          { chain = (still (10, 0) (10, 0), (5, -2)) :| [],
+            within = LinuxCnc.exactly,
+            wanted = AtFeed 20
+          }
       ]
         <> map
           (lowered (-2) . feed60)
@@ -144,7 +249,12 @@ interpreter = do
             arcTo (40, 10) (30, 10) (40, 20),
             Segment.fullCircle Clockwise (Circle (p (50, 20)) (Mm 10)) (p (40, 20))
           ]
-        <> [Leg {chain = (still (40, 20) (40, 20), (-2, 5)) :| [], within = LinuxCnc.exactly, wanted = InRapid}]
+        <> [ Leg
+               { chain = (still (40, 20) (40, 20), (-2, 5)) :| [],
+                 within = LinuxCnc.exactly,
+                 wanted = InRapid
+               }
+           ]
     still a b = Straight (p a) (p b)
     lowered z leg = leg {chain = fmap (\(s, _) -> (s, (z, z))) (chain leg)}
     arcTo centre from to = Segment.arc Clockwise (p centre) (p from) (p to)
@@ -155,7 +265,11 @@ interpreter = do
 run :: [Text] -> IO (Either Text [Canonical])
 run written = inFolder $ \folder -> do
   let file = folder </> "program.ngc"
-  ByteString.writeFile file (Encoding.encodeUtf8 (Text.unlines (["%", "G21 G17 G90 G94 G40 G49 G80"] <> written <> ["M5", "M30", "%"])))
+  ByteString.writeFile
+    file
+    ( Encoding.encodeUtf8
+        (Text.unlines (["%", "G21 G17 G90 G94 G40 G49 G80"] <> written <> ["M5", "M30", "%"]))
+    )
   LinuxCnc.canonical file
 
 refused :: Text -> Either Text [Canonical] -> Expectation
@@ -167,7 +281,8 @@ p :: (Double, Double) -> Point
 p (x, y) = Vec.point x y
 
 rapid :: (Double, Double) -> (Double, Double) -> Leg
-rapid a b = Leg {chain = (Straight (p a) (p b), (0, 0)) :| [], within = LinuxCnc.exactly, wanted = InRapid}
+rapid a b =
+  Leg {chain = (Straight (p a) (p b), (0, 0)) :| [], within = LinuxCnc.exactly, wanted = InRapid}
 
 feed60 :: Segment -> Leg
 feed60 s = Leg {chain = (s, (0, 0)) :| [], within = LinuxCnc.exactly, wanted = AtFeed 60}
@@ -175,8 +290,8 @@ feed60 s = Leg {chain = (s, (0, 0)) :| [], within = LinuxCnc.exactly, wanted = A
 halfTurn :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Segment
 halfTurn centre from to = Arc {start = p from, end = p to, centre = p centre, sweep = Rad (-pi)}
 
--- | A part program, compiled for a modern control, goes the way that the program says: LinuxCNC accepts the text without a word, and its
--- moves retrace the path.
+-- | A part program, compiled for a modern control, goes the way that the program says: LinuxCNC
+-- accepts the text without a word, and its moves retrace the path.
 retraced :: FilePath -> Expectation
 retraced file = inFolder $ \folder -> do
   let text = folder </> takeBaseName file <.> "ngc"
@@ -189,7 +304,14 @@ retraced file = inFolder $ \folder -> do
     Just analysis -> do
       let (from, wanted) = LinuxCnc.legs (path analysis)
       made <- LinuxCnc.canonical text
-      fmap (\calls -> let walked = LinuxCnc.ways from calls in LinuxCnc.differences wanted walked <> LinuxCnc.radii walked) made `shouldBe` Right []
+      fmap
+        ( \calls ->
+            let walked =
+                  LinuxCnc.ways from calls
+             in LinuxCnc.differences wanted walked <> LinuxCnc.radii walked
+        )
+        made
+        `shouldBe` Right []
   where
     reader name = first why <$> try (readText name)
     why :: IOException -> Text

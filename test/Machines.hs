@@ -40,9 +40,10 @@ iso6983 = named "iso6983"
 
 -- | The machine that a program names, set up for it; for one that names none another one.
 ownOr :: Machine -> Compile.LoadedProgram -> Analysis -> Machine
-ownOr other loaded analysis = case Result.settled (Target.chosen (Compile.descriptions loaded) [] analysis) of
-  Just (machine : _) -> machine
-  _ -> Compile.onMachine (path analysis) other
+ownOr other loaded analysis =
+  case Result.settled (Target.chosen (Compile.descriptions loaded) [] analysis) of
+    Just (machine : _) -> machine
+    _ -> Compile.onMachine (path analysis) other
 
 known :: [Machine]
 known = BuiltIn.machines

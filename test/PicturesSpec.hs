@@ -1,6 +1,7 @@
 -- | The pictures of the documents are those that the programs above them give.
 --
--- With PARTC_RECORD set, they are drawn anew (@make pictures@); without it a missing one is a failure.
+-- With PARTC_RECORD set, they are drawn anew (@make pictures@); without it a missing one is a
+-- failure.
 module PicturesSpec (spec) where
 
 import Base.Result qualified as Result

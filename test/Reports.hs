@@ -19,4 +19,6 @@ onProgram :: Source -> [Report]
 onProgram source = errors outcome <> warnings outcome
   where
     loaded = Compile.alone (Region.mainFile source) (Region.text source)
-    outcome = Compile.analyse [] loaded `Result.thenSound` \a -> void (Compile.punch (Machines.ownOr Machines.lkp01f loaded a) (path a))
+    outcome =
+      Compile.analyse [] loaded `Result.thenSound` \a ->
+        void (Compile.punch (Machines.ownOr Machines.lkp01f loaded a) (path a))

@@ -17,7 +17,8 @@ spec :: Spec
 spec = do
   it "the edge stands at the distances of its ciphers, one after the other" $ do
     program' <- readText file
-    map Report.title (Result.errors (Compile.analyse [] (loaded (program' <> distances)))) `shouldBe` []
+    map Report.title (Result.errors (Compile.analyse [] (loaded (program' <> distances))))
+      `shouldBe` []
   it "its page shows the program as it stands among the examples" $ do
     page <- readText "docs/rib.md"
     program' <- readText file
@@ -25,7 +26,10 @@ spec = do
   it "its page shows the nodes of the last pass" $ do
     page <- readText "docs/rib.md"
     (analysis, punched) <- compiled
-    let shown = takeWhile (/= "    …") (dropWhile (not . Text.isPrefixOf "section  kind") (Text.lines page))
+    let shown =
+          takeWhile
+            (/= "    …")
+            (dropWhile (not . Text.isPrefixOf "section  kind") (Text.lines page))
         report = NodeTable.nodes (Just (lkp01f, punched)) analysis
         -- Behind the rest of the last contour's heading and an empty line.
         printed = drop 2 (Text.lines (snd (Text.breakOnEnd "Contour outside_edge" report)))
@@ -35,12 +39,25 @@ spec = do
     page <- readText "docs/rib.md"
     program' <- readText file
     (_, punched) <- compiled
-    let place = showText (1 + length (takeWhile (not . Text.isPrefixOf "  top slow") (Text.lines program')))
-        rows = map Text.words (Text.lines (FrameTable.frames lkp01f (Compile.source (loaded program')) (program punched)))
-        onEdge = [(n, feed) | n : "cut" : rest@(_ : _ : _ : _ : feed : _) <- rows, last rest == place]
+    let place =
+          showText
+            (1 + length (takeWhile (not . Text.isPrefixOf "  top slow") (Text.lines program')))
+        rows =
+          map
+            Text.words
+            ( Text.lines
+                (FrameTable.frames lkp01f (Compile.source (loaded program')) (program punched))
+            )
+        onEdge =
+          [(n, feed) | n : "cut" : rest@(_ : _ : _ : _ : feed : _) <- rows, last rest == place]
         -- The frames of the last pass up to its slow one, which have one number after the other.
         counted = case reverse [n | (n, "15") <- onEdge] of
-          end : _ -> length (takeWhile (`elem` map fst onEdge) [showText k | k <- [number end, number end - 1 ..]])
+          end : _ ->
+            length
+              ( takeWhile
+                  (`elem` map fst onEdge)
+                  [showText k | k <- [number end, number end - 1 ..]]
+              )
           [] -> 0
     page `shouldSatisfy` Text.isInfixOf (showText counted <> " chords")
   where
@@ -49,11 +66,13 @@ spec = do
     compiled = do
       text <- readText file
       maybe (fail "the rib has errors") pure . Result.settled $
-        Compile.analyse [] (loaded text) `Result.thenSound` \a -> Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
+        Compile.analyse [] (loaded text) `Result.thenSound` \a ->
+          Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
     showText = Text.pack . show :: Int -> Text
     number = Text.foldl' (\n c -> 10 * n + fromEnum c - fromEnum '0') 0
 
--- | What the drawing says of the upper edge at its row x = 240 and under the strap, and of the lower one in the middle of the pad.
+-- | What the drawing says of the upper edge at its row x = 240 and under the strap, and of the
+-- lower one in the middle of the pad.
 distances :: Text
 distances =
   Text.unlines

@@ -9,8 +9,8 @@ import Base.Quantity (Mm (..), minus, plus, times)
 import Data.Vector.Unboxed (Unbox, Vector)
 import Data.Vector.Unboxed qualified as Vector
 
--- | The number of the last of the first so many, in rising order, that is not above a value; 0 when all are above it. The time
--- grows with the logarithm of their number, which is one at least.
+-- | The number of the last of the first so many, in rising order, that is not above a value; 0 when
+-- all are above it. The time grows with the logarithm of their number, which is one at least.
 lastBelow :: (Unbox a, Ord a) => Int -> a -> Vector a -> Int
 lastBelow count v sorted = search 0 count
   where
@@ -23,8 +23,8 @@ lastBelow count v sorted = search 0 count
         middle = (low + high) `div` 2
 {-# INLINE lastBelow #-}
 
--- | Between a length for which something holds and a larger one for which it does not, two such lengths that are no further apart
--- than a resolution.
+-- | Between a length for which something holds and a larger one for which it does not, two such
+-- lengths that are no further apart than a resolution.
 turningPoint :: Mm -> (Mm -> Bool) -> Mm -> Mm -> (Mm, Mm)
 turningPoint resolution holds low high
   | minus high low <= resolution = (low, high)

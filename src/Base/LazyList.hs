@@ -1,7 +1,7 @@
 -- | A list that is made as it is asked for, and what there is to say behind the last of it.
 --
--- Who wants to know first how it ends walks along it once; what is made on the way stays where it is. To gather it in a list and to turn
--- that round would take a second copy of everything.
+-- Who wants to know first how it ends walks along it once; what is made on the way stays where it
+-- is. To gather it in a list and to turn that round would take a second copy of everything.
 module Base.LazyList
   ( LazyList (..),
     behind,

@@ -20,7 +20,17 @@ newtype Name = Name {text :: Text}
 -- | The candidates near enough to a misspelt name to be worth suggesting, the nearest first:
 -- one edit for every three letters.
 nearest :: Text -> [Text] -> [Text]
-nearest wanted candidates = map fst (sortOn snd [(c, d) | c <- candidates, abs (Text.length c - size) <= allowed, Just d <- [distance allowed small (lower c)]])
+nearest wanted candidates =
+  map
+    fst
+    ( sortOn
+        snd
+        [ (c, d)
+          | c <- candidates,
+            abs (Text.length c - size) <= allowed,
+            Just d <- [distance allowed small (lower c)]
+        ]
+    )
   where
     size = Text.length wanted
     allowed = size `div` 3
@@ -29,7 +39,8 @@ nearest wanted candidates = map fst (sortOn snd [(c, d) | c <- candidates, abs (
 
 -- | The candidates that look the same but are written with letters of another alphabet.
 lookAlike :: Text -> [Text] -> [Text]
-lookAlike wanted candidates = [c | c <- candidates, Text.compareLength c size == EQ, c /= wanted, Text.map latin c == seen]
+lookAlike wanted candidates =
+  [c | c <- candidates, Text.compareLength c size == EQ, c /= wanted, Text.map latin c == seen]
   where
     size = Text.length wanted
     seen = Text.map latin wanted
@@ -38,7 +49,8 @@ lookAlike wanted candidates = [c | c <- candidates, Text.compareLength c size ==
 latin :: Char -> Char
 latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
--- | The edit distance of Levenshtein, if it is no more than so much. Most words differ by more in their first letters.
+-- | The edit distance of Levenshtein, if it is no more than so much. Most words differ by more in
+-- their first letters.
 distance :: Int -> String -> String -> Maybe Int
 distance most a b = go [0 .. length b] a
   where
@@ -50,4 +62,5 @@ distance most a b = go [0 .. length b] a
     next c row = case row of
       [] -> []
       first : others -> scanl (cell c) (first + 1) (zip3 b row others)
-    cell c left (d, diagonal, above) = min (min left above + 1) (if c == d then diagonal else diagonal + 1)
+    cell c left (d, diagonal, above) =
+      min (min left above + 1) (if c == d then diagonal else diagonal + 1)

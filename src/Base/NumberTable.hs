@@ -1,4 +1,5 @@
--- | Rows of numbers, each with its place in the source, in flat arrays: tables from files have a hundred thousand of them.
+-- | Rows of numbers, each with its place in the source, in flat arrays: tables from files have a
+-- hundred thousand of them.
 module Base.NumberTable
   ( NumberTable (..),
     fromList,
@@ -17,7 +18,8 @@ import Control.Monad.ST (runST)
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 
--- | Rows of so many numbers, one row behind the other. A place is the offsets of its beginning and its end.
+-- | Rows of so many numbers, one row behind the other. A place is the offsets of its beginning and
+-- its end.
 data NumberTable = NumberTable {width :: Int, places :: PrimArray Int, numbers :: PrimArray Double}
   deriving stock (Eq, Show)
 
@@ -34,7 +36,8 @@ fromList rows = runST $ do
           PrimArray.copyPrimArray found (width * k) xs 0 width
           fill (k + 1 :: Int) more
   fill 0 rows
-  NumberTable width <$> PrimArray.unsafeFreezePrimArray ends <*> PrimArray.unsafeFreezePrimArray found
+  NumberTable width
+    <$> PrimArray.unsafeFreezePrimArray ends <*> PrimArray.unsafeFreezePrimArray found
   where
     n = length rows
     width = case rows of
@@ -47,7 +50,10 @@ count rows = PrimArray.sizeofPrimArray (places rows) `quot` 2
 
 -- | Where a row stands, by its number from 0.
 place :: NumberTable -> Int -> Region
-place rows k = Region (PrimArray.indexPrimArray (places rows) (2 * k)) (PrimArray.indexPrimArray (places rows) (2 * k + 1))
+place rows k =
+  Region
+    (PrimArray.indexPrimArray (places rows) (2 * k))
+    (PrimArray.indexPrimArray (places rows) (2 * k + 1))
 
 -- | A number, by those of its row and its column, both from 0.
 cell :: NumberTable -> Int -> Int -> Double
@@ -62,18 +68,25 @@ cells rows k = map (cell rows k) [0 .. width rows - 1]
 joined :: Int -> [NumberTable] -> NumberTable
 joined width parts = case parts of
   [one] -> one
-  _ -> NumberTable {width, places = mconcat (map places parts), numbers = mconcat (map numbers parts)}
+  _ ->
+    NumberTable {width, places = mconcat (map places parts), numbers = mconcat (map numbers parts)}
 
 -- | Columns by their numbers from 0, each times a factor.
 arranged :: [(Int, Double)] -> NumberTable -> NumberTable
-arranged columns rows = rows {width = wide, numbers = PrimArray.generatePrimArray (wide * count rows) number}
+arranged columns rows =
+  rows {width = wide, numbers = PrimArray.generatePrimArray (wide * count rows) number}
   where
     wide = length columns
     sources = PrimArray.primArrayFromListN wide (map fst columns)
     factors = PrimArray.primArrayFromListN wide (map snd columns)
     number n = case n `quotRem` wide of
-      (k, i) -> cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
+      (k, i) ->
+        cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
 
 -- | Some of the rows, by their numbers from 0.
 picked :: [Int] -> NumberTable -> NumberTable
-picked ks rows = (fromList [(place rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks]) {width = width rows}
+picked ks rows =
+  (fromList [(place rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks])
+    { width =
+        width rows
+    }

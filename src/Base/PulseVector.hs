@@ -1,4 +1,5 @@
--- | Places and ways in whole pulses, along the axes of the part: the lattice on which a cutter stands.
+-- | Places and ways in whole pulses, along the axes of the part: the lattice on which a cutter
+-- stands.
 module Base.PulseVector
   ( Pulses2 (..),
     Pulses3 (..),

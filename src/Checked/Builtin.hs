@@ -147,7 +147,9 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Midpoint -> [Form [given "first" Type.aPoint, given "second" Type.aPoint] Type.aPoint]
   Foot -> [Form [point, line] Type.aPoint, Form [point, curve] Type.aPoint]
   Tangency ->
-    [Form [given (word a) a, given (word b) b] Type.aPoint | (a, b) <- [(Line, Circle), (Circle, Line), (Circle, Circle)]]
+    [ Form [given (word a) a, given (word b) b] Type.aPoint
+      | (a, b) <- [(Line, Circle), (Circle, Line), (Circle, Circle)]
+    ]
       <> [Form [point, c] Type.aPoint | c <- circle : sided "circle" Circle]
   PointOn -> [Form [circle, angle] Type.aPoint]
   MakeLine ->
@@ -156,7 +158,10 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     ]
       <> [Form [given "from" Type.aPoint, c] Line | c <- circle : sided "circle" Circle]
       <> [Form [c, given "to" Type.aPoint] Line | c <- circle : sided "circle" Circle]
-      <> [Form [c, e] Line | c <- circle : sided "first" Circle, e <- circle : sided "second" Circle]
+      <> [ Form [c, e] Line
+           | c <- circle : sided "first" Circle,
+             e <- circle : sided "second" Circle
+         ]
   Horizontal -> [Form [given "y" Type.len] Line]
   Vertical -> [Form [given "x" Type.len] Line]
   Parallel -> [Form [line, by] Line | by <- sided "distance" Type.len] <> [Form [line, point] Line]
@@ -166,18 +171,35 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
       Form [given "centre" Type.aPoint, line] Circle,
       Form [given "first" Type.aPoint, given "second" Type.aPoint, given "third" Type.aPoint] Circle
     ]
-      <> [Form ([radius, a, b] <> selector) Circle | a <- touched, b <- touched, selector <- [] : map pure chosen]
+      <> [ Form ([radius, a, b] <> selector) Circle
+           | a <- touched,
+             b <- touched,
+             selector <- [] : map pure chosen
+         ]
   Concentric -> [Form [circle, given "distance" Type.len] Circle]
   Distance ->
     [ Form [given (word a) a, given (word b) b] Type.len
-      | (a, b) <- [(Type.aPoint, Type.aPoint), (Type.aPoint, Line), (Line, Type.aPoint), (Line, Line), (Type.aPoint, Curve anything), (Curve anything, Type.aPoint)]
+      | (a, b) <-
+          [ (Type.aPoint, Type.aPoint),
+            (Type.aPoint, Line),
+            (Line, Type.aPoint),
+            (Line, Line),
+            (Type.aPoint, Curve anything),
+            (Curve anything, Type.aPoint)
+          ]
     ]
   DirectionOf -> [Form [line] Type.angle, Form [given "vector" Type.aVector] Type.angle]
   RadiusOf -> [Form [circle] Type.len]
-  LengthOf -> [Form [given "contour" Contour] Type.len, Form [line] Type.len, Form [given "vector" Type.aVector] Type.len, Form [curve] Type.len]
+  LengthOf ->
+    [ Form [given "contour" Contour] Type.len,
+      Form [line] Type.len,
+      Form [given "vector" Type.aVector] Type.len,
+      Form [curve] Type.len
+    ]
   XOf -> [Form [given "point" (Spatial d)] Type.len]
   YOf -> [Form [given "point" (Spatial d)] Type.len]
-  MakeSpline -> laid [] <> laid [given "first_direction" Type.angle, given "last_direction" Type.angle]
+  MakeSpline ->
+    laid [] <> laid [given "first_direction" Type.angle, given "last_direction" Type.angle]
   ClosedSpline -> laid []
   Polyline -> laid []
   Parabola -> laid []
@@ -187,7 +209,10 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Sections -> laid [given "rows" (ListOf (ListOf Type.number))]
   RowsOf -> [Form [table', given "numbers" (ListOf Type.number)] (Table anything)]
   PointsOf -> [Form [table'] points]
-  PointAtX -> [Form ([curve, given "x" Type.len] <> selector) Type.aPoint | selector <- [] : [Parameter Rank "" Wrong] : map pure chosen]
+  PointAtX ->
+    [ Form ([curve, given "x" Type.len] <> selector) Type.aPoint
+      | selector <- [] : [Parameter Rank "" Wrong] : map pure chosen
+    ]
   PointAlong -> [Form [curve, given "length" Type.len] Type.aPoint]
   LengthAlong -> [Form [curve, point] Type.len]
   StartOf -> [Form [curve] Type.aPoint]
@@ -198,14 +223,30 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Moved -> transforming [[given "by" Type.aVector]]
   Rotated -> transforming [[angle], [angle, given "about" Type.aPoint]]
   Mirrored -> transforming [[given "axis" Line]]
-  Scaled -> transforming [[given "factor" Type.number], [given "factor" Type.number, given "about" Type.aPoint]]
-  Reversed -> [Form [given (word t) t] t | t <- [Contour, Line, Curve anything]] <> [Form [given "list" (ListOf anything)] (ListOf anything)]
-  Row -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number] points]
-  Grid -> [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number, given "other_step" Type.aVector, given "rows" Type.number] points]
+  Scaled ->
+    transforming
+      [[given "factor" Type.number], [given "factor" Type.number, given "about" Type.aPoint]]
+  Reversed ->
+    [Form [given (word t) t] t | t <- [Contour, Line, Curve anything]]
+      <> [Form [given "list" (ListOf anything)] (ListOf anything)]
+  Row ->
+    [Form [given "first" Type.aPoint, given "step" Type.aVector, given "count" Type.number] points]
+  Grid ->
+    [ Form
+        [ given "first" Type.aPoint,
+          given "step" Type.aVector,
+          given "count" Type.number,
+          given "other_step" Type.aVector,
+          given "rows" Type.number
+        ]
+        points
+    ]
   Around ->
     [ Form [circle, given "count" Type.number] points,
       Form [circle, given "count" Type.number, given "from" Type.angle] points,
-      Form [circle, given "count" Type.number, given "from" Type.angle, given "to" Type.angle] points
+      Form
+        [circle, given "count" Type.number, given "from" Type.angle, given "to" Type.angle]
+        points
     ]
   Count -> [Form [given "list" (ListOf anything)] Type.number]
   ItemOf -> [Form [given "list" (ListOf anything), given "number" Type.number] anything]
@@ -233,43 +274,92 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     table' = given "table" (Table anything)
     tolerance = Parameter (Word UpTo) "tolerance" Type.len
     -- Through the points of a table, or through points without anything else.
-    laid more = [Form (table' : more) (Curve anything), Form (given "points" points : more) (Curve (Fields []))]
+    laid more =
+      [ Form (table' : more) (Curve anything),
+        Form (given "points" points : more) (Curve (Fields []))
+      ]
     points = ListOf Type.aPoint
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
     -- How one of several answers is chosen.
-    chosen = [Parameter (Word Near) "point" Type.aPoint] <> sided "line" Line <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
+    chosen =
+      [Parameter (Word Near) "point" Type.aPoint]
+        <> sided "line" Line
+        <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
     -- What a circle of a given radius can touch or go through.
-    touched = [point, line, circle] <> sided "line" Line <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
+    touched =
+      [point, line, circle]
+        <> sided "line" Line
+        <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
     -- Of a thing the thing moved; of nothing the motion itself.
     transforming extra =
       concat
-        [ Form more Placement : [Form (given "what" t : more) t | t <- [Type.aPoint, Circle, Line, Contour, Curve anything, ListOf (Curve anything), ListOf Type.aPoint, ListOf Circle, ListOf Line, ListOf Contour]]
+        [ Form more Placement :
+            [ Form (given "what" t : more) t
+              | t <-
+                  [ Type.aPoint,
+                    Circle,
+                    Line,
+                    Contour,
+                    Curve anything,
+                    ListOf (Curve anything),
+                    ListOf Type.aPoint,
+                    ListOf Circle,
+                    ListOf Line,
+                    ListOf Contour
+                  ]
+            ]
           | more <- extra
         ]
 
 -- | The forms of a function with these labels, in order.
 labelled :: Fresh -> Builtin -> [ArgumentLabel] -> [Form]
-labelled Fresh {dimension, anything} builtin labels = map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))
+labelled Fresh {dimension, anything} builtin labels =
+  map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))
   where
-    made form = form {parameters = [p {type' = own (type' p)} | p <- parameters form], result = own (result form)}
-    own = Type.replaced (Dimension.substitute anyUnknown dimension) (\n -> if n == anyUnknown then anything else Variable n)
+    made form =
+      form
+        { parameters = [p {type' = own (type' p)} | p <- parameters form],
+          result = own (result form)
+        }
+    own =
+      Type.replaced
+        (Dimension.substitute anyUnknown dimension)
+        (\n -> if n == anyUnknown then anything else Variable n)
 
 -- | All forms by their labels; what is new at every call is 'anyUnknown' in them.
 byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
-byLabels = Lazy.fromList [(b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms template b]) | b <- [minBound .. maxBound]]
+byLabels =
+  Lazy.fromList
+    [ (b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms template b])
+      | b <- [minBound .. maxBound]
+    ]
 
 template :: Fresh
-template = Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
+template =
+  Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
 
--- | The forms of a function that take so many values without a word, and whether all types of each are known.
+-- | The forms of a function that take so many values without a word, and whether all types of each
+-- are known.
 bare :: Builtin -> Int -> [(Form, Bool)]
 bare builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
 
 byCount :: Lazy.Map Builtin (Map Int [(Form, Bool)])
-byCount = fmap (\labels -> Map.fromList [(length ls, [(f, isKnown f) | f <- fs]) | (ls, fs) <- Map.toList labels, all (== Bare) ls]) byLabels
+byCount =
+  fmap
+    ( \labels ->
+        Map.fromList
+          [ (length ls, [(f, isKnown f) | f <- fs])
+            | (ls, fs) <- Map.toList labels,
+              all (== Bare) ls
+          ]
+    )
+    byLabels
   where
-    isKnown f = all (\t -> null (Type.dimensions t) && null (Type.variables t)) (result f : map type' (parameters f))
+    isKnown f =
+      all
+        (\t -> null (Type.dimensions t) && null (Type.variables t))
+        (result f : map type' (parameters f))
 
 -- | Whether a function has several forms.
 isOverloaded :: Builtin -> Bool
@@ -281,7 +371,8 @@ anyUnknown = -1
 
 -- | A form as a call.
 written :: Builtin -> Form -> Text
-written builtin form = name builtin <> "(" <> Text.intercalate ", " (map parameter (parameters form)) <> ")"
+written builtin form =
+  name builtin <> "(" <> Text.intercalate ", " (map parameter (parameters form)) <> ")"
   where
     parameter p = case label p of
       Bare -> title p
@@ -301,7 +392,9 @@ meaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (formsOf 
 
 -- | The forms of a function as calls, for a reader.
 formsOf :: Builtin -> [Text]
-formsOf builtin = nubOrd (map (written builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
+formsOf builtin =
+  nubOrd
+    (map (written builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
 
 -- | What to write instead of a function's bare name.
 formsHint :: Builtin -> [Text]

@@ -1,5 +1,5 @@
--- | Terms that are known when the whole program has been looked at. Once they are, nothing of them is put off: what is put off
--- holds all that it was found by.
+-- | Terms that are known when the whole program has been looked at. Once they are, nothing of them
+-- is put off: what is put off holds all that it was found by.
 module Checked.Deferred
   ( Later,
     solved,

@@ -113,7 +113,8 @@ unitWord :: Dimension -> Text
 unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
   ([], []) -> ""
   (up, []) -> Text.intercalate "·" up
-  (up, down) -> (if null up then "1" else Text.intercalate "·" up) <> "/" <> Text.intercalate "/" down
+  (up, down) ->
+    (if null up then "1" else Text.intercalate "·" up) <> "/" <> Text.intercalate "/" down
   where
     factors keep = [name a <> raised (abs e) | (a, e) <- Map.toList m, keep e, known a]
     raised e = if e == 1 then "" else "^" <> Text.pack (show e)

@@ -17,7 +17,15 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode,
+    ReportPlace (..),
+    Severity (..),
+    quote,
+    report,
+  )
 
 -- | A fact, and where it shows.
 data Error
@@ -52,11 +60,13 @@ data Error
     Recursive Region Name
   | -- | a call that has none of the forms of a function: the function, what is given, its forms
     NoForm Region Text [(Region, Type)] [Text]
-  | -- | a call with a wrong number of arguments, or with words that do not belong: the function, its forms
+  | -- | a call with a wrong number of arguments, or with words that do not belong: the function,
+    -- its forms
     NoSuchCall Region Text [Text]
   | -- | a statement that does not belong in a block
     NotInBlock Region Text
-  | -- | a setting that the statement in whose braces it stands does not take: the setting, the statement, its settings
+  | -- | a setting that the statement in whose braces it stands does not take: the setting, the
+    -- statement, its settings
     ForeignSetting Region Text Text [Text]
   | -- | a setting given twice: the setting, where it stands first
     RepeatedSetting Region Text Region
@@ -83,7 +93,14 @@ data Error
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
-data RequiredSetting = PartSetting | MachineSetting | ToolSetting | FeedSetting | ToleranceSetting | FromSetting | ClearanceSetting
+data RequiredSetting
+  = PartSetting
+  | MachineSetting
+  | ToolSetting
+  | FeedSetting
+  | ToleranceSetting
+  | FromSetting
+  | ClearanceSetting
   deriving stock (Eq, Ord, Show)
 
 -- | The words for it.
@@ -92,9 +109,13 @@ toReport err = case err of
   UndefinedName region (Name name) known ->
     (at region "E0201" ("nothing is named " <> quote name))
       { hints = case (Name.lookAlike name known, Name.nearest name known) of
-          (_ : _, _) -> ["There is a name that looks the same but has a letter of the other alphabet, Cyrillic or Latin: write both alike."]
+          (_ : _, _) ->
+            [ "There is a name that looks the same but has a letter of the other alphabet, Cyrillic \
+              \or Latin: write both alike."
+            ]
           ([], []) -> []
-          ([], near) -> ["Did you mean " <> Text.intercalate " or " (map quote (take 2 near)) <> "?"]
+          ([], near) ->
+            ["Did you mean " <> Text.intercalate " or " (map quote (take 2 near)) <> "?"]
       }
   UsedBeforeDefinition region (Name name) defined ->
     (at region "E0202" (quote name <> " is used before it is defined"))
@@ -112,22 +133,65 @@ toReport err = case err of
       { hints = ["Choose another name, for example " <> name <> "1."]
       }
   Mismatch region expected found settled ->
-    (at region "E0205" ("this is " <> Type.describe found <> ", but " <> Type.describe expected <> " is needed here"))
+    ( at
+        region
+        "E0205"
+        ( "this is "
+            <> Type.describe found
+            <> ", but "
+            <> Type.describe expected
+            <> " is needed here"
+        )
+    )
       { label = Type.describe found,
         others = settledHere settled,
         hints = mismatchHint expected found
       }
   Disagree region operator (leftRegion, left) (rightRegion, right) settled ->
-    (at region "E0206" (Type.describe left <> " and " <> Type.describe right <> " cannot be " <> (if operator `elem` [Add, Subtract] then "added or subtracted" else "compared")))
-      { others = [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)] <> settledHere settled,
-        hints = ["Compare their distance: distance(p, q) < 0.001" | operator `notElem` [Add, Subtract], Spatial _ <- [left], Spatial _ <- [right]]
+    ( at
+        region
+        "E0206"
+        ( Type.describe left
+            <> " and "
+            <> Type.describe right
+            <> " cannot be "
+            <> (if operator `elem` [Add, Subtract] then "added or subtracted" else "compared")
+        )
+    )
+      { others =
+          [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)]
+            <> settledHere settled,
+        hints =
+          [ "Compare their distance: distance(p, q) < 0.001"
+            | operator `notElem` [Add, Subtract],
+              Spatial _ <- [left],
+              Spatial _ <- [right]
+          ]
       }
   NoOperation region what operands ->
-    (at region "E0207" (what <> " is not defined for " <> Text.intercalate " and " (map (Type.describe . snd) operands)))
+    ( at
+        region
+        "E0207"
+        ( what
+            <> " is not defined for "
+            <> Text.intercalate " and " (map (Type.describe . snd) operands)
+        )
+    )
       { others = [Label r (Type.describe t) | (r, t) <- operands]
       }
   ArgumentCount region (Name name) wanted given ->
-    (at region "E0208" (quote name <> " takes " <> arguments (length wanted) <> ", but " <> Decimal.whole given <> (if given == 1 then " is" else " are") <> " given"))
+    ( at
+        region
+        "E0208"
+        ( quote name
+            <> " takes "
+            <> arguments (length wanted)
+            <> ", but "
+            <> Decimal.whole given
+            <> (if given == 1 then " is" else " are")
+            <> " given"
+        )
+    )
       { hints = ["Write " <> name <> "(" <> Text.intercalate ", " wanted <> ")."]
       }
   NotAFunction region (Name name) defined ->
@@ -146,12 +210,21 @@ toReport err = case err of
       }
   SenseUnneeded region t ->
     (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
-      { hints = ["Leave the word out. " <> w | Just w <- [wayOf t]] <> ["Leave the word out." | Nothing <- [wayOf t]]
+      { hints =
+          ["Leave the word out. " <> w | Just w <- [wayOf t]]
+            <> ["Leave the word out." | Nothing <- [wayOf t]]
       }
   NotWalkable region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
-      { message = ["A contour walks along lines, circles, curves and open contours, and through points."],
-        hints = ["The items of a list are walked with: for p in list { p }" | ListOf _ <- [t]] <> ["Lay a curve through its points, for example spline(t) for a table t." | Table _ <- [t]]
+      { message =
+          [ "A contour walks along lines, circles, curves and open contours, and through \
+            \points."
+          ],
+        hints =
+          ["The items of a list are walked with: for p in list { p }" | ListOf _ <- [t]]
+            <> [ "Lay a curve through its points, for example spline(t) for a table t."
+                 | Table _ <- [t]
+               ]
       }
   NoPart region ->
     (at region "E0215" "the program does not begin with ‘part’")
@@ -163,12 +236,26 @@ toReport err = case err of
         others = [Label before "first set here"]
       }
   SettingsMissing region missing ->
-    (at region "E0217" (listed (NonEmpty.toList (fmap settingWord missing)) <> (if length missing == 1 then " is" else " are") <> " not given"))
+    ( at
+        region
+        "E0217"
+        ( listed (NonEmpty.toList (fmap settingWord missing))
+            <> (if length missing == 1 then " is" else " are")
+            <> " not given"
+        )
+    )
       { label = "needed here",
-        hints = ["Say before it, for example: " <> Text.intercalate "; " (NonEmpty.toList (fmap example missing))]
+        hints =
+          [ "Say before it, for example: "
+              <> Text.intercalate "; " (NonEmpty.toList (fmap example missing))
+          ]
       }
   NoForm region name given known ->
-    (at region "E0218" (quote name <> " does not take " <> listed (map (Type.describe . snd) given)))
+    ( at
+        region
+        "E0218"
+        (quote name <> " does not take " <> listed (map (Type.describe . snd) given))
+    )
       { others = [Label r (Type.describe t) | (r, t) <- given],
         hints = formsHint known
       }
@@ -183,7 +270,11 @@ toReport err = case err of
   ForeignSetting region setting statement known ->
     (at region "E0221" (quote statement <> " has no setting " <> quote setting))
       { message = ["It has: " <> Text.intercalate ", " known <> "."],
-        hints = ["The depth of the holes stands before the braces: drill at P depth 10" | setting == "depth", statement == "drill"]
+        hints =
+          [ "The depth of the holes stands before the braces: drill at P depth 10"
+            | setting == "depth",
+              statement == "drill"
+          ]
       }
   RepeatedSetting region setting before ->
     (at region "E0222" (quote setting <> " is given twice"))
@@ -206,30 +297,74 @@ toReport err = case err of
       { hints = ["Every table has columns x and y; others may follow."]
       }
   RowLength region number columns cells ->
-    (at region "E0226" ("row " <> Decimal.whole number <> " has " <> counted cells "cell" <> ", but the table has " <> counted columns "column"))
-      { hints = ["A row stands on one line. A value that is no plain number stands in brackets: (2 * h)."]
+    ( at
+        region
+        "E0226"
+        ( "row "
+            <> Decimal.whole number
+            <> " has "
+            <> counted cells "cell"
+            <> ", but the table has "
+            <> counted columns "column"
+        )
+    )
+      { hints =
+          [ "A row stands on one line. A value that is no plain number stands in brackets: (2 \
+            \* h)."
+          ]
       }
   NoSuchCipher region digit ->
     (at region "E0227" ("there is no cipher " <> digit))
-      { message = ["This was control stop 14441 of the Minsk-22 system: the cipher is not provided for."],
-        hints = ["One digit at a time: cipher " <> Text.intercalate ", " [Text.singleton d <> "(…)" | d <- Text.unpack digit] | severalCiphers digit] <> ["The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel and height), 6 (a distance at each point)."]
+      { message =
+          [ "This was control stop 14441 of the Minsk-22 system: the cipher is not provided \
+            \for."
+          ],
+        hints =
+          [ "One digit at a time: cipher "
+              <> Text.intercalate ", " [Text.singleton d <> "(…)" | d <- Text.unpack digit]
+            | severalCiphers digit
+          ]
+            <> [ "The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel \
+                 \and height), 6 (a distance at each point)."
+               ]
       }
   CipherMisfit region digit count ->
     (at region "E0228" ("cipher " <> digit <> " does not work with " <> counted count "value"))
-      { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
+      { message =
+          [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
+            \the cipher."
+          ],
         hints = ["Write " <> Text.intercalate ", or " (cipherForms digit) <> "."]
       }
   ColumnForOne region digit (Name name) ->
-    (at region "E0228" ("cipher " <> digit <> " takes one value here for the whole piece, and " <> quote name <> " is a column"))
-      { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
+    ( at
+        region
+        "E0228"
+        ( "cipher "
+            <> digit
+            <> " takes one value here for the whole piece, and "
+            <> quote name
+            <> " is a column"
+        )
+    )
+      { message =
+          [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
+            \the cipher."
+          ],
         hints = ["For a distance at each point write 6(" <> name <> ")." | digit == "2"]
       }
   NoColumn region (Name name) columns ->
     (at region "E0229" ("the curve has no column " <> quote name))
-      { message = ["This was control stop 14623 of the Minsk-22 system: the piece has no data for the cipher."],
+      { message =
+          [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
+            \the cipher."
+          ],
         hints = case (Name.nearest name columns, columns) of
           (w : _, _) -> ["Did you mean " <> quote w <> "?"]
-          ([], []) -> ["Only a curve through a table with more columns than x and y has values at its points; the first line of the table names them."]
+          ([], []) ->
+            [ "Only a curve through a table with more columns than x and y has values at its \
+              \points; the first line of the table names them."
+            ]
           ([], _) -> ["Its columns are " <> Text.intercalate ", " columns <> "."]
       }
   WithinNothing region ->
@@ -238,15 +373,20 @@ toReport err = case err of
       }
   Recursive region (Name name) ->
     (at region "E0214" (quote name <> " is used in its own definition"))
-      { message = ["Every program must come to an end, so a definition uses only what stands above it."]
+      { message =
+          [ "Every program must come to an end, so a definition uses only what stands above \
+            \it."
+          ]
       }
 
 -- | How something without a choice of sense is walked.
 wayOf :: Type -> Maybe Text
 wayOf t = case t of
   Line -> Just "A line is walked from its first point to its second."
-  Curve _ -> Just "A curve is walked from its beginning to its end; the other way, write reversed(c)."
-  Contour -> Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
+  Curve _ ->
+    Just "A curve is walked from its beginning to its end; the other way, write reversed(c)."
+  Contour ->
+    Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
   _ -> Nothing
 
 -- | Whether a cipher is several written as one number.
@@ -256,7 +396,12 @@ severalCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4',
 -- | How a cipher is written.
 cipherForms :: Text -> [Text]
 cipherForms digit = case digit of
-  "1" -> ["1(from, to)", "1(from, to, mu)", "1(from, to, start_point, end_point)", "1(from, to, mu, start_point, end_point)"]
+  "1" ->
+    [ "1(from, to)",
+      "1(from, to, mu)",
+      "1(from, to, start_point, end_point)",
+      "1(from, to, mu, start_point, end_point)"
+    ]
   "2" -> ["2(distance)", "2(distance, mu)"]
   "4" -> ["4(mu, height)", "4(mu, height, allowance)"]
   _ -> ["6(distance)", "6(distance, mu)"]
@@ -272,16 +417,21 @@ arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
 -- | Where something came to be what it is.
 settledHere :: [(Region, Type)] -> [Label]
-settledHere settled = [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- settled]
+settledHere settled =
+  [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- settled]
 
 mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found
-  | expected == Type.angle && found == Type.number = ["A number of radians becomes an angle when it is multiplied by 1 rad."]
-  | expected == Type.number && found == Type.angle = ["An angle becomes a number of radians when it is divided by 1 rad."]
-  | expected == Type.len && found == Type.number = ["A number becomes a length when it is multiplied by 1 mm."]
+  | expected == Type.angle && found == Type.number =
+    ["A number of radians becomes an angle when it is multiplied by 1 rad."]
+  | expected == Type.number && found == Type.angle =
+    ["An angle becomes a number of radians when it is divided by 1 rad."]
+  | expected == Type.len && found == Type.number =
+    ["A number becomes a length when it is multiplied by 1 mm."]
   | Table _ <- found, expected == ListOf Type.aPoint = ["The points of a table are points_of(…)."]
   | expected == found = []
-  | Type.isSquare expected = ["The root is taken of a number, of an area, or of another product of two equal quantities."]
+  | Type.isSquare expected =
+    ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []
 
 settingWord :: RequiredSetting -> Text
@@ -309,7 +459,11 @@ formsHint :: [Text] -> [Text]
 formsHint known = case known of
   [] -> []
   [one] -> ["Write " <> one <> "."]
-  _ -> ["Write one of: " <> Text.intercalate "; " (take 6 known) <> (if length known > 6 then "; …" else ".")]
+  _ ->
+    [ "Write one of: "
+        <> Text.intercalate "; " (take 6 known)
+        <> (if length known > 6 then "; …" else ".")
+    ]
 
 -- | Words in a row: a, b and c.
 listed :: [Text] -> Text

@@ -44,11 +44,16 @@ import Surface.Token (Numeral (..))
 -- | Check a program.
 check :: Surface.Program -> Result w Error Program
 check Surface.Program {Surface.statements = written} =
-  Result {warnings = [], errors = settings written <> filter (not . (importing &&) . isUndefined) found, output = Just program}
+  Result
+    { warnings = [],
+      errors = settings written <> filter (not . (importing &&) . isUndefined) found,
+      output = Just program
+    }
   where
     defined = Map.fromListWith (\_ first -> first) (concatMap definition written)
     importing = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
-    (found, solution, checked, mentions) = Inference.run (catMaybes <$> mapM (statement defined) written)
+    (found, solution, checked, mentions) =
+      Inference.run (catMaybes <$> mapM (statement defined) written)
     program =
       Program
         { name = firstOf [value n | Located _ (Surface.Part n _) <- written],
@@ -87,15 +92,24 @@ type Defined = Map Name Region
 
 statement :: Defined -> Statement -> Infer (Maybe (Later Checked.Statement))
 statement defined (Located at s) = case s of
-  Surface.Part n _ -> Nothing <$ Inference.mention (region n) (Just (region n)) (nameText n) (Inference.Said "the name of the part")
+  Surface.Part n _ ->
+    Nothing
+      <$ Inference.mention
+        (region n)
+        (Just (region n))
+        (nameText n)
+        (Inference.Said "the name of the part")
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
-  Surface.Broken _ name -> Nothing <$ mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
+  Surface.Broken _ name ->
+    Nothing <$ mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
   Surface.Tool c -> one Checked.Tool (cutter defined c)
   Surface.Feed e -> one Checked.Feed (expect defined Type.feed e)
   Surface.Tolerance accuracy -> one Checked.Tolerance $ case accuracy of
     Surface.Within e -> (Checked.Within .) <$> expect defined Type.len e
-    Surface.Between a b -> (\a' b' sol -> Checked.Between (a' sol) (b' sol)) <$> expect defined Type.len a <*> expect defined Type.len b
+    Surface.Between a b ->
+      (\a' b' sol -> Checked.Between (a' sol) (b' sol))
+        <$> expect defined Type.len a <*> expect defined Type.len b
   Surface.Clearance e -> one Checked.Clearance (expect defined Type.len e)
   Surface.From e -> one Checked.From (spot defined e)
   Surface.LetValue name e -> binding name (infer defined e)
@@ -103,24 +117,47 @@ statement defined (Located at s) = case s of
   Surface.LetFunction name parameters e -> do
     checked <- Inference.separately (unused name *> function defined name parameters e)
     defining name fst checked
-    pure (plain (\(_, e') sol -> Checked.LetFunction (value name) (fmap value parameters) (e' sol)) checked)
+    pure
+      ( plain
+          (\(_, e') sol -> Checked.LetFunction (value name) (fmap value parameters) (e' sol))
+          checked
+      )
   Surface.Contour name closure items -> do
     checked <- Inference.separately (unused name *> mapM (item defined) items)
     defining name (const (Value (region name) Type.Contour)) checked
     pure (plain (\items' sol -> Checked.Contour name closure (solved sol items')) checked)
   Surface.Table name written -> do
-    checked <- Inference.separately (unused name *> Piece.table (checker defined) name (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> []))
+    checked <-
+      Inference.separately
+        ( unused name
+            *> Piece.table
+              (checker defined)
+              name
+              (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> [])
+        )
     defining name (\(t, _) -> Value (region name) t) checked
     pure (plain (\(_, columns) sol -> Checked.Table name (columns sol)) checked)
   Surface.Curve name e -> binding name (curve defined e)
   Surface.Piece name e ciphers side joggles -> do
     checked <- Inference.separately (unused name *> piece defined e ciphers joggles)
     defining name (\(t, _) -> Value (region name) t) checked
-    pure (plain (\(_, (e', ciphers', joggles')) sol -> Checked.Piece name (e' sol) (solved sol ciphers') side (solved sol joggles')) checked)
+    pure
+      ( plain
+          ( \(_, (e', ciphers', joggles')) sol ->
+              Checked.Piece name (e' sol) (solved sol ciphers') side (solved sol joggles')
+          )
+          checked
+      )
   Surface.Assert e within -> one Checked.Assert (assertion defined e within)
   Surface.Mill e side options -> machining Checked.Mill "mill" e side options
   Surface.Pocket e apart options ->
-    one (\(c, step', o) -> Checked.Pocket c step' o) ((\c step' o sol -> (c sol, step' sol, o sol)) <$> expect defined Type.Contour e <*> expect defined Type.len apart <*> Settings.check (expect defined) (stop defined) "pocket" options)
+    one
+      (\(c, step', o) -> Checked.Pocket c step' o)
+      ( (\c step' o sol -> (c sol, step' sol, o sol))
+          <$> expect defined Type.Contour e
+            <*> expect defined Type.len apart
+            <*> Settings.check (expect defined) (stop defined) "pocket" options
+      )
   Surface.Turn e side options -> machining Checked.Turn "turn" e side options
   Surface.Drill points depth options ->
     one (\(p, d, o) -> Checked.Drill p d o) $ do
@@ -128,8 +165,12 @@ statement defined (Located at s) = case s of
       depth' <- expect defined Type.len depth
       options' <- Settings.check (expect defined) (stop defined) "drill" options
       pure (\sol -> (points' sol, depth' sol, options' sol))
-  Surface.Travel motion stops -> one Checked.Travel ((\ps sol -> fmap ($ sol) ps) <$> mapM (stop defined . paced motion) stops)
-  Surface.Change e c -> one (uncurry Checked.Change) ((\n c' sol -> (n sol, c' sol)) <$> expect defined Type.number e <*> cutter defined c)
+  Surface.Travel motion stops ->
+    one Checked.Travel ((\ps sol -> fmap ($ sol) ps) <$> mapM (stop defined . paced motion) stops)
+  Surface.Change e c ->
+    one
+      (uncurry Checked.Change)
+      ((\n c' sol -> (n sol, c' sol)) <$> expect defined Type.number e <*> cutter defined c)
   Surface.Spindle spin -> one Checked.Spindle $ case spin of
     Surface.Still -> pure (const Checked.Still)
     Surface.Spinning sense speed -> do
@@ -139,8 +180,16 @@ statement defined (Located at s) = case s of
   Surface.Auxiliary e -> one Checked.Auxiliary (expect defined Type.number e)
   Surface.Repeat counter list body -> do
     checked <- Inference.separately (repetition defined counter list)
-    body' <- inBlock (maybe (Poisoned (region counter)) (Local (region counter) . fst) checked) (Just counter) body
-    pure (plain (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (solved sol body')) checked)
+    body' <-
+      inBlock
+        (maybe (Poisoned (region counter)) (Local (region counter) . fst) checked)
+        (Just counter)
+        body
+    pure
+      ( plain
+          (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (solved sol body'))
+          checked
+      )
   Surface.When e body others -> do
     checked <- Inference.separately (expect defined Type.Truth' e)
     body' <- block' body
@@ -170,13 +219,23 @@ statement defined (Located at s) = case s of
         Nothing -> do
           let entry' = maybe (Poisoned (region name)) entry checked
           Inference.define (value name) entry'
-          mapM_ (Inference.mention (region name) (Just (region name)) (nameText name)) (meaningOf entry')
+          mapM_
+            (Inference.mention (region name) (Just (region name)) (nameText name))
+            (meaningOf entry')
     -- What is defined in a block is known only there.
     block' body = catMaybes <$> Inference.scoped (mapM (statement (inner body)) body)
     inBlock entry counter body = Inference.scoped $ do
-      mapM_ (\n -> Inference.define (value n) entry *> mapM_ (Inference.mention (region n) (Just (region n)) (nameText n)) (meaningOf entry)) counter
+      mapM_
+        ( \n ->
+            Inference.define (value n) entry
+              *> mapM_
+                (Inference.mention (region n) (Just (region n)) (nameText n))
+                (meaningOf entry)
+        )
+        counter
       catMaybes <$> mapM (statement (inner body)) body
-    inner body = Map.union (Map.fromListWith (\_ first -> first) (concatMap definition body)) defined
+    inner body =
+      Map.union (Map.fromListWith (\_ first -> first) (concatMap definition body)) defined
 
 checker :: Defined -> Piece.Checker
 checker defined = Piece.Checker (expect defined)
@@ -190,7 +249,12 @@ curve defined e = do
   pure (t, e')
 
 -- | A curve with its recalculations and joggles.
-piece :: Defined -> Surface.Expr -> [Surface.Cipher] -> [Surface.Joggle] -> Infer (Type, (Later Checked.Expr, [Later Checked.Cipher], [Later Checked.Joggle]))
+piece ::
+  Defined ->
+  Surface.Expr ->
+  [Surface.Cipher] ->
+  [Surface.Joggle] ->
+  Infer (Type, (Later Checked.Expr, [Later Checked.Cipher], [Later Checked.Joggle]))
 piece defined e ciphers joggles = do
   (t, e') <- curve defined e
   columns <- Piece.columnsOf t
@@ -217,8 +281,12 @@ cutter defined (Located at c) = fmap (Located at .) $ case c of
   Surface.MillCutter e -> (Checked.MillCutter .) <$> expect defined Type.len e
   Surface.DrillCutter e -> (Checked.DrillCutter .) <$> expect defined Type.len e
   Surface.TurningCutter e -> (Checked.TurningCutter .) <$> expect defined Type.len e
-  Surface.ConeCutter d a h -> (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol)) <$> expect defined Type.len d <*> expect defined Type.angle a <*> expect defined Type.len h
-  Surface.BladeCutter d g -> (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol)) <$> expect defined Type.len d <*> expect defined Type.len g
+  Surface.ConeCutter d a h ->
+    (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol))
+      <$> expect defined Type.len d <*> expect defined Type.angle a <*> expect defined Type.len h
+  Surface.BladeCutter d g ->
+    (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol))
+      <$> expect defined Type.len d <*> expect defined Type.len g
 
 -- | Something that has to be true, or two quantities that have to be equal.
 assertion :: Defined -> Surface.Expr -> Maybe Surface.Expr -> Infer (Later Checked.Assertion)
@@ -229,16 +297,21 @@ assertion defined e within = case (value e, within) of
     _ <- operation (region e) Surface.Equal (region l, lt) (region r, rt)
     kind <- Inference.known lt
     -- Things that cannot be compared differ by nothing.
-    within' <- traverse (expect defined (case kind of Type.Quantity _ -> lt; _ -> Type.Wrong)) within
+    within' <-
+      traverse (expect defined (case kind of Type.Quantity _ -> lt; _ -> Type.Wrong)) within
     d <- Type.dimensionOf <$> Inference.known lt
     pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
-  (Surface.Binary op l r, Nothing) | op `elem` [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal] -> do
-    (lt, l') <- infer defined l
-    (rt, r') <- infer defined r
-    _ <- operation (region e) op (region l, lt) (region r, rt)
-    d <- Type.dimensionOf <$> Inference.known lt
-    pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
-  (_, Just d) -> (\e' sol -> Checked.Holds (e' sol)) <$> (Inference.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
+  (Surface.Binary op l r, Nothing)
+    | op `elem` [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal] ->
+      do
+        (lt, l') <- infer defined l
+        (rt, r') <- infer defined r
+        _ <- operation (region e) op (region l, lt) (region r, rt)
+        d <- Type.dimensionOf <$> Inference.known lt
+        pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
+  (_, Just d) ->
+    (\e' sol -> Checked.Holds (e' sol))
+      <$> (Inference.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
   (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
 
 -- | A name that can be given.
@@ -253,20 +326,32 @@ unused (Located at name@(Name text)) = do
     Nothing -> pure ()
   when (isBuiltin text) (Inference.mistake (NameTaken at name))
 
-function :: Defined -> Located Name -> NonEmpty (Located Name) -> Surface.Expr -> Infer (Binding, Later Checked.Expr)
+function ::
+  Defined ->
+  Located Name ->
+  NonEmpty (Located Name) ->
+  Surface.Expr ->
+  Infer (Binding, Later Checked.Expr)
 function defined name parameters body = do
-  mapM_ (\(Located at n@(Name text)) -> when (isBuiltin text) (Inference.mistake (NameTaken at n))) parameters
+  mapM_
+    (\(Located at n@(Name text)) -> when (isBuiltin text) (Inference.mistake (NameTaken at n)))
+    parameters
   twice (NonEmpty.toList parameters)
   (scheme, body') <- Inference.generalising $ do
     ts <- mapM (const Inference.freshType) (NonEmpty.toList parameters)
     (t, e) <- Inference.withLocals (zip (NonEmpty.toList parameters) ts) (infer defined body)
     pure (ts, t, e)
-  pure (Function (region name) [text | Located _ (Name text) <- NonEmpty.toList parameters] scheme, body')
+  pure
+    ( Function (region name) [text | Located _ (Name text) <- NonEmpty.toList parameters] scheme,
+      body'
+    )
   where
     twice ns = case ns of
       [] -> pure ()
       n : rest -> do
-        mapM_ (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n))) (take 1 (filter ((== value n) . value) rest))
+        mapM_
+          (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n)))
+          (take 1 (filter ((== value n) . value) rest))
         twice rest
 
 isBuiltin :: Text -> Bool
@@ -305,7 +390,9 @@ places defined e = do
 -- | The variable and the list of a repetition.
 repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Checked.Expr)
 repetition defined counter list = do
-  when (isBuiltin (nameText counter)) (Inference.mistake (NameTaken (region counter) (value counter)))
+  when
+    (isBuiltin (nameText counter))
+    (Inference.mistake (NameTaken (region counter) (value counter)))
   t <- Inference.freshType
   (found, list') <- infer defined list
   fine <- agrees (region list) (Type.ListOf t) found
@@ -330,9 +417,22 @@ item defined (Located at i) = case i of
     (t, e') <- walked defined walk e
     modifiers' <- if null modifiers then pure [] else Piece.columnsOf t >>= modified' modifiers
     link' <- traverse (linked defined) link
-    pure (\sol -> Located at (Checked.Element (eagerly value walk) (e' sol) (solved sol modifiers') (eagerly ($ sol) link')))
+    pure
+      ( \sol ->
+          Located
+            at
+            ( Checked.Element
+                (eagerly value walk)
+                (e' sol)
+                (solved sol modifiers')
+                (eagerly ($ sol) link')
+            )
+      )
   where
-    modified' modifiers columns = mapM (modified defined columns) (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
+    modified' modifiers columns =
+      mapM
+        (modified defined columns)
+        (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
 
 isBevel :: Surface.Modifier -> Bool
 isBevel (Located _ m) = case m of
@@ -347,10 +447,16 @@ modified defined columns (Located at m) = fmap (Located at .) $ case m of
   Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect defined Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect defined Type.len e
-  Surface.Bevel e -> (Checked.Bevel .) <$> Piece.withColumns (region e) (concat columns) (expect defined Type.angle e)
+  Surface.Bevel e ->
+    (Checked.Bevel .)
+      <$> Piece.withColumns (region e) (concat columns) (expect defined Type.angle e)
 
 -- | A circle with its sense, or a line, a point, a curve or a contour without one.
-walked :: Defined -> Maybe (Located Surface.Sense) -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+walked ::
+  Defined ->
+  Maybe (Located Surface.Sense) ->
+  Surface.Expr ->
+  Infer (Type, Later Checked.Expr)
 walked defined walk e = case (walk, value e) of
   (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect defined Type.aPoint e
   _ -> do
@@ -429,7 +535,12 @@ infer defined (Located at e) = case e of
     plain <- Literal.call (expect defined) (Located at e)
     case plain of
       Nothing -> call defined at name arguments
-      Just c -> (,Literal.checked c) <$> (if Literal.overloaded c then Inference.decidedAs at (Literal.answer c) else pure (Literal.answer c))
+      Just c ->
+        (,Literal.checked c)
+          <$> ( if Literal.overloaded c
+                  then Inference.decidedAs at (Literal.answer c)
+                  else pure (Literal.answer c)
+              )
   Surface.Negate inner -> do
     (t, inner') <- infer defined inner
     result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
@@ -450,13 +561,17 @@ infer defined (Located at e) = case e of
   Surface.Range low high Nothing -> do
     low' <- expect defined Type.number low
     high' <- expect defined Type.number high
-    pure (Type.ListOf Type.number, \sol -> Located at (Checked.Range (low' sol) (high' sol) Nothing))
+    pure
+      (Type.ListOf Type.number, \sol -> Located at (Checked.Range (low' sol) (high' sol) Nothing))
   Surface.Range low high (Just step) -> do
     d <- Inference.freshDimension
     low' <- expect defined (Type.Quantity d) low
     high' <- expect defined (Type.Quantity d) high
     step' <- expect defined (Type.Quantity d) step
-    pure (Type.ListOf (Type.Quantity d), \sol -> Located at (Checked.Range (low' sol) (high' sol) (Just (step' sol))))
+    pure
+      ( Type.ListOf (Type.Quantity d),
+        \sol -> Located at (Checked.Range (low' sol) (high' sol) (Just (step' sol)))
+      )
   Surface.If c a b -> do
     c' <- expect defined Type.Truth' c
     (t, a') <- infer defined a
@@ -479,7 +594,10 @@ infer defined (Located at e) = case e of
   Surface.Each inner counter list -> do
     (t, list') <- repetition defined counter list
     (result, inner') <- Inference.withLocals [(counter, t)] (infer defined inner)
-    pure (Type.ListOf result, \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol)))
+    pure
+      ( Type.ListOf result,
+        \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
+      )
 
 -- | The result of an operation.
 operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
@@ -492,11 +610,20 @@ variable :: Defined -> Region -> Name -> Infer (Type, Later Checked.Expr)
 variable defined at name@(Name text) = do
   entry <- Inference.find name
   case entry of
-    Just (Value there t) -> (t, here (Checked.Variable name)) <$ Inference.mention at (Just there) text (Inference.Valued t)
-    Just (Local there t) -> (t, here (Checked.Variable name)) <$ Inference.mention at (Just there) text (Inference.Valued t)
+    Just (Value there t) ->
+      (t, here (Checked.Variable name))
+        <$ Inference.mention at (Just there) text (Inference.Valued t)
+    Just (Local there t) ->
+      (t, here (Checked.Variable name))
+        <$ Inference.mention at (Just there) text (Inference.Valued t)
     Just (Function there parameters scheme) -> do
       Inference.mention at (Just there) text (Inference.Callable parameters scheme)
-      wrong (FunctionAsValue at name ["Write " <> text <> "(" <> Text.intercalate ", " parameters <> ")."])
+      wrong
+        ( FunctionAsValue
+            at
+            name
+            ["Write " <> text <> "(" <> Text.intercalate ", " parameters <> ")."]
+        )
     Just (Poisoned _) -> nothing <$ Inference.taint
     Nothing -> case Builtin.lookup text of
       Just builtin -> do
@@ -529,9 +656,15 @@ unknown defined at name = do
     Just place
       | start place > start at -> UsedBeforeDefinition at name place
       | otherwise -> Recursive at name
-    Nothing -> UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
+    Nothing ->
+      UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
 
-call :: Defined -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer (Type, Later Checked.Expr)
+call ::
+  Defined ->
+  Region ->
+  Located Name ->
+  NonEmpty Surface.Argument ->
+  Infer (Type, Later Checked.Expr)
 call defined at (Located place name@(Name text)) arguments = do
   entry <- Inference.find name
   case entry of
@@ -543,7 +676,11 @@ call defined at (Located place name@(Name text)) arguments = do
           | length es == length ts -> do
             checked <- zipWithM argument ts es
             operations
-            pure (if all fst checked then t else Type.Wrong, \sol -> Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked))))
+            pure
+              ( if all fst checked then t else Type.Wrong,
+                \sol ->
+                  Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked)))
+              )
         _ -> wrong (ArgumentCount at name parameters (length given))
     Just (Value before _) -> wrong (NotAFunction place name (Just before))
     Just (Local before _) -> wrong (NotAFunction place name (Just before))
@@ -551,13 +688,23 @@ call defined at (Located place name@(Name text)) arguments = do
     Nothing -> case Builtin.lookup text of
       Just builtin
         | Builtin.isConstant builtin -> wrong (NotAFunction place name Nothing)
-        | otherwise -> Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin)) *> builtinCall builtin
+        | otherwise ->
+          Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin))
+            *> builtinCall builtin
       Nothing -> unknown defined place name >>= wrong
   where
     given = NonEmpty.toList arguments
     nothing = (Type.Wrong, const (Located at (Checked.Number 0)))
     -- The arguments, if no words stand before them.
-    plain = sequence [case a of Surface.Given e -> Just e; Surface.Chosen _ _ -> Nothing; Surface.Ranked _ -> Nothing | a <- given]
+    plain =
+      sequence
+        [ case a of
+            Surface.Given e ->
+              Just e
+            Surface.Chosen _ _ -> Nothing
+            Surface.Ranked _ -> Nothing
+          | a <- given
+        ]
     -- The arguments may contain mistakes of their own.
     otherArguments = mapM_ (infer defined) (concatMap valueOf given)
     wrong e = nothing <$ (otherArguments *> Inference.mistake e)
@@ -571,17 +718,48 @@ call defined at (Located place name@(Name text)) arguments = do
           isOnly = null (drop 1 forms)
       case Builtin.labelled unknowns builtin labels of
         []
-          | Just es <- plain, [form] <- forms -> wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
+          | Just es <- plain,
+            [form] <- forms ->
+            wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
           | otherwise -> wrong (NoSuchCall at text (Builtin.formsOf builtin))
         [form] | isOnly || any (/= Builtin.Bare) labels -> do
-          checked <- zipWithM argument (map Builtin.type' (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))) (concatMap valueOf given)
-          pure (if all fst checked then Builtin.result form else Type.Wrong, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
+          checked <-
+            zipWithM
+              argument
+              ( map
+                  Builtin.type'
+                  (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))
+              )
+              (concatMap valueOf given)
+          pure
+            ( if all fst checked then Builtin.result form else Type.Wrong,
+              \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked)))
+            )
         _ -> do
           checked <- mapM (infer defined) (concatMap valueOf given)
           chosen <- Inference.freshType
-          Inference.require (Overloaded OverloadedCall {at, builtin, labels, given = zip (map region (concatMap valueOf given)) (map fst checked), chosen})
-          pure (chosen, \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked))))
-    labels = [case a of Surface.Given _ -> Builtin.Bare; Surface.Chosen word _ -> Builtin.Word (value word); Surface.Ranked _ -> Builtin.Rank | a <- given]
+          Inference.require
+            ( Overloaded
+                OverloadedCall
+                  { at,
+                    builtin,
+                    labels,
+                    given = zip (map region (concatMap valueOf given)) (map fst checked),
+                    chosen
+                  }
+            )
+          pure
+            ( chosen,
+              \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked)))
+            )
+    labels =
+      [ case a of
+          Surface.Given _ ->
+            Builtin.Bare
+          Surface.Chosen word _ -> Builtin.Word (value word)
+          Surface.Ranked _ -> Builtin.Rank
+        | a <- given
+      ]
     -- The checked values with the words before them.
     rebuilt values = go given values
       where

@@ -51,7 +51,14 @@ import Checked.Builtin qualified as Builtin
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
-import Checked.Scheme (Arithmetic (..), Binding (..), Meaning (..), OverloadedCall (..), Pending (..), Scheme (..))
+import Checked.Scheme
+  ( Arithmetic (..),
+    Binding (..),
+    Meaning (..),
+    OverloadedCall (..),
+    Pending (..),
+    Scheme (..),
+  )
 import Checked.Syntax (Mention (Mention), Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
@@ -95,17 +102,30 @@ data Memory = Memory
 -- | What an unknown is, and where that was decided.
 data Decision = TypeAt Region Type | DimensionAt Region Dimension
 
--- | Run a check from the beginning: the errors in order, the solution, the output, and the names of the text.
+-- | Run a check from the beginning: the errors in order, the solution, the output, and the names of
+-- the text.
 run :: Infer a -> ([Error], Solution, a, [Mention])
 run infer = case runState infer start of
-  (a, memory) -> (reverse (found memory), resolveDimension (decisions memory), a, map (said memory) (mentioned memory))
+  (a, memory) ->
+    ( reverse (found memory),
+      resolveDimension (decisions memory),
+      a,
+      map (said memory) (mentioned memory)
+    )
   where
-    said memory (place', definition, word, meaning') = Mention place' definition word (inWords memory meaning')
+    said memory (place', definition, word, meaning') =
+      Mention place' definition word (inWords memory meaning')
     inWords memory meaning' = case meaning' of
       Valued t -> Type.describe (resolve memory t)
       Callable names scheme ->
         "a function of ("
-          <> Text.intercalate ", " (zipWith (\n t -> n <> ": " <> Type.describe (resolve memory t)) names (parameters scheme))
+          <> Text.intercalate
+            ", "
+            ( zipWith
+                (\n t -> n <> ": " <> Type.describe (resolve memory t))
+                names
+                (parameters scheme)
+            )
           <> ") giving "
           <> Type.describe (resolve memory (result scheme))
       Said text -> text
@@ -125,7 +145,8 @@ run infer = case runState infer start of
 
 -- | A name stands at a place; where it is defined, and what it means.
 mention :: Region -> Maybe Region -> Text -> Meaning -> Infer ()
-mention place' definition word meaning' = modify' (\m -> m {mentioned = (place', definition, word, meaning') : mentioned m})
+mention place' definition word meaning' =
+  modify' (\m -> m {mentioned = (place', definition, word, meaning') : mentioned m})
 
 -- Mistakes
 
@@ -133,8 +154,8 @@ mention place' definition word meaning' = modify' (\m -> m {mentioned = (place',
 mistake :: Error -> Infer ()
 mistake e = modify' (\m -> m {found = e : found m, tainted = True})
 
--- | Record a mistake for which the places were decisive, unless one of them is blamed already: then the
--- mistake is the same again.
+-- | Record a mistake for which the places were decisive, unless one of them is blamed already: then
+-- the mistake is the same again.
 mistakeOnce :: [Region] -> Error -> Infer ()
 mistakeOnce places e = do
   before <- gets blamed
@@ -178,7 +199,14 @@ scoped infer = do
 -- | With names that are known only here.
 withLocals :: [(Located Name, Type)] -> Infer a -> Infer a
 withLocals locals infer =
-  scoped (mapM_ (\(Located at' name, t) -> define name (Local at' t) *> mention at' (Just at') (Name.text name) (Valued t)) locals *> infer)
+  scoped
+    ( mapM_
+        ( \(Located at' name, t) ->
+            define name (Local at' t) *> mention at' (Just at') (Name.text name) (Valued t)
+        )
+        locals
+        *> infer
+    )
 
 -- Unknowns
 
@@ -206,7 +234,8 @@ decideAs n decision = modify' (\m -> m {decisions = IntMap.insert n decision (de
 
 -- | The unknowns of a dimension have one value for all uses of the function at hand.
 monomorphic :: Dimension -> Infer ()
-monomorphic d = modify' (\m -> m {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared m)})
+monomorphic d =
+  modify' (\m -> m {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared m)})
 
 -- | As far as it is known.
 known :: Type -> Infer Type
@@ -224,9 +253,11 @@ resolve m t = Type.replaced (resolveDimension (decisions m)) unknown t
       Nothing -> Variable n
 
 resolveDimension :: IntMap Decision -> Dimension -> Dimension
-resolveDimension known' d = case [(n, b) | n <- Dimension.unknowns d, Just (DimensionAt _ b) <- [IntMap.lookup n known']] of
-  [] -> d
-  replaced -> resolveDimension known' (foldl (\d' (n, b) -> Dimension.substitute n b d') d replaced)
+resolveDimension known' d =
+  case [(n, b) | n <- Dimension.unknowns d, Just (DimensionAt _ b) <- [IntMap.lookup n known']] of
+    [] -> d
+    replaced ->
+      resolveDimension known' (foldl (\d' (n, b) -> Dimension.substitute n b d') d replaced)
 
 -- | Where an unknown of the type, as it is written down, was decided.
 decidedAt :: Type -> Infer (Maybe Region)
@@ -249,8 +280,8 @@ decidedAt t = gets (\m -> listToMaybe (places m t))
           | n <- Dimension.unknowns d
         ]
 
--- | Of some terms at their places, as they are written and as they are known: where else it was decided
--- what they are.
+-- | Of some terms at their places, as they are written and as they are known: where else it was
+-- decided what they are.
 settledPlaces :: [(Region, Type, Type)] -> Infer [(Region, Type)]
 settledPlaces terms = concat <$> traverse one terms
   where
@@ -322,8 +353,11 @@ generalising infer = do
   r' <- known r
   m <- get
   let inside = r' : ps' <> concatMap typesOf open
-      mine = IntSet.fromList [n | t <- inside, n <- Type.variables t <> Type.dimensions t, n >= begin]
-      kept = IntSet.fromList (concatMap (sharedNow m) (IntSet.toList (snd (IntSet.split (begin - 1) (shared m)))))
+      mine =
+        IntSet.fromList [n | t <- inside, n <- Type.variables t <> Type.dimensions t, n >= begin]
+      kept =
+        IntSet.fromList
+          (concatMap (sharedNow m) (IntSet.toList (snd (IntSet.split (begin - 1) (shared m)))))
   put m {outside = before}
   pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r', open}, a)
   where
@@ -332,7 +366,8 @@ generalising infer = do
       Overloaded c -> chosen c : map snd (given c)
     sharedNow m n =
       Type.variables (resolve m (Variable n))
-        <> Dimension.unknowns (resolveDimension (decisions m) (Dimension.atom (Dimension.Unknown n)))
+        <> Dimension.unknowns
+          (resolveDimension (decisions m) (Dimension.atom (Dimension.Unknown n)))
 
 -- | What stays open, each once. When there is too much, what is unknown is a quantity after all.
 undecided :: Infer [Pending]
@@ -341,7 +376,10 @@ undecided = do
   once <- merged waiting
   if length once > mostOpen
     then [] <$ (modify' (\m -> m {pending = reverse once}) *> settle)
-    else if length once < length waiting then modify' (\m -> m {pending = reverse once}) *> undecided else pure once
+    else
+      if length once < length waiting
+        then modify' (\m -> m {pending = reverse once}) *> undecided
+        else pure once
   where
     asKnown op = case op of
       Operation a -> do
@@ -361,8 +399,10 @@ undecided = do
         mapM_ (unify (placeOf op) (outcomeOf op) . outcomeOf) same
         (op :) <$> merged different
     alike a b = case (a, b) of
-      (Operation o, Operation p) -> operator o == operator p && snd (left o) == snd (left p) && snd (right o) == snd (right p)
-      (Overloaded c, Overloaded d) -> builtin c == builtin d && labels c == labels d && map snd (given c) == map snd (given d)
+      (Operation o, Operation p) ->
+        operator o == operator p && snd (left o) == snd (left p) && snd (right o) == snd (right p)
+      (Overloaded c, Overloaded d) ->
+        builtin c == builtin d && labels c == labels d && map snd (given c) == map snd (given d)
       (Operation _, Overloaded _) -> False
       (Overloaded _, Operation _) -> False
     placeOf op = case op of
@@ -376,8 +416,8 @@ undecided = do
 mostOpen :: Int
 mostOpen = 50
 
--- | The type of a function at one of its uses, and what decides the open operations of its body once the
--- arguments are known.
+-- | The type of a function at one of its uses, and what decides the open operations of its body
+-- once the arguments are known.
 instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
 instantiate use scheme = do
   renamed <- traverse (const freshNumber) (IntMap.fromSet id (general scheme))
@@ -385,9 +425,21 @@ instantiate use scheme = do
       dimension d = foldl (\d' n -> Dimension.substitute n (fresh n) d') d (Dimension.unknowns d)
       fresh n = Dimension.atom (Dimension.Unknown (IntMap.findWithDefault n n renamed))
       operation op = case op of
-        Operation a -> Operation a {place = use, left = type' <$> left a, right = type' <$> right a, outcome = type' (outcome a)}
-        Overloaded c -> Overloaded c {at = use, given = map (fmap type') (given c), chosen = type' (chosen c)}
-  pure (map type' (parameters scheme), type' (result scheme), mapM_ (require . operation) (open scheme))
+        Operation a ->
+          Operation
+            a
+              { place = use,
+                left = type' <$> left a,
+                right = type' <$> right a,
+                outcome = type' (outcome a)
+              }
+        Overloaded c ->
+          Overloaded c {at = use, given = map (fmap type') (given c), chosen = type' (chosen c)}
+  pure
+    ( map type' (parameters scheme),
+      type' (result scheme),
+      mapM_ (require . operation) (open scheme)
+    )
 
 -- What is decided later
 
@@ -410,7 +462,8 @@ decide = do
         then modify' (\m -> m {pending = reverse left'}) *> decide
         else pure left'
 
--- | Decide all that waits: what is still unknown is a quantity, and of several forms the first is meant.
+-- | Decide all that waits: what is still unknown is a quantity, and of several forms the first is
+-- meant.
 settle :: Infer ()
 settle = do
   open <- decide
@@ -461,12 +514,26 @@ misfit c arguments = case mapMaybe near (alternatives c) of
   (region, wanted, written', found') : _ -> do
     places <- settledPlaces [(region, written', found')]
     mistakeOnce (map fst places) (Mismatch region wanted found' places)
-  [] -> mistake (NoForm (at c) (Builtin.name (builtin c)) (zip (map fst (given c)) arguments) (nubOrd (map (Builtin.written (builtin c)) (alternatives c <> related))))
+  [] ->
+    mistake
+      ( NoForm
+          (at c)
+          (Builtin.name (builtin c))
+          (zip (map fst (given c)) arguments)
+          (nubOrd (map (Builtin.written (builtin c)) (alternatives c <> related)))
+      )
   where
-    related = [f | f <- Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} (builtin c), length (Builtin.parameters f) == length (labels c)]
+    related =
+      [ f
+        | f <- Builtin.forms Fresh {dimension = Dimension.none, anything = Wrong} (builtin c),
+          length (Builtin.parameters f) == length (labels c)
+      ]
     near form =
       let wanted = wantedBy form
-       in case [(region, w, t, found') | ((region, t), found', w) <- zip3 (given c) arguments wanted, not (mayBe found' w)] of
+       in case [ (region, w, t, found')
+                 | ((region, t), found', w) <- zip3 (given c) arguments wanted,
+                   not (mayBe found' w)
+               ] of
             [one@(_, w, _, found')] | alike found' w -> Just one
             _ -> Nothing
     alike a b = case (a, b) of
@@ -493,9 +560,11 @@ settledAs region wanted found' = do
   same <- unify region wanted found'
   unless same (mistakeOnce (region : map fst places) (Mismatch region w f places))
 
--- | The forms with the number and the words of a call's arguments. The unknowns of a form are its own.
+-- | The forms with the number and the words of a call's arguments. The unknowns of a form are its
+-- own.
 alternatives :: OverloadedCall -> [Form]
-alternatives c = Builtin.labelled Fresh {dimension = Dimension.none, anything = Wrong} (builtin c) (labels c)
+alternatives c =
+  Builtin.labelled Fresh {dimension = Dimension.none, anything = Wrong} (builtin c) (labels c)
 
 -- | The forms that the arguments fit as far as they are known.
 fitting :: OverloadedCall -> Infer [Form]
@@ -574,7 +643,9 @@ operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
     wrong e = mistakeOnce [region] e *> result' Wrong
     disagree l r = do
       places <- settledPlaces [(leftRegion, left', l), (rightRegion, right', r)]
-      mistakeOnce (region : map fst places) (Disagree region op (leftRegion, l) (rightRegion, r) places)
+      mistakeOnce
+        (region : map fst places)
+        (Disagree region op (leftRegion, l) (rightRegion, r) places)
       result' Wrong
     sum' d e l r = do
       same <- unifyDimensions region d e
@@ -596,4 +667,10 @@ operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
       free <- unify vectorRegion vector Type.aVector
       if plain && free
         then result' Type.aVector
-        else wrong (NoOperation region (if op == Divide then "a quotient" else "a product") [(leftRegion, left'), (rightRegion, right')])
+        else
+          wrong
+            ( NoOperation
+                region
+                (if op == Divide then "a quotient" else "a product")
+                [(leftRegion, left'), (rightRegion, right')]
+            )

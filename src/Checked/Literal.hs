@@ -1,4 +1,5 @@
--- | Numbers as they are written, without a unit: what they may be beside other terms, and where they need no inference.
+-- | Numbers as they are written, without a unit: what they may be beside other terms, and where
+-- they need no inference.
 module Checked.Literal
   ( number,
     plainFactor,
@@ -25,27 +26,43 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
--- | A number as it is written where a quantity is needed whose dimension is known, or a pair of such, without a detour by
--- unknowns; a unit has to be one of it.
+-- | A number as it is written where a quantity is needed whose dimension is known, or a pair of
+-- such, without a detour by unknowns; a unit has to be one of it.
 number :: Type -> Surface.Expr -> Maybe Checked.Expr
 number wanted (Located at e) = case (e, wanted) of
-  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d) | Dimension.isKnown d -> here (Checked.Number (x * Dimension.defaultUnit d))
-  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d) | (Type.Quantity own, factor) <- unitType unit, own == d -> here (Checked.Number (x * factor))
-  (Surface.Negate inner, Type.Quantity _) | Just inner' <- number wanted inner -> here (Checked.Negate inner')
-  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d, Just x' <- number Type.len x, Just y' <- number Type.len y -> here (Checked.Pair x' y')
+  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d)
+    | Dimension.isKnown d ->
+      here (Checked.Number (x * Dimension.defaultUnit d))
+  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d)
+    | (Type.Quantity own, factor) <- unitType unit,
+      own == d ->
+      here (Checked.Number (x * factor))
+  (Surface.Negate inner, Type.Quantity _)
+    | Just inner' <- number wanted inner ->
+      here (Checked.Negate inner')
+  (Surface.Pair x y, Type.Spatial d)
+    | Dimension.isKnown d,
+      Just x' <- number Type.len x,
+      Just y' <- number Type.len y ->
+      here (Checked.Pair x' y')
   _ -> Nothing
   where
     -- At once: put off, it would hold what it is made of.
     here found = Just $! Located at found
 
--- | A bare number beside something that has a dimension is a plain number: twice an angle is an angle. So is
--- one that divides. Beside a plain number it may be anything: @20 * k@ can be a length, @4 * 4@ an area.
+-- | A bare number beside something that has a dimension is a plain number: twice an angle is an
+-- angle. So is one that divides. Beside a plain number it may be anything: @20 * k@ can be a
+-- length, @4 * 4@ an area.
 plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
 plainFactor op (l, lt) (r, rt) = do
   lt' <- Inference.known lt
   rt' <- Inference.known rt
-  when (isBare l && not (isBare r) && hasDimension rt') (void (Inference.unify (region l) Type.number lt))
-  when (isBare r && not (isBare l) && (op == Surface.Divide || hasDimension lt')) (void (Inference.unify (region r) Type.number rt))
+  when
+    (isBare l && not (isBare r) && hasDimension rt')
+    (void (Inference.unify (region l) Type.number lt))
+  when
+    (isBare r && not (isBare l) && (op == Surface.Divide || hasDimension lt'))
+    (void (Inference.unify (region r) Type.number rt))
   where
     hasDimension t = case t of
       Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
@@ -62,26 +79,39 @@ isBare (Located _ e) = case e of
 -- | A call whose type is known at once; whether the function has other forms.
 data Call = Call {answer :: Type, overloaded :: Bool, checked :: Later Checked.Expr}
 
--- | A call of a function of the language with numbers and pairs as they are written, if only one of its forms takes
--- such, without a detour by unknowns. Its values are checked by the function given.
+-- | A call of a function of the language with numbers and pairs as they are written, if only one of
+-- its forms takes such, without a detour by unknowns. Its values are checked by the function given.
 call :: (Type -> Surface.Expr -> Infer (Later Checked.Expr)) -> Surface.Expr -> Infer (Maybe Call)
 call expect (Located at e) = case e of
   Surface.Call (Located place name@(Name text)) arguments
     | Just es <- traverse given (NonEmpty.toList arguments),
       Just kinds <- traverse kindOf es,
       Just builtin <- Builtin.lookup text,
-      [(form, True)] <- filter (and . zipWith fits kinds . map Builtin.type' . parameters . fst) (Builtin.bare builtin (length es)) -> do
-      entry <- Inference.find name
-      case entry of
-        Just _ -> pure Nothing
-        Nothing -> do
-          Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin))
-          let types = map Builtin.type' (parameters form)
-              whole = Located at . Checked.Builtin builtin
-          checked <- case zipWithM plain types es of
-            Just arguments' -> let found = whole arguments' in found `seq` pure (const found)
-            Nothing -> (\es' sol -> whole (solved sol (map (Checked.Given .) es'))) <$> zipWithM expect types es
-          pure (Just Call {answer = Builtin.result form, overloaded = Builtin.isOverloaded builtin, checked})
+      [(form, True)] <-
+        filter
+          (and . zipWith fits kinds . map Builtin.type' . parameters . fst)
+          (Builtin.bare builtin (length es)) ->
+      do
+        entry <- Inference.find name
+        case entry of
+          Just _ -> pure Nothing
+          Nothing -> do
+            Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin))
+            let types = map Builtin.type' (parameters form)
+                whole = Located at . Checked.Builtin builtin
+            checked <- case zipWithM plain types es of
+              Just arguments' -> let found = whole arguments' in found `seq` pure (const found)
+              Nothing ->
+                (\es' sol -> whole (solved sol (map (Checked.Given .) es')))
+                  <$> zipWithM expect types es
+            pure
+              ( Just
+                  Call
+                    { answer = Builtin.result form,
+                      overloaded = Builtin.isOverloaded builtin,
+                      checked
+                    }
+              )
   _ -> pure Nothing
   where
     given a = case a of
@@ -92,7 +122,8 @@ call expect (Located at e) = case e of
       Just x' -> Just $! Checked.Given x'
       Nothing -> Nothing
 
--- | What is plain to see of an expression: it is a quantity, of this dimension if that is plain too, or a pair.
+-- | What is plain to see of an expression: it is a quantity, of this dimension if that is plain
+-- too, or a pair.
 data Kind = Quantity (Maybe Dimension) | Pair
 
 kindOf :: Surface.Expr -> Maybe Kind

@@ -38,7 +38,8 @@ newtype Checker = Checker {expect :: Type -> Surface.Expr -> Infer (Solution -> 
 
 -- Tables
 
--- | A column of a table: its name, its type, the size of its bare numbers if its heading tells their unit.
+-- | A column of a table: its name, its type, the size of its bare numbers if its heading tells
+-- their unit.
 data Column = Column {called :: Located Name, kind :: Type, size :: Maybe Double}
 
 -- | The columns and the rows of a table, and its type.
@@ -48,24 +49,47 @@ table checker name written = case written of
     columns <- traverse column (NonEmpty.toList headings)
     mapM_ twice (zip [0 ..] columns)
     mapM_ (meant . called) columns
-    mapM_ (\n -> when (null (named n columns)) (Inference.mistake (ColumnMissing at (Name n)))) ["x", "y"]
+    mapM_
+      (\n -> when (null (named n columns)) (Inference.mistake (ColumnMissing at (Name n))))
+      ["x", "y"]
     rows' <- rowsOf checker columns rows
     let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
-        order = concatMap (`named` columns) ["x", "y"] <> [i | (i, c) <- zip [0 ..] columns, value (called c) `elem` map (value . called) extra]
+        order =
+          concatMap (`named` columns) ["x", "y"]
+            <> [ i
+                 | (i, c) <- zip [0 ..] columns,
+                   value (called c) `elem` map (value . called) extra
+               ]
     pure
-      ( Type.Table (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
+      ( Type.Table
+          (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
         \sol ->
-          let sizes = [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
-           in Columns [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra] (solved sol (map (filled order sizes) (gathered rows')))
+          let sizes =
+                [ fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c)
+                  | c <- columns
+                ]
+           in Columns
+                [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra]
+                (solved sol (map (filled order sizes) (gathered rows')))
       )
     where
-      twice (i, c) = case [region (called b) | b <- take i columnsBefore, value (called b) == value (called c)] of
-        before : _ -> Inference.mistake (ColumnTwice (region (called c)) (value (called c)) before)
-        [] -> pure ()
+      twice (i, c) =
+        case [ region (called b)
+               | b <- take i columnsBefore,
+                 value (called b) == value (called c)
+             ] of
+          before : _ ->
+            Inference.mistake (ColumnTwice (region (called c)) (value (called c)) before)
+          [] -> pure ()
         where
-          columnsBefore = [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
-      -- In what is asked along a curve of the table a column stands by its bare name, as a constant does.
-      meant (Located place n@(Name text)) = when (maybe False Builtin.isConstant (Builtin.lookup text)) (Inference.mistake (NameTaken place n))
+          columnsBefore =
+            [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
+      -- In what is asked along a curve of the table a column stands by its bare name, as a constant
+      -- does.
+      meant (Located place n@(Name text)) =
+        when
+          (maybe False Builtin.isConstant (Builtin.lookup text))
+          (Inference.mistake (NameTaken place n))
   Located _ Surface.BrokenLine : _ -> missing <$ Inference.taint
   _ -> missing <$ Inference.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
   where
@@ -80,14 +104,18 @@ filled :: [Int] -> [Double] -> Row -> Later Cells
 filled order sizes found sol = case found of
   Numbers rows -> arranged rows
   Bares at xs -> arranged (NumberTable.fromList [(at, xs)])
-  Cells at cells -> let es = zipWith expression sizes cells in foldr seq (Checked.Written at [es !! i | i <- order]) es
+  Cells at cells ->
+    let es =
+          zipWith expression sizes cells
+     in foldr seq (Checked.Written at [es !! i | i <- order]) es
   where
     arranged = Checked.Numbers . NumberTable.arranged [(i, sizes !! i) | i <- order]
     expression s c = case c of
       Bare at x -> Located at (Checked.Number (x * s))
       Written later -> later sol
 
--- | Rows in order, given the last one first; those of bare numbers that follow one another together.
+-- | Rows in order, given the last one first; those of bare numbers that follow one another
+-- together.
 gathered :: [Row] -> [Row]
 gathered = go []
   where
@@ -104,7 +132,9 @@ column :: Surface.Heading -> Infer Column
 column (Surface.Heading name unit) = case (unit, value name) of
   (Just u, n) -> do
     let (t, factor) = unitType u
-    when (n `elem` map Name ["x", "y"] && t /= Type.len) (Inference.mistake (Mismatch (region name) Type.len t []))
+    when
+      (n `elem` map Name ["x", "y"] && t /= Type.len)
+      (Inference.mistake (Mismatch (region name) Type.len t []))
     pure (Column name t (Just factor))
   (Nothing, n)
     | n `elem` map Name ["x", "y"] -> pure (Column name Type.len Nothing)
@@ -122,7 +152,9 @@ rowsOf checker columns = go 1 []
   where
     go number found ls = case ls of
       [] -> pure found
-      line : rest -> row checker columns number line >>= \r -> go (number + rowsIn (value line)) (maybe found (: found) r) rest
+      line : rest ->
+        row checker columns number line >>= \r ->
+          go (number + rowsIn (value line)) (maybe found (: found) r) rest
     rowsIn line = case line of
       Surface.Numbers numbers -> NumberTable.count numbers
       _ -> 1
@@ -133,13 +165,19 @@ row checker columns number (Located at line) = case line of
   Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsAgain at)
   Surface.BrokenLine -> Nothing <$ Inference.taint
   Surface.Numbers numbers
-    | NumberTable.width numbers /= length columns -> Nothing <$ mapM_ (\k -> wrongLength (NumberTable.place numbers k) (number + k) (NumberTable.width numbers)) [0 .. NumberTable.count numbers - 1]
+    | NumberTable.width numbers /= length columns ->
+      Nothing
+        <$ mapM_
+          (\k -> wrongLength (NumberTable.place numbers k) (number + k) (NumberTable.width numbers))
+          [0 .. NumberTable.count numbers - 1]
     | otherwise -> pure (Just (Numbers numbers))
   Surface.Entries cells
     | length cells /= length columns -> Nothing <$ wrongLength at number (length cells)
     | otherwise -> do
       cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
-      pure $! Just $! maybe (Cells at cells') (Bares at . PrimArray.primArrayFromList) (traverse bare cells')
+      pure
+        $! Just
+        $! maybe (Cells at cells') (Bares at . PrimArray.primArrayFromList) (traverse bare cells')
   where
     wrongLength place k found = Inference.mistake (RowLength place k (length columns) found)
     bare c = case c of
@@ -176,22 +214,31 @@ withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (te
 
 -- Ciphers
 
--- | A recalculation of a curve with these columns, as far as they are known; nothing when there is none such.
-cipher :: Checker -> Maybe [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Solution -> Checked.Cipher))
-cipher checker known (Located at (Surface.Cipher (Located place digit) given)) = case (digits digit, NonEmpty.toList given) of
-  ("1", [a, b]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> none)
-  ("1", [a, b, m]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> none)
-  ("1", [a, b, p, q]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> some (between p q))
-  ("1", [a, b, m, p, q]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> some (between p q))
-  ("2", [h]) -> made (Checked.Constant <$$> one h <**> none)
-  ("2", [h, m]) -> made (Checked.Constant <$$> one h <**> some (angle m))
-  ("4", [m, h]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> none)
-  ("4", [m, h, d]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> some (one d))
-  ("6", [h]) -> made (Checked.Pointwise <$$> len h <**> none)
-  ("6", [h, m]) -> made (Checked.Pointwise <$$> len h <**> some (angle m))
-  (d, es)
-    | d `elem` ["1", "2", "4", "6"] -> Nothing <$ Inference.mistake (CipherMisfit at d (length es))
-    | otherwise -> Nothing <$ Inference.mistake (NoSuchCipher place d)
+-- | A recalculation of a curve with these columns, as far as they are known; nothing when there is
+-- none such.
+cipher ::
+  Checker ->
+  Maybe [(Text, Type)] ->
+  Surface.Cipher ->
+  Infer (Maybe (Solution -> Checked.Cipher))
+cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
+  case (digits digit, NonEmpty.toList given) of
+    ("1", [a, b]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> none)
+    ("1", [a, b, m]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> none)
+    ("1", [a, b, p, q]) ->
+      made (Checked.Growing <$$> one a <**> one b <**> none <**> some (between p q))
+    ("1", [a, b, m, p, q]) ->
+      made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> some (between p q))
+    ("2", [h]) -> made (Checked.Constant <$$> one h <**> none)
+    ("2", [h, m]) -> made (Checked.Constant <$$> one h <**> some (angle m))
+    ("4", [m, h]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> none)
+    ("4", [m, h, d]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> some (one d))
+    ("6", [h]) -> made (Checked.Pointwise <$$> len h <**> none)
+    ("6", [h, m]) -> made (Checked.Pointwise <$$> len h <**> some (angle m))
+    (d, es)
+      | d `elem` ["1", "2", "4", "6"] ->
+        Nothing <$ Inference.mistake (CipherMisfit at d (length es))
+      | otherwise -> Nothing <$ Inference.mistake (NoSuchCipher place d)
   where
     columns = fromMaybe [] known
     made later = case known of
@@ -200,7 +247,9 @@ cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
     len = along Type.len
     -- One value for the whole piece.
     one e = case [(r, n) | (r, n) <- namesIn e, n `elem` map (Name . fst) columns] of
-      (r, n) : _ -> const (Located (region e) (Checked.Number 0)) <$ Inference.mistake (ColumnForOne r (digits digit) n)
+      (r, n) : _ ->
+        const (Located (region e) (Checked.Number 0))
+          <$ Inference.mistake (ColumnForOne r (digits digit) n)
       [] -> expect checker Type.len e
     angle = along Type.angle
     point p = expect checker Type.aPoint p
@@ -213,11 +262,17 @@ cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
     along t e = do
       mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map fst columns))) =<< missing e
       absent <- not . null <$> missing e
-      if absent then pure (const (Located (region e) (Checked.Number 0))) else withColumns (region e) columns (expect checker t e)
+      if absent
+        then pure (const (Located (region e) (Checked.Number 0)))
+        else withColumns (region e) columns (expect checker t e)
     missing e = catMaybes <$> traverse unknown (namesIn e)
     unknown (r, n@(Name text)) = do
       entry <- Inference.find n
-      pure (if isNothing entry && text `notElem` map fst columns && isNothing (Builtin.lookup text) then Just (r, n) else Nothing)
+      pure
+        ( if isNothing entry && text `notElem` map fst columns && isNothing (Builtin.lookup text)
+            then Just (r, n)
+            else Nothing
+        )
 
 -- | The names in a value, as far as they are not its own.
 namesIn :: Surface.Expr -> [(Region, Name)]

@@ -25,8 +25,8 @@ data Binding
   | -- | a definition that is already reported as wrong
     Poisoned Region
 
--- | The type of a function: the unknowns that are fresh at each use, and the operations of its body that
--- can be decided only when the arguments are known.
+-- | The type of a function: the unknowns that are fresh at each use, and the operations of its body
+-- that can be decided only when the arguments are known.
 data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type, open :: [Pending]}
 
 -- | What a name stands for at a place, for a reader.

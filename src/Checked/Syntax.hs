@@ -53,7 +53,21 @@ import Base.Region (Located, Region)
 import Checked.Dimension (Dimension)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
-import Surface.Syntax (Closure (..), Compensation (..), Corners (..), CutSense (..), Lead (..), LeadForm (..), MachineRef (..), Operator (..), Rank (..), Selector (..), Sense (..), Side (..), Switch (..))
+import Surface.Syntax
+  ( Closure (..),
+    Compensation (..),
+    Corners (..),
+    CutSense (..),
+    Lead (..),
+    LeadForm (..),
+    MachineRef (..),
+    Operator (..),
+    Rank (..),
+    Selector (..),
+    Sense (..),
+    Side (..),
+    Switch (..),
+  )
 
 -- | A program. Statements that contain a mistake are left out.
 data Program = Program
@@ -66,8 +80,8 @@ data Program = Program
   }
   deriving stock (Eq, Show)
 
--- | A name where it is defined or used: its place, where it is defined unless the language brings it
--- along, and what it means.
+-- | A name where it is defined or used: its place, where it is defined unless the language brings
+-- it along, and what it means.
 data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Text, meaning :: Text}
   deriving stock (Eq, Show)
 
@@ -104,7 +118,8 @@ data Statement_
   | With Expr [Statement]
   deriving stock (Eq, Show)
 
--- | The columns of a table besides x and y with their dimensions, and its rows: x, y, and the others in order.
+-- | The columns of a table besides x and y with their dimensions, and its rows: x, y, and the
+-- others in order.
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
@@ -114,11 +129,13 @@ data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
 
 type Cipher = Located Cipher_
 
--- | The recalculations of a curve (Kolsanova, section 5). Lengths and angles may name columns: their values
--- go along the curve.
+-- | The recalculations of a curve (Kolsanova, section 5). Lengths and angles may name columns:
+-- their values go along the curve.
 data Cipher_
-  = -- | 1: a distance that changes uniformly along the curve, from one to another; the bevel if it is measured
-    -- square to the surface; between two points of the curve, or along all of it
+  = -- square to the surface; between two points of the curve, or along all of it
+
+    -- | 1: a distance that changes uniformly along the curve, from one to another; the bevel if it
+    -- is measured
     Growing Expr Expr (Maybe Expr) (Maybe (Expr, Expr))
   | -- | 2: one distance, square to the surface if there is a bevel
     Constant Expr (Maybe Expr)
@@ -277,7 +294,8 @@ type Item = Located Item_
 
 -- | What stands in the braces of a contour.
 data Item_
-  = -- | a circle in its sense, a line, a point or a contour, what is asked on it, and the link behind it
+  = -- | a circle in its sense, a line, a point or a contour, what is asked on it, and the link
+    -- behind it
     Element (Maybe Sense) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | For Name Expr [Item]
   | Choose Expr [Item] [Item]

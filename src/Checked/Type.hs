@@ -55,7 +55,8 @@ number, len, angle, feed, turns, aPoint, aVector :: Type
 number = Quantity Dimension.none
 len = Quantity (Dimension.atom Length)
 angle = Quantity (Dimension.atom Angle)
-feed = Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
+feed =
+  Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
 turns = Quantity (Dimension.power (-1) (Dimension.atom Time))
 aPoint = Spatial (Dimension.atom Place)
 aVector = Spatial Dimension.none

@@ -1,5 +1,5 @@
--- | The paper's tables of curves that are put together from pieces: the pieces with their coefficients, and by how much
--- they miss the rows of the table (Ural paper, Tables 2–4).
+-- | The paper's tables of curves that are put together from pieces: the pieces with their
+-- coefficients, and by how much they miss the rows of the table (Ural paper, Tables 2–4).
 module Cli.CurveTable
   ( fittings,
   )
@@ -29,30 +29,50 @@ fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fitt
 
 fitting :: Name -> Fitting -> Text
 fitting (Name name) Fitting {pieces, misses, through} =
-  "Curve " <> name <> ": " <> counted (length pieces) "section" <> " through " <> counted (Vector.length through) "row" <> "\n\n"
+  "Curve "
+    <> name
+    <> ": "
+    <> counted (length pieces) "section"
+    <> " through "
+    <> counted (Vector.length through) "row"
+    <> "\n\n"
     <> Table.columns
       [ToRight, ToRight, ToLeft, ToLeft, ToRight]
-      (["section", "rows", "kind", "equation", "largest deviation"] : zipWith section [1 ..] (NonEmpty.toList pieces))
+      ( ["section", "rows", "kind", "equation", "largest deviation"] :
+        zipWith section [1 ..] (NonEmpty.toList pieces)
+      )
     <> "\n"
     <> Table.columns
       [ToRight, ToRight, ToRight, ToRight, ToRight]
       (["row", "x", "y", "section", "deviation"] : map row misses)
   where
-    section k p = [Decimal.whole k, Decimal.whole (Section.first p) <> "–" <> Decimal.whole (Section.final p), kindWord p, equation p, fixed 4 (Section.largest p)]
+    section k p =
+      [ Decimal.whole k,
+        Decimal.whole (Section.first p) <> "–" <> Decimal.whole (Section.final p),
+        kindWord p,
+        equation p,
+        fixed 4 (Section.largest p)
+      ]
     kindWord p = case Section.kind (Section.curve p) of
       Section.LineKind -> "line"
       Section.ParabolaKind -> "parabola"
       Section.ArcKind -> "arc"
     row d =
       let p = fromMaybe (Vec.point 0 0) (through Vector.!? (SectionFit.ofRow d - 1))
-       in [Decimal.whole (SectionFit.ofRow d), Decimal.short 6 (Vec.x p), Decimal.short 6 (Vec.y p), Decimal.whole (SectionFit.onPiece d), fixed 4 (SectionFit.miss d)]
+       in [ Decimal.whole (SectionFit.ofRow d),
+            Decimal.short 6 (Vec.x p),
+            Decimal.short 6 (Vec.y p),
+            Decimal.whole (SectionFit.onPiece d),
+            fixed 4 (SectionFit.miss d)
+          ]
     fixed n (Mm x) = Decimal.fixed n x
 
 -- | With the digits of the paper.
 equation :: Section.Section -> Text
 equation p = case Section.formula p of
   Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
-  Section.Polynomial a b c -> "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
+  Section.Polynomial a b c ->
+    "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
   Section.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
   where
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)

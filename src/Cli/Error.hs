@@ -39,7 +39,8 @@ data Error
     OneForSeveral Text
   | -- | the program punches nothing
     NothingToPunch
-  | -- | nothing of a tape is in the range that was asked for: what is counted, and how much of it there is
+  | -- | nothing of a tape is in the range that was asked for: what is counted, and how much of it
+    -- there is
     NothingInRange Text Int
   | -- | a value for a parameter of an input sheet
     SheetAssigned Text
@@ -65,11 +66,19 @@ toReport err = case err of
       }
   NoMachine known ->
     (wrong "E0804" InFile "no machine is chosen")
-      { hints = ["Say in the program: machine NAME, or on the command line: -t NAME. Machines: " <> Text.intercalate ", " known <> "."]
+      { hints =
+          [ "Say in the program: machine NAME, or on the command line: -t NAME. Machines: "
+              <> Text.intercalate ", " known
+              <> "."
+          ]
       }
   NoMachineForTape known ->
     (wrong "E0804" InFile "no machine is chosen")
-      { hints = ["Say on the command line whose tape this is: -t NAME. Machines: " <> Text.intercalate ", " known <> "."]
+      { hints =
+          [ "Say on the command line whose tape this is: -t NAME. Machines: "
+              <> Text.intercalate ", " known
+              <> "."
+          ]
       }
   UnknownMachine place name known ->
     (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
@@ -80,26 +89,57 @@ toReport err = case err of
             else ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
       }
   DescriptionMissing place file why ->
-    (wrong "E0806" (maybe InFile InSource place) ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why))
-      { hints = ["A description is looked for beside the program that names it, or where the command line says."]
+    ( wrong
+        "E0806"
+        (maybe InFile InSource place)
+        ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why)
+    )
+      { hints =
+          [ "A description is looked for beside the program that names it, or where the \
+            \command line says."
+          ]
       }
   DescriptionWrong place file text reports ->
-    (wrong "E0810" (maybe InFile InSource place) ("the machine’s description ‘" <> file <> "’ has mistakes"))
+    ( wrong
+        "E0810"
+        (maybe InFile InSource place)
+        ("the machine’s description ‘" <> file <> "’ has mistakes")
+    )
       { message = [placed file text r | r <- Report.sorted reports],
         hints = ["partc machines " <> file <> " shows them in full."]
       }
-  OverwritesProgram path -> wrong "E0807" InFile ("the output would replace " <> path <> ", of which it is made")
+  OverwritesProgram path ->
+    wrong "E0807" InFile ("the output would replace " <> path <> ", of which it is made")
   OneForSeveral place ->
-    (wrong "E0811" InFile ("several tapes would go to " <> (if place == "-" then "standard output" else place)))
-      { hints = [if place == "-" then "Leave -o out, or name a folder: then each machine has a file of its own." else "Two of the machines have one name: give one of them another, or compile for one after the other with -o."]
+    ( wrong
+        "E0811"
+        InFile
+        ("several tapes would go to " <> (if place == "-" then "standard output" else place))
+    )
+      { hints =
+          [ if place == "-"
+              then "Leave -o out, or name a folder: then each machine has a file of its own."
+              else
+                "Two of the machines have one name: give one of them another, or compile for \
+                \one after the other with -o."
+          ]
       }
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
-      { hints = ["Mill a contour (mill NAME outside { approach … retract … }), or go somewhere (rapid, move)."]
+      { hints =
+          [ "Mill a contour (mill NAME outside { approach … retract … }), or go somewhere \
+            \(rapid, move)."
+          ]
       }
   NothingInRange counted count ->
     (wrong "E0812" InFile ("the tape has no such " <> counted))
-      { hints = ["It has " <> Decimal.whole count <> " " <> counted <> (if count == 1 then "." else "s.")]
+      { hints =
+          [ "It has "
+              <> Decimal.whole count
+              <> " "
+              <> counted
+              <> (if count == 1 then "." else "s.")
+          ]
       }
   SheetAssigned name ->
     (wrong "E0913" InFile ("an input sheet has no parameters, so ‘" <> name <> "’ cannot be set"))
@@ -111,7 +151,9 @@ toReport err = case err of
       }
   UnknownCode code close ->
     (wrong "E0809" InFile ("no report has the code ‘" <> code <> "’"))
-      { hints = ["Did you mean " <> Text.intercalate " or " close <> "?" | not (null close)] <> ["partc explain alone lists all codes."]
+      { hints =
+          ["Did you mean " <> Text.intercalate " or " close <> "?" | not (null close)]
+            <> ["partc explain alone lists all codes."]
       }
   where
     wrong = report Report.Error
@@ -132,4 +174,5 @@ whyNot err = case err of
 
 warningReport :: Warning -> Report
 warningReport warning = case warning of
-  Unproven -> report Report.Warning "W0801" InFile "the tape is written without a proof (--no-verify)"
+  Unproven ->
+    report Report.Warning "W0801" InFile "the tape is written without a proof (--no-verify)"

@@ -20,8 +20,8 @@ import Surface.Formatter qualified as Formatter
 import Surface.Parser qualified as Parser
 import Surface.Syntax (Program)
 
--- | Lay out one program in its place, from standard input to standard output. When only asked, write nothing
--- but the name of a program that is not laid out.
+-- | Lay out one program in its place, from standard input to standard output. When only asked,
+-- write nothing but the name of a program that is not laid out.
 fmt :: Reporter -> Bool -> FilePath -> IO Exit
 fmt reporter onlyAsked file
   | Compile.isSheet file = complain reporter (Text.pack file) SheetLaidOut
@@ -39,13 +39,15 @@ layOut reporter onlyAsked file = do
         | onlyAsked -> if new == text then pure Done else Failed <$ printed reporter (name <> "\n")
         | file == "-" -> printed reporter new
         | new == text -> pure Done
-        | otherwise -> Output.writeFileWhole file (Encoding.encodeUtf8 new) >>= delivered reporter name
+        | otherwise ->
+          Output.writeFileWhole file (Encoding.encodeUtf8 new) >>= delivered reporter name
   where
     name = if file == "-" then "<stdin>" else Text.pack file
 
 -- | Report what is wrong with the form of a program.
 mistakes :: Reporter -> Text -> Text -> IO Bool
-mistakes reporter name text = Output.show' reporter name (Region.fromText name plain) (map Surface.toReport (errors parsed))
+mistakes reporter name text =
+  Output.show' reporter name (Region.fromText name plain) (map Surface.toReport (errors parsed))
   where
     -- A mark of the byte order is not part of the text.
     plain = Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text
@@ -61,4 +63,5 @@ delivered reporter place written = case written of
 
 -- | A mistake that belongs to a file as a whole.
 complain :: Reporter -> Text -> Error -> IO Exit
-complain reporter name e = Failed <$ Output.show' reporter name (Region.fromText name "") [Cli.toReport e]
+complain reporter name e =
+  Failed <$ Output.show' reporter name (Region.fromText name "") [Cli.toReport e]

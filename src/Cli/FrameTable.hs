@@ -35,7 +35,8 @@ data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 -- | A frame with its number, from 1, and the position where it ends.
 data Numbered = Numbered {number :: Int, planned :: Planned, to :: Pulses3}
 
--- | One frame a line, with the line of the program that it came from. Only columns that say something.
+-- | One frame a line, with the line of the program that it came from. Only columns that say
+-- something.
 frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where
@@ -43,16 +44,26 @@ frames machine source program = table columns rows
     all' = map (frame . planned) rows
     rises = any (\f -> let Pulses3 _ _ z = increment f in z /= 0) all'
     columns =
-      [Column ToRight "frame" (Decimal.whole . number), Column ToLeft "for" (roleWord . role . planned)]
+      [ Column ToRight "frame" (Decimal.whole . number),
+        Column ToLeft "for" (roleWord . role . planned)
+      ]
         <> map (before (frame . planned)) (motionColumns all')
         <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight "mm/min" feedOf]
         <> map (before (frame . planned)) (brakeColumn all')
-        <> [Column ToRight "to x" (coordinate . Vec.x . place), Column ToRight "to y" (coordinate . Vec.y . place)]
-        <> [Column ToRight "to z" (\n -> let Mm z = Frame.height machine (to n) in coordinate z) | rises]
+        <> [ Column ToRight "to x" (coordinate . Vec.x . place),
+             Column ToRight "to y" (coordinate . Vec.y . place)
+           ]
+        <> [ Column ToRight "to z" (\n -> let Mm z = Frame.height machine (to n) in coordinate z)
+             | rises
+           ]
         <> [Column ToRight "line" (lineWord source . planned)]
         <> map (before (frame . planned)) (orderColumns all')
     place n = Frame.position machine (to n)
-    feedOf n = maybe "" feedWord (FeedCode.given machine (frame (planned n)) (FeedCode.wayOf machine (frame (planned n))))
+    feedOf n =
+      maybe
+        ""
+        feedWord
+        (FeedCode.given machine (frame (planned n)) (FeedCode.wayOf machine (frame (planned n))))
     coordinate = Decimal.fixed 3
 
 -- | Frames as JSON lines: increments in pulses, positions in mm.
@@ -73,15 +84,25 @@ framesJson machine source program = Text.concat (map row (numbered program))
               ]
                 <> ["centre" .= [i, j] | isArc f]
                 <> [ "speed" .= s,
-                     "feed" .= ((\(Feed v) -> v) <$> FeedCode.given machine f (FeedCode.wayOf machine f)),
+                     "feed"
+                       .= ( (\(Feed v) -> v)
+                              <$> FeedCode.given machine f (FeedCode.wayOf machine f)
+                          ),
                      "braking" .= braking f,
                      "commands" .= object [Key.fromText o .= v | (CommandName o, v) <- orders f],
                      "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine (to n) in z],
-                     "file" .= (let Position {file} = Region.position source (start (origin (planned n))) in file),
+                     "file"
+                       .= ( let Position {file} =
+                                  Region.position source (start (origin (planned n)))
+                             in file
+                          ),
                      "line" .= lineOf source (planned n)
                    ]
             )
-    jsonLine pairs = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs)))) <> "\n"
+    jsonLine pairs =
+      Encoding.decodeUtf8
+        (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs))))
+        <> "\n"
 
 -- | The frames that were read from a tape.
 decoded :: Machine -> [Frame] -> Text
@@ -90,11 +111,17 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
     columns =
       [Column ToRight "frame" (Decimal.whole . fst)]
         <> map (before snd) (motionColumns fs)
-        <> [Column ToRight "speed" (speedWord . snd), Column ToRight "mm/min" (\(_, f) -> maybe "" feedWord (FeedCode.given machine f (FeedCode.wayOf machine f)))]
+        <> [ Column ToRight "speed" (speedWord . snd),
+             Column
+               ToRight
+               "mm/min"
+               (\(_, f) -> maybe "" feedWord (FeedCode.given machine f (FeedCode.wayOf machine f)))
+           ]
         <> map (before snd) (brakeColumn fs <> orderColumns fs)
 
 table :: [Column a] -> [a] -> Text
-table columns rows = Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
+table columns rows =
+  Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
 
 -- | A column of something that is got from something else.
 before :: (b -> a) -> Column a -> Column b
@@ -103,9 +130,19 @@ before get c = c {cell = cell c . get}
 -- | What moves where: the kind of motion and the centre where there are arcs or rapid motions.
 motionColumns :: [Frame] -> [Column Frame]
 motionColumns fs =
-  [Column ToLeft "motion" (motionWord . motion) | any ((`notElem` [Still, Straightway]) . motion) fs]
-    <> [Column ToRight "dx" (\f -> let Pulses3 x _ _ = increment f in pulses x), Column ToRight "dy" (\f -> let Pulses3 _ y _ = increment f in pulses y), Column ToRight "dz" (\f -> let Pulses3 _ _ z = increment f in pulses z)]
-    <> concat [[Column ToRight "i" (ofCentre (\(Pulses2 i _) -> i)), Column ToRight "j" (ofCentre (\(Pulses2 _ j) -> j))] | any isArc fs]
+  [ Column ToLeft "motion" (motionWord . motion)
+    | any ((`notElem` [Still, Straightway]) . motion) fs
+  ]
+    <> [ Column ToRight "dx" (\f -> let Pulses3 x _ _ = increment f in pulses x),
+         Column ToRight "dy" (\f -> let Pulses3 _ y _ = increment f in pulses y),
+         Column ToRight "dz" (\f -> let Pulses3 _ _ z = increment f in pulses z)
+       ]
+    <> concat
+      [ [ Column ToRight "i" (ofCentre (\(Pulses2 i _) -> i)),
+          Column ToRight "j" (ofCentre (\(Pulses2 _ j) -> j))
+        ]
+        | any isArc fs
+      ]
   where
     pulses (Pulses n) = Decimal.whole n
     ofCentre get f = if isArc f then pulses (get (centre f)) else ""
@@ -116,7 +153,10 @@ brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | 
 
 -- | A column for every word of commands that is used.
 orderColumns :: [Frame] -> [Column Frame]
-orderColumns fs = [Column ToRight name (maybe "" Decimal.whole . lookup o . orders) | o@(CommandName name) <- nubOrd (concatMap (map fst . orders) fs)]
+orderColumns fs =
+  [ Column ToRight name (maybe "" Decimal.whole . lookup o . orders)
+    | o@(CommandName name) <- nubOrd (concatMap (map fst . orders) fs)
+  ]
 
 isArc :: Frame -> Bool
 isArc f = case motion f of
@@ -135,13 +175,19 @@ motionWord m = case m of
 
 -- | The frames with their numbers and the positions where they end.
 numbered :: FrameProgram -> [Numbered]
-numbered program = zipWith3 Numbered [1 ..] ps (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) ps)))
+numbered program =
+  zipWith3
+    Numbered
+    [1 ..]
+    ps
+    (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) ps)))
   where
     ps = Frame.planned program
 
 -- | The line, with the file when it is not the program's own.
 lineWord :: Source -> Planned -> Text
-lineWord source p = (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)
+lineWord source p =
+  (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)
   where
     Position {file} = Region.position source (start (origin p))
 

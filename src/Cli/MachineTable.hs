@@ -22,21 +22,39 @@ import Machine.Machine
 machineList :: [Machine] -> Text
 machineList ms = Table.columns [ToLeft, ToLeft] [[n, title m] | m <- ms, let MachineName n = name m]
 
--- | All that is known of one machine: its tape, its frames, its feeds and commands, and how each value is known.
+-- | All that is known of one machine: its tape, its frames, its feeds and commands, and how each
+-- value is known.
 machineSheet :: Machine -> Text
-machineSheet m = n <> ": " <> title m <> "\n" <> Text.concat ["\n" <> heading <> "\n\n" <> Table.columns aligns rows | (heading, aligns, rows) <- tables, not (null rows)]
+machineSheet m =
+  n
+    <> ": "
+    <> title m
+    <> "\n"
+    <> Text.concat
+      [ "\n" <> heading <> "\n\n" <> Table.columns aligns rows
+        | (heading, aligns, rows) <- tables,
+          not (null rows)
+      ]
   where
     MachineName n = name m
     tables =
       [ ("The tape", [ToLeft, ToLeft], tapeRows m),
-        ("The code " <> codeName (code m), if hasCheck m then [ToLeft, ToRight, ToLeft] else [ToLeft, ToLeft], codeRows m),
+        ( "The code " <> codeName (code m),
+          if hasCheck m then [ToLeft, ToRight, ToLeft] else [ToLeft, ToLeft],
+          codeRows m
+        ),
         ("The axes", [ToLeft, ToRight, ToRight, ToLeft], axisRows m),
-        if isGrid m then ("The rows of a frame", [ToRight, ToLeft, ToLeft], gridRows m) else ("The words of a frame", [ToLeft, ToLeft, ToLeft, ToLeft, ToLeft], wordRows m),
+        if isGrid m
+          then ("The rows of a frame", [ToRight, ToLeft, ToLeft], gridRows m)
+          else ("The words of a frame", [ToLeft, ToLeft, ToLeft, ToLeft, ToLeft], wordRows m),
         ("The kinds of motion", [ToRight, ToLeft], motionRows m),
         (feedHeading m, [ToRight, ToRight, ToLeft], feedRows m),
         ("Slowing down", [ToLeft, ToLeft], brakingRows m),
         ("The commands", [ToLeft, ToLeft], orderRows m),
-        ("How it is known", [ToLeft, ToLeft], [[markWord mark, fact] | DescribedValue mark fact <- facts m])
+        ( "How it is known",
+          [ToLeft, ToLeft],
+          [[markWord mark, fact] | DescribedValue mark fact <- facts m]
+        )
       ]
 
 -- The tape ----------------------------------------------------------------------------------------
@@ -47,12 +65,19 @@ tapeRows m =
     ["from row to row", maybe "a text, not punched" Decimal.mm (pitch t)],
     ["name of the file", "ends with ." <> suffix t],
     ["leader and trailer", blanks (leader t) <> " each"],
-    ["behind a frame", blanks (gap t) <> if evenShift t == 0 then "" else "; before an even frame " <> Decimal.whole (evenShift t) <> " more"],
+    [ "behind a frame",
+      blanks (gap t)
+        <> if evenShift t == 0
+          then ""
+          else "; before an even frame " <> Decimal.whole (evenShift t) <> " more"
+    ],
     ["further blank rows", case spare t of Counted -> "none"; Skipped -> "passed over"]
   ]
     <> [["before the first frame", shown (opening t)] | opening t /= ""]
     <> [["behind the last frame", shown (closing t)] | closing t /= ""]
-    <> [["limit", "at most " <> Decimal.whole k <> " contours"] | Just k <- [mostContours (limits m)]]
+    <> [ ["limit", "at most " <> Decimal.whole k <> " contours"]
+         | Just k <- [mostContours (limits m)]
+       ]
   where
     t = medium m
     blanks k = Decimal.whole k <> " blank row" <> (if k == 1 then "" else "s")
@@ -61,17 +86,39 @@ tapeRows m =
 codeRows :: Machine -> [[Text]]
 codeRows m =
   line "symbol" "weight" ("tracks " <> Text.concat (map Decimal.whole tracksDown)) :
-  [line (shown (Text.singleton c)) (Decimal.whole (Map.findWithDefault 0 c (weights (code m)))) ("       " <> holes row) | (c, row) <- Map.toList here]
-    <> [line "others" "" (Decimal.whole (Map.size (symbols (code m)) - Map.size here) <> " more that frames do not need") | Map.size here < Map.size (symbols (code m))]
-    <> [line "" "" ("track " <> Decimal.whole k <> " makes the number of holes even") | Just k <- [evenTrack (code m)]]
-    <> [line "" "" ("track " <> Decimal.whole k <> " holds signs and marks") | Just k <- [serviceTrack (code m)]]
+  [ line
+      (shown (Text.singleton c))
+      (Decimal.whole (Map.findWithDefault 0 c (weights (code m))))
+      ("       " <> holes row)
+    | (c, row) <- Map.toList here
+  ]
+    <> [ line
+           "others"
+           ""
+           ( Decimal.whole (Map.size (symbols (code m)) - Map.size here)
+               <> " more that frames do not need"
+           )
+         | Map.size here < Map.size (symbols (code m))
+       ]
+    <> [ line "" "" ("track " <> Decimal.whole k <> " makes the number of holes even")
+         | Just k <- [evenTrack (code m)]
+       ]
+    <> [ line "" "" ("track " <> Decimal.whole k <> " holds signs and marks")
+         | Just k <- [serviceTrack (code m)]
+       ]
     <> [line "" "" ("       " <> holes row <> " is passed over") | row <- skips (code m)]
   where
     line a b c = if hasCheck m then [a, b, c] else [a, c]
     here = Map.filterWithKey (\c _ -> c `elem` used) (symbols (code m))
     tracksDown = reverse [1 .. tracks (medium m)]
     holes row = Text.pack [if testBit row (k - 1) then '1' else '0' | k <- tracksDown]
-    used = nub (['0' .. '9'] <> "+-." <> concatMap symbolsOf (NonEmpty.toList (items (layout m))) <> Text.unpack (separator (layout m) <> opening (medium m) <> closing (medium m)))
+    used =
+      nub
+        ( ['0' .. '9']
+            <> "+-."
+            <> concatMap symbolsOf (NonEmpty.toList (items (layout m)))
+            <> Text.unpack (separator (layout m) <> opening (medium m) <> closing (medium m))
+        )
     symbolsOf item = case item of
       Literal t -> Text.unpack t
       AWord w -> Text.unpack (address w)
@@ -85,13 +132,27 @@ hasCheck m = or [True | CheckDigit _ <- NonEmpty.toList (items (layout m))]
 axisRows :: Machine -> [[Text]]
 axisRows m =
   ["axis", "pulse", "largest number", ""] :
-  [[contentWord (Along (axis a)), Decimal.mm (step a), let Pulses k = capacity m (axis a) in Decimal.whole k, remarks a] | a <- NonEmpty.toList (axes m)]
+  [ [ contentWord (Along (axis a)),
+      Decimal.mm (step a),
+      let Pulses k = capacity m (axis a) in Decimal.whole k,
+      remarks a
+    ]
+    | a <- NonEmpty.toList (axes m)
+  ]
     <> [["arcs", arcText, "", ""]]
   where
-    remarks a = Text.intercalate "; " (["points against that of the part" | reversed a] <> ["on a lathe the other way" | reversedOnLathe a] <> ["not known to be moved" | not (moves a)])
+    remarks a =
+      Text.intercalate
+        "; "
+        ( ["points against that of the part" | reversed a]
+            <> ["on a lathe the other way" | reversedOnLathe a]
+            <> ["not known to be moved" | not (moves a)]
+        )
     arcText = case arcs m of
       NoArcs -> "none"
-      Arcs {quadrants, fullCircle} -> (if quadrants then "within a quadrant" else "any") <> (if fullCircle then ", full circles too" else "")
+      Arcs {quadrants, fullCircle} ->
+        (if quadrants then "within a quadrant" else "any")
+          <> (if fullCircle then ", full circles too" else "")
 
 -- The frame ---------------------------------------------------------------------------------------
 
@@ -102,18 +163,36 @@ isGrid m = all fixed (NonEmpty.toList (items (layout m)))
     fixed item = case item of
       Literal _ -> True
       CheckDigit _ -> True
-      AWord w -> address w == "" && presence w == Always && padded (form w) && sign (form w) `elem` [Unsigned, ServiceSign]
+      AWord w ->
+        address w == ""
+          && presence w == Always
+          && padded (form w)
+          && sign (form w) `elem` [Unsigned, ServiceSign]
 
 gridRows :: Machine -> [[Text]]
-gridRows m = ["row", "digit of", "service track"] : zipWith (:) (map Decimal.whole [1 :: Int ..]) (concatMap rowsOf (NonEmpty.toList (items (layout m))))
+gridRows m =
+  ["row", "digit of", "service track"] :
+  zipWith
+    (:)
+    (map Decimal.whole [1 :: Int ..])
+    (concatMap rowsOf (NonEmpty.toList (items (layout m))))
   where
     rowsOf item = case item of
       Literal t -> [[shown (Text.singleton c), ""] | c <- Text.unpack t]
       CheckDigit k -> [["check: the sum is a multiple of " <> Decimal.whole k, ""]]
-      AWord w -> [[contentWord (content w), s] | s <- map serviceWord (service (form w)) <> replicate (digits (form w) - length (service (form w))) ""]
+      AWord w ->
+        [ [contentWord (content w), s]
+          | s <-
+              map serviceWord (service (form w))
+                <> replicate (digits (form w) - length (service (form w))) ""
+        ]
 
 wordRows :: Machine -> [[Text]]
-wordRows m = ["address", "holds", "digits", "sign", "stands"] : map row (NonEmpty.toList (items (layout m))) <> [["between words", shown (separator (layout m)), "", "", ""] | separator (layout m) /= ""] <> [["", measured, "", "", ""]]
+wordRows m =
+  ["address", "holds", "digits", "sign", "stands"] :
+  map row (NonEmpty.toList (items (layout m)))
+    <> [["between words", shown (separator (layout m)), "", "", ""] | separator (layout m) /= ""]
+    <> [["", measured, "", "", ""]]
   where
     measured = case measure (layout m) of
       Increments -> "axes are told by increments"
@@ -121,13 +200,38 @@ wordRows m = ["address", "holds", "digits", "sign", "stands"] : map row (NonEmpt
     row item = case item of
       Literal t -> [shown t, "", "", "", "always"]
       CheckDigit k -> ["", "check: the sum is a multiple of " <> Decimal.whole k, "1", "", "always"]
-      AWord w -> [if address w == "" then "" else shown (address w), contentWord (content w), digitText (form w), signText (sign (form w)) <> servicesText (service (form w)), presenceText (presence w)]
-    digitText f = (if padded f then "" else "at most ") <> Decimal.whole (digits f) <> (if decimals f == 0 then "" else ", " <> Decimal.whole (decimals f) <> " behind the point")
-    servicesText ss = if all (== NoHole) ss then "" else "holes: " <> Text.intercalate ", " (map serviceWord ss)
+      AWord w ->
+        [ if address w == "" then "" else shown (address w),
+          contentWord (content w),
+          digitText (form w),
+          signText (sign (form w)) <> servicesText (service (form w)),
+          presenceText (presence w)
+        ]
+    digitText f =
+      (if padded f then "" else "at most ")
+        <> Decimal.whole (digits f)
+        <> ( if decimals f == 0
+               then ""
+               else ", " <> Decimal.whole (decimals f) <> " behind the point"
+           )
+    servicesText ss =
+      if all (== NoHole) ss then "" else "holes: " <> Text.intercalate ", " (map serviceWord ss)
 
 -- | The number of each kind of motion.
 motionRows :: Machine -> [[Text]]
-motionRows m = concat [[[Decimal.whole k, kind] | (Just k, kind) <- [(rapid c, "rapid"), (Just (straight c), "straight"), (clockwise c, "arc clockwise"), (counterClockwise c, "arc counter-clockwise")]] | w <- wordsOf m, Motion c <- [content w]]
+motionRows m =
+  concat
+    [ [ [Decimal.whole k, kind]
+        | (Just k, kind) <-
+            [ (rapid c, "rapid"),
+              (Just (straight c), "straight"),
+              (clockwise c, "arc clockwise"),
+              (counterClockwise c, "arc counter-clockwise")
+            ]
+      ]
+      | w <- wordsOf m,
+        Motion c <- [content w]
+    ]
 
 signText :: Sign -> Text
 signText s = case s of
@@ -135,7 +239,15 @@ signText s = case s of
   ServiceSign -> "in the service track; "
   MinusSign -> "minus below zero"
   EitherSign -> "plus or minus"
-  Priority a b c d -> "leading + " <> Decimal.whole a <> ", leading - " <> Decimal.whole b <> ", following + " <> Decimal.whole c <> ", following - " <> Decimal.whole d
+  Priority a b c d ->
+    "leading + "
+      <> Decimal.whole a
+      <> ", leading - "
+      <> Decimal.whole b
+      <> ", following + "
+      <> Decimal.whole c
+      <> ", following - "
+      <> Decimal.whole d
 
 presenceText :: Presence -> Text
 presenceText p = case p of
@@ -168,7 +280,14 @@ feedRows m = ["code", unit, ""] : listed
       LeadingAxis -> "Hz of the leading axis"
     listed = case codes f of
       Direct a b -> [[Decimal.whole a <> " to " <> Decimal.whole b, "the code itself", ""]]
-      Listed t -> abbreviated [[Decimal.whole c, Decimal.short 2 v, if not (hasRapidMotion m) && FeedCode c == rapidCode m then "rapid" else ""] | (FeedCode c, v) <- Map.toList t]
+      Listed t ->
+        abbreviated
+          [ [ Decimal.whole c,
+              Decimal.short 2 v,
+              if not (hasRapidMotion m) && FeedCode c == rapidCode m then "rapid" else ""
+            ]
+            | (FeedCode c, v) <- Map.toList t
+          ]
 
 -- | A long table: its beginning and its end.
 abbreviated :: [[Text]] -> [[Text]]
@@ -185,7 +304,10 @@ brakingRows m =
       case brakingForm (braking m) of
         ByControl -> "by the control itself"
         SlowFrames -> "where the program says so, in a frame at the lowest feed"
-        BrakedFrames (Feed v) -> "in frames with a hole of their own; at the end down to " <> Decimal.short 3 v <> " mm/min"
+        BrakedFrames (Feed v) ->
+          "in frames with a hole of their own; at the end down to "
+            <> Decimal.short 3 v
+            <> " mm/min"
     ]
   ]
 
@@ -201,7 +323,13 @@ orderRows m =
           ("tool change", toolChange o),
           ("auxiliary", auxiliary o)
         ]
-          <> concat [[("cutter left", [keepLeft c]), ("cutter right", [keepRight c]), ("cutter on the contour", [release c])] | Just c <- [compensation o]]
+          <> concat
+            [ [ ("cutter left", [keepLeft c]),
+                ("cutter right", [keepRight c]),
+                ("cutter on the contour", [release c])
+              ]
+              | Just c <- [compensation o]
+            ]
           <> [("at the end", NonEmpty.toList f) | f <- finish o],
       not (null os)
   ]
@@ -220,7 +348,15 @@ valueText v = case v of
 
 stepText :: Map Int Double -> Text
 stepText t = case (Map.lookupMin t, Map.lookupMax t) of
-  (Just (a, v), Just (b, w)) -> Decimal.whole a <> " to " <> Decimal.whole b <> ", " <> Decimal.short 1 v <> " to " <> Decimal.short 1 w <> " turns a minute"
+  (Just (a, v), Just (b, w)) ->
+    Decimal.whole a
+      <> " to "
+      <> Decimal.whole b
+      <> ", "
+      <> Decimal.short 1 v
+      <> " to "
+      <> Decimal.short 1 w
+      <> " turns a minute"
   _ -> "none"
 
 markWord :: Provenance -> Text

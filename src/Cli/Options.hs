@@ -63,42 +63,139 @@ data CompileOptions = CompileOptions
 parser :: String -> ParserInfo Invocation
 parser version =
   Opt.info
-    (Opt.helper <*> Opt.infoOption ("partc " <> version) (Opt.long "version" <> Opt.help "Show the version") <*> invocation)
+    ( Opt.helper
+        <*> Opt.infoOption ("partc " <> version) (Opt.long "version" <> Opt.help "Show the version")
+        <*> invocation
+    )
     ( Opt.fullDesc
         <> Opt.header "partc - from part programs to proven tapes"
-        <> Opt.progDesc "Compiles part programs for numerically controlled machine tools, reads its own tapes back and proves them against the drawing."
+        <> Opt.progDesc
+          "Compiles part programs for numerically controlled machine tools, reads its own tapes \
+          \back and proves them against the drawing."
         <> Opt.footer "Example: partc compile flange.part -t lkp-01f"
         <> Opt.failureCode 2
     )
 
 invocation :: Parser Invocation
-invocation = (\before (after, command) -> Invocation (settingsFrom (after `over` before)) command) <$> overrides <*> commands
+invocation =
+  (\before (after, command) -> Invocation (settingsFrom (after `over` before)) command)
+    <$> overrides <*> commands
 
 commands :: Parser (Overrides, Subcommand)
 commands =
   Opt.hsubparser . mconcat $
-    [ entry "compile" "Punch the tape of a program, proven" "partc compile flange.part -t lkp-01f -o flange.tape" (Compile <$> compileOptions),
-      entry "check" "Look for mistakes only" "partc check flange.part" (Check . NonEmpty.fromList <$> some program),
-      entry "verify" "Prove a tape against its program" "partc verify flange.part flange.tape" (Verify <$> program <*> optional target <*> optional tape),
-      entry "frames" "List the frames of a program" "partc frames flange.part -t lkp-01f --json" (Frames <$> program <*> optional target <*> Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")),
-      entry "report" "Tables of nodes, lengths and times" "partc report flange.part" (Report <$> program <*> optional target),
-      entry "decode" "List the frames of a tape" "partc decode -t lkp-01f flange.tape" (Decode <$> optional target <*> tape),
-      entry "tape" "Draw the rows of a tape with their meaning" "partc tape -t lkp-01f flange.tape --frames 1..3" (DrawTape <$> optional target <*> rangeOption <*> tape),
-      entry "plot" "Draw part, path, nodes and cutter as SVG" "partc plot flange.part -o flange.svg" (Plot <$> program <*> optional (outputOption "The file to write; - for standard output")),
-      entry "import" "Make a part program of an input sheet" "partc import rib.sheet -o rib.part" (Import <$> sheet <*> optional (outputOption "The file to write; - for standard output")),
-      entry "export-sheet" "Make an input sheet of a program" "partc export-sheet rib.part -o rib.sheet" (ExportSheet <$> program <*> optional (outputOption "The file to write; - for standard output")),
-      entry "machines" "List the machines, or describe one" "partc machines lkp-01f" (Machines <$> optional (Opt.strArgument (Opt.metavar "NAME" <> Opt.help "A machine that is built in, or a description NAME.machine")) <*> Opt.switch (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")),
-      entry "explain" "Say what a report's code means, or list all codes" "partc explain E0314" (Explain <$> optional (Opt.strArgument (Opt.metavar "CODE" <> Opt.help "A code as a report shows it; lower case and 314 will do" <> Opt.completeWith codes))),
-      entry "lsp" "Serve an editor on standard input and output" "partc lsp" (LanguageServer <$ ofEditors),
-      entry "fmt" "Bring programs into the canonical layout, in place" "partc fmt flange.part" (Fmt <$> Opt.switch (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out") <*> (NonEmpty.fromList <$> some program))
+    [ entry
+        "compile"
+        "Punch the tape of a program, proven"
+        "partc compile flange.part -t lkp-01f -o flange.tape"
+        (Compile <$> compileOptions),
+      entry
+        "check"
+        "Look for mistakes only"
+        "partc check flange.part"
+        (Check . NonEmpty.fromList <$> some program),
+      entry
+        "verify"
+        "Prove a tape against its program"
+        "partc verify flange.part flange.tape"
+        (Verify <$> program <*> optional target <*> optional tape),
+      entry
+        "frames"
+        "List the frames of a program"
+        "partc frames flange.part -t lkp-01f --json"
+        ( Frames
+            <$> program
+              <*> optional target
+              <*> Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
+        ),
+      entry
+        "report"
+        "Tables of nodes, lengths and times"
+        "partc report flange.part"
+        (Report <$> program <*> optional target),
+      entry
+        "decode"
+        "List the frames of a tape"
+        "partc decode -t lkp-01f flange.tape"
+        (Decode <$> optional target <*> tape),
+      entry
+        "tape"
+        "Draw the rows of a tape with their meaning"
+        "partc tape -t lkp-01f flange.tape --frames 1..3"
+        (DrawTape <$> optional target <*> rangeOption <*> tape),
+      entry
+        "plot"
+        "Draw part, path, nodes and cutter as SVG"
+        "partc plot flange.part -o flange.svg"
+        (Plot <$> program <*> optional (outputOption "The file to write; - for standard output")),
+      entry
+        "import"
+        "Make a part program of an input sheet"
+        "partc import rib.sheet -o rib.part"
+        (Import <$> sheet <*> optional (outputOption "The file to write; - for standard output")),
+      entry
+        "export-sheet"
+        "Make an input sheet of a program"
+        "partc export-sheet rib.part -o rib.sheet"
+        ( ExportSheet
+            <$> program <*> optional (outputOption "The file to write; - for standard output")
+        ),
+      entry
+        "machines"
+        "List the machines, or describe one"
+        "partc machines lkp-01f"
+        ( Machines
+            <$> optional
+              ( Opt.strArgument
+                  ( Opt.metavar "NAME"
+                      <> Opt.help "A machine that is built in, or a description NAME.machine"
+                  )
+              )
+              <*> Opt.switch
+                (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")
+        ),
+      entry
+        "explain"
+        "Say what a report's code means, or list all codes"
+        "partc explain E0314"
+        ( Explain
+            <$> optional
+              ( Opt.strArgument
+                  ( Opt.metavar "CODE"
+                      <> Opt.help "A code as a report shows it; lower case and 314 will do"
+                      <> Opt.completeWith codes
+                  )
+              )
+        ),
+      entry
+        "lsp"
+        "Serve an editor on standard input and output"
+        "partc lsp"
+        (LanguageServer <$ ofEditors),
+      entry
+        "fmt"
+        "Bring programs into the canonical layout, in place"
+        "partc fmt flange.part"
+        ( Fmt
+            <$> Opt.switch
+              ( Opt.long "check"
+                  <> Opt.help "Write nothing, and name the programs that are not laid out"
+              )
+              <*> (NonEmpty.fromList <$> some program)
+        )
     ]
   where
     codes = [Text.unpack c | e <- Explanation.everything, let ReportCode c = Explanation.code e]
     entry name description example p =
-      Opt.command name (Opt.info ((,) <$> overrides <*> p) (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2))
+      Opt.command
+        name
+        ( Opt.info
+            ((,) <$> overrides <*> p)
+            (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2)
+        )
 
--- | What editors pass to every language server. It changes nothing: there is no other way to talk to this one,
--- and it ends when its input does.
+-- | What editors pass to every language server. It changes nothing: there is no other way to talk
+-- to this one, and it ends when its input does.
 ofEditors :: Parser ()
 ofEditors =
   void (Opt.switch (Opt.long "stdio" <> Opt.internal))
@@ -113,32 +210,62 @@ compileOptions =
     <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
 
 program :: Parser FilePath
-program = Opt.strArgument (Opt.metavar "FILE" <> Opt.help "A part program, or an input sheet NAME.sheet; - for a program on standard input" <> Opt.action "file")
+program =
+  Opt.strArgument
+    ( Opt.metavar "FILE"
+        <> Opt.help
+          "A part program, or an input sheet NAME.sheet; - for a program on standard input"
+        <> Opt.action "file"
+    )
 
 sheet :: Parser FilePath
-sheet = Opt.strArgument (Opt.metavar "SHEET" <> Opt.help "An input sheet; - for standard input" <> Opt.action "file")
+sheet =
+  Opt.strArgument
+    (Opt.metavar "SHEET" <> Opt.help "An input sheet; - for standard input" <> Opt.action "file")
 
 tape :: Parser FilePath
-tape = Opt.strArgument (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard input" <> Opt.action "file")
+tape =
+  Opt.strArgument
+    (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard input" <> Opt.action "file")
 
 target :: Parser Text
-target = Opt.strOption (Opt.long "target" <> Opt.short 't' <> Opt.metavar "MACHINE" <> Opt.help "The machine, instead of the program's own: a name, or a description such as ./mine.machine")
+target =
+  Opt.strOption
+    ( Opt.long "target"
+        <> Opt.short 't'
+        <> Opt.metavar "MACHINE"
+        <> Opt.help
+          "The machine, instead of the program's own: a name, or a description such as \
+          \./mine.machine"
+    )
 
 rangeOption :: Parser RowRange
 rangeOption =
-  (uncurry TapeRows.Frames <$> Opt.option fromTo (Opt.long "frames" <> Opt.metavar "A..B" <> Opt.help "Only these frames"))
-    <|> (uncurry TapeRows.Rows <$> Opt.option fromTo (Opt.long "rows" <> Opt.metavar "A..B" <> Opt.help "Only these rows"))
+  ( uncurry TapeRows.Frames
+      <$> Opt.option
+        fromTo
+        (Opt.long "frames" <> Opt.metavar "A..B" <> Opt.help "Only these frames")
+  )
+    <|> ( uncurry TapeRows.Rows
+            <$> Opt.option
+              fromTo
+              (Opt.long "rows" <> Opt.metavar "A..B" <> Opt.help "Only these rows")
+        )
     <|> pure TapeRows.Everything
 
 -- | @3@, @3..8@
 fromTo :: Opt.ReadM (Int, Int)
-fromTo = Opt.eitherReader $ \word -> case traverse (readMaybe . Text.unpack) (Text.splitOn ".." (Text.pack word)) of
-  Just [a] | a >= 1 -> Right (a, a)
-  Just [a, b] | 1 <= a, a <= b -> Right (a, b)
-  _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
+fromTo =
+  Opt.eitherReader $ \word ->
+    case traverse (readMaybe . Text.unpack) (Text.splitOn ".." (Text.pack word)) of
+      Just [a] | a >= 1 -> Right (a, a)
+      Just [a, b] | 1 <= a, a <= b -> Right (a, b)
+      _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
 
 outputOption :: String -> Parser FilePath
-outputOption what = Opt.strOption (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help what <> Opt.action "file")
+outputOption what =
+  Opt.strOption
+    (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help what <> Opt.action "file")
 
 -- | Settings as far as they are given; they may stand before the command and behind it.
 data Overrides = Overrides
@@ -152,20 +279,55 @@ data Overrides = Overrides
 overrides :: Parser Overrides
 overrides =
   Overrides
-    <$> optional (Opt.option (choice [("human", HumanFormat), ("short", ShortFormat), ("json", JsonFormat), ("sarif", SarifFormat)]) (Opt.long "format" <> Opt.metavar "human|short|json|sarif" <> Opt.help "How errors and warnings are written, on standard error" <> Opt.completeWith ["human", "short", "json", "sarif"]))
-    <*> optional (Opt.option (choice [("auto", Auto), ("always", Always), ("never", Never)]) (Opt.long "color" <> Opt.metavar "auto|always|never" <> Opt.help "Colours in reports" <> Opt.completeWith ["auto", "always", "never"]))
+    <$> optional
+      ( Opt.option
+          ( choice
+              [ ("human", HumanFormat),
+                ("short", ShortFormat),
+                ("json", JsonFormat),
+                ("sarif", SarifFormat)
+              ]
+          )
+          ( Opt.long "format"
+              <> Opt.metavar "human|short|json|sarif"
+              <> Opt.help "How errors and warnings are written, on standard error"
+              <> Opt.completeWith ["human", "short", "json", "sarif"]
+          )
+      )
+    <*> optional
+      ( Opt.option
+          (choice [("auto", Auto), ("always", Always), ("never", Never)])
+          ( Opt.long "color"
+              <> Opt.metavar "auto|always|never"
+              <> Opt.help "Colours in reports"
+              <> Opt.completeWith ["auto", "always", "never"]
+          )
+      )
     <*> Opt.switch (Opt.long "quiet" <> Opt.short 'q' <> Opt.help "No warnings")
     <*> Opt.switch (Opt.long "werror" <> Opt.help "Warnings count as errors")
-    <*> many (Opt.option assignment (Opt.long "set" <> Opt.metavar "NAME=VALUE" <> Opt.help "Give a parameter of the program another value"))
+    <*> many
+      ( Opt.option
+          assignment
+          ( Opt.long "set"
+              <> Opt.metavar "NAME=VALUE"
+              <> Opt.help "Give a parameter of the program another value"
+          )
+      )
 
 choice :: [(String, a)] -> Opt.ReadM a
 choice table = Opt.eitherReader $ \word ->
-  maybe (Left ("‘" <> word <> "’ is none of: " <> unwords (map fst table))) Right (lookup word table)
+  maybe
+    (Left ("‘" <> word <> "’ is none of: " <> unwords (map fst table)))
+    Right
+    (lookup word table)
 
 -- | @d=25 mm@
 assignment :: Opt.ReadM (Text, Text)
 assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) of
-  (name, rest) | not (Text.null name), not (Text.null rest) -> Right (Text.strip name, Text.drop 1 rest)
+  (name, rest)
+    | not (Text.null name),
+      not (Text.null rest) ->
+      Right (Text.strip name, Text.drop 1 rest)
   _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
 over :: Overrides -> Overrides -> Overrides

@@ -37,9 +37,32 @@ import Report.Sarif qualified as Sarif
 import System.Directory (canonicalizePath, removeFile, renameFile)
 import System.Environment (lookupEnv)
 import System.FilePath (takeDirectory, takeFileName)
-import System.IO (Handle, hClose, hFlush, hIsTerminalDevice, openBinaryTempFileWithDefaultPermissions, stderr, stdout)
-import System.IO.Error (ioeGetErrorString, isDoesNotExistError, isFullError, isPermissionError, mkIOError, permissionErrorType)
-import System.Posix.Files (FileStatus, fileAccess, fileMode, getFileStatus, isDirectory, isRegularFile, setFileMode)
+import System.IO
+  ( Handle,
+    hClose,
+    hFlush,
+    hIsTerminalDevice,
+    openBinaryTempFileWithDefaultPermissions,
+    stderr,
+    stdout,
+  )
+import System.IO.Error
+  ( ioeGetErrorString,
+    isDoesNotExistError,
+    isFullError,
+    isPermissionError,
+    mkIOError,
+    permissionErrorType,
+  )
+import System.Posix.Files
+  ( FileStatus,
+    fileAccess,
+    fileMode,
+    getFileStatus,
+    isDirectory,
+    isRegularFile,
+    setFileMode,
+  )
 
 -- | How reports are written.
 data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
@@ -62,7 +85,8 @@ data OutputSettings = OutputSettings
 
 -- | Where nothing was asked.
 plainly :: OutputSettings
-plainly = OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
+plainly =
+  OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
 
 -- | How a command ended.
 data Exit
@@ -110,14 +134,17 @@ show' Reporter {settings, kept} path source reports = do
       painted <- useColour settings stderr
       let (shown, more) = splitAt mostReports visible
       mapM_ (\r -> say (Human.render painted path source r <> "\n")) shown
-      say (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
+      say
+        (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
       say (Human.summary painted visible)
     ShortFormat -> mapM_ (say . Line.short path source) visible
     JsonFormat -> mapM_ (say . Line.json path source) visible
     SarifFormat -> modifyIORef kept (reverse [Filed {path, source, report} | report <- visible] <>)
   pure (any Report.isError reports || werror settings && not (null reports))
   where
-    visible = Report.sorted (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
+    visible =
+      Report.sorted
+        (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
 -- | A person reads no more reports at once.
 mostReports :: Int
@@ -137,7 +164,11 @@ useColour settings handle = case colour settings of
     terminal <- hIsTerminalDevice handle
     none <- lookupEnv "NO_COLOR"
     dumb <- lookupEnv "TERM"
-    pure (if terminal && maybe True null none && dumb /= Just "dumb" then Human.Coloured else Human.Plain)
+    pure
+      ( if terminal && maybe True null none && dumb /= Just "dumb"
+          then Human.Coloured
+          else Human.Plain
+      )
 
 -- | A result on standard output, all of it. The answer says what went wrong; a reader who has seen
 -- enough and closed the pipe is nothing wrong.
@@ -155,25 +186,35 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
 
 -- | All of a file, or of standard input for @-@. The answer says what went wrong.
 readBytes :: FilePath -> IO (Either Text ByteString)
-readBytes file = either (Left . ioProblem) Right <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
+readBytes file =
+  either (Left . ioProblem) Right
+    <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
 
--- | Write a file under a temporary name and rename it: what was there before stays until the new one
--- is complete. A device or a pipe is written to as it is. The answer says what went wrong.
+-- | Write a file under a temporary name and rename it: what was there before stays until the new
+-- one is complete. A device or a pipe is written to as it is. The answer says what went wrong.
 writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
 writeFileWhole path bytes = either problem Right <$> try write
   where
     write = do
       before <- try (getFileStatus path) :: IO (Either IOException FileStatus)
       case before of
-        Right status | not (isRegularFile status || isDirectory status) -> ByteString.writeFile path bytes
+        Right status
+          | not (isRegularFile status || isDirectory status) ->
+            ByteString.writeFile path bytes
         -- Whoever may write in the folder could replace a file that is write-protected.
         Right status | isRegularFile status -> do
           allowed <- fileAccess path False True False
-          if allowed then replacing before else ioError (mkIOError permissionErrorType "writeFile" Nothing (Just path))
+          if allowed
+            then replacing before
+            else ioError (mkIOError permissionErrorType "writeFile" Nothing (Just path))
         _ -> replacing before
-    replacing before = canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) before)
+    replacing before =
+      canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) before)
     replace mode place = do
-      (temporary, handle) <- openBinaryTempFileWithDefaultPermissions (takeDirectory place) (takeFileName place <> ".new")
+      (temporary, handle) <-
+        openBinaryTempFileWithDefaultPermissions
+          (takeDirectory place)
+          (takeFileName place <> ".new")
       flip onException (hClose handle *> removeFile temporary) $ do
         ByteString.hPut handle bytes
         hClose handle

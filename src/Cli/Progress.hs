@@ -26,4 +26,5 @@ during what work = do
       threadDelay 1000000
       write ("\r" <> what <> " … " <> Decimal.whole n <> " s")
       tick (n + 1)
-    write text = void (try (Text.hPutStr stderr text *> hFlush stderr) :: IO (Either IOException ()))
+    write text =
+      void (try (Text.hPutStr stderr text *> hFlush stderr) :: IO (Either IOException ()))

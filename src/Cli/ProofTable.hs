@@ -21,23 +21,34 @@ import Verify.Proof qualified as Proof
 -- | The proof as a table and a verdict.
 proof :: Machine -> Proof -> Text
 proof machine p =
-  Table.columns [ToLeft, ToRight, ToLeft, ToRight, ToRight] (header : concatMap passageRows (Proof.passages p))
+  Table.columns
+    [ToLeft, ToRight, ToLeft, ToRight, ToRight]
+    (header : concatMap passageRows (Proof.passages p))
     <> "\n"
     <> Table.columns [ToLeft, ToLeft] closing
   where
     header = ["contour", "", "mm", "allowed", "frame"]
     passageRows c =
       let Name n = value (contour c)
-       in [[n, "gouge"] <> witness (allowedGouge c) (gouge c), ["", "excess"] <> witness (allowedExcess c) (excess c)]
+       in [ [n, "gouge"] <> witness (allowedGouge c) (gouge c),
+            ["", "excess"] <> witness (allowedExcess c) (excess c)
+          ]
     witness allowed w = case w of
       Nothing -> ["0.0000", fixed4 allowed, ""]
       Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 allowed, Decimal.whole (Proof.frame x)]
     fixed4 (Mm x) = Decimal.fixed 4 x
     inOrder (Pulses3 x y z) = [x, y, z]
-    axes words' = Text.intercalate ", " (zipWith (\axis w -> axis <> " " <> w) ["x", "y", "z"] words') <> " pulses"
+    axes words' =
+      Text.intercalate ", " (zipWith (\axis w -> axis <> " " <> w) ["x", "y", "z"] words')
+        <> " pulses"
     closing =
       [ ["frames read back", Decimal.whole (Proof.frames p)],
-        ["largest increments", axes [Decimal.whole d <> " of " <> capacityWord a | (Pulses d, a) <- zip (inOrder (Proof.largest p)) [X, Y, Z]]],
+        [ "largest increments",
+          axes
+            [ Decimal.whole d <> " of " <> capacityWord a
+              | (Pulses d, a) <- zip (inOrder (Proof.largest p)) [X, Y, Z]
+            ]
+        ],
         ["misses its end by", axes [Decimal.whole d | Pulses d <- inOrder (Proof.closure p)]],
         ["verdict", if Proof.isProven p then "proven" else "WRONG"]
       ]

@@ -23,29 +23,36 @@ import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
--- | One table for each statement that leaves something: where, how much as far as its outline is known, the largest cutter that
--- gets there, and why.
+-- | One table for each statement that leaves something: where, how much as far as its outline is
+-- known, the largest cutter that gets there, and why.
 places :: Toolpath -> [Text]
 places path = map table (RestMaterial.ofPath path)
 
 table :: Remaining -> Text
 table Remaining {tool, walls, RestMaterial.places = stays} =
   "Left along "
-    <> Text.intercalate ", " [n | Part.Contour {Part.contourName = Located _ (Name n)} <- NonEmpty.toList walls]
+    <> Text.intercalate
+      ", "
+      [n | Part.Contour {Part.contourName = Located _ (Name n)} <- NonEmpty.toList walls]
     <> " by "
     <> Error.cutter tool
     <> "\n\n"
-    <> Table.columns [ToRight, ToRight, ToRight, ToRight, ToLeft] (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList stays))
+    <> Table.columns
+      [ToRight, ToRight, ToRight, ToRight, ToLeft]
+      (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList stays))
 
 row :: Tool -> (Stay, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"
-  InHollow _ radius largest -> at (middle rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
+  InHollow _ radius largest ->
+    at (middle rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
   Between _ _ p largest -> at p (fitting largest) "narrow place, with the cutter's centre here"
   where
     at p largest why = case standing rest of
-      Within outline -> from p (Decimal.fixed 3 (abs (Polyarc.signedArea (Polyarc Closed outline)))) largest why
+      Within outline ->
+        from p (Decimal.fixed 3 (abs (Polyarc.signedArea (Polyarc Closed outline)))) largest why
       SameAs q -> from p "" largest (why <> ", part of what stays at " <> Vec.written 3 q)
       Unbounded -> from p "" largest why
-    from p area largest why = [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), area, largest, why]
+    from p area largest why =
+      [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), area, largest, why]
     fitting = maybe "none" (Error.fitting tool)

@@ -56,7 +56,15 @@ import Sheet.ToText qualified as Sheet
 import Sheet.Unsupported qualified as Unsupported
 import Surface.Import qualified as Import
 import System.Directory (canonicalizePath, doesDirectoryExist, doesFileExist)
-import System.FilePath (dropExtension, hasTrailingPathSeparator, replaceDirectory, takeDirectory, takeFileName, (<.>), (</>))
+import System.FilePath
+  ( dropExtension,
+    hasTrailingPathSeparator,
+    replaceDirectory,
+    takeDirectory,
+    takeFileName,
+    (<.>),
+    (</>),
+  )
 import System.IO (stdin, stdout)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
@@ -86,7 +94,8 @@ perform reporter command = case command of
   DrawTape target range tape -> drawTape reporter target range tape
   Explain code -> explain reporter code
   LanguageServer -> languageServer reporter
-  Fmt onlyAsked files -> maximum <$> traverse (Formatter.fmt reporter onlyAsked) (NonEmpty.toList files)
+  Fmt onlyAsked files ->
+    maximum <$> traverse (Formatter.fmt reporter onlyAsked) (NonEmpty.toList files)
 
 -- Reading
 
@@ -96,25 +105,35 @@ data Loaded = Loaded {name :: Text, texts :: Compile.LoadedProgram, values :: [(
 source :: Loaded -> Source
 source = Compile.source . texts
 
--- | Read a program and what it imports, and the descriptions of the machines that it or the command line names, and go
--- on with it.
+-- | Read a program and what it imports, and the descriptions of the machines that it or the command
+-- line names, and go on with it.
 withProgram :: Reporter -> FilePath -> [Text] -> (Loaded -> IO Exit) -> IO Exit
 withProgram reporter file targets continue = do
   text <- readProgram file
   case text of
     Left e -> complain reporter (displayName file) e
-    Right _ | Compile.isSheet file, (assigned, _) : _ <- given -> complain reporter (displayName file) (SheetAssigned assigned)
+    Right _
+      | Compile.isSheet file,
+        (assigned, _) : _ <- given ->
+        complain reporter (displayName file) (SheetAssigned assigned)
     Right t -> do
       texts <- Compile.load (fromDisk imported) (Text.unpack (displayName file)) t
       descriptions <- descriptionsFor targets (Compile.descriptions texts)
-      continue Loaded {name = displayName file, texts = texts {Compile.descriptions}, values = given}
+      continue
+        Loaded {name = displayName file, texts = texts {Compile.descriptions}, values = given}
   where
     given = Output.values (Output.settings reporter)
     imported there = either (Left . Cli.whyNot) Right <$> readProgram there
 
 -- | Files whose texts are had so, and that are themselves however they are reached.
 fromDisk :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
-fromDisk contents = Import.Reader {Import.contents, Import.identity = \there -> either (const there :: IOException -> FilePath) id <$> try (canonicalizePath there)}
+fromDisk contents =
+  Import.Reader
+    { Import.contents,
+      Import.identity =
+        \there ->
+          either (const there :: IOException -> FilePath) id <$> try (canonicalizePath there)
+    }
 
 -- | The text of a program file.
 readProgram :: FilePath -> IO (Either Error Text)
@@ -134,7 +153,8 @@ displayName file = if file == "-" then "<stdin>" else Text.pack file
 
 -- | A mistake that belongs to a file as a whole.
 complain :: Reporter -> Text -> Error -> IO Exit
-complain reporter path e = Failed <$ Output.show' reporter path (Region.fromText path "") [Cli.toReport e]
+complain reporter path e =
+  Failed <$ Output.show' reporter path (Region.fromText path "") [Cli.toReport e]
 
 -- | Write what a stage says; go on with its output when there is nothing against it.
 settle :: Reporter -> Loaded -> Result Report Report a -> (a -> IO Exit) -> IO Exit
@@ -166,7 +186,8 @@ analyse loaded = Compile.analyse (values loaded) (texts loaded)
 
 -- | The descriptions that the command line names, with those of the program.
 descriptionsFor :: [Text] -> [(Text, Either Text Text)] -> IO Compile.Descriptions
-descriptionsFor targets own = (<> own) <$> traverse (Compile.described readText "") (filter Compile.isDescription targets)
+descriptionsFor targets own =
+  (<> own) <$> traverse (Compile.described readText "") (filter Compile.isDescription targets)
   where
     readText file = either (Left . Cli.whyNot) Right <$> readProgram file
 
@@ -198,7 +219,8 @@ proven unproven' path machine =
     -- The moves along the contours are dropped as their frames are made.
     asked = Toolpath.withoutCuts path
 
--- | The same for several machines. While the last tape is proven nothing waits for the path any more.
+-- | The same for several machines. While the last tape is proven nothing waits for the path any
+-- more.
 provenOn :: Bool -> Toolpath -> [Machine] -> Result Report Report [(Machine, Punched)]
 provenOn unproven' path ms = case ms of
   [] -> pure []
@@ -207,21 +229,29 @@ provenOn unproven' path ms = case ms of
 
 -- | A tape that moves something.
 moving :: Punched -> Result w Report Punched
-moving punched = if null (Frame.planned (program punched)) then Result.failed (Cli.toReport NothingToPunch) else pure punched
+moving punched =
+  if null (Frame.planned (program punched))
+    then Result.failed (Cli.toReport NothingToPunch)
+    else pure punched
 
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withProgram reporter (file options) (targets options) $ \loaded -> do
-  -- The program as it was read is not kept while its path is laid and its tape made: a large one takes more room than both.
+  -- The program as it was read is not kept while its path is laid and its tape made: a large one
+  -- takes more room than both.
   let !rest = loaded {texts = Compile.withoutSurface (texts loaded)}
-      laid = analyse loaded `Result.thenSound` \a@Analysis {path = way} -> (way,) <$> chosen rest (targets options) a
+      laid =
+        analyse loaded `Result.thenSound` \a@Analysis {path = way} ->
+          (way,) <$> chosen rest (targets options) a
   Progress.during ("working on " <> name rest) (computed laid)
-  settle reporter rest (laid `Result.thenSound` uncurry (provenOn (unproven options))) $ \tapes -> do
-    places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
-    clash <- overwrites (ownFiles (file options) rest) (map fst places)
-    case (clash, twice (map fst places)) of
-      (Just place, _) -> complain reporter (name rest) (OverwritesProgram (Text.pack place))
-      (Nothing, Just place) -> complain reporter (name rest) (OneForSeveral (Text.pack place))
-      (Nothing, Nothing) -> writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
+  settle reporter rest (laid `Result.thenSound` uncurry (provenOn (unproven options))) $ \tapes ->
+    do
+      places <- traverse (\(m, p) -> (,p) <$> destination options (length tapes) m) tapes
+      clash <- overwrites (ownFiles (file options) rest) (map fst places)
+      case (clash, twice (map fst places)) of
+        (Just place, _) -> complain reporter (name rest) (OverwritesProgram (Text.pack place))
+        (Nothing, Just place) -> complain reporter (name rest) (OneForSeveral (Text.pack place))
+        (Nothing, Nothing) ->
+          writeAll reporter [(place, bytes) | (place, Punched {tape = Tape bytes}) <- places]
   where
     -- The first place that stands there again.
     twice places = case places of
@@ -235,17 +265,26 @@ destination options count machine = case place options of
   Just "-" -> pure "-"
   Just there -> do
     folder <- doesDirectoryExist there
-    pure (if folder || hasTrailingPathSeparator there || count > 1 then there </> standard else there)
+    pure
+      (if folder || hasTrailingPathSeparator there || count > 1 then there </> standard else there)
   where
     MachineName machineName = Machine.name machine
     base = if file options == "-" then "stdin" else dropExtension (takeFileName (file options))
-    standard = base <.> Text.unpack machineName <.> Text.unpack (Machine.suffix (Machine.medium machine))
+    standard =
+      base <.> Text.unpack machineName <.> Text.unpack (Machine.suffix (Machine.medium machine))
     replaceDirectory' f = replaceDirectory f (directory (file options))
     directory f = take (length f - length (takeFileName f)) f
 
--- | The files that a program is made of: its own, those that it imports, the descriptions of its machines.
+-- | The files that a program is made of: its own, those that it imports, the descriptions of its
+-- machines.
 ownFiles :: FilePath -> Loaded -> [FilePath]
-ownFiles file' loaded = file' : map (Text.unpack . snd) (Compile.imports (texts loaded)) <> concat [[Text.unpack d, takeDirectory file' </> Text.unpack d] | (d, _) <- Compile.descriptions (texts loaded)]
+ownFiles file' loaded =
+  file' :
+  map (Text.unpack . snd) (Compile.imports (texts loaded))
+    <> concat
+      [ [Text.unpack d, takeDirectory file' </> Text.unpack d]
+        | (d, _) <- Compile.descriptions (texts loaded)
+      ]
 
 -- | The first output that is one of the files that it is made of.
 overwrites :: [FilePath] -> [FilePath] -> IO (Maybe FilePath)
@@ -269,41 +308,65 @@ check :: Reporter -> FilePath -> IO Exit
 check reporter file' = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (checked (values loaded) (texts loaded)) (const (pure Done))
 
--- | All that can be said against a program without its tape: up to the limits of the machine that it names.
+-- | All that can be said against a program without its tape: up to the limits of the machine that
+-- it names.
 checked :: [(Text, Text)] -> Compile.LoadedProgram -> Result Report Report Analysis
 checked values' texts' = Compile.analyse values' texts' `Result.thenSound` \a -> a <$ limits a
   where
     limits a = case Part.machine (part a) of
       Nothing -> pure []
-      Just _ -> Target.chosen (Compile.descriptions texts') [] a >>= traverse (\m -> Compile.punch m (path a))
+      Just _ ->
+        Target.chosen (Compile.descriptions texts') [] a
+          >>= traverse (\m -> Compile.punch m (path a))
 
--- | Answer an editor until it leaves. What is open in the editor is read there rather than from the disk.
+-- | Answer an editor until it leaves. What is open in the editor is read there rather than from the
+-- disk.
 languageServer :: Reporter -> IO Exit
-languageServer reporter = statusOf <$> Lsp.serve Host {input = stdin, Lsp.output = stdout, load, Lsp.check = checked (Output.values (Output.settings reporter))}
+languageServer reporter =
+  statusOf
+    <$> Lsp.serve
+      Host
+        { input = stdin,
+          Lsp.output = stdout,
+          load,
+          Lsp.check = checked (Output.values (Output.settings reporter))
+        }
   where
-    load open path' = Compile.load (fromDisk (\there -> maybe (either (Left . Cli.whyNot) Right <$> readProgram there) (pure . Right) (open (Text.pack there)))) (Text.unpack path')
+    load open path' =
+      Compile.load
+        ( fromDisk
+            ( \there ->
+                maybe
+                  (either (Left . Cli.whyNot) Right <$> readProgram there)
+                  (pure . Right)
+                  (open (Text.pack there))
+            )
+        )
+        (Text.unpack path')
     statusOf ending = case ending of
       Orderly -> Done
       Abrupt -> Failed
 
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
-verify reporter file' target tapeFile = withProgram reporter file' (maybe [] pure target) $ \loaded ->
-  settle reporter loaded (prepared target loaded) $ \(analysis, machine, punched) -> do
-    given <- maybe (pure (Right (tape punched))) (fmap (fmap Tape) . readBytes) tapeFile
-    case given of
-      Left e -> complain reporter (maybe "" displayName tapeFile) e
-      Right t -> do
-        let read' = Compile.readBack machine (program punched) t
-            tapeName = maybe (name loaded) displayName tapeFile
-        broken <- Output.show' reporter tapeName (source loaded) (errors read')
-        case output read' of
-          Just fs | not broken -> do
-            let result = Compile.prove machine (path analysis) (program punched) fs
-            Progress.during ("proving " <> tapeName) (computed result)
-            table <- maybe (pure Done) (printed reporter . ProofTable.proof machine) (output result)
-            _ <- Output.show' reporter (name loaded) (source loaded) (errors result)
-            pure (if null (errors result) then table else Disproven)
-          _ -> pure Failed
+verify reporter file' target tapeFile =
+  withProgram reporter file' (maybe [] pure target) $ \loaded ->
+    settle reporter loaded (prepared target loaded) $ \(analysis, machine, punched) -> do
+      given <- maybe (pure (Right (tape punched))) (fmap (fmap Tape) . readBytes) tapeFile
+      case given of
+        Left e -> complain reporter (maybe "" displayName tapeFile) e
+        Right t -> do
+          let read' = Compile.readBack machine (program punched) t
+              tapeName = maybe (name loaded) displayName tapeFile
+          broken <- Output.show' reporter tapeName (source loaded) (errors read')
+          case output read' of
+            Just fs | not broken -> do
+              let result = Compile.prove machine (path analysis) (program punched) fs
+              Progress.during ("proving " <> tapeName) (computed result)
+              table <-
+                maybe (pure Done) (printed reporter . ProofTable.proof machine) (output result)
+              _ <- Output.show' reporter (name loaded) (source loaded) (errors result)
+              pure (if null (errors result) then table else Disproven)
+            _ -> pure Failed
 
 -- | A program with its frames and tape for one machine.
 prepared :: Maybe Text -> Loaded -> Result Report Report (Analysis, Machine, Punched)
@@ -317,12 +380,19 @@ prepared target loaded =
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames reporter file' target json = withProgram reporter file' (maybe [] pure target) $ \loaded ->
   settle reporter loaded (prepared target loaded) $ \(_, machine, punched) -> do
-    printed reporter ((if json then FrameTable.framesJson else FrameTable.frames) machine (source loaded) (program punched))
+    printed
+      reporter
+      ( (if json then FrameTable.framesJson else FrameTable.frames)
+          machine
+          (source loaded)
+          (program punched)
+      )
 
 report :: Reporter -> FilePath -> Maybe Text -> IO Exit
 report reporter file' target = withProgram reporter file' (maybe [] pure target) $ \loaded ->
-  settle reporter loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine loaded a) $ \(a, punched) ->
-    printed reporter (NodeTable.nodes punched a)
+  settle reporter loaded (analyse loaded `Result.thenSound` \a -> (a,) <$> onMachine loaded a) $
+    \(a, punched) ->
+      printed reporter (NodeTable.nodes punched a)
   where
     onMachine loaded a = case (target, Part.machine (part a)) of
       (Nothing, Nothing) -> pure Nothing
@@ -332,13 +402,22 @@ report reporter file' target = withProgram reporter file' (maybe [] pure target)
           [] -> pure Nothing
 
 decode :: Reporter -> Maybe Text -> FilePath -> IO Exit
-decode reporter target tapeFile = withTape reporter target tapeFile $ \machine fs -> printed reporter (FrameTable.decoded machine fs)
+decode reporter target tapeFile =
+  withTape reporter target tapeFile $ \machine fs ->
+    printed reporter (FrameTable.decoded machine fs)
 
 -- | Draw a tape, or some of it.
 drawTape :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> IO Exit
 drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine fs ->
   let rows = Tape.rows machine 0 fs
-   in maybe (complain reporter (displayName tapeFile) (uncurry NothingInRange (TapeRows.extent machine range rows))) (printed reporter) (TapeRows.picture machine range rows)
+   in maybe
+        ( complain
+            reporter
+            (displayName tapeFile)
+            (uncurry NothingInRange (TapeRows.extent machine range rows))
+        )
+        (printed reporter)
+        (TapeRows.picture machine range rows)
 
 -- | Read a tape for itself: the cutter is taken to stand at zero before it.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
@@ -350,13 +429,23 @@ withTape reporter target tapeFile continue = case target of
       Left e -> complain reporter (displayName tapeFile) e
       Right b -> do
         let result = Compile.readTape machine 0 (Tape b)
-        _ <- Output.show' reporter (displayName tapeFile) (Region.fromText (displayName tapeFile) "") (errors result)
+        _ <-
+          Output.show'
+            reporter
+            (displayName tapeFile)
+            (Region.fromText (displayName tapeFile) "")
+            (errors result)
         maybe (pure Failed) (continue machine) (output result)
 
 plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 plot reporter file' place = withProgram reporter file' [] $ \loaded ->
   settle reporter loaded (analyse loaded) $ \analysis ->
-    deliver reporter (displayName file') (ownFiles file' loaded) place (Plot.plot (part analysis) (path analysis))
+    deliver
+      reporter
+      (displayName file')
+      (ownFiles file' loaded)
+      place
+      (Plot.plot (part analysis) (path analysis))
 
 -- | Write a sheet as a program.
 import' :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
@@ -366,16 +455,28 @@ import' reporter file' place = do
     Left e -> complain reporter (displayName file') e
     Right t -> do
       let result = Result.mapErrors id Sheet.toReport (Sheet.read t)
-      stopped <- Output.show' reporter (displayName file') (Region.fromText (displayName file') t) (errors result)
+      stopped <-
+        Output.show'
+          reporter
+          (displayName file')
+          (Region.fromText (displayName file') t)
+          (errors result)
       case output result of
-        Just sheet | not stopped -> deliver reporter (displayName file') [file'] place (Sheet.text sheet)
+        Just sheet
+          | not stopped ->
+            deliver reporter (displayName file') [file'] place (Sheet.text sheet)
         _ -> pure Failed
 
 -- | Write a program as a sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 exportSheet reporter file' place = withProgram reporter file' [] $ \loaded ->
-  settle reporter loaded (Compile.evaluated (values loaded) (texts loaded) `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry Sheet.fromPart)) $
-    deliver reporter (displayName file') (ownFiles file' loaded) place . Sheet.write
+  settle
+    reporter
+    loaded
+    ( Compile.evaluated (values loaded) (texts loaded)
+        `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry Sheet.fromPart)
+    )
+    $ deliver reporter (displayName file') (ownFiles file' loaded) place . Sheet.write
 
 -- | Write a text to a file, but not over one of those that it was made from, or to standard output.
 deliver :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> IO Exit
@@ -387,15 +488,16 @@ deliver reporter about sources place text = case place of
       Nothing -> writeAll reporter [(p, Encoding.encodeUtf8 text)]
   _ -> printed reporter text
 
--- | The list of machines, or one of them: its sheet or the text of its description. The mistakes of a description stand at
--- their places in it.
+-- | The list of machines, or one of them: its sheet or the text of its description. The mistakes of
+-- a description stand at their places in it.
 machines :: Reporter -> Maybe Text -> Bool -> IO Exit
 machines reporter wanted asText = case wanted of
   Nothing -> printed reporter (MachineTable.machineList BuiltIn.machines)
   Just n -> do
     descriptions <- descriptionsFor [n] []
     case (Target.named descriptions n, lookup n descriptions) of
-      (Left (DescriptionWrong _ file' text reports), _) -> Failed <$ Output.show' reporter file' (Region.fromText file' text) reports
+      (Left (DescriptionWrong _ file' text reports), _) ->
+        Failed <$ Output.show' reporter file' (Region.fromText file' text) reports
       (Left e, _) -> complain reporter "" e
       (Right _, Just (Right text)) | asText -> printed reporter text
       (Right m, _)

@@ -15,7 +15,8 @@ data Align = ToLeft | ToRight
 
 -- | Rows in columns, two spaces apart.
 columns :: [Align] -> [[Text]] -> Text
-columns aligns rows = Text.unlines (map (Text.stripEnd . Text.intercalate "  " . zipWith3 pad aligns widths) rows)
+columns aligns rows =
+  Text.unlines (map (Text.stripEnd . Text.intercalate "  " . zipWith3 pad aligns widths) rows)
   where
     widths = map (maximum . map realLength) (transpose rows)
     pad align width cell = case align of

@@ -22,12 +22,15 @@ import Report.Report (Report)
 
 -- | The machines that the command line names, or the program's own, set up for the program.
 chosen :: Descriptions -> [Text] -> Analysis -> Result w Report [Machine]
-chosen descriptions targets Analysis {part, path} = Result.mapErrors id Cli.toReport (map (Compile.onMachine path) <$> found)
+chosen descriptions targets Analysis {part, path} =
+  Result.mapErrors id Cli.toReport (map (Compile.onMachine path) <$> found)
   where
     found = case (targets, Part.machine part) of
       ([], Nothing) -> Result.failed (NoMachine known)
-      ([], Just (Located region (Named n))) -> pure <$> look (Just region) n (Compile.machineNamed n)
-      ([], Just (Located region (Described file))) -> pure <$> look (Just region) file (Compile.machineIn descriptions file)
+      ([], Just (Located region (Named n))) ->
+        pure <$> look (Just region) n (Compile.machineNamed n)
+      ([], Just (Located region (Described file))) ->
+        pure <$> look (Just region) file (Compile.machineIn descriptions file)
       (some, _) -> traverse (\n -> look Nothing n (Compile.machineFor descriptions n)) some
     look region n = either (Result.failed . unknown region n) pure
 

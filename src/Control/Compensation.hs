@@ -1,12 +1,15 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What the cutter's centre does under a control that keeps the cutter beside the contour by itself, after LinuxCNC as it was
--- measured. On machines without that, and where it is switched off, it goes as the frames say.
+-- | What the cutter's centre does under a control that keeps the cutter beside the contour by
+-- itself, after LinuxCNC as it was measured. On machines without that, and where it is switched
+-- off, it goes as the frames say.
 --
--- The first stroke goes straight from where the centre stands to the end of that stroke, moved aside by the radius. From there on
--- each stroke runs beside what the frame says, an arc about its own centre. Where the next one turns away from the cutter, the centre
--- goes round the corner on an arc; where it turns towards it, both end where they meet; where it hardly turns, the next one sets out
--- from where the one before has ended. The first stroke behind the release goes straight from there to where its frame says.
+-- The first stroke goes straight from where the centre stands to the end of that stroke, moved
+-- aside by the radius. From there on each stroke runs beside what the frame says, an arc about its
+-- own centre. Where the next one turns away from the cutter, the centre goes round the corner on an
+-- arc; where it turns towards it, both end where they meet; where it hardly turns, the next one
+-- sets out from where the one before has ended. The first stroke behind the release goes straight
+-- from there to where its frame says.
 module Control.Compensation
   ( Moved (..),
     run,
@@ -36,8 +39,8 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | A stroke and what the cutter's centre does in it, in the plane: round the corner before it and then along; without length where it goes
--- straight up or down.
+-- | A stroke and what the cutter's centre does in it, in the plane: round the corner before it and
+-- then along; without length where it goes straight up or down.
 data Moved = Moved {stroke :: Motion, legs :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
@@ -74,8 +77,8 @@ data Mode
 -- | What a stroke is.
 data Tag = Plain | First Keep | Later | Exit
 
--- | Run frames from a position. Where the tape does not say the cutter's diameter, its radius by the number of the frame is
--- asked.
+-- | Run frames from a position. Where the tape does not say the cutter's diameter, its radius by
+-- the number of the frame is asked.
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [Unkept])
 run = runWith (:)
 
@@ -85,16 +88,24 @@ runWith before machine toolAt begin frames = case Machine.compensation (Machine.
   Just c
     | any (switchesOn c) frames ->
       let ((final, _), told) = mapAccumL (told' c) (Off, strokes) (zip [1 ..] frames)
-          (moved, problems) = unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
-       in (foldr before [] moved, concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final])
+          (moved, problems) =
+            unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
+       in ( foldr before [] moved,
+            concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final]
+          )
   _ -> (Motion.runWith (\s -> before (Moved s (Motion.segment machine s :| []))) begin frames, [])
   where
-    switchesOn c f = any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
+    switchesOn c f =
+      any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
     strokes = Motion.run begin frames
     told' c (mode, left) (n, f) =
       let (mode', problems) = switched machine c toolAt mode n f
        in case left of
-            s : rest | number s == n -> let (after, tag) = taken mode' in ((after, rest), (Just (tag, s), problems))
+            s : rest
+              | number s == n ->
+                let (after, tag) =
+                      taken mode'
+                 in ((after, rest), (Just (tag, s), problems))
             _ -> ((mode', left), (Nothing, problems))
     taken mode = case mode of
       Off -> (Off, Plain)
@@ -110,11 +121,27 @@ isOn mode = case mode of
   Keeping -> True
 
 -- | What the commands of a frame switch, before it moves.
-switched :: Machine -> CompensationCommands -> (Int -> Mm) -> Mode -> Int -> Frame -> (Mode, [Unkept])
-switched machine c toolAt mode n f = (mode', [OnTwice n | tooOften] <> [ToolChanged n | isOn mode, not (null change), all given change])
+switched ::
+  Machine ->
+  CompensationCommands ->
+  (Int -> Mm) ->
+  Mode ->
+  Int ->
+  Frame ->
+  (Mode, [Unkept])
+switched machine c toolAt mode n f =
+  ( mode',
+    [OnTwice n | tooOften] <> [ToolChanged n | isOn mode, not (null change), all given change]
+  )
   where
     change = Machine.toolChange (Machine.orders machine)
-    on = [Keep s r | (s, o) <- [(1, keepLeft c), (-1, keepRight c)], given o, let r = radiusFor o, let _ = s :: Double]
+    on =
+      [ Keep s r
+        | (s, o) <- [(1, keepLeft c), (-1, keepRight c)],
+          given o,
+          let r = radiusFor o,
+          let _ = s :: Double
+      ]
     off = given (release c)
     (mode', tooOften) = case (mode, on) of
       (_, _ : _ : _) -> (mode, True)
@@ -135,14 +162,22 @@ switched machine c toolAt mode n f = (mode', [OnTwice n | tooOften] <> [ToolChan
 walked :: Machine -> Point -> [(Tag, Motion)] -> [(Moved, [Unkept])]
 walked machine at strokes = case strokes of
   [] -> []
-  (Plain, s) : rest -> (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
-  (Later, s) : rest -> (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
-  (Exit, s) : rest -> (Moved s (Straight at (programmed s) :| []), [RoundExit (number s) | isArc (Motion.segment machine s)]) : walked machine (programmed s) rest
+  (Plain, s) : rest ->
+    (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
+  (Later, s) : rest ->
+    (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
+  (Exit, s) : rest ->
+    ( Moved s (Straight at (programmed s) :| []),
+      [RoundExit (number s) | isArc (Motion.segment machine s)]
+    ) :
+    walked machine (programmed s) rest
   (First k, s) : rest ->
     let (kept, others) = span (isLater . fst) rest
         entry = Motion.segment machine s
         length' = Vec.distance (Segment.start entry) (Segment.end entry)
-        wrong = [RoundEntry (number s) | isArc entry] <> [ShortEntry (number s) length' (Mm (radius k)) | length' <= Mm (radius k)]
+        wrong =
+          [RoundEntry (number s) | isArc entry]
+            <> [ShortEntry (number s) length' (Mm (radius k)) | length' <= Mm (radius k)]
         -- The centre stands where the frames say.
         section = beside k at Nothing [(t, Motion.segment machine t) | t <- s : map snd kept]
         left' = case reverse section of
@@ -175,7 +210,8 @@ data Joint
   | Intersection Point
   | NoMeeting
 
--- | Strokes beside what their frames say, from where the centre stands; a corner that is to be gone round first.
+-- | Strokes beside what their frames say, from where the centre stands; a corner that is to be gone
+-- round first.
 beside :: Keep -> Point -> Maybe Segment -> [(Motion, Segment)] -> [(Moved, [Unkept])]
 beside k at corner strokes = case strokes of
   [] -> []
@@ -193,14 +229,19 @@ beside k at corner strokes = case strokes of
           back = case joint of
             Just Smooth -> False
             _ -> goesBack leg way
-          problems = tight s way <> [Unreached (number s) | back || wraps leg way || noMeeting joint]
+          problems =
+            tight s way <> [Unreached (number s) | back || wraps leg way || noMeeting joint]
        in (Moved s (maybe (leg :| []) (:| [leg]) corner), problems) : beside k finish corner' rest
   where
     noMeeting joint = case joint of
       Just NoMeeting -> True
       _ -> False
     tight s way = case way of
-      Arc {start, centre, sweep = Rad a} | Mm r <- Segment.radius centre start, signum a == leftward k, r <= radius k -> [TightArc (number s) (Mm r) (Mm (radius k))]
+      Arc {start, centre, sweep = Rad a}
+        | Mm r <- Segment.radius centre start,
+          signum a == leftward k,
+          r <= radius k ->
+          [TightArc (number s) (Mm r) (Mm (radius k))]
       _ -> []
 
 isStill :: Segment -> Bool
@@ -213,33 +254,48 @@ along :: Point -> Point -> Segment -> Segment
 along a b way = case way of
   Straight _ _ -> Straight a b
   Arc {centre, sweep = whole@(Rad angle)}
-    | Vec.near (Segment.start way) (Segment.end way) -> Arc {start = a, end = b, centre, sweep = whole}
+    | Vec.near (Segment.start way) (Segment.end way) ->
+      Arc {start = a, end = b, centre, sweep = whole}
     | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
 
 -- | Whether a straight way goes back, by more than rounding.
 goesBack :: Segment -> Segment -> Bool
 goesBack leg way = case way of
-  Straight _ _ -> Mm (Vec.dot (Segment.startDirection way) (Vec.to (Segment.start leg) (Segment.end leg))) < Mm (-slack)
+  Straight _ _ ->
+    Mm (Vec.dot (Segment.startDirection way) (Vec.to (Segment.start leg) (Segment.end leg)))
+      < Mm (-slack)
   Arc {} -> False
   where
     Mm slack = Tolerance.coincident
 
--- | Whether an arc turns further than it was programmed. One that was shortened to less than nothing does, almost all the way round.
+-- | Whether an arc turns further than it was programmed. One that was shortened to less than
+-- nothing does, almost all the way round.
 wraps :: Segment -> Segment -> Bool
 wraps leg way = case (leg, way) of
   (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
   _ -> False
 
 asideAtEnd, asideAtStart :: Keep -> Segment -> Point
-asideAtEnd k s = Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
-asideAtStart k s = Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s))) (Segment.start s)
+asideAtEnd k s =
+  Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
+asideAtStart k s =
+  Vec.shift
+    (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s)))
+    (Segment.start s)
 
 jointOf :: Keep -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
   -- What almost turns back is taken for a corner towards the cutter, whichever way it turns.
   | abs turned > pi - least = NoMeeting
-  | turned * leftward k < 0 = Around (Segment.arc (if leftward k > 0 then Clockwise else CounterClockwise) corner (asideAtEnd k a) (asideAtStart k b))
+  | turned * leftward k < 0 =
+    Around
+      ( Segment.arc
+          (if leftward k > 0 then Clockwise else CounterClockwise)
+          corner
+          (asideAtEnd k a)
+          (asideAtStart k b)
+      )
   | otherwise = case meetings k a b of
     [] -> NoMeeting
     ps -> Intersection (minimumBy (comparing (Vec.distance corner)) ps)
@@ -250,9 +306,16 @@ jointOf k a b
 
 -- | Where the lines and circles beside two strokes meet.
 meetings :: Keep -> Segment -> Segment -> [Point]
-meetings k a b = case Intersection.lines <$> line a asideAtEnd Segment.endDirection <*> line b asideAtStart Segment.startDirection of
-  Just m -> points m
-  Nothing -> points (other (line a asideAtEnd Segment.endDirection) (line b asideAtStart Segment.startDirection))
+meetings k a b =
+  case Intersection.lines
+    <$> line a asideAtEnd Segment.endDirection <*> line b asideAtStart Segment.startDirection of
+    Just m -> points m
+    Nothing ->
+      points
+        ( other
+            (line a asideAtEnd Segment.endDirection)
+            (line b asideAtStart Segment.startDirection)
+        )
   where
     line s p d = case s of
       Straight _ _ -> let q = p k s in Just (Line q (Vec.shift (d s) q))

@@ -23,9 +23,14 @@ import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | A text for a point, the direction in which it had best stand, of length 1, and how many mm it may
--- be off, the best first.
-data PointLabel = PointLabel {caption :: Text, anchor :: Point, outward :: Vec, distances :: [Double]}
+-- | A text for a point, the direction in which it had best stand, of length 1, and how many mm it
+-- may be off, the best first.
+data PointLabel = PointLabel
+  { caption :: Text,
+    anchor :: Point,
+    outward :: Vec,
+    distances :: [Double]
+  }
   deriving stock (Eq, Show)
 
 -- | The size of the letters in mm.
@@ -43,17 +48,20 @@ settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
 
 -- | The middle of a box.
 middleOf :: BoundingBox -> Point
-middleOf BoundingBox {left, bottom, right, top} = Vec.point ((left + right) / 2) ((bottom + top) / 2)
+middleOf BoundingBox {left, bottom, right, top} =
+  Vec.point ((left + right) / 2) ((bottom + top) / 2)
 
 -- | What labels cover, by the squares in which some of it lies.
 type Taken = Map (Int, Int) [BoundingBox]
 
 settled :: BoundingBox -> Taken -> Taken
-settled box taken = foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
+settled box taken =
+  foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
 
 -- | The squares of paper, 10 mm wide, in which some of a box lies.
 squares :: BoundingBox -> [(Int, Int)]
-squares BoundingBox {left, bottom, right, top} = [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
+squares BoundingBox {left, bottom, right, top} =
+  [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
   where
     at x = floor (x / 10)
 
@@ -67,7 +75,10 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
     at distance angle =
       let direction = Vec.rotate angle outward
           -- From the middle of the text to its edge, as far as the direction goes across it.
-          inside = min (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0)))) (high / max 1e-9 (abs (Vec.dot direction (Vec.vec 0 1))))
+          inside =
+            min
+              (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0))))
+              (high / max 1e-9 (abs (Vec.dot direction (Vec.vec 0 1))))
           p = Vec.shift (Vec.scale (distance + inside) direction) anchor
        in BoundingBox (Vec.x p - wide) (Vec.y p - high) (Vec.x p + wide) (Vec.y p + high)
 
@@ -77,7 +88,11 @@ angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 free :: Area -> BoundingBox.Index Segment -> Taken -> BoundingBox -> Bool
 free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]
-    && not (any (BoundingBox.meets around) (concatMap (\square -> Map.findWithDefault [] square taken) (squares around)))
+    && not
+      ( any
+          (BoundingBox.meets around)
+          (concatMap (\square -> Map.findWithDefault [] square taken) (squares around))
+      )
     && all clear (BoundingBox.within around drawn)
   where
     around = BoundingBox.inflate (Mm 0.6) box

@@ -43,7 +43,8 @@ grey = "#909090"
 blue = "#0b3d91"
 red = "#a01818"
 
--- | The pens. Where the cutter runs on a contour, an edge and its white bed take the contour's place.
+-- | The pens. Where the cutter runs on a contour, an edge and its white bed take the contour's
+-- place.
 contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen :: Pen
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
@@ -69,7 +70,8 @@ small = TextStyle {size = 2.5, ink = black, bold = False}
 
 -- | An arrow at a fraction of a segment that has a length.
 arrowAt :: Text -> Double -> Segment -> Svg
-arrowAt colour fraction s = Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
+arrowAt colour fraction s =
+  Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
 
 -- | An arrow at a fraction of a segment that has room for one.
 arrowOn :: Text -> Double -> Segment -> [Svg]
@@ -118,4 +120,5 @@ start p = [Svg.area "white" (diamond p), Svg.loop (Pen black 0.25 []) (diamond p
 diamond :: Point -> [Segment]
 diamond p = zipWith Straight corners (drop 1 corners <> take 1 corners)
   where
-    corners = [Vec.shift v p | v <- [Vec.vec 2.6 0, Vec.vec 0 2.6, Vec.vec (-2.6) 0, Vec.vec 0 (-2.6)]]
+    corners =
+      [Vec.shift v p | v <- [Vec.vec 2.6 0, Vec.vec 0 2.6, Vec.vec (-2.6) 0, Vec.vec 0 (-2.6)]]

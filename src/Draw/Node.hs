@@ -26,7 +26,9 @@ data Node = Node {place :: Point, outward :: Vec, number :: Int}
 
 -- | The points between the moves, both ends included; a curve has none between its arcs.
 nodes :: Cut -> NonEmpty Node
-nodes Cut {course, away} = entry :| zipWith3 node [1 ..] (map NonEmpty.last runs) (map NonEmpty.head (drop 1 runs) <> [after])
+nodes Cut {course, away} =
+  entry
+    :| zipWith3 node [1 ..] (map NonEmpty.last runs) (map NonEmpty.head (drop 1 runs) <> [after])
   where
     runs = NonEmpty.toList course
     first = NonEmpty.head (NonEmpty.head course)
@@ -34,11 +36,18 @@ nodes Cut {course, away} = entry :| zipWith3 node [1 ..] (map NonEmpty.last runs
     closed = Vec.near (Segment.start first) (Segment.end final)
     -- A closed way goes round, an open one straight on at its ends.
     (before, after) = if closed then (final, first) else (first, final)
-    entry = Node {place = Segment.start first, outward = ending Segment.startDirection before first, number = 0}
-    node number s next = Node {place = Segment.end s, outward = ending Segment.endDirection s next, number}
+    entry =
+      Node
+        { place = Segment.start first,
+          outward = ending Segment.startDirection before first,
+          number = 0
+        }
+    node number s next =
+      Node {place = Segment.end s, outward = ending Segment.endDirection s next, number}
     ending alone s next
       | s == next && not closed = outwardAt away (heading alone s) (heading alone s)
-      | otherwise = outwardAt away (heading Segment.endDirection s) (heading Segment.startDirection next)
+      | otherwise =
+        outwardAt away (heading Segment.endDirection s) (heading Segment.startDirection next)
 
 -- | A direction of a segment, nowhere when it has no length.
 heading :: (Segment -> Vec) -> Segment -> Vec
@@ -81,7 +90,10 @@ labels cut
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
-    every = if final <= most then 1 else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
+    every =
+      if final <= most
+        then 1
+        else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
 
 -- | About so many numbers can be read on a drawing, or things told from one another by them.
 most :: Int

@@ -77,7 +77,8 @@ scaleFor box
   | otherwise = Scale 1 1
   where
     tiny = filled box (Scale 1 1) < 0.4 && right box + top box > left box + bottom box
-    reductions = [Scale 1 m | m <- 2 : 2.5 : 5 : [d * 10 ^ e | e <- [1 .. 12 :: Int], d <- [1, 2, 5]]]
+    reductions =
+      [Scale 1 m | m <- 2 : 2.5 : 5 : [d * 10 ^ e | e <- [1 .. 12 :: Int], d <- [1, 2, 5]]]
     enlargements = [Scale m 1 | m <- 2 : 5 : [d * 10 ^ e | e <- [1 .. 6 :: Int], d <- [1, 2, 5]]]
 
 fits :: BoundingBox -> Scale -> Bool
@@ -124,7 +125,12 @@ segment :: Page -> Segment -> Segment
 segment sheet s = case s of
   Straight a b -> Straight (place sheet a) (place sheet b)
   Arc {start, end, centre, sweep = Rad a} ->
-    Arc {start = place sheet start, end = place sheet end, centre = place sheet centre, sweep = Rad (-a)}
+    Arc
+      { start = place sheet start,
+        end = place sheet end,
+        centre = place sheet centre,
+        sweep = Rad (-a)
+      }
 
 -- | How long a length of the part is on paper.
 onPaper :: Page -> Mm -> Double
@@ -136,10 +142,14 @@ extent s = case s of
   Straight a b -> BoundingBox.ofPoints a [b]
   Arc {start, end, centre} ->
     let Mm r = Segment.radius centre start
-        quarters = [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
+        quarters =
+          [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
      in BoundingBox.ofPoints start (end : filter (Segment.spans s) quarters)
 
 -- | Whether a point on paper lies in an area.
 holds :: Area -> Point -> Bool
 holds area p =
-  Vec.x p >= leftmost area && Vec.x p <= rightmost area && Vec.y p >= upper area && Vec.y p <= lower area
+  Vec.x p >= leftmost area
+    && Vec.x p <= rightmost area
+    && Vec.y p >= upper area
+    && Vec.y p <= lower area

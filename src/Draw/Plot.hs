@@ -46,7 +46,9 @@ plot part path =
         Svg.layer "material" (material (shapes scene)),
         Svg.layer "axes" (axes (sheet scene))
       ]
-        <> [Svg.layer "rests" (map (Svg.area LineStyle.restColour) (rests scene)) | not (null (rests scene))]
+        <> [ Svg.layer "rests" (map (Svg.area LineStyle.restColour) (rests scene))
+             | not (null (rests scene))
+           ]
         <> [ Svg.layer "contours" (map contourLine (shapes scene)),
              Svg.layer "ways" (ways scene),
              Svg.layer "path" (concatMap cutLine (cuts scene)),
@@ -62,18 +64,42 @@ plot part path =
 
 -- The part
 
--- | Material in grey, what lies in something else on top of it. Where nothing bounds it outwards, a band of it runs around every window.
+-- | Material in grey, what lies in something else on top of it. Where nothing bounds it outwards, a
+-- band of it runs around every window.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
     bodies = filter (\s -> matter s == Within) shapes
     windows = filter (\s -> matter s == Beyond) shapes
-    bands = [Svg.loop (Pen LineStyle.matterColour 6 []) (outline s) | all ((> 0) . inWindows) bodies, s <- windows]
-    painted s = (level s, Svg.area (if matter s == Within then LineStyle.matterColour else "white") (outline s))
+    bands =
+      [ Svg.loop (Pen LineStyle.matterColour 6 []) (outline s)
+        | all ((> 0) . inWindows) bodies,
+          s <- windows
+      ]
+    painted s =
+      ( level s,
+        Svg.area (if matter s == Within then LineStyle.matterColour else "white") (outline s)
+      )
     -- What stands in a window is drawn above it, and a window in that above that.
     level s = 2 * inWindows s + (if matter s == Within then 0 else 1)
-    inWindows s = let p = beginning s in length [w | w <- BoundingBox.within (BoundingBox.ofPoints p []) index, outline w /= outline s, WindingNumber.about p (outline w) /= 0]
-    index = BoundingBox.index (\w -> foldr (BoundingBox.union . BoundingBox.ofSegment) (BoundingBox.ofPoints (beginning w) []) (outline w)) windows
+    inWindows s =
+      let p =
+            beginning s
+       in length
+            [ w
+              | w <- BoundingBox.within (BoundingBox.ofPoints p []) index,
+                outline w /= outline s,
+                WindingNumber.about p (outline w) /= 0
+            ]
+    index =
+      BoundingBox.index
+        ( \w ->
+            foldr
+              (BoundingBox.union . BoundingBox.ofSegment)
+              (BoundingBox.ofPoints (beginning w) [])
+              (outline w)
+        )
+        windows
     beginning s = case outline s of
       s' : _ -> Segment.start s'
       [] -> Vec.point 0 0
@@ -83,18 +109,25 @@ contourLine Shape {ends, outline} = case ends of
   Open -> Svg.stroke LineStyle.contourPen outline
   Closed -> Svg.loop LineStyle.contourPen outline
 
--- | Thin axes through the origin; where it is off the page, a mark at a point with round coordinates.
+-- | Thin axes through the origin; where it is off the page, a mark at a point with round
+-- coordinates.
 axes :: Page -> [Svg]
 axes sheet
   | Page.holds Page.field origin =
-    [ Svg.stroke LineStyle.axisPen [Straight (Vec.point (leftmost Page.field) oy) (Vec.point right oy)],
+    [ Svg.stroke
+        LineStyle.axisPen
+        [Straight (Vec.point (leftmost Page.field) oy) (Vec.point right oy)],
       Svg.stroke LineStyle.axisPen [Straight (Vec.point ox (lower Page.field)) (Vec.point ox top)]
     ]
       <> heads ox oy right top
   | otherwise =
     [ Svg.stroke LineStyle.axisPen [Straight mark (Vec.point (mx + 12) my)],
       Svg.stroke LineStyle.axisPen [Straight mark (Vec.point mx (my - 12))],
-      Svg.text LineStyle.small Start (Vec.point (mx + 1) (my + 3.2)) ("(" <> Decimal.short 4 cx <> ", " <> Decimal.short 4 cy <> ")")
+      Svg.text
+        LineStyle.small
+        Start
+        (Vec.point (mx + 1) (my + 3.2))
+        ("(" <> Decimal.short 4 cx <> ", " <> Decimal.short 4 cy <> ")")
     ]
       <> heads mx my (mx + 12) (my - 12)
   where
@@ -110,7 +143,8 @@ axes sheet
 
 -- | The mark of the origin, if that is on the page.
 originMark :: Page -> [Svg]
-originMark sheet = concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place sheet (Vec.point 0 0)])
+originMark sheet =
+  concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place sheet (Vec.point 0 0)])
 
 -- | The heads of the axes through a point, and their names.
 heads :: Double -> Double -> Double -> Double -> [Svg]
@@ -129,14 +163,16 @@ gridOf sheet = Page.round125 (8 / Page.onPaper sheet (Mm 1))
 
 -- | The ways between the cuts. A way back on the same line is drawn once, with arrows for both.
 ways :: Scene -> [Svg]
-ways Scene {feeds, rapids} = map (line LineStyle.feedPen) lineFeeds <> map (line LineStyle.rapidPen) lineRapids <> arrows
+ways Scene {feeds, rapids} =
+  map (line LineStyle.feedPen) lineFeeds <> map (line LineStyle.rapidPen) lineRapids <> arrows
   where
     arrows = concatMap (LineStyle.arrowOn LineStyle.red 0.75) (feeds <> rapids)
     line pen s = Svg.stroke pen [s]
     (lineFeeds, drawn) = once Set.empty feeds
     (lineRapids, _) = once drawn rapids
 
--- | Segments that, either way round, are neither among known ones nor earlier among themselves; and all that are known then.
+-- | Segments that, either way round, are neither among known ones nor earlier among themselves; and
+-- all that are known then.
 once :: Set Segment -> [Segment] -> ([Segment], Set Segment)
 once known segments = case segments of
   [] -> ([], known)
@@ -146,13 +182,26 @@ once known segments = case segments of
     where
       key = min s (Segment.reverse s)
 
--- | The way along a contour, with five arrows, or in a pocket, with more on a long one. On the contour itself it runs between two thin lines.
+-- | The way along a contour, with five arrows, or in a pocket, with more on a long one. On the
+-- contour itself it runs between two thin lines.
 cutLine :: Cut -> [Svg]
-cutLine cut@Cut {upon, numbered} = [Svg.stroke pen segments | upon, pen <- [LineStyle.edgePen, LineStyle.bedPen]] <> (Svg.stroke LineStyle.pathPen segments : arrows)
+cutLine cut@Cut {upon, numbered} =
+  [Svg.stroke pen segments | upon, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
+    <> (Svg.stroke LineStyle.pathPen segments : arrows)
   where
     segments = NonEmpty.toList (Scene.lines cut)
     whole = total (map Segment.length segments)
-    arrows = if whole > Mm 12 then mapMaybe (\k -> arrowFrom segments (times ((2 * fromIntegral k - 1) / (2 * fromIntegral count)) whole)) [1 .. count] else []
+    arrows =
+      if whole > Mm 12
+        then
+          mapMaybe
+            ( \k ->
+                arrowFrom
+                  segments
+                  (times ((2 * fromIntegral k - 1) / (2 * fromIntegral count)) whole)
+            )
+            [1 .. count]
+        else []
     count = if numbered then 5 else max 5 (floor (over whole (Mm 40))) :: Int
 
 -- | An arrow at a distance along segments, clear of the nodes where the segment is long enough.
@@ -163,7 +212,12 @@ arrowFrom segments distance = case segments of
     | distance >= Segment.length s -> arrowFrom rest (minus distance (Segment.length s))
     | otherwise ->
       let margin = min 0.5 (over (Mm 4) (Segment.length s))
-       in Just (LineStyle.arrowAt LineStyle.blue (max margin (min (1 - margin) (over distance (Segment.length s)))) s)
+       in Just
+            ( LineStyle.arrowAt
+                LineStyle.blue
+                (max margin (min (1 - margin) (over distance (Segment.length s))))
+                s
+            )
 
 -- | The cutter where it begins to cut.
 cutter :: Cut -> [Svg]
@@ -171,19 +225,31 @@ cutter cut@Cut {reach} = LineStyle.cutter reach (Segment.start (NonEmpty.head (S
 
 -- | The numbers of all nodes, clear of the lines.
 numbers :: Scene -> [Svg]
-numbers Scene {shapes, cuts, feeds, rapids, start} = [Svg.text style Centred p words' | (p, words') <- Label.settle Page.field index labels]
+numbers Scene {shapes, cuts, feeds, rapids, start} =
+  [Svg.text style Centred p words' | (p, words') <- Label.settle Page.field index labels]
   where
     style = TextStyle {size = Label.size, ink = LineStyle.blue, bold = False}
-    labels = concatMap Node.labels (if length marked > Node.most then filter readable marked else marked)
+    labels =
+      concatMap Node.labels (if length marked > Node.most then filter readable marked else marked)
     marked = filter numbered cuts
     -- Of many ways only those have numbers that are larger than these.
-    readable cut = let BoundingBox {left, bottom, right, top} = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut)) in max (right - left) (top - bottom) > Label.size
-    index = BoundingBox.index BoundingBox.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
-    lines' = concatMap outline shapes <> concatMap cutLines cuts <> feeds <> rapids <> LineStyle.diamond start
+    readable cut =
+      let BoundingBox {left, bottom, right, top} =
+            foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
+       in max (right - left) (top - bottom) > Label.size
+    index =
+      BoundingBox.index BoundingBox.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
+    lines' =
+      concatMap outline shapes
+        <> concatMap cutLines cuts
+        <> feeds
+        <> rapids
+        <> LineStyle.diamond start
 
 -- | The way of a cutter, and the cutter itself.
 cutLines :: Cut -> [Segment]
-cutLines cut@Cut {reach, entered} = (if entered then rim : LineStyle.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)
+cutLines cut@Cut {reach, entered} =
+  (if entered then rim : LineStyle.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)
   where
     rim = Segment.fullCircle Clockwise (Circle p (Mm reach)) (Vec.shift (Vec.vec reach 0) p)
     p = Segment.start (NonEmpty.head (Scene.lines cut))

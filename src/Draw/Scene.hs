@@ -37,7 +37,24 @@ import Part.Part qualified as Part
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.RestMaterial (Remaining (Remaining, beside, places))
 import Toolpath.RestMaterial qualified as RestMaterial
-import Toolpath.Toolpath (Block (Clearing, Commanding, Cutting, Holing, Travelling, approach, cleared, cut, job, pass, pocket, retract), Move, Toolpath)
+import Toolpath.Toolpath
+  ( Block
+      ( Clearing,
+        Commanding,
+        Cutting,
+        Holing,
+        Travelling,
+        approach,
+        cleared,
+        cut,
+        job,
+        pass,
+        pocket,
+        retract
+      ),
+    Move,
+    Toolpath,
+  )
 import Toolpath.Toolpath qualified as Toolpath
 import Prelude hiding (lines)
 
@@ -94,7 +111,9 @@ set :: Part -> Toolpath -> Scene
 set part path =
   Scene
     { sheet,
-      shapes = map (shapeOf sheet millingsAt) contours <> map (holeOf sheet) (nubOrd (concatMap holesOf (Part.operations part))),
+      shapes =
+        map (shapeOf sheet millingsAt) contours
+          <> map (holeOf sheet) (nubOrd (concatMap holesOf (Part.operations part))),
       cuts = concatMap (cutsOf sheet) (drawnOnce (Toolpath.blocks path)),
       rests = map (map (Page.segment sheet)) (restsOf path),
       feeds = along (\pace -> pace /= Rapid),
@@ -108,8 +127,12 @@ set part path =
     contours = distinct (Part.contours part <> map contour millings)
     millingsAt = Map.fromListWith (flip (<>)) [(beginning (contour m), [m]) | m <- millings]
     between = concatMap movesBetween (Toolpath.blocks path)
-    along wanted = map (Page.segment sheet) (nubOrd [Toolpath.segment m | m <- between, wanted (Toolpath.pace m)])
-    sheet = Page.lay (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
+    along wanted =
+      map
+        (Page.segment sheet)
+        (nubOrd [Toolpath.segment m | m <- between, wanted (Toolpath.pace m)])
+    sheet =
+      Page.lay (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
 
 -- | Contours that are not earlier among themselves.
 distinct :: [Part.Contour] -> [Part.Contour]
@@ -126,28 +149,40 @@ beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
-  Pocket (Located _ p) -> Part.wall p : [(Part.wall p) {contour = i, Part.side = Part.Outside <$ Part.side (Part.wall p)} | i <- Part.islands p]
+  Pocket (Located _ p) ->
+    Part.wall p :
+      [ (Part.wall p) {contour = i, Part.side = Part.Outside <$ Part.side (Part.wall p)}
+        | i <- Part.islands p
+      ]
   Drill _ -> []
   Travel _ -> []
   Command _ -> []
 
--- | What stays beside contours: its outline, or where that is not known a circle where the cutter turns back.
+-- | What stays beside contours: its outline, or where that is not known a circle where the cutter
+-- turns back.
 restsOf :: Toolpath -> [[Segment]]
 restsOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
-    drawn Remaining {beside, places} = concatMap (\(_, f) -> material beside f) (NonEmpty.toList places)
+    drawn Remaining {beside, places} =
+      concatMap (\(_, f) -> material beside f) (NonEmpty.toList places)
     material beside f = case Equidistant.standing f of
       Equidistant.Within outline -> [NonEmpty.toList outline]
       Equidistant.SameAs _ -> []
       Equidistant.Unbounded -> [spot (Equidistant.middle f) beside]
-    spot p (Mm r) = [Segment.fullCircle CounterClockwise (Circle p (Mm (r / 4))) (Vec.shift (Vec.vec (r / 4) 0) p)]
+    spot p (Mm r) =
+      [ Segment.fullCircle
+          CounterClockwise
+          (Circle p (Mm (r / 4)))
+          (Vec.shift (Vec.vec (r / 4) 0) p)
+      ]
 
 -- | The holes that are drilled.
 holesOf :: Operation -> [Circle]
 holesOf operation = case operation of
   Mill _ -> []
   Pocket _ -> []
-  Drill (Located _ d) -> [Circle p (Part.drillRadius d) | Located _ p <- NonEmpty.toList (Part.holes d)]
+  Drill (Located _ d) ->
+    [Circle p (Part.drillRadius d) | Located _ p <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
   Command _ -> []
 
@@ -155,7 +190,8 @@ movesBetween :: Block -> [Move]
 movesBetween block = case block of
   Travelling _ moves -> moves
   Cutting {approach, retract} -> approach <> retract
-  Clearing {approach, cleared, retract} -> approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
+  Clearing {approach, cleared, retract} ->
+    approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
   Holing _ moves -> moves
   Commanding _ -> []
 
@@ -169,24 +205,44 @@ boxesOf contours path =
 cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
   Travelling _ _ -> []
-  Holing (Located _ d) _ -> [BoundingBox.inflate (Part.drillRadius d) (BoundingBox.ofPoints p []) | Located _ p <- NonEmpty.toList (Part.holes d)]
+  Holing (Located _ d) _ ->
+    [ BoundingBox.inflate (Part.drillRadius d) (BoundingBox.ofPoints p [])
+      | Located _ p <- NonEmpty.toList (Part.holes d)
+    ]
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> [cutterAt milling cut]
   Clearing {pocket = Located _ p, cleared} -> [cutterAt (Part.wall p) cleared]
   where
-    cutterAt milling ms = BoundingBox.inflate (radius milling) (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
+    cutterAt milling ms =
+      BoundingBox.inflate
+        (radius milling)
+        (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
 -- | With the millings of the contours that begin there.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
-shapeOf sheet millings c = Shape {ends = Part.ends c, matter, outline = map (Page.segment sheet) (NonEmpty.toList (Polyarc.segments bare))}
+shapeOf sheet millings c =
+  Shape
+    { ends = Part.ends c,
+      matter,
+      outline = map (Page.segment sheet) (NonEmpty.toList (Polyarc.segments bare))
+    }
   where
     bare = Part.outline c
-    matter = case mapMaybe sideOf (filter (\m -> Part.outline (contour m) == bare) (Map.findWithDefault [] (beginning c) millings)) of
-      side : _ | Part.ends c == Closed -> if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Beyond else Within
-      _ -> Unknown
+    matter =
+      case mapMaybe
+        sideOf
+        ( filter
+            (\m -> Part.outline (contour m) == bare)
+            (Map.findWithDefault [] (beginning c) millings)
+        ) of
+        side : _
+          | Part.ends c == Closed ->
+            if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Beyond else Within
+        _ -> Unknown
 
 holeOf :: Page -> Circle -> Shape
-holeOf sheet circle@(Circle c r) = Shape {ends = Closed, matter = Beyond, outline = [Page.segment sheet whole]}
+holeOf sheet circle@(Circle c r) =
+  Shape {ends = Closed, matter = Beyond, outline = [Page.segment sheet whole]}
   where
     whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
@@ -201,13 +257,26 @@ cutsOf sheet block = case block of
   Travelling _ _ -> []
   Holing _ _ -> []
   Commanding _ -> []
-  Cutting {job = Located _ milling, cut} -> [(along milling cut) {away = awayFrom milling, upon = isNothing (sideOf milling), numbered = True}]
+  Cutting {job = Located _ milling, cut} ->
+    [ (along milling cut)
+        { away = awayFrom milling,
+          upon = isNothing (sideOf milling),
+          numbered = True
+        }
+    ]
   -- What is cut without being lifted is one cut.
-  Clearing {pocket = Located _ p, cleared} -> zipWith (\entered ms -> (along (Part.wall p) ms) {entered}) (True : repeat False) [ms | ms@(m :| _) <- NonEmpty.groupBy (\a b -> isCut a == isCut b) cleared, isCut m]
+  Clearing {pocket = Located _ p, cleared} ->
+    zipWith
+      (\entered ms -> (along (Part.wall p) ms) {entered})
+      (True : repeat False)
+      [ms | ms@(m :| _) <- NonEmpty.groupBy (\a b -> isCut a == isCut b) cleared, isCut m]
   where
     along milling ms =
       Cut
-        { course = fmap (fmap (Page.segment sheet . Toolpath.segment)) (NonEmpty.groupBy1 (\_ m -> Toolpath.continues m) ms),
+        { course =
+            fmap
+              (fmap (Page.segment sheet . Toolpath.segment))
+              (NonEmpty.groupBy1 (\_ m -> Toolpath.continues m) ms),
           reach = Page.onPaper sheet (radius milling),
           away = 1,
           upon = False,

@@ -42,9 +42,13 @@ import Text.DocLayout qualified as DocLayout
 
 -- | A page with its title and its layers, from the lowest to the topmost.
 document :: Area -> Text -> [Svg] -> Text
-document page title layers = Lazy.toStrict (Blaze.renderSvg (Svg.docTypeSvg ! size ! viewBox ! font $ rows (heading : layers)))
+document page title layers =
+  Lazy.toStrict (Blaze.renderSvg (Svg.docTypeSvg ! size ! viewBox ! font $ rows (heading : layers)))
   where
-    size = Attribute.version "1.1" <> Attribute.width (number (rightmost page) <> "mm") <> Attribute.height (number (lower page) <> "mm")
+    size =
+      Attribute.version "1.1"
+        <> Attribute.width (number (rightmost page) <> "mm")
+        <> Attribute.height (number (lower page) <> "mm")
     viewBox = Attribute.viewbox (numbers [leftmost page, upper page, rightmost page, lower page])
     font = Attribute.fontFamily "Arial, Helvetica, sans-serif"
     heading = Svg.title (toSvg (printable title))
@@ -65,15 +69,18 @@ data Pen = Pen {colour :: Text, width :: Double, dashes :: [Double]}
 
 -- | Segments that follow one another, as a line.
 stroke :: Pen -> [Segment] -> Svg
-stroke pen segments = Svg.path ! Attribute.d (toValue (course segments)) ! Attribute.fill "none" ! drawnWith pen
+stroke pen segments =
+  Svg.path ! Attribute.d (toValue (course segments)) ! Attribute.fill "none" ! drawnWith pen
 
 -- | Segments that end where they begin, as a line without an end.
 loop :: Pen -> [Segment] -> Svg
-loop pen segments = Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill "none" ! drawnWith pen
+loop pen segments =
+  Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill "none" ! drawnWith pen
 
 -- | What segments enclose, in a colour.
 area :: Text -> [Segment] -> Svg
-area colour segments = Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill (toValue colour)
+area colour segments =
+  Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill (toValue colour)
 
 -- | A rectangle, filled with a colour.
 rectangle :: Pen -> Text -> Area -> Svg
@@ -95,7 +102,12 @@ ring :: Pen -> Double -> Point -> Svg
 ring pen radius p = circle radius p ! Attribute.fill "none" ! drawnWith pen
 
 circle :: Double -> Point -> Svg
-circle radius p = Svg.circle ! Attribute.cx (number (Vec.x p)) ! Attribute.cy (number (Vec.y p)) ! Attribute.r (number radius)
+circle radius p =
+  Svg.circle
+    ! Attribute.cx
+      (number (Vec.x p))
+    ! Attribute.cy (number (Vec.y p))
+    ! Attribute.r (number radius)
 
 -- | An arrow's head of a length, with its tip at a point.
 arrow :: Text -> Double -> Vec -> Point -> Svg
@@ -132,7 +144,12 @@ text TextStyle {size, ink, bold} anchor p words' =
 
 -- | About how wide a text is in a size, rather too much than too little.
 textWidth :: Double -> Text -> Double
-textWidth size words' = 0.6 * size * (fromIntegral (DocLayout.realLength words') + 0.45 * fromIntegral (Text.length (Text.filter wide words')))
+textWidth size words' =
+  0.6
+    * size
+    * ( fromIntegral (DocLayout.realLength words')
+          + 0.45 * fromIntegral (Text.length (Text.filter wide words'))
+      )
   where
     wide c = c `elem` ("MWmwЖМФШЩЫЮжмфшщыю" :: String)
 
@@ -142,7 +159,10 @@ printable = Text.map (\c -> if Char.isControl c || c >= '\xFFFE' && c <= '\xFFFF
 
 drawnWith :: Pen -> Svg.Attribute
 drawnWith Pen {colour, width, dashes} =
-  Attribute.stroke (toValue colour) <> Attribute.strokeWidth (number width) <> Attribute.strokeLinejoin "round" <> dashed
+  Attribute.stroke (toValue colour)
+    <> Attribute.strokeWidth (number width)
+    <> Attribute.strokeLinejoin "round"
+    <> dashed
   where
     dashed = case dashes of
       [] -> mempty

@@ -1,5 +1,5 @@
--- | The picture of a tape as text: a line for every row, its holes and what they mean. A tape without holes, a text, is shown
--- line by line.
+-- | The picture of a tape as text: a line for every row, its holes and what they mean. A tape
+-- without holes, a text, is shown line by line.
 module Draw.TapeRows
   ( RowRange (..),
     picture,
@@ -42,7 +42,8 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | What a range counts, and how much of that a tape has whose rows are these: frames; rows with holes, or lines of a text.
+-- | What a range counts, and how much of that a tape has whose rows are these: frames; rows with
+-- holes, or lines of a text.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
@@ -75,10 +76,12 @@ heading tracks = "   row  " <> acrossTracks tracks Decimal.whole
 
 -- | Something for every track from the highest, and the sprocket hole between them.
 acrossTracks :: Int -> (Int -> Text) -> Text
-acrossTracks tracks each = Text.unwords (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
+acrossTracks tracks each =
+  Text.unwords
+    (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
 
--- | Behind which track, counted from the lowest, the sprocket holes lie: the second of a five-track tape, the third of
--- wider ones.
+-- | Behind which track, counted from the lowest, the sprocket holes lie: the second of a five-track
+-- tape, the third of wider ones.
 sprocket :: Int -> Int
 sprocket tracks = if tracks <= 5 then 2 else 3
 
@@ -105,13 +108,28 @@ fewBlanks = 3
 -- | The line of a row; of many blank rows one line with their number.
 holed :: Machine -> NonEmpty Numbered -> [Text]
 holed machine group@((n, row) :| _)
-  | count > fewBlanks = [Text.justifyRight 6 ' ' (Decimal.whole n) <> "  " <> dots <> "  " <> meaning row <> ", " <> Decimal.whole count <> " rows"]
+  | count > fewBlanks =
+    [ Text.justifyRight 6 ' ' (Decimal.whole n)
+        <> "  "
+        <> dots
+        <> "  "
+        <> meaning row
+        <> ", "
+        <> Decimal.whole count
+        <> " rows"
+    ]
   | otherwise = map line (NonEmpty.toList group)
   where
     count = NonEmpty.length group
     tracks = Machine.tracks (Machine.medium machine)
     dots = acrossTracks tracks (const "⋮")
-    line (k, r) = Text.justifyRight 6 ' ' (Decimal.whole k) <> "  " <> acrossTracks tracks (hole r) <> "  " <> frameWord r <> meaning r
+    line (k, r) =
+      Text.justifyRight 6 ' ' (Decimal.whole k)
+        <> "  "
+        <> acrossTracks tracks (hole r)
+        <> "  "
+        <> frameWord r
+        <> meaning r
     hole r k = if testBit (holes r) (k - 1) then "●" else "·"
     frameWord r = maybe "" (\k -> "frame " <> Decimal.whole k <> ": ") (frame r)
 
@@ -128,14 +146,25 @@ textLines rows = case break ((== Just '\n') . symbol) rows of
 printed :: Machine -> (Int, [Row]) -> Maybe Text
 printed machine (n, line) = case line of
   [] -> Nothing
-  first : _ -> Just (Text.stripEnd (Text.justifyRight 6 ' ' (Decimal.whole n) <> "  " <> Text.justifyLeft 44 ' ' shown <> "  " <> place first <> Text.intercalate ", " (wordsOf line)))
+  first : _ ->
+    Just
+      ( Text.stripEnd
+          ( Text.justifyRight 6 ' ' (Decimal.whole n)
+              <> "  "
+              <> Text.justifyLeft 44 ' ' shown
+              <> "  "
+              <> place first
+              <> Text.intercalate ", " (wordsOf line)
+          )
+      )
   where
     shown = Text.pack (filter (/= '\n') (map (fromMaybe '?' . symbol) line))
     place row = maybe "" (\k -> "frame " <> Decimal.whole k <> ": ") (frame row)
     wordsOf rows = case rows of
       [] -> []
       r : more -> case sense r of
-        InWord c k _ -> RowMeaning.wordMeaning machine c k : wordsOf (dropWhile (sameWord (sense r)) more)
+        InWord c k _ ->
+          RowMeaning.wordMeaning machine c k : wordsOf (dropWhile (sameWord (sense r)) more)
         Opening _ -> "opening" : wordsOf (filter (isWord . sense) more)
         Closing _ -> "closing" : wordsOf (filter (isWord . sense) more)
         _ -> wordsOf more

@@ -44,25 +44,39 @@ borders =
     upright titleEdge
   ]
   where
-    upright x = Svg.stroke LineStyle.framePen [Straight (Vec.point x (upper Page.strip)) (Vec.point x (lower Page.strip))]
+    upright x =
+      Svg.stroke
+        LineStyle.framePen
+        [Straight (Vec.point x (upper Page.strip)) (Vec.point x (lower Page.strip))]
 
 -- | The signs that the drawing uses, in two rows.
 legend :: Scene -> [Svg]
-legend scene = concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- signs scene])
+legend scene =
+  concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- signs scene])
   where
     entry i (sample, words') =
       let (column, row) = (i :: Int) `divMod` 2
-          p = Vec.point (leftmost Page.strip + 3 + 29.4 * fromIntegral column) (upper Page.strip + 5 + 6.2 * fromIntegral row)
+          p =
+            Vec.point
+              (leftmost Page.strip + 3 + 29.4 * fromIntegral column)
+              (upper Page.strip + 5 + 6.2 * fromIntegral row)
        in sample p <> [Svg.text LineStyle.small Start (Vec.shift (Vec.vec 10 0.9) p) words']
 
--- | Whether the drawing has a sign, how it is drawn about the left end of its place, and what it means.
+-- | Whether the drawing has a sign, how it is drawn about the left end of its place, and what it
+-- means.
 signs :: Scene -> [(Bool, Point -> [Svg], Text)]
 signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
   [ (any (\s -> matter s == Unknown) shapes, line LineStyle.contourPen, "contour"),
-    (any (\s -> matter s /= Unknown) shapes, \p -> surface LineStyle.matterColour p <> line LineStyle.contourPen p, "part"),
+    ( any (\s -> matter s /= Unknown) shapes,
+      \p -> surface LineStyle.matterColour p <> line LineStyle.contourPen p,
+      "part"
+    ),
     (not (null rests), surface LineStyle.restColour, "material left"),
     (not (null cuts), line LineStyle.pathPen, "cutter path"),
-    (any upon cuts, \p -> concatMap (`line` p) [LineStyle.edgePen, LineStyle.bedPen, LineStyle.pathPen], "on a contour"),
+    ( any upon cuts,
+      \p -> concatMap (`line` p) [LineStyle.edgePen, LineStyle.bedPen, LineStyle.pathPen],
+      "on a contour"
+    ),
     (any numbered cuts, \p -> [LineStyle.node True (middle p)], "node"),
     (not (null feeds), way LineStyle.feedPen, "way at feed"),
     (not (null rapids), way LineStyle.rapidPen, "rapid way"),
@@ -72,29 +86,49 @@ signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
   ]
   where
     line pen p = [Svg.stroke pen [Straight p (right p)]]
-    way pen p = line pen p <> [Svg.arrow LineStyle.red 2.4 (Vec.vec 1 0) (Vec.shift (Vec.vec 5.2 0) p)]
-    surface colour p = [Svg.rectangle (Pen "none" 0 []) colour (Area (Vec.x p) (Vec.y p) (Vec.x p + 8) (Vec.y p + 2))]
+    way pen p =
+      line pen p <> [Svg.arrow LineStyle.red 2.4 (Vec.vec 1 0) (Vec.shift (Vec.vec 5.2 0) p)]
+    surface colour p =
+      [ Svg.rectangle
+          (Pen "none" 0 [])
+          colour
+          (Area (Vec.x p) (Vec.y p) (Vec.x p + 8) (Vec.y p + 2))
+      ]
     right = Vec.shift (Vec.vec 8 0)
     middle = Vec.shift (Vec.vec 4 0)
 
 -- | A round length of 12 to 30 mm on paper, in four steps, black and white in turn.
 scaleBar :: Page -> [Svg]
-scaleBar sheet = zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"] <> zipWith mark [0, 0.5, 1] ["", "", " mm"]
+scaleBar sheet =
+  zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"]
+    <> zipWith mark [0, 0.5, 1] ["", "", " mm"]
   where
     total = Page.round125 (30 / Page.onPaper sheet (Mm 1))
     width = Page.onPaper sheet (Mm total)
     left = (barEdge + titleEdge - width) / 2
     y = upper Page.strip + 5
     step from colour =
-      Svg.rectangle LineStyle.axisPen {colour = LineStyle.black} colour (Area (left + width * from / 4) y (left + width * (from + 1) / 4) (y + 1.6))
+      Svg.rectangle
+        LineStyle.axisPen {colour = LineStyle.black}
+        colour
+        (Area (left + width * from / 4) y (left + width * (from + 1) / 4) (y + 1.6))
     mark fraction unit =
-      Svg.text LineStyle.small Middle (Vec.point (left + width * fraction) (y + 5)) (Decimal.short 4 (total * fraction) <> unit)
+      Svg.text
+        LineStyle.small
+        Middle
+        (Vec.point (left + width * fraction) (y + 5))
+        (Decimal.short 4 (total * fraction) <> unit)
 
 -- | The title block: the part, the scale, the cutters and noses.
 title :: Part -> Scene -> [Svg]
 title part Scene {sheet, tools} =
-  [ fitted TextStyle {size = 4, ink = LineStyle.black, bold = True} (Vec.point left (y + 5.6)) (name part),
-    Svg.stroke LineStyle.axisPen {colour = LineStyle.black} [Straight (Vec.point titleEdge (y + 8.2)) (Vec.point (rightmost Page.strip) (y + 8.2))],
+  [ fitted
+      TextStyle {size = 4, ink = LineStyle.black, bold = True}
+      (Vec.point left (y + 5.6))
+      (name part),
+    Svg.stroke
+      LineStyle.axisPen {colour = LineStyle.black}
+      [Straight (Vec.point titleEdge (y + 8.2)) (Vec.point (rightmost Page.strip) (y + 8.2))],
     Svg.text plain Start (Vec.point left (y + 13.2)) ("scale " <> Page.ratio (Page.scale sheet)),
     fitted plain (Vec.point (left + 30) (y + 13.2)) cutters
   ]
@@ -102,14 +136,17 @@ title part Scene {sheet, tools} =
     left = titleEdge + 3
     y = upper Page.strip
     plain = TextStyle {size = 3, ink = LineStyle.black, bold = False}
-    cutters = Text.intercalate "; " (sized "cutter Ø " (times 2) Milled <> sized "nose R " id Turned)
-    sized word measure work = case [Decimal.short 4 d | (w, r) <- tools, w == work, Mm d <- [measure r]] of
-      [] -> []
-      sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
+    cutters =
+      Text.intercalate "; " (sized "cutter Ø " (times 2) Milled <> sized "nose R " id Turned)
+    sized word measure work =
+      case [Decimal.short 4 d | (w, r) <- tools, w == work, Mm d <- [measure r]] of
+        [] -> []
+        sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
 
 -- | A text made to end before the right edge of the strip: smaller first, then cut short.
 fitted :: TextStyle -> Point -> Text -> Svg
-fitted style p words' = Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)
+fitted style p words' =
+  Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)
   where
     room = rightmost Page.strip - 3 - Vec.x p
     fits s w = widthOf s w <= room

@@ -1,8 +1,9 @@
 -- | Slowing down: what a machine does not do by itself, the frames have to say.
 --
--- From a feed v down to v₂ a machine needs the way @(v² − v₂²) / 2a@. So at a distance s before a lower feed v₂ it may go
--- no faster than @√(v₂² + 2as)@; where the moves would, they are cut, and from there up to the lower feed they slow down
--- to it. A machine without a sign for that knows only the slow stretch that a program asks for at the end of an element: of the way
+-- From a feed v down to v₂ a machine needs the way @(v² − v₂²) / 2a@. So at a distance s before a
+-- lower feed v₂ it may go no faster than @√(v₂² + 2as)@; where the moves would, they are cut, and
+-- from there up to the lower feed they slow down to it. A machine without a sign for that knows
+-- only the slow stretch that a program asks for at the end of an element: of the way
 -- @v² / 2a@ at the lowest code.
 module Frame.Braking
   ( applied,
@@ -51,14 +52,19 @@ slowed machine task = case task of
     | Toolpath.braked (NonEmpty.last ms),
       At _ <- pace (NonEmpty.head ms) ->
       let v = obtained machine (NonEmpty.head ms)
-          (_, cut) = mapAccumR tail' (v * v / (2 * deceleration (Machine.braking machine))) (NonEmpty.toList ms)
+          (_, cut) =
+            mapAccumR
+              tail'
+              (v * v / (2 * deceleration (Machine.braking machine)))
+              (NonEmpty.toList ms)
        in regrouped task (concat cut)
   _ -> [task]
   where
     tail' left m
       | left <= 0 = (0, [(Asked, m)])
       | left >= way = (left - way, [(Lowest, m)])
-      | otherwise = let (front, back) = Instruction.cutBefore left m in (0, [(Asked, front), (Lowest, back)])
+      | otherwise =
+        let (front, back) = Instruction.cutBefore left m in (0, [(Asked, front), (Lowest, back)])
       where
         Mm way = Instruction.wayOf m
 
@@ -66,12 +72,16 @@ slowed machine task = case task of
 regrouped :: Instruction -> [(Drive, Move)] -> [Instruction]
 regrouped task parts = case task of
   Order _ _ -> [task]
-  Run {} -> [task {drive = fst (NonEmpty.head part), run = fmap snd part} | part <- NonEmpty.groupBy (\a b -> fst a == fst b) parts]
+  Run {} ->
+    [ task {drive = fst (NonEmpty.head part), run = fmap snd part}
+      | part <- NonEmpty.groupBy (\a b -> fst a == fst b) parts
+    ]
 
 -- Before every lower feed -------------------------------------------------------------------------
 
--- | What lies ahead of a place: the square of the fastest that is allowed there in (mm/s)², the feed that is slowed down
--- to, and the number of the stretch in which that is done, counted from the end.
+-- | What lies ahead of a place: the square of the fastest that is allowed there in (mm/s)², the
+-- feed that is slowed down to, and the number of the stretch in which that is done, counted from
+-- the end.
 data Ahead = Ahead {square :: Double, target :: Double, stretch :: Int}
 
 -- | How much of the end of a move slows down, in mm, and to what.
@@ -85,7 +95,10 @@ onTime machine least tasks = concatMap cut marked
     (_, marked) = mapAccumR overTask Ahead {square = v2 * v2, target = v2, stretch = 0} tasks
     overTask ahead task = case task of
       Order _ _ -> (ahead, (task, []))
-      Run {run = ms} -> let (ahead', marks) = mapAccumR (mark machine v2) ahead (atTheEnd ms) in (ahead', (task, marks))
+      Run {run = ms} ->
+        let (ahead', marks) =
+              mapAccumR (mark machine v2) ahead (atTheEnd ms)
+         in (ahead', (task, marks))
     -- A stretch shorter than a pulse is not cut off a run.
     lengths = Map.fromListWith (+) [(within k, before k) | (_, marks) <- marked, (_, k) <- marks]
     Mm grain = Machine.pulse machine
@@ -99,7 +112,10 @@ onTime machine least tasks = concatMap cut marked
     parts (m, k)
       | before k <= 0 || Map.findWithDefault 0 (within k) lengths < grain = [(Asked, m)]
       | before k >= way = [(slowingTo k, m)]
-      | otherwise = let (front, back) = Instruction.cutBefore (before k) m in [(Asked, front), (slowingTo k, back)]
+      | otherwise =
+        let (front, back) =
+              Instruction.cutBefore (before k) m
+         in [(Asked, front), (slowingTo k, back)]
       where
         Mm way = Instruction.wayOf m
 
@@ -112,7 +128,8 @@ mark :: Machine -> Double -> Ahead -> Move -> (Ahead, (Move, Mark))
 mark machine slow behind m
   | way <= 0 = (ahead, (m, Mark 0 (target ahead) (stretch ahead)))
   | v * v <= square ahead = (fresh, (m, Mark 0 (target ahead) (stretch ahead)))
-  | needed >= way = (ahead {square = square ahead + 2 * a * way}, (m, Mark way (target ahead) (stretch ahead)))
+  | needed >= way =
+    (ahead {square = square ahead + 2 * a * way}, (m, Mark way (target ahead) (stretch ahead)))
   | otherwise = (fresh, (m, Mark needed (target ahead) (stretch ahead)))
   where
     Mm way = Instruction.wayOf m
@@ -121,5 +138,6 @@ mark machine slow behind m
     needed = (v * v - square ahead) / (2 * a)
     fresh = Ahead {square = v * v, target = v, stretch = stretch ahead + 1}
     ahead
-      | Toolpath.braked m && slow * slow < square behind = Ahead {square = slow * slow, target = slow, stretch = stretch behind + 1}
+      | Toolpath.braked m && slow * slow < square behind =
+        Ahead {square = slow * slow, target = slow, stretch = stretch behind + 1}
       | otherwise = behind

@@ -1,12 +1,13 @@
--- | Chords along a run: moves that go on, without a corner, along one curve. Each chord reaches from where the last
--- one ended as far along the run as it may, whatever arcs it passes.
+-- | Chords along a run: moves that go on, without a corner, along one curve. Each chord reaches
+-- from where the last one ended as far along the run as it may, whatever arcs it passes.
 --
--- From the beginning of a chord every point of the run is seen in a direction, and the chord has to pass it within
--- what is allowed on either side: that leaves a sector of directions, which narrows as the run goes on. An arc narrows
--- it by its end and by the place at which its tangent runs along the edge of the sector, so nothing is sampled.
+-- From the beginning of a chord every point of the run is seen in a direction, and the chord has to
+-- pass it within what is allowed on either side: that leaves a sector of directions, which narrows
+-- as the run goes on. An arc narrows it by its end and by the place at which its tangent runs along
+-- the edge of the sector, so nothing is sampled.
 --
--- Where more is allowed on one side than on the other, the chords may meet in the middle of what is allowed, beside the run,
--- if that makes them fewer; only its beginning and its end lie on it then.
+-- Where more is allowed on one side than on the other, the chords may meet in the middle of what is
+-- allowed, beside the run, if that makes them fewer; only its beginning and its end lie on it then.
 module Frame.Chording
   ( Bounds (..),
     chordEnds,
@@ -40,24 +41,41 @@ data Bounds = Bounds
   }
   deriving stock (Eq, Show)
 
--- | The ends of the chords of a run with their heights, the last one its end. When there are more than so many, at
--- least so many of them.
+-- | The ends of the chords of a run with their heights, the last one its end. When there are more
+-- than so many, at least so many of them.
 chordEnds :: Int -> Bounds -> NonEmpty Move -> [(Point, Mm)]
-chordEnds most bounds run = map (\p -> (place p, Mm (level p))) (maybe [final] (\pieces -> ends most bounds pieces final) (NonEmpty.nonEmpty (map piece long)))
+chordEnds most bounds run =
+  map
+    (\p -> (place p, Mm (level p)))
+    (maybe [final] (\pieces -> ends most bounds pieces final) (NonEmpty.nonEmpty (map piece long)))
   where
     long = NonEmpty.filter (\m -> Segment.length (Toolpath.segment m) > Mm 0) run
     piece m = let (Mm a, Mm b) = Toolpath.heights m in Piece (Toolpath.segment m) 0 (a, b)
-    final = let m = NonEmpty.last run; Mm z = snd (Toolpath.heights m) in Place (Segment.end (Toolpath.segment m)) z []
+    final =
+      let m =
+            NonEmpty.last run
+          Mm z = snd (Toolpath.heights m)
+       in Place (Segment.end (Toolpath.segment m)) z []
 
 -- | The ends of the chords of pieces, whose own end is given.
 ends :: Int -> Bounds -> NonEmpty Piece -> Place -> [Place]
-ends most bounds pieces final = if count > most then widest chosen else kept <> evenest evenings (1 - 1 / fromIntegral (length others)) 1 others
+ends most bounds pieces final =
+  if count > most
+    then widest chosen
+    else kept <> evenest evenings (1 - 1 / fromIntegral (length others)) 1 others
   where
     chosen
-      | n <- counted quick, n > 2, n <= min few most, bendsBack pieces, counted thorough < n = thorough
+      | n <- counted quick,
+        n > 2,
+        n <= min few most,
+        bendsBack pieces,
+        counted thorough < n =
+        thorough
       | otherwise = quick
     quick = fewest (walks AtEnds bounds pieces id)
-    thorough = fewest (walks Anywhere bounds pieces id <> walks Anywhere (mirrored bounds) (turned pieces) back)
+    thorough =
+      fewest
+        (walks Anywhere bounds pieces id <> walks Anywhere (mirrored bounds) (turned pieces) back)
     back places = drop 1 (reverse places) <> [final]
     fewest = minimumBy (comparing counted)
     counted = length . take (most + 1) . widest
@@ -73,8 +91,8 @@ ends most bounds pieces final = if count > most then widest chosen else kept <> 
         middle = (low + high) / 2
         tighter = walk chosen middle (NonEmpty.last (begin chosen :| kept))
 
--- | Of no more chords than so many, one less makes a difference: where a run bends to both sides they are looked for
--- thoroughly, and from its end as well.
+-- | Of no more chords than so many, one less makes a difference: where a run bends to both sides
+-- they are looked for thoroughly, and from its end as well.
 few :: Int
 few = 16
 
@@ -82,20 +100,32 @@ few = 16
 mostEvened :: Int
 mostEvened = 256
 
--- | Whether a run bends to both sides. On one that does not, no chords are fewer than those that reach furthest.
+-- | Whether a run bends to both sides. On one that does not, no chords are fewer than those that
+-- reach furthest.
 bendsBack :: NonEmpty Piece -> Bool
 bendsBack pieces = any (> 0) sweeps && any (< 0) sweeps
   where
     sweeps = [s | Piece {segment = Arc {sweep = Rad s}} <- NonEmpty.toList pieces]
 
--- | Chords along pieces: where they begin, where they end when they are widest, and where they do by how tight the limits are and from which place on.
+-- | Chords along pieces: where they begin, where they end when they are widest, and where they do
+-- by how tight the limits are and from which place on.
 data Walk = Walk {begin :: Place, widest :: [Place], walk :: Double -> Place -> [Place]}
 
 -- | The walks along pieces: upon the run, and beside it where that may help.
 walks :: Search -> Bounds -> NonEmpty Piece -> ([Place] -> [Place]) -> [Walk]
-walks search bounds pieces onto = [Walk {begin, widest = walk 1 begin, walk} | walk <- upon : [between | left bounds /= right bounds]]
+walks search bounds pieces onto =
+  [ Walk {begin, widest = walk 1 begin, walk}
+    | walk <- upon : [between | left bounds /= right bounds]
+  ]
   where
-    begin = let p = NonEmpty.head pieces in Place {place = Segment.at 0 (segment p), level = levelAt 0 p, rest = NonEmpty.toList pieces}
+    begin =
+      let p =
+            NonEmpty.head pieces
+       in Place
+            { place = Segment.at 0 (segment p),
+              level = levelAt 0 p,
+              rest = NonEmpty.toList pieces
+            }
     between tightness from = onto (chords (limits tightness) from)
     upon tightness from = onto (chords (limits tightness) {aside = 0} from)
     limits tightness = (limitsOf bounds tightness) {search}
@@ -106,7 +136,8 @@ mirrored bounds = bounds {left = right bounds, right = left bounds}
 
 -- | Whole pieces walked the other way.
 turned :: NonEmpty Piece -> NonEmpty Piece
-turned pieces = NonEmpty.reverse (fmap (\p -> Piece (Segment.reverse (segment p)) 0 (swap (heights p))) pieces)
+turned pieces =
+  NonEmpty.reverse (fmap (\p -> Piece (Segment.reverse (segment p)) 0 (swap (heights p))) pieces)
 
 -- | How often the limits are halved.
 evenings :: Int
@@ -132,16 +163,26 @@ data Limits = Limits
     search :: Search
   }
 
--- | The chords of an arc turn by so much of what they might when its sagitta is the square of that share.
+-- | The chords of an arc turn by so much of what they might when its sagitta is the square of that
+-- share.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
-  Limits {leftOf = share (left bounds), rightOf = share (right bounds), aside = (share (left bounds) - share (right bounds)) / 2, rising = share (rise bounds), turning = tightness * pi / 2, least, search = AtEnds}
+  Limits
+    { leftOf = share (left bounds),
+      rightOf = share (right bounds),
+      aside = (share (left bounds) - share (right bounds)) / 2,
+      rising = share (rise bounds),
+      turning = tightness * pi / 2,
+      least,
+      search = AtEnds
+    }
   where
     Mm least = shortest bounds
     -- Less than one point from the chord is on it.
     share d = let Mm y = max Tolerance.coincident (times (tightness * tightness) d) in y
 
--- | What is left of a move, from a fraction of its length on; the heights at the ends of the whole move in mm.
+-- | What is left of a move, from a fraction of its length on; the heights at the ends of the whole
+-- move in mm.
 data Piece = Piece {segment :: Segment, from :: Double, heights :: (Double, Double)}
 
 -- | A place on the run, its height in mm, and what lies behind it.
@@ -156,24 +197,31 @@ chords limits begin
 -- | A place at a fraction of the first of some pieces, where chords can meet.
 placeOn :: Limits -> Piece -> Double -> [Piece] -> Place
 placeOn limits piece t pieces =
-  Place {place = meeting limits piece t (Segment.at t (segment piece)) pieces, level = levelAt t piece, rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces}
+  Place
+    { place = meeting limits piece t (Segment.at t (segment piece)) pieces,
+      level = levelAt t piece,
+      rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces
+    }
 
--- | Where chords meet at a fraction of the first of some pieces, given the point there: beside it, at its end on it.
+-- | Where chords meet at a fraction of the first of some pieces, given the point there: beside it,
+-- at its end on it.
 meeting :: Limits -> Piece -> Double -> Point -> [Piece] -> Point
 meeting limits piece t on pieces
   | t >= 1 && null (drop 1 pieces) || aside limits == 0 = on
-  | otherwise = Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment piece)))) on
+  | otherwise =
+    Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment piece)))) on
 
 levelAt :: Double -> Piece -> Double
 levelAt t piece = let (a, b) = heights piece in if t >= 1 then b else a + t * (b - a)
 
 -- Looking along the run
 
--- | The beginning of a chord: the place, its height in mm, and the direction in which the run sets out there.
+-- | The beginning of a chord: the place, its height in mm, and the direction in which the run sets
+-- out there.
 data Eye = Eye {standing :: Point, standingAt :: Double, out :: Vec}
 
--- | What is seen of the run from the beginning of a chord, up to some place. Directions are angles in radians from the
--- one in which the run sets out, counter-clockwise.
+-- | What is seen of the run from the beginning of a chord, up to some place. Directions are angles
+-- in radians from the one in which the run sets out, counter-clockwise.
 data Sight = Sight
   { -- | the directions in which a chord passes the run within the limits
     lowest :: Double,
@@ -201,16 +249,33 @@ data Missed = Missed Ordering Ordering
 fits :: Sight -> Bool
 fits sight = beyond sight <= 0
 
--- | Where the longest chord from a place ends. A place behind one that no chord reaches may be reached again, as long
--- as there is any direction left.
+-- | Where the longest chord from a place ends. A place behind one that no chord reaches may be
+-- reached again, as long as there is any direction left.
 furthest :: Limits -> Place -> Place
 furthest limits begin = case rest begin of
   [] -> begin
-  first : _ -> case reached (Eye (place begin) (level begin) (Segment.directionAt (from first) (segment first))) Nothing nothing (rest begin) of
-    Just (way, p) | way >= least limits -> p
-    _ -> onward limits (least limits) begin
+  first : _ ->
+    case reached
+      (Eye (place begin) (level begin) (Segment.directionAt (from first) (segment first)))
+      Nothing
+      nothing
+      (rest begin) of
+      Just (way, p) | way >= least limits -> p
+      _ -> onward limits (least limits) begin
   where
-    nothing = Sight {lowest = -pi, highest = pi, flattest = -1 / 0, steepest = 1 / 0, heading = 0, leastHeading = 0, mostHeading = 0, gone = 0, missed = Missed EQ EQ, beyond = -1}
+    nothing =
+      Sight
+        { lowest = -pi,
+          highest = pi,
+          flattest = -1 / 0,
+          steepest = 1 / 0,
+          heading = 0,
+          leastHeading = 0,
+          mostHeading = 0,
+          gone = 0,
+          missed = Missed EQ EQ,
+          beyond = -1
+        }
     reached eye best before pieces = case pieces of
       [] -> best
       piece : more
@@ -219,15 +284,28 @@ furthest limits begin = case rest begin of
         where
           t = turnsAt limits before piece
           tangents = tangentsTo limits eye piece
-          seen u = let on = Segment.at u (segment piece) in see limits eye before piece tangents u on (meeting limits piece u on pieces)
+          seen u =
+            let on =
+                  Segment.at u (segment piece)
+             in see limits eye before piece tangents u on (meeting limits piece u on pieces)
           after = seen t
           better = maybe best found $ case search limits of
             AtEnds
               | fits after -> Just t
-              | fits before, share <- lastWithin (beyond . seen) (from piece, beyond before) (t, beyond after), share > from piece -> Just share
+              | fits before,
+                share <- lastWithin (beyond . seen) (from piece, beyond before) (t, beyond after),
+                share > from piece ->
+                Just share
               | otherwise -> Nothing
-            Anywhere -> lastFit seen ((t, after) : [(u, seen u) | u <- standstills limits eye piece t] <> [(from piece, before)])
-          found u = Just (gone before + lengthBetween (from piece) u piece, placeOn limits piece u pieces)
+            Anywhere ->
+              lastFit
+                seen
+                ( (t, after) :
+                  [(u, seen u) | u <- standstills limits eye piece t]
+                    <> [(from piece, before)]
+                )
+          found u =
+            Just (gone before + lengthBetween (from piece) u piece, placeOn limits piece u pieces)
     isClosed sight = lowest sight > highest sight || flattest sight > steepest sight
 
 -- | The place so many mm further on, or the end.
@@ -240,8 +318,9 @@ onward limits way at = case rest at of
     where
       left' = lengthBetween (from piece) 1 piece
 
--- | The last fraction at which a chord fits. Given are fractions from the last one back to one that does not count, with
--- what is seen there; between two of them the direction of the chord turns one way only.
+-- | The last fraction at which a chord fits. Given are fractions from the last one back to one that
+-- does not count, with what is seen there; between two of them the direction of the chord turns one
+-- way only.
 lastFit :: (Double -> Sight) -> [(Double, Sight)] -> Maybe Double
 lastFit seen marks = case marks of
   (high, atHigh) : earlier@((low, atLow) : _)
@@ -250,11 +329,14 @@ lastFit seen marks = case marks of
     | otherwise -> lastFit seen earlier
     where
       crossings =
-        [lastWhere (\u -> missed (seen u) /= missed atHigh) low high | missed atLow /= missed atHigh]
+        [ lastWhere (\u -> missed (seen u) /= missed atHigh) low high
+          | missed atLow /= missed atHigh
+        ]
           <> [lastWithin (beyond . seen) (low, beyond atLow) (high, beyond atHigh) | fits atLow]
   _ -> Nothing
 
--- | The last fraction of which something holds, between one of which it does and one of which it does not.
+-- | The last fraction of which something holds, between one of which it does and one of which it
+-- does not.
 lastWhere :: (Double -> Bool) -> Double -> Double -> Double
 lastWhere holds = go (40 :: Int)
   where
@@ -265,8 +347,9 @@ lastWhere holds = go (40 :: Int)
       where
         middle = (low + high) / 2
 
--- | The same of what is no more than 0 at the first one and more at the last one, given both. Where a straight line between the two says,
--- of an end that stays with half of what it is there (the rule of Illinois); every fourth time in the middle.
+-- | The same of what is no more than 0 at the first one and more at the last one, given both. Where
+-- a straight line between the two says, of an end that stays with half of what it is there (the
+-- rule of Illinois); every fourth time in the middle.
 lastWithin :: (Double -> Double) -> (Double, Double) -> (Double, Double) -> Double
 lastWithin excess (first, atFirst) (final, atFinal) = go (160 :: Int) EQ first atFirst final atFinal
   where
@@ -277,11 +360,14 @@ lastWithin excess (first, atFirst) (final, atFinal) = go (160 :: Int) EQ first a
       | otherwise = go (tries - 1) GT low (if moved == GT then a / 2 else a) next e
       where
         e = excess next
-        next = if tries `mod` 4 /= 0 && straight > low && straight < high then straight else (low + high) / 2
+        next =
+          if tries `mod` 4 /= 0 && straight > low && straight < high
+            then straight
+            else (low + high) / 2
         straight = low + (high - low) * (a / (a - b))
 
--- | The fractions up to one at which the direction of a chord to a piece turns back: where the piece heads away from the
--- eye or towards it. The last one first.
+-- | The fractions up to one at which the direction of a chord to a piece turns back: where the
+-- piece heads away from the eye or towards it. The last one first.
 standstills :: Limits -> Eye -> Piece -> Double -> [Double]
 standstills limits eye piece t = case segment piece of
   Straight _ _ -> []
@@ -290,7 +376,14 @@ standstills limits eye piece t = case segment piece of
         away = Vec.to centre (standing eye)
         -- Chords meet on a circle about the same centre.
         ratio = (r + signum s * aside limits) / Vec.norm away
-        turnings = [u | abs ratio < 1, a <- [acos ratio, -(acos ratio)], let u = Segment.fraction (segment piece) (Vec.shift (Vec.rotate (Rad a) away) centre), u > from piece, u < t]
+        turnings =
+          [ u
+            | abs ratio < 1,
+              a <- [acos ratio, -(acos ratio)],
+              let u = Segment.fraction (segment piece) (Vec.shift (Vec.rotate (Rad a) away) centre),
+              u > from piece,
+              u < t
+          ]
      in sortOn negate turnings
 
 -- | The way on a piece from one fraction to another in mm.
@@ -309,13 +402,16 @@ turnsAt limits before piece = case segment piece of
       | signum s * (heading before + s * (1 - from piece) - end) <= Tolerance.equal = 1
       | otherwise = max (from piece) (from piece + (end - heading before) / s)
 
--- | The directions in which the tangents to a piece run along the edges of what is allowed, to its left and to its right.
+-- | The directions in which the tangents to a piece run along the edges of what is allowed, to its
+-- left and to its right.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
 tangentsTo :: Limits -> Eye -> Piece -> Tangents
-tangentsTo limits eye piece = Tangents {onLeft = touched (-1) (leftOf limits), onRight = touched 1 (rightOf limits)}
+tangentsTo limits eye piece =
+  Tangents {onLeft = touched (-1) (leftOf limits), onRight = touched 1 (rightOf limits)}
   where
-    -- The direction in which a circle walked in a sense bulges by so much: its tangent there is that direction.
+    -- The direction in which a circle walked in a sense bulges by so much: its tangent there is
+    -- that direction.
     touched :: Double -> Double -> [Double]
     touched sense y = case segment piece of
       Arc {start, centre, sweep = Rad s}
@@ -327,7 +423,8 @@ tangentsTo limits eye piece = Tangents {onLeft = touched (-1) (leftOf limits), o
           [let Rad there = Vec.turn (out eye) away in there - asin sine]
       _ -> []
 
--- | What is seen when a piece has been passed up to a fraction, given the point there, and whether a chord to a point beside it fits.
+-- | What is seen when a piece has been passed up to a fraction, given the point there, and whether
+-- a chord to a point beside it fits.
 see :: Limits -> Eye -> Sight -> Piece -> Tangents -> Double -> Point -> Point -> Sight
 see limits eye before piece tangents t on goal =
   Sight
@@ -339,8 +436,12 @@ see limits eye before piece tangents t on goal =
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
       gone = way,
-      missed = if isChord then Missed (beside low high along) (beside flat steep climb) else Missed LT LT,
-      beyond = if isChord then max (max (low - along) (along - high)) (max (flat - climb) (climb - steep)) else 1
+      missed =
+        if isChord then Missed (beside low high along) (beside flat steep climb) else Missed LT LT,
+      beyond =
+        if isChord
+          then max (max (low - along) (along - high)) (max (flat - climb) (climb - steep))
+          else 1
     }
   where
     way = gone before + lengthBetween (from piece) t piece
@@ -353,8 +454,18 @@ see limits eye before piece tangents t on goal =
     climb = (levelAt t piece - standingAt eye) / way
     flat = max (flattest before) (climb - rising limits / way)
     steep = min (steepest before) (climb + rising limits / way)
-    low = maximum (lowest before : [direction - asin (leftOf limits / distance) | distance > leftOf limits] <> [d | d <- onLeft tangents, after <= d, d <= heading before])
-    high = minimum (highest before : [direction + asin (rightOf limits / distance) | distance > rightOf limits] <> [d | d <- onRight tangents, heading before <= d, d <= after])
+    low =
+      maximum
+        ( lowest before :
+          [direction - asin (leftOf limits / distance) | distance > leftOf limits]
+            <> [d | d <- onLeft tangents, after <= d, d <= heading before]
+        )
+    high =
+      minimum
+        ( highest before :
+          [direction + asin (rightOf limits / distance) | distance > rightOf limits]
+            <> [d | d <- onRight tangents, heading before <= d, d <= after]
+        )
     after = case segment piece of
       Straight _ _ -> heading before
       Arc {sweep = Rad s} -> heading before + s * (t - from piece)

@@ -18,7 +18,25 @@ import Data.Map.Strict qualified as Map
 import Data.Ord (comparing)
 import Frame.Error (CommandKind (..), Error (..), Warning (..))
 import Geometry.Carrier (Side (..))
-import Machine.Machine (CommandName, CommandValue (..), CommandWord (..), CommandWords (auxiliary, coolantOff, coolantOn, spindleClockwise, spindleCounterClockwise, spindleOff, toolChange), CompensationCommands (..), Content (..), Machine, Service (..), Word' (..))
+import Machine.Machine
+  ( CommandName,
+    CommandValue (..),
+    CommandWord (..),
+    CommandWords
+      ( auxiliary,
+        coolantOff,
+        coolantOn,
+        spindleClockwise,
+        spindleCounterClockwise,
+        spindleOff,
+        toolChange
+      ),
+    CompensationCommands (..),
+    Content (..),
+    Machine,
+    Service (..),
+    Word' (..),
+  )
 import Machine.Machine qualified as Machine
 import Part.Part (Command, Sense (..), Switch (..))
 import Part.Part qualified as Part
@@ -34,7 +52,15 @@ told machine (Located region c) = case wordsFor (Machine.orders machine) c of
     _ -> Told [] [ByHand region kind] []
   orders -> case concatMap value' orders of
     [] -> Told [] [SpeedUnsaid region] []
-    ns -> Told ns (concatMap stepWarning orders) [NoSuchCommand region kind n most | (o, n) <- ns, Just most <- [Machine.orderCapacity machine o], n > most]
+    ns ->
+      Told
+        ns
+        (concatMap stepWarning orders)
+        [ NoSuchCommand region kind n most
+          | (o, n) <- ns,
+            Just most <- [Machine.orderCapacity machine o],
+            n > most
+        ]
   where
     kind = kindOf c
     value' CommandWord {order, value} = map (order,) $ case value of
@@ -53,13 +79,19 @@ told machine (Located region c) = case wordsFor (Machine.orders machine) c of
       Part.Auxiliary _ -> Nothing
       Part.ChangeTool _ _ -> Nothing
     stepWarning CommandWord {value} = case (value, speed) of
-      (Step table, Just turns) -> [SpeedDiffers region turns got | Just (_, got) <- [nearestStep table turns], isOff turns got]
-      (Argument, Just turns) | isOff turns (fromIntegral (round turns :: Int)) -> [SpeedDiffers region turns (fromIntegral (round turns :: Int))]
+      (Step table, Just turns) ->
+        [ SpeedDiffers region turns got
+          | Just (_, got) <- [nearestStep table turns],
+            isOff turns got
+        ]
+      (Argument, Just turns)
+        | isOff turns (fromIntegral (round turns :: Int)) ->
+          [SpeedDiffers region turns (fromIntegral (round turns :: Int))]
       _ -> []
     isOff turns got = abs (got - turns) > stepSlack * turns
 
--- | The words that tell the control to keep a cutter of this radius on a side of the contour, with the diameter in their decimals. On a machine whose plane is
--- mirrored left is right.
+-- | The words that tell the control to keep a cutter of this radius on a side of the contour, with
+-- the diameter in their decimals. On a machine whose plane is mirrored left is right.
 kept :: Machine -> Region -> Side -> Mm -> Told
 kept machine asked side radius@(Mm r) = case Machine.compensation (Machine.orders machine) of
   Nothing -> Told [] [] [NoCompensation asked]
@@ -71,7 +103,8 @@ kept machine asked side radius@(Mm r) = case Machine.compensation (Machine.order
     numberOf CommandWord {order, value} = case value of
       Fixed n -> Just (order, n)
       Diameter
-        | Machine.canOrder machine order n && abs (fromIntegral n / scale - 2 * r) <= pulse -> Just (order, n)
+        | Machine.canOrder machine order n && abs (fromIntegral n / scale - 2 * r) <= pulse ->
+          Just (order, n)
         | otherwise -> Nothing
         where
           n = round (2 * r * scale)
@@ -82,7 +115,15 @@ kept machine asked side radius@(Mm r) = case Machine.compensation (Machine.order
 
 -- | The words that tell the control to keep the cutter beside the contour no longer.
 released :: Machine -> Told
-released machine = Told [(order o, n) | Just c <- [Machine.compensation (Machine.orders machine)], let { o = release c }, Fixed n <- [value o]] [] []
+released machine =
+  Told
+    [ (order o, n)
+      | Just c <- [Machine.compensation (Machine.orders machine)],
+        let o = release c,
+        Fixed n <- [value o]
+    ]
+    []
+    []
 
 -- | A step that differs from the turns asked by more than this share is worth a warning.
 stepSlack :: Double
@@ -115,18 +156,22 @@ kindOf c = case c of
 
 -- Where they stand --------------------------------------------------------------------------------
 
--- | Commands that wait for the next move: what they say, in the order of the layout's words, and the place of the first.
+-- | Commands that wait for the next move: what they say, in the order of the layout's words, and
+-- the place of the first.
 data Waiting = Waiting {place :: Region, given :: [(CommandName, Int)]}
   deriving stock (Eq, Show)
 
--- | The words of a command join those that wait, if no word would be said twice; else those that wait need a frame of their
--- own, and so do the first of the command's words when it says one twice itself.
+-- | The words of a command join those that wait, if no word would be said twice; else those that
+-- wait need a frame of their own, and so do the first of the command's words when it says one twice
+-- itself.
 add :: Machine -> Region -> [(CommandName, Int)] -> Maybe Waiting -> ([Waiting], Maybe Waiting)
 add machine region orders waiting = case (parts orders, waiting) of
   ([], _) -> ([], waiting)
   ([only], Just before)
-    | not (any ((`elem` map fst (given before)) . fst) only) -> ([], Just before {given = inOrder machine (given before <> only)})
-  (several, before) -> (maybe [] pure before <> map alone (init several), Just (alone (last several)))
+    | not (any ((`elem` map fst (given before)) . fst) only) ->
+      ([], Just before {given = inOrder machine (given before <> only)})
+  (several, before) ->
+    (maybe [] pure before <> map alone (init several), Just (alone (last several)))
   where
     alone part = Waiting {place = region, given = inOrder machine part}
     -- Without a word twice in one.
@@ -152,4 +197,7 @@ inOrder machine = sortOn (\(o, _) -> elemIndex o names)
 
 -- | What stands in the frames at the very end.
 atTheEnd :: Machine -> [[(CommandName, Int)]]
-atTheEnd machine = [inOrder machine [(order o, n) | o <- NonEmpty.toList group, Fixed n <- [value o]] | group <- Machine.finish (Machine.orders machine)]
+atTheEnd machine =
+  [ inOrder machine [(order o, n) | o <- NonEmpty.toList group, Fixed n <- [value o]]
+    | group <- Machine.finish (Machine.orders machine)
+  ]

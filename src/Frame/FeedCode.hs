@@ -29,8 +29,9 @@ codeFor machine v f way = Machine.choose machine (valueFor machine v f way)
 valueFor :: Machine -> Feed -> Frame -> Mm -> Double
 valueFor machine (Feed v) f way = maybe v (v / 60 *) (perMm machine f way)
 
--- | The feed along the path that a frame's code gives, for a frame of this length. None where nothing moves, where a
--- rapid move is a motion of its own, and for a code that the machine does not have.
+-- | The feed along the path that a frame's code gives, for a frame of this length. None where
+-- nothing moves, where a rapid move is a motion of its own, and for a code that the machine does
+-- not have.
 given :: Machine -> Frame -> Mm -> Maybe Feed
 given machine f way = case motion f of
   Still -> Nothing
@@ -38,11 +39,14 @@ given machine f way = case motion f of
   Straightway -> obtained
   Round _ -> obtained
   where
-    obtained = fmap (\x -> Feed (maybe x (\n -> 60 * x / n) (perMm machine f way))) (Machine.valueOf machine (speed f))
+    obtained =
+      fmap
+        (\x -> Feed (maybe x (\n -> 60 * x / n) (perMm machine f way)))
+        (Machine.valueOf machine (speed f))
 
--- | How many pulses of the leading axis fall on a mm of the path; none where feeds are those along the path. On an arc
--- the axis that leads changes: there it is the pulses of the way itself. A frame without length
--- counts as one along an axis.
+-- | How many pulses of the leading axis fall on a mm of the path; none where feeds are those along
+-- the path. On an arc the axis that leads changes: there it is the pulses of the way itself. A
+-- frame without length counts as one along an axis.
 perMm :: Machine -> Frame -> Mm -> Maybe Double
 perMm machine f (Mm way) = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Nothing
@@ -73,14 +77,17 @@ nearest machine v f = case Machine.choose machine asked of
 
 -- | The feed of rapid moves, as far as it is known.
 rapid :: Machine -> Feed
-rapid machine = maybe (Feed 0) (alongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
+rapid machine =
+  maybe (Feed 0) (alongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
--- | The feed that is obtained for one that is asked: exactly where codes are feeds along the path, else about.
+-- | The feed that is obtained for one that is asked: exactly where codes are feeds along the path,
+-- else about.
 about :: Machine -> Feed -> Feed
-about machine asked@(Feed v) = case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of
-  (AlongPath, Given _ x) -> Feed x
-  (AlongPath, NoSuchFeed _ _) -> asked
-  (LeadingAxis, _) -> asked
+about machine asked@(Feed v) =
+  case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of
+    (AlongPath, Given _ x) -> Feed x
+    (AlongPath, NoSuchFeed _ _) -> asked
+    (LeadingAxis, _) -> asked
 
 -- | The feed that a value of the machine's codes gives along an axis.
 alongAxis :: Machine -> Double -> Feed

@@ -60,7 +60,15 @@ data FrameMotion
 
 -- | A frame that only commands.
 still :: [(CommandName, Int)] -> Frame
-still given = Frame {motion = Still, increment = 0, centre = 0, speed = FeedCode 0, braking = False, orders = given}
+still given =
+  Frame
+    { motion = Still,
+      increment = 0,
+      centre = 0,
+      speed = FeedCode 0,
+      braking = False,
+      orders = given
+    }
 
 isMoving :: Frame -> Bool
 isMoving f = motion f /= Still
@@ -89,31 +97,41 @@ passOf role = case role of
   Drilling -> Nothing
   Commanding -> Nothing
 
--- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of the part.
+-- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of
+-- the part.
 data FrameProgram = FrameProgram {start :: Pulses3, planned :: [Planned]}
   deriving stock (Eq, Show)
 
 -- | A position in mm, in the plane.
 position :: Machine -> Pulses3 -> Point
-position machine (Pulses3 (Pulses x) (Pulses y) _) = Vec.point (fromIntegral x * px) (fromIntegral y * py)
+position machine (Pulses3 (Pulses x) (Pulses y) _) =
+  Vec.point (fromIntegral x * px) (fromIntegral y * py)
   where
     Mm px = Machine.pulseOf machine X
     Mm py = Machine.pulseOf machine Y
 
 -- | The height of a position in mm.
 height :: Machine -> Pulses3 -> Mm
-height machine (Pulses3 _ _ (Pulses z)) = let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
+height machine (Pulses3 _ _ (Pulses z)) =
+  let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
 
 -- | The centre of an arc that begins at a position.
 centreOf :: Machine -> Pulses3 -> Frame -> Point
-centreOf machine (Pulses3 x y z) f = let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
+centreOf machine (Pulses3 x y z) f =
+  let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
 
--- | What a frame does in the plane from a position, in mm. The radius of an arc may differ at its ends by rounding;
--- the segment goes about the centre of the frame and ends where the frame ends.
+-- | What a frame does in the plane from a position, in mm. The radius of an arc may differ at its
+-- ends by rounding; the segment goes about the centre of the frame and ends where the frame ends.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
   Round turn
-    | begin == finish -> Segment.Arc {Segment.start = begin, Segment.end = finish, Segment.centre = middle, Segment.sweep = Rad (Carrier.sense turn * 2 * pi)}
+    | begin == finish ->
+      Segment.Arc
+        { Segment.start = begin,
+          Segment.end = finish,
+          Segment.centre = middle,
+          Segment.sweep = Rad (Carrier.sense turn * 2 * pi)
+        }
     | otherwise -> Segment.arc turn middle begin finish
   _ -> Straight begin finish
   where
@@ -141,7 +159,8 @@ data Broken
 invariants :: Machine -> [Frame] -> [Broken]
 invariants machine = concat . zipWith (broken machine) [1 ..]
 
--- | The rules that a frame with a number breaks. Most frames keep them all, and nothing is made for them.
+-- | The rules that a frame with a number breaks. Most frames keep them all, and nothing is made for
+-- them.
 broken :: Machine -> Int -> Frame -> [Broken]
 broken machine n f
   | null fields && null speeds && null motions && null commands && not idle = []
@@ -155,7 +174,12 @@ broken machine n f
 
 -- What a field of positions holds depends on where the tape stands; there the increments are free.
 inFields :: Machine -> Int -> Frame -> [Broken]
-inFields machine n f = [OverCapacity n axis d | Machine.measure (Machine.layout machine) == Increments, (axis, d) <- [(X, x), (Y, y), (Z, z)], abs d > Machine.capacity machine axis]
+inFields machine n f =
+  [ OverCapacity n axis d
+    | Machine.measure (Machine.layout machine) == Increments,
+      (axis, d) <- [(X, x), (Y, y), (Z, z)],
+      abs d > Machine.capacity machine axis
+  ]
   where
     Pulses3 x y z = increment f
 
@@ -171,22 +195,29 @@ atSpeed machine n f = case motion f of
 asMoved :: Machine -> Int -> Frame -> [Broken]
 asMoved machine n f = case motion f of
   Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
-  Rapid -> [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
+  Rapid ->
+    [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
   Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
   Round turn -> case Machine.arcs machine of
     NoArcs -> [NoSuchMotion n]
     Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
-      [NoSuchMotion n | (increment f == 0 && not whole) || z /= 0 || (parts && not (inQuadrant turn f))]
+      [ NoSuchMotion n
+        | (increment f == 0 && not whole) || z /= 0 || (parts && not (inQuadrant turn f))
+      ]
         <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]
   where
     Pulses3 _ _ z = increment f
     Pulses2 i j = centre f
 
 asCommanded :: Machine -> Int -> Frame -> [Broken]
-asCommanded machine n f = [NoSuchOrder n o | (k, (o, v)) <- zip [0 :: Int ..] (orders f), o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)]
+asCommanded machine n f =
+  [ NoSuchOrder n o
+    | (k, (o, v)) <- zip [0 :: Int ..] (orders f),
+      o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)
+  ]
 
--- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one, and it goes from
--- one to the other without leaving it.
+-- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one,
+-- and it goes from one to the other without leaving it.
 inQuadrant :: Sense -> Frame -> Bool
 inQuadrant turn f = a * c >= 0 && b * d >= 0 && forwards (a * d - b * c)
   where

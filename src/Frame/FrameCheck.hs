@@ -1,6 +1,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What stands against frames, and what is to be told of them: they are looked at one by one, in order.
+-- | What stands against frames, and what is to be told of them: they are looked at one by one, in
+-- order.
 module Frame.FrameCheck
   ( FrameContext,
     lookAt,
@@ -71,9 +72,18 @@ data FrameFindings = FrameFindings
 data Range = Range Double Double
 
 nothing :: FrameFindings
-nothing = FrameFindings {obtained = Map.empty, lastPace = Rapid, lastCode = FeedCode 0, noCode = Map.empty, missing = Nothing, beyond = Nothing}
+nothing =
+  FrameFindings
+    { obtained = Map.empty,
+      lastPace = Rapid,
+      lastCode = FeedCode 0,
+      noCode = Map.empty,
+      missing = Nothing,
+      beyond = Nothing
+    }
 
--- | Feeds without codes, then moves along axes that there are not, then positions that do not fit; of each the first.
+-- | Feeds without codes, then moves along axes that there are not, then positions that do not fit;
+-- of each the first.
 errors :: FrameFindings -> [Error]
 errors seen = Map.elems (noCode seen) <> maybeToList (missing seen) <> maybeToList (beyond seen)
 
@@ -81,12 +91,17 @@ errors seen = Map.elems (noCode seen) <> maybeToList (missing seen) <> maybeToLi
 feedSlack :: Double
 feedSlack = 0.1
 
--- | One warning for each feed of the program that some frame does not meet, with all that its frames obtain.
+-- | One warning for each feed of the program that some frame does not meet, with all that its
+-- frames obtain.
 warnings :: FrameFindings -> [Warning]
-warnings seen = [FeedDiffers region (Feed v) (Feed low) (Feed high) | ((region, Feed v), Range low high) <- Map.toList (obtained seen), max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v]
+warnings seen =
+  [ FeedDiffers region (Feed v) (Feed low) (Feed high)
+    | ((region, Feed v), Range low high) <- Map.toList (obtained seen),
+      max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v
+  ]
 
--- | Look at the next frame: how fast the program asks it to be, if it is the program that does, and else rapid; where it
--- ends; the frame.
+-- | Look at the next frame: how fast the program asks it to be, if it is the program that does, and
+-- else rapid; where it ends; the frame.
 see :: FrameContext -> Pace -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
 see look asked at p = placed look at p . fed look asked (frame p)
 
@@ -99,13 +114,29 @@ fed look asked f before = case asked of
     | otherwise -> fedAnew look (region, v) f before {lastPace = asked, lastCode = speed f}
 
 fedAnew :: FrameContext -> (Region, Feed) -> Frame -> FrameFindings -> FrameFindings
-fedAnew FrameContext {machine, isAlongPath} key@(region, v) f before = case (FeedCode.codeFor machine v f way, FeedCode.given machine f way) of
-  (Machine.Given _ _, Just (Feed g)) -> before {obtained = Map.insertWith reaching key (Range g g) (obtained before)}
-  (Machine.Given _ _, Nothing) -> before
-  -- A feed that there is not is no matter of a warning.
-  (Machine.NoSuchFeed low high, _)
-    | isAlongPath -> before
-    | otherwise -> before {noCode = Map.insertWith (\_ first -> first) key (FrequencyMissing region v (FeedCode.valueFor machine v f way) (low, FeedCode.alongAxis machine low) (high, FeedCode.alongAxis machine high)) (noCode before)}
+fedAnew FrameContext {machine, isAlongPath} key@(region, v) f before =
+  case (FeedCode.codeFor machine v f way, FeedCode.given machine f way) of
+    (Machine.Given _ _, Just (Feed g)) ->
+      before {obtained = Map.insertWith reaching key (Range g g) (obtained before)}
+    (Machine.Given _ _, Nothing) -> before
+    -- A feed that there is not is no matter of a warning.
+    (Machine.NoSuchFeed low high, _)
+      | isAlongPath -> before
+      | otherwise ->
+        before
+          { noCode =
+              Map.insertWith
+                (\_ first -> first)
+                key
+                ( FrequencyMissing
+                    region
+                    v
+                    (FeedCode.valueFor machine v f way)
+                    (low, FeedCode.alongAxis machine low)
+                    (high, FeedCode.alongAxis machine high)
+                )
+                (noCode before)
+          }
   where
     way = FeedCode.wayOf machine f
 
@@ -115,7 +146,20 @@ reaching (Range a b) (Range c d) = Range (min a c) (max b d)
 placed :: FrameContext -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
 placed FrameContext {machine, lacking, fields} at p before
   | not (any isMissing lacking) && all fits fields = before
-  | otherwise = before {missing = firstOf (missing before) [NoSuchAxis place axis | axis <- lacking, isMissing axis], beyond = firstOf (beyond before) [BeyondField place axis (mm axis (Rounding.component axis at)) (mm axis most) | (axis, most) <- fields, not (fits (axis, most))]}
+  | otherwise =
+    before
+      { missing =
+          firstOf
+            (missing before)
+            [NoSuchAxis place axis | axis <- lacking, isMissing axis],
+        beyond =
+          firstOf
+            (beyond before)
+            [ BeyondField place axis (mm axis (Rounding.component axis at)) (mm axis most)
+              | (axis, most) <- fields,
+                not (fits (axis, most))
+            ]
+      }
   where
     isMissing axis = Rounding.component axis (increment (frame p)) /= 0
     fits (axis, most) = abs (Rounding.component axis at) <= most

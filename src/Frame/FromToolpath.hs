@@ -1,8 +1,9 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | From the path to the frames of a machine: arcs where it walks them, else chords within the tolerance; positions in
--- whole pulses; moves split to fit their fields; feeds, braking and commands as the machine takes them.
+-- | From the path to the frames of a machine: arcs where it walks them, else chords within the
+-- tolerance; positions in whole pulses; moves split to fit their fields; feeds, braking and
+-- commands as the machine takes them.
 module Frame.FromToolpath
   ( quantise,
     chords,
@@ -34,7 +35,13 @@ import Frame.Command (Told, Waiting (..))
 import Frame.Command qualified as Command
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
-import Frame.Frame (Frame (..), FrameMotion (Round, Straightway), FrameProgram (FrameProgram), Planned (Planned), Role (..))
+import Frame.Frame
+  ( Frame (..),
+    FrameMotion (Round, Straightway),
+    FrameProgram (FrameProgram),
+    Planned (Planned),
+    Role (..),
+  )
 import Frame.Frame qualified as Frame
 import Frame.FrameCheck qualified as FrameCheck
 import Frame.Instruction (Drive (..), Instruction (..))
@@ -53,38 +60,65 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an increment is
--- the difference of two of them, so rounding never adds up. What keeps the frames from being made at all, or from being few
--- enough, is looked for before they are made.
+-- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an
+-- increment is the difference of two of them, so rounding never adds up. What keeps the frames from
+-- being made at all, or from being few enough, is looked for before they are made.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
-quantise machine path@Toolpath {Toolpath.start = Located fromRegion (SpacePoint fromPoint fromHeight)} =
-  foldr seq () (tooCoarse <> tooMany) `seq` case nubOrd (early <> late) of
-    [] -> Result warnings [] (Just (FrameProgram begin frames))
-    problems -> Result (if null boundless then warnings else nubOrd (startWarning <> byHand)) problems Nothing
-  where
-    begin = Rounding.rounded machine (fromPoint, fromHeight)
-    looks = Looks {machine, grid = Arc.gridOf machine, early = InstructionCheck.lookFrom machine fromRegion fromPoint, late = FrameCheck.lookAt machine}
-    making = framesOf looks (nothingFrom fromRegion begin) (Braking.applied machine (Instruction.tasksOf machine path))
-    made = LazyList.end making
-    frames = LazyList.toList making
-    commands = reverse (told made)
-    warnings = nubOrd (startWarning <> FrameCheck.warnings (seen made) <> InstructionCheck.unsure (looked made) <> byHand)
-    startWarning =
-      let at' = Frame.position machine begin
-       in [StartRounded fromRegion fromPoint at' | not (Vec.near at' fromPoint)]
-    byHand = concatMap Command.warnings commands
-    boundless = InstructionCheck.boundless (looked made)
-    -- Looked at before there are frames, so that the path is not held for them.
-    tooCoarse = mapMaybe (toleranceProblem machine) (Toolpath.blocks path)
-    tooMany = tooManyContours machine path
-    early = tooCoarse <> InstructionCheck.feedless (looked made) <> boundless <> concatMap Command.errors commands <> tooMany
-    late
-      | null boundless = case overlong made of
-        Just place -> [TooManyFrames place InstructionCheck.mostFrames]
-        Nothing -> FrameCheck.errors (seen made)
-      | otherwise = []
+quantise
+  machine
+  path@Toolpath {Toolpath.start = Located fromRegion (SpacePoint fromPoint fromHeight)} =
+    foldr seq () (tooCoarse <> tooMany) `seq` case nubOrd (early <> late) of
+      [] -> Result warnings [] (Just (FrameProgram begin frames))
+      problems ->
+        Result
+          (if null boundless then warnings else nubOrd (startWarning <> byHand))
+          problems
+          Nothing
+    where
+      begin = Rounding.rounded machine (fromPoint, fromHeight)
+      looks =
+        Looks
+          { machine,
+            grid = Arc.gridOf machine,
+            early = InstructionCheck.lookFrom machine fromRegion fromPoint,
+            late = FrameCheck.lookAt machine
+          }
+      making =
+        framesOf
+          looks
+          (nothingFrom fromRegion begin)
+          (Braking.applied machine (Instruction.tasksOf machine path))
+      made = LazyList.end making
+      frames = LazyList.toList making
+      commands = reverse (told made)
+      warnings =
+        nubOrd
+          ( startWarning
+              <> FrameCheck.warnings (seen made)
+              <> InstructionCheck.unsure (looked made)
+              <> byHand
+          )
+      startWarning =
+        let at' = Frame.position machine begin
+         in [StartRounded fromRegion fromPoint at' | not (Vec.near at' fromPoint)]
+      byHand = concatMap Command.warnings commands
+      boundless = InstructionCheck.boundless (looked made)
+      -- Looked at before there are frames, so that the path is not held for them.
+      tooCoarse = mapMaybe (toleranceProblem machine) (Toolpath.blocks path)
+      tooMany = tooManyContours machine path
+      early =
+        tooCoarse
+          <> InstructionCheck.feedless (looked made)
+          <> boundless
+          <> concatMap Command.errors commands
+          <> tooMany
+      late
+        | null boundless = case overlong made of
+          Just place -> [TooManyFrames place InstructionCheck.mostFrames]
+          Nothing -> FrameCheck.errors (seen made)
+        | otherwise = []
 
--- What stands against it ---------------------------------------------------------------------------
+-- What stands against it --------------------------------------------------------------------------
 
 toleranceProblem :: Machine -> Toolpath.Block -> Maybe Error
 toleranceProblem machine block = case block of
@@ -95,7 +129,9 @@ toleranceProblem machine block = case block of
   Toolpath.Commanding _ -> Nothing
   where
     tooLarge job
-      | Toolpath.touchedRadius job > Mm 0 && plus allowed (Machine.pulse machine) >= Part.radius job = Just (ToleranceTooLarge (region (Part.side job)) allowed (Part.radius job))
+      | Toolpath.touchedRadius job > Mm 0
+          && plus allowed (Machine.pulse machine) >= Part.radius job =
+        Just (ToleranceTooLarge (region (Part.side job)) allowed (Part.radius job))
       | otherwise = Nothing
       where
         allowed = uncurry max (Part.deepest (Part.tolerance job))
@@ -104,12 +140,15 @@ toleranceProblem machine block = case block of
 tooManyContours :: Machine -> Toolpath -> [Error]
 tooManyContours machine path = case Machine.mostContours (Machine.limits machine) of
   Nothing -> []
-  Just most -> [TooManyContours region most | (_, region) <- take 1 (drop most (Map.toList contours))]
+  Just most ->
+    [TooManyContours region most | (_, region) <- take 1 (drop most (Map.toList contours))]
   where
     contours = Map.fromList (mapMaybe placeOf (Toolpath.blocks path))
     placeOf b = case b of
-      Toolpath.Cutting {Toolpath.job = job, Toolpath.pass = pass} -> Just (Toolpath.number pass, region (Part.side (value job)))
-      Toolpath.Clearing {Toolpath.pocket = job, Toolpath.pass = pass} -> Just (Toolpath.number pass, region (Part.side (Part.wall (value job))))
+      Toolpath.Cutting {Toolpath.job = job, Toolpath.pass = pass} ->
+        Just (Toolpath.number pass, region (Part.side (value job)))
+      Toolpath.Clearing {Toolpath.pocket = job, Toolpath.pass = pass} ->
+        Just (Toolpath.number pass, region (Part.side (Part.wall (value job))))
       Toolpath.Travelling _ _ -> Nothing
       Toolpath.Holing _ _ -> Nothing
       Toolpath.Commanding _ -> Nothing
@@ -117,7 +156,12 @@ tooManyContours machine path = case Machine.mostContours (Machine.limits machine
 -- The frames --------------------------------------------------------------------------------------
 
 -- | What is the same for all tasks and frames.
-data Looks = Looks {machine :: Machine, grid :: Arc.Grid, early :: InstructionCheck.InstructionContext, late :: FrameCheck.FrameContext}
+data Looks = Looks
+  { machine :: Machine,
+    grid :: Arc.Grid,
+    early :: InstructionCheck.InstructionContext,
+    late :: FrameCheck.FrameContext
+  }
 
 -- | What has been made of the tasks so far. Each task is taken once, so that none is kept.
 data Making = Making
@@ -137,29 +181,54 @@ data Making = Making
   }
 
 nothingFrom :: Region -> Pulses3 -> Making
-nothingFrom here at = Making {at, here, waiting = Nothing, latest = [], told = [], count = 0, overlong = Nothing, looked = InstructionCheck.nothing, seen = FrameCheck.nothing}
+nothingFrom here at =
+  Making
+    { at,
+      here,
+      waiting = Nothing,
+      latest = [],
+      told = [],
+      count = 0,
+      overlong = Nothing,
+      looked = InstructionCheck.nothing,
+      seen = FrameCheck.nothing
+    }
 
 -- | The frames of tasks, and what has been made at the end of them.
 framesOf :: Looks -> Making -> [Instruction] -> LazyList Making Planned
 framesOf looks !made tasks = case tasks of
   [] -> let final = ended looks placed in LazyList.behind (latest final) (LazyList.End final)
-  task : more -> let made' = next looks placed task in LazyList.behind (latest made') (framesOf looks made' more)
+  task : more ->
+    let made' =
+          next looks placed task
+     in LazyList.behind (latest made') (framesOf looks made' more)
   where
     -- The frames of the task before stand in the series.
     placed = made {latest = []}
 
--- | Make the frames of the next task. Commands stand in the frame of the next move, where they find room. Once the frames
--- cannot be made or are too many there are no more of them.
+-- | Make the frames of the next task. Commands stand in the frame of the next move, where they find
+-- room. Once the frames cannot be made or are too many there are no more of them.
 next :: Looks -> Making -> Instruction -> Making
 next looks@Looks {machine, grid, early} made task = case task of
   Order place said ->
     let (now, waiting') = Command.add machine place (Command.numbers said) (waiting made)
-     in (foldl' (commanding looks) made now) {waiting = waiting', here = place, told = said : told made}
+     in (foldl' (commanding looks) made now)
+          { waiting = waiting',
+            here = place,
+            told = said : told made
+          }
   Run {run}
     | InstructionCheck.isBounded looked' ->
       let final = NonEmpty.last run
-          walked = foldl' (stepped looks task) made {looked = looked'} (stepsOf machine grid (at made) task stops)
-       in walked {at = Rounding.rounded machine (Segment.end (segment final), snd (heights final)), here = origin final}
+          walked =
+            foldl'
+              (stepped looks task)
+              made {looked = looked'}
+              (stepsOf machine grid (at made) task stops)
+       in walked
+            { at = Rounding.rounded machine (Segment.end (segment final), snd (heights final)),
+              here = origin final
+            }
     | otherwise -> made {looked = looked'}
   where
     looked' = InstructionCheck.see early task stops (looked made)
@@ -168,23 +237,35 @@ next looks@Looks {machine, grid, early} made task = case task of
       Order _ _ -> []
       Run {allowed, run} -> chordStops machine allowed run
 
--- | Behind the last move commands stand in a frame of their own, and then comes what always ends a program.
+-- | Behind the last move commands stand in a frame of their own, and then comes what always ends a
+-- program.
 ended :: Looks -> Making -> Making
-ended looks@Looks {machine} made = foldl' (commanding looks) (maybe made (commanding looks made) (waiting made)) [Waiting {place = here made, given} | given <- Command.atTheEnd machine]
+ended looks@Looks {machine} made =
+  foldl'
+    (commanding looks)
+    (maybe made (commanding looks made) (waiting made))
+    [Waiting {place = here made, given} | given <- Command.atTheEnd machine]
 
 -- | A frame that only commands.
 commanding :: Looks -> Making -> Waiting -> Making
-commanding looks made Waiting {place, given} = put looks Rapid (at made) (Planned (Frame.still given) Commanding place (Mm 0)) made
+commanding looks made Waiting {place, given} =
+  put looks Rapid (at made) (Planned (Frame.still given) Commanding place (Mm 0)) made
 
 -- | The frame of a step of a task, if it moves anything, with the commands that wait.
 stepped :: Looks -> Instruction -> Making -> ArcStep -> Making
 stepped looks@Looks {machine} task made s = case task of
   Order _ _ -> made
-  Run {role, tool, drive, run = m :| _} -> case frameOf machine drive (Toolpath.pace m) (at made) s of
-    Nothing -> made {at = stop s}
-    Just f ->
-      let f' = maybe f (\w -> f {orders = given w}) (waiting made)
-       in put looks (if drive == Asked then Toolpath.pace m else Part.Rapid) (stop s) (Planned f' role (origin m) tool) made {waiting = Nothing}
+  Run {role, tool, drive, run = m :| _} ->
+    case frameOf machine drive (Toolpath.pace m) (at made) s of
+      Nothing -> made {at = stop s}
+      Just f ->
+        let f' = maybe f (\w -> f {orders = given w}) (waiting made)
+         in put
+              looks
+              (if drive == Asked then Toolpath.pace m else Part.Rapid)
+              (stop s)
+              (Planned f' role (origin m) tool)
+              made {waiting = Nothing}
 
 -- | A frame behind the others: how fast the program asks it to be, where it ends.
 put :: Looks -> Pace -> Pulses3 -> Planned -> Making -> Making
@@ -193,7 +274,8 @@ put Looks {late} asked stop !p made =
     { at = stop,
       latest = p : latest made,
       count = count made + 1,
-      overlong = if count made == InstructionCheck.mostFrames then Just (Frame.origin p) else overlong made,
+      overlong =
+        if count made == InstructionCheck.mostFrames then Just (Frame.origin p) else overlong made,
       seen = FrameCheck.see late asked stop p (seen made)
     }
 
@@ -207,7 +289,8 @@ frameOf machine drive pace at ArcStep {stop, about} = case about of
   Just (turn, c) -> Just (driven (bare (Round turn) c))
   where
     moved = stop - at
-    bare motion centre = Frame {motion, increment = moved, centre, speed = FeedCode 0, braking = False, orders = []}
+    bare motion centre =
+      Frame {motion, increment = moved, centre, speed = FeedCode 0, braking = False, orders = []}
     driven f = case (drive, pace) of
       (Lowest, _) -> f {speed = fst (Machine.slowest machine)}
       (Slowing v, _) -> f {speed = FeedCode.nearest machine v f, braking = True}
@@ -219,7 +302,9 @@ stepsOf :: Machine -> Arc.Grid -> Pulses3 -> Instruction -> [PathPosition] -> [A
 stepsOf machine grid begin task stops = case task of
   Order _ _ -> []
   Run {allowed, run = m :| []}
-    | Straight a b <- segment m, isByItself allowed -> map alone (Rounding.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
+    | Straight a b <- segment m,
+      isByItself allowed ->
+      map alone (Rounding.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
   Run {allowed, run} -> case Machine.arcs machine of
     Arcs {} | Rounding.isLevel machine run -> arcSteps machine grid begin allowed run
     _ -> map alone (chordSteps machine begin run stops)
@@ -233,33 +318,77 @@ stepsOf machine grid begin task stops = case task of
 alone :: Pulses3 -> ArcStep
 alone stop = ArcStep {stop, about = Nothing}
 
--- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are off is taken from what
--- their own steps may be off. Of several ways the one of fewest steps.
+-- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are
+-- off is taken from what their own steps may be off. Of several ways the one of fewest steps.
 arcSteps :: Machine -> Arc.Grid -> Pulses3 -> Allowed -> NonEmpty Move -> [ArcStep]
 arcSteps machine grid begin allowed run = case allowed of
-  Along bounds -> minimumBy (comparing length) (fmap (concat . snd . mapAccumL (partSteps bounds) begin) (ArcFitting.ways machine bounds run))
-  Sagitta y -> steps (Arc.ArcTolerance pulse (plus pulse y) (plus pulse y)) (Chord.rounding machine allowed) begin (segment m)
-  BandOf inwards outwards -> steps (Arc.ArcTolerance pulse (plus pulse inwards) (plus pulse outwards)) (Chord.rounding machine allowed) begin (segment m)
+  Along bounds ->
+    minimumBy
+      (comparing length)
+      ( fmap
+          (concat . snd . mapAccumL (partSteps bounds) begin)
+          (ArcFitting.ways machine bounds run)
+      )
+  Sagitta y ->
+    steps
+      (Arc.ArcTolerance pulse (plus pulse y) (plus pulse y))
+      (Chord.rounding machine allowed)
+      begin
+      (segment m)
+  BandOf inwards outwards ->
+    steps
+      (Arc.ArcTolerance pulse (plus pulse inwards) (plus pulse outwards))
+      (Chord.rounding machine allowed)
+      begin
+      (segment m)
   where
     m = NonEmpty.head run
     level = fst (heights m)
     pulse = Machine.pulse machine
-    steps room chordsOff = Arc.steps grid room (\at s -> let chord = m {segment = s} :| [] in chordSteps machine at chord (Chord.ends InstructionCheck.mostFrames machine chordsOff chord)) level
+    steps room chordsOff =
+      Arc.steps
+        grid
+        room
+        ( \at s ->
+            let chord =
+                  m {segment = s} :| []
+             in chordSteps
+                  machine
+                  at
+                  chord
+                  (Chord.ends InstructionCheck.mostFrames machine chordsOff chord)
+        )
+        level
     partSteps bounds at part = case part of
-      ArcFitting.Chords ms -> let stops = chordSteps machine at ms (chordStops machine allowed ms) in (fromMaybe at (listToMaybe (reverse stops)), map alone stops)
+      ArcFitting.Chords ms ->
+        let stops =
+              chordSteps machine at ms (chordStops machine allowed ms)
+         in (fromMaybe at (listToMaybe (reverse stops)), map alone stops)
       ArcFitting.Arcs segments ->
         let left = ArcFitting.remainder machine bounds
-            ends = map (\s -> Rounding.rounded machine (Segment.end s, level)) (NonEmpty.toList segments)
-            walked = zipWith (steps (Arc.ArcTolerance left left left) (Sagitta (Chord.remainder machine left))) (at : ends) (NonEmpty.toList segments)
+            ends =
+              map (\s -> Rounding.rounded machine (Segment.end s, level)) (NonEmpty.toList segments)
+            walked =
+              zipWith
+                (steps (Arc.ArcTolerance left left left) (Sagitta (Chord.remainder machine left)))
+                (at : ends)
+                (NonEmpty.toList segments)
          in (fromMaybe at (listToMaybe (reverse ends)), concat walked)
 
 -- | Where the chords of a run end, with their heights.
 chordStops :: Machine -> Allowed -> NonEmpty Move -> [PathPosition]
-chordStops machine allowed = Chord.ends InstructionCheck.mostFrames machine (Chord.rounding machine allowed)
+chordStops machine allowed =
+  Chord.ends InstructionCheck.mostFrames machine (Chord.rounding machine allowed)
 
 -- | The ends of the steps along a run's chords from a position on.
 chordSteps :: Machine -> Pulses3 -> NonEmpty Move -> [PathPosition] -> [Pulses3]
-chordSteps machine begin run stops = concat (zipWith (Rounding.split machine) (begin : map (Rounding.rounded machine) stops) (zip (first : stops) stops))
+chordSteps machine begin run stops =
+  concat
+    ( zipWith
+        (Rounding.split machine)
+        (begin : map (Rounding.rounded machine) stops)
+        (zip (first : stops) stops)
+    )
   where
     m = NonEmpty.head run
     first = (Segment.start (segment m), fst (heights m))

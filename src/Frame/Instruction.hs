@@ -25,7 +25,8 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Move (..), Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Moves along one line, arc or curve with their role and what is allowed to their chords, or a command.
+-- | Moves along one line, arc or curve with their role and what is allowed to their chords, or a
+-- command.
 data Instruction
   = Run
       { role :: Role,
@@ -35,7 +36,8 @@ data Instruction
         drive :: Drive,
         run :: NonEmpty Move
       }
-  | -- | a command, or what tells the control to keep the cutter beside the contour or no longer: where it is asked
+  | -- | a command, or what tells the control to keep the cutter beside the contour or no longer:
+    -- where it is asked
     Order Region Told
 
 -- | How fast.
@@ -50,30 +52,70 @@ data Drive
 
 -- | The tasks of a path in order.
 tasksOf :: Machine -> Toolpath -> [Instruction]
-tasksOf machine path = concat (zipWith block (Toolpath.passNumbers (Toolpath.blocks path)) (Toolpath.blocks path))
+tasksOf machine path =
+  concat (zipWith block (Toolpath.passNumbers (Toolpath.blocks path)) (Toolpath.blocks path))
   where
     straight r radius = map (Run r (Sagitta (Mm 0)) radius Asked . (:| []))
     block n b = case b of
       Toolpath.Travelling radius ms -> straight Travelling radius ms
       Toolpath.Holing (Located _ d) ms -> straight Drilling (Part.drillRadius d) ms
       Toolpath.Commanding c -> [Order (region c) (Command.told machine c)]
-      Toolpath.Cutting {Toolpath.job = Located region' job, Toolpath.approach = before, Toolpath.cut = along, Toolpath.retract = after, Toolpath.sent} ->
-        fromMaybe (concat [led (Approaching n) job before, led (Cutting n) job (NonEmpty.toList along), led (Retracting n) job after]) (keeping n (fromMaybe region' (Part.byControl job)) job =<< sent)
-      Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.approach = before, Toolpath.cleared = along, Toolpath.retract = after} ->
-        let job = Part.wall p in concat [led (Approaching n) job before, concatMap (inPocket n job) (NonEmpty.toList along), led (Retracting n) job after]
+      Toolpath.Cutting
+        { Toolpath.job = Located region' job,
+          Toolpath.approach = before,
+          Toolpath.cut = along,
+          Toolpath.retract = after,
+          Toolpath.sent
+        } ->
+          fromMaybe
+            ( concat
+                [ led (Approaching n) job before,
+                  led (Cutting n) job (NonEmpty.toList along),
+                  led (Retracting n) job after
+                ]
+            )
+            (keeping n (fromMaybe region' (Part.byControl job)) job =<< sent)
+      Toolpath.Clearing
+        { Toolpath.pocket = Located _ p,
+          Toolpath.approach = before,
+          Toolpath.cleared = along,
+          Toolpath.retract = after
+        } ->
+          let job =
+                Part.wall p
+           in concat
+                [ led (Approaching n) job before,
+                  concatMap (inPocket n job) (NonEmpty.toList along),
+                  led (Retracting n) job after
+                ]
     -- Where something is in the way, the cutter leaves what it cuts and comes back.
     inPocket n job m
       | pace m == Part.Rapid = led (Retracting n) job [m]
       | uncurry (/=) (heights m) = led (Approaching n) job [m]
       | otherwise = led (Cutting n) job [m]
-    -- The control keeps the cutter beside the contour: each move of the edge goes as it is, those along a curve, too.
+    -- The control keeps the cutter beside the contour: each move of the edge goes as it is, those
+    -- along a curve, too.
     keeping n asked job edge
-      | null (Command.errors on) = Just (concat [led (Approaching n) job (Toolpath.before edge), [Order asked on], one (Approaching n) (Toolpath.entry edge), concatMap (one (Cutting n)) (Toolpath.edge edge), [Order asked (Command.released machine)], one (Retracting n) (Toolpath.exit edge), led (Retracting n) job (Toolpath.behind edge)])
+      | null (Command.errors on) =
+        Just
+          ( concat
+              [ led (Approaching n) job (Toolpath.before edge),
+                [Order asked on],
+                one (Approaching n) (Toolpath.entry edge),
+                concatMap (one (Cutting n)) (Toolpath.edge edge),
+                [Order asked (Command.released machine)],
+                one (Retracting n) (Toolpath.exit edge),
+                led (Retracting n) job (Toolpath.behind edge)
+              ]
+          )
       | otherwise = Just [Order asked on]
       where
         on = Command.kept machine asked (Toolpath.side edge) (Part.radius job)
         one r m = led r job [m {continues = False}]
-    led r job = let allowed = Chord.allowedOn machine job in map (\ms -> Run r (allowed ms) (Part.radius job) Asked ms) . Toolpath.runs
+    led r job =
+      let allowed =
+            Chord.allowedOn machine job
+       in map (\ms -> Run r (allowed ms) (Part.radius job) Asked ms) . Toolpath.runs
 
 -- | The way of a move, in space.
 wayOf :: Move -> Mm
@@ -84,7 +126,10 @@ wayOf m = Mm (sqrt (l * l + h * h))
 
 -- | A move in two, so many mm before its end; the way is longer.
 cutBefore :: Double -> Move -> (Move, Move)
-cutBefore stretch m = (Toolpath.unbraked (Toolpath.atHeights (fst (heights m), z) m) {segment = front}, (Toolpath.atHeights (z, snd (heights m)) m) {segment = back})
+cutBefore stretch m =
+  ( Toolpath.unbraked (Toolpath.atHeights (fst (heights m), z) m) {segment = front},
+    (Toolpath.atHeights (z, snd (heights m)) m) {segment = back}
+  )
   where
     Mm way = wayOf m
     share = 1 - stretch / way

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | What stands against tasks before their frames are made, and what is to be told of them: they are looked at one by one, in
--- order.
+-- | What stands against tasks before their frames are made, and what is to be told of them: they
+-- are looked at one by one, in order.
 module Frame.InstructionCheck
   ( InstructionContext,
     lookFrom,
@@ -82,7 +82,15 @@ data InstructionFindings = InstructionFindings
   }
 
 nothing :: InstructionFindings
-nothing = InstructionFindings {lastPace = Rapid, noCode = [], distant = [], count = 0, overlong = Nothing, rising = Nothing}
+nothing =
+  InstructionFindings
+    { lastPace = Rapid,
+      noCode = [],
+      distant = [],
+      count = 0,
+      overlong = Nothing,
+      rising = Nothing
+    }
 
 -- | Whether the frames of all tasks so far can be made, and are not too many.
 isBounded :: InstructionFindings -> Bool
@@ -97,17 +105,28 @@ boundless seen = reverse (distant seen) <> maybeToList (overlong seen)
 unsure :: InstructionFindings -> [Warning]
 unsure = maybeToList . rising
 
--- | Look at the next task, given where the chords of its run end; they are asked for only along a curve on a machine that walks no arcs.
-see :: InstructionContext -> Instruction -> [PathPosition] -> InstructionFindings -> InstructionFindings
+-- | Look at the next task, given where the chords of its run end; they are asked for only along a
+-- curve on a machine that walks no arcs.
+see ::
+  InstructionContext ->
+  Instruction ->
+  [PathPosition] ->
+  InstructionFindings ->
+  InstructionFindings
 see look task stops before = case task of
   Order _ _ -> before
-  Run {drive, allowed, run} -> counted look allowed run stops (reached look run (risen look run (fed look drive run before)))
+  Run {drive, allowed, run} ->
+    counted look allowed run stops (reached look run (risen look run (fed look drive run before)))
 
 fed :: InstructionContext -> Drive -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 fed look drive moves before = case (drive, asked) of
   (Asked, At (Located region (Feed v)))
     | isAlongPath look && asked /= lastPace before -> case Machine.choose (machine look) v of
-      Machine.NoSuchFeed low high -> before {lastPace = asked, noCode = FeedMissing region (Feed v) (Feed low) (Feed high) : noCode before}
+      Machine.NoSuchFeed low high ->
+        before
+          { lastPace = asked,
+            noCode = FeedMissing region (Feed v) (Feed low) (Feed high) : noCode before
+          }
       Machine.Given _ _ -> before {lastPace = asked}
   _ -> before
   where
@@ -115,17 +134,28 @@ fed look drive moves before = case (drive, asked) of
 
 risen :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 risen look moves before
-  | areHeightsUnsure look, Nothing <- rising before = before {rising = listToMaybe [HeightUnsure (origin m) | m <- NonEmpty.toList moves, uncurry (/=) (heights m)]}
+  | areHeightsUnsure look,
+    Nothing <- rising before =
+    before
+      { rising =
+          listToMaybe
+            [HeightUnsure (origin m) | m <- NonEmpty.toList moves, uncurry (/=) (heights m)]
+      }
   | otherwise = before
 
 reached :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 reached look moves before
   | null (tooFar look) && all (isNear . segment) moves = before
-  | otherwise = maybe before (\e -> before {distant = e : distant before}) (listToMaybe (mapMaybe problem (NonEmpty.toList moves)))
+  | otherwise =
+    maybe
+      before
+      (\e -> before {distant = e : distant before})
+      (listToMaybe (mapMaybe problem (NonEmpty.toList moves)))
   where
     problem m
       | null (tooFar look) && isNear (segment m) = Nothing
-      | BoundingBox.BoundingBox l b r t <- BoundingBox.ofSegment (segment m) = beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> tooFar look
+      | BoundingBox.BoundingBox l b r t <- BoundingBox.ofSegment (segment m) =
+        beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> tooFar look
 
 -- | Whether a segment is surely within reach; of an arc its whole circle is looked at.
 isNear :: Segment -> Bool
@@ -142,16 +172,28 @@ isWithin less p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - less
 beyond :: Region -> Point -> Maybe Error
 beyond region p = if isWithin 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
--- | More frames than a tape may have, as far as it can be seen without making them. Where the machine walks arcs they
--- are no more than the moves.
-counted :: InstructionContext -> Allowed -> NonEmpty Move -> [PathPosition] -> InstructionFindings -> InstructionFindings
+-- | More frames than a tape may have, as far as it can be seen without making them. Where the
+-- machine walks arcs they are no more than the moves.
+counted ::
+  InstructionContext ->
+  Allowed ->
+  NonEmpty Move ->
+  [PathPosition] ->
+  InstructionFindings ->
+  InstructionFindings
 counted look allowed moves stops before = case overlong before of
   Just _ -> before
   Nothing
-    | now > mostFrames -> before {overlong = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
+    | now > mostFrames ->
+      before {overlong = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
     | otherwise -> before {count = now}
   where
     !now =
       count before + case Machine.arcs (machine look) of
         Arcs {} | Rounding.isLevel (machine look) moves -> 1
-        _ -> Chord.frameCount (machine look) (Chord.rounding (machine look) allowed) moves (take (mostFrames + 1) stops)
+        _ ->
+          Chord.frameCount
+            (machine look)
+            (Chord.rounding (machine look) allowed)
+            moves
+            (take (mostFrames + 1) stops)

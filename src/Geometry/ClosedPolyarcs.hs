@@ -1,13 +1,13 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Closed walks of lines and arcs as the kernel works on them: one after the other in the same flat arrays, each with its
--- first vertex once more behind its last, so that every segment ends at the next vertex. An arc turns by half a circle at
--- most.
+-- | Closed walks of lines and arcs as the kernel works on them: one after the other in the same
+-- flat arrays, each with its first vertex once more behind its last, so that every segment ends at
+-- the next vertex. An arc turns by half a circle at most.
 --
--- Arcs are handled by their chord and bulge alone. The power of a point @p@ with respect to the circle of an arc from @a@
--- to @b@ is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² − 1)/2β@, which keeps its digits for arcs that are nearly
--- straight, where a centre would lose them.
+-- Arcs are handled by their chord and bulge alone. The power of a point @p@ with respect to the
+-- circle of an arc from @a@ to @b@ is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² − 1)/2β@,
+-- which keeps its digits for arcs that are nearly straight, where a centre would lose them.
 module Geometry.ClosedPolyarcs
   ( ClosedPolyarcs (..),
     fromOutlines,
@@ -105,8 +105,9 @@ marked :: Word8 -> Word8 -> Bool
 marked m w = w .&. m /= 0
 {-# INLINE marked #-}
 
--- | The chain of closed outlines. Arcs over half a turn become two; segments shorter than a tolerance in mm are left out,
--- and arcs that rise by no more over their chords are lines. Segments are numbered through all outlines.
+-- | The chain of closed outlines. Arcs over half a turn become two; segments shorter than a
+-- tolerance in mm are left out, and arcs that rise by no more over their chords are lines. Segments
+-- are numbered through all outlines.
 fromOutlines :: Double -> [FlatPolyarc] -> ClosedPolyarcs
 fromOutlines tolerance outlines = runST $ do
   let room = sum (map most outlines)
@@ -126,7 +127,8 @@ fromOutlines tolerance outlines = runST $ do
         [] -> writePrimArray rh w k >> pure (w, k)
         FlatPolyarc _ px py pb : more -> do
           let n = sizeofPrimArray px
-              -- The place from which the next segment begins is the end of the last one that was long enough.
+              -- The place from which the next segment begins is the end of the last one that was
+              -- long enough.
               go !i !k' !x !y
                 | i >= n = pure k'
                 | otherwise = do
@@ -143,10 +145,16 @@ fromOutlines tolerance outlines = runST $ do
                     else do
                       if abs b > 1
                         then do
-                          -- The highest point of an arc lies to the right of its chord when it goes counter-clockwise.
+                          -- The highest point of an arc lies to the right of its chord when it goes
+                          -- counter-clockwise.
                           let half = b / (1 + sqrt (1 + b * b))
                           emit k' x y half (base + i)
-                          emit (k' + 1) (x + 0.5 * (dx + b * dy)) (y + 0.5 * (dy - b * dx)) half (base + i)
+                          emit
+                            (k' + 1)
+                            (x + 0.5 * (dx + b * dy))
+                            (y + 0.5 * (dy - b * dx))
+                            half
+                            (base + i)
                           go (i + 1) (k' + 2) x1 y1
                         else do
                           emit k' x y (if rise2 <= tolerance * tolerance then 0 else b) (base + i)
@@ -162,7 +170,13 @@ fromOutlines tolerance outlines = runST $ do
               number !i
                 | i >= n = pure ()
                 | otherwise = writePrimArray rs (k + i) (fromIntegral (base + i)) >> number (i + 1)
-          k1 <- if n == 0 then pure k else if isPlain tolerance px py pb then asIs else go 0 k (indexPrimArray px 0) (indexPrimArray py 0)
+          k1 <-
+            if n == 0
+              then pure k
+              else
+                if isPlain tolerance px py pb
+                  then asIs
+                  else go 0 k (indexPrimArray px 0) (indexPrimArray py 0)
           if k1 - k < 2
             then walk w k (base + n) more
             else do
@@ -179,11 +193,16 @@ fromOutlines tolerance outlines = runST $ do
   finish rx ry rb rm rs rh used count
   where
     -- The most that an outline may take: an arc over half a turn counts twice.
-    most o = foldlPrimArray' (\m b -> if abs b > 1 then m + 1 else m) (sizeofPrimArray (FlatPolyarc.bulges o) + 1) (FlatPolyarc.bulges o)
+    most o =
+      foldlPrimArray'
+        (\m b -> if abs b > 1 then m + 1 else m)
+        (sizeofPrimArray (FlatPolyarc.bulges o) + 1)
+        (FlatPolyarc.bulges o)
 
 -- | Whether no segment is shorter than a tolerance, no arc flatter, and none over half a turn.
 isPlain :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
-isPlain !tolerance !px !py !pb = go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))
+isPlain !tolerance !px !py !pb =
+  go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))
   where
     !n = sizeofPrimArray px
     !least = tolerance * tolerance
@@ -194,10 +213,21 @@ isPlain !tolerance !px !py !pb = go 0 (indexPrimArray px (n - 1)) (indexPrimArra
         let !x1 = indexPrimArray px i
             !y1 = indexPrimArray py i
             !c2 = (x1 - x) * (x1 - x) + (y1 - y) * (y1 - y)
-         in c2 > least && (b == 0 || abs b <= 1 && b * b * c2 / 4 > least) && go (i + 1) x1 y1 (indexPrimArray pb i)
+         in c2 > least
+              && (b == 0 || abs b <= 1 && b * b * c2 / 4 > least)
+              && go (i + 1) x1 y1 (indexPrimArray pb i)
 
 -- | The arrays cut to what is used of them.
-finish :: MutablePrimArray s Double -> MutablePrimArray s Double -> MutablePrimArray s Double -> MutablePrimArray s Word8 -> MutablePrimArray s Int32 -> MutablePrimArray s Int -> Int -> Int -> ST s ClosedPolyarcs
+finish ::
+  MutablePrimArray s Double ->
+  MutablePrimArray s Double ->
+  MutablePrimArray s Double ->
+  MutablePrimArray s Word8 ->
+  MutablePrimArray s Int32 ->
+  MutablePrimArray s Int ->
+  Int ->
+  Int ->
+  ST s ClosedPolyarcs
 finish rx ry rb rm rs rh used count = do
   shrinkMutablePrimArray rx used
   shrinkMutablePrimArray ry used
@@ -205,16 +235,30 @@ finish rx ry rb rm rs rh used count = do
   shrinkMutablePrimArray rm used
   shrinkMutablePrimArray rs used
   shrinkMutablePrimArray rh (count + 1)
-  ClosedPolyarcs <$> unsafeFreezePrimArray rx <*> unsafeFreezePrimArray ry <*> unsafeFreezePrimArray rb <*> unsafeFreezePrimArray rm <*> unsafeFreezePrimArray rs <*> unsafeFreezePrimArray rh
+  ClosedPolyarcs
+    <$> unsafeFreezePrimArray rx
+      <*> unsafeFreezePrimArray ry
+      <*> unsafeFreezePrimArray rb
+      <*> unsafeFreezePrimArray rm
+      <*> unsafeFreezePrimArray rs
+      <*> unsafeFreezePrimArray rh
 
--- | An open outline there and back, as a closed one. Its segments keep their numbers on the way there; on the way back, the
--- one that was last of @n@ has the number @n@.
+-- | An open outline there and back, as a closed one. Its segments keep their numbers on the way
+-- there; on the way back, the one that was last of @n@ has the number @n@.
 twoSided :: FlatPolyarc -> FlatPolyarc
-twoSided o@(FlatPolyarc _ px py pb) = FlatPolyarc Closed (joined px (FlatPolyarc.xs back)) (joined py (FlatPolyarc.ys back)) (joined pb (FlatPolyarc.bulges back))
+twoSided o@(FlatPolyarc _ px py pb) =
+  FlatPolyarc
+    Closed
+    (joined px (FlatPolyarc.xs back))
+    (joined py (FlatPolyarc.ys back))
+    (joined pb (FlatPolyarc.bulges back))
   where
     n = FlatPolyarc.size o
     back = FlatPolyarc.reverse o
-    joined a b = generatePrimArray (2 * n) (\i -> if i < n then indexPrimArray a i else indexPrimArray b (i - n))
+    joined a b =
+      generatePrimArray
+        (2 * n)
+        (\i -> if i < n then indexPrimArray a i else indexPrimArray b (i - n))
 
 -- | The largest coordinate in size: what rounding is measured by.
 extent :: [FlatPolyarc] -> Double
@@ -224,7 +268,15 @@ extent = foldl (\m o -> largest (largest m (FlatPolyarc.xs o)) (FlatPolyarc.ys o
 
 -- | Some of the walks.
 only :: [Int] -> ClosedPolyarcs -> ClosedPolyarcs
-only ws c = ClosedPolyarcs {xs = gathered (xs c), ys = gathered (ys c), bulges = gathered (bulges c), marks = gathered (marks c), sources = gathered (sources c), heads = primArrayFromList (scanl (+) 0 (map size ws))}
+only ws c =
+  ClosedPolyarcs
+    { xs = gathered (xs c),
+      ys = gathered (ys c),
+      bulges = gathered (bulges c),
+      marks = gathered (marks c),
+      sources = gathered (sources c),
+      heads = primArrayFromList (scanl (+) 0 (map size ws))
+    }
   where
     size w = behind c w + 1 - first c w
     gathered :: Prim a => PrimArray a -> PrimArray a
@@ -236,7 +288,8 @@ closed c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
   where
     cut a = clonePrimArray a (first c w) (behind c w - first c w)
 
--- | Segments that do not hang together, from x, y to x, y with a bulge: the first has the number 0, the next one 2, and so on.
+-- | Segments that do not hang together, from x, y to x, y with a bulge: the first has the number 0,
+-- the next one 2, and so on.
 apart :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
 apart ss =
   ClosedPolyarcs
@@ -256,8 +309,8 @@ chord c i k =
    in k (indexPrimArray (xs c) (i + 1) - x0) (indexPrimArray (ys c) (i + 1) - y0)
 {-# INLINE chord #-}
 
--- | The power of a point with respect to an arc's circle: the square of its distance from the centre less that of the
--- radius. In mm².
+-- | The power of a point with respect to an arc's circle: the square of its distance from the
+-- centre less that of the radius. In mm².
 power :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - (y1 - y0) * ax)
   where
@@ -274,7 +327,8 @@ power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - 
 
 -- | How the power grows at a point: twice the vector from the centre.
 gradient :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
-gradient c i px py k = k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py - y1 + kappa * (x1 - x0))
+gradient c i px py k =
+  k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py - y1 + kappa * (x1 - x0))
   where
     x0 = indexPrimArray (xs c) i
     y0 = indexPrimArray (ys c) i
@@ -284,18 +338,29 @@ gradient c i px py k = k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py -
     kappa = (b * b - 1) / (2 * b)
 {-# INLINE gradient #-}
 
--- | The curvature of a segment, to the left, in 1/mm: with a chord c and a bulge b it is @4·b / ((1 + b²)·c)@.
+-- | The curvature of a segment, to the left, in 1/mm: with a chord c and a bulge b it is @4·b / ((1
+-- + b²)·c)@.
 curvature :: ClosedPolyarcs -> Int -> Double
-curvature c i = chord c i $ \dx dy -> let b = indexPrimArray (bulges c) i in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy))
+curvature c i =
+  chord c i $ \dx dy ->
+    let b =
+          indexPrimArray (bulges c) i
+     in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy))
 {-# INLINE curvature #-}
 
 -- | The diameter of an arc's circle.
 diameter :: ClosedPolyarcs -> Int -> Double
-diameter c i = chord c i $ \dx dy -> let b = indexPrimArray (bulges c) i in sqrt (dx * dx + dy * dy) * (1 + b * b) / (2 * abs b)
+diameter c i =
+  chord c i $ \dx dy ->
+    let b =
+          indexPrimArray (bulges c) i
+     in sqrt (dx * dx + dy * dy) * (1 + b * b) / (2 * abs b)
 {-# INLINE diameter #-}
 
--- | The bulge of the part of a segment between two points on it: for an arc about a centre from which they are seen at
--- @a@ and @b@, @tan(θ/2)@ is @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@, which keeps its digits up to half a turn;
+-- | The bulge of the part of a segment between two points on it: for an arc about a centre from
+-- which they are seen at
+-- @a@ and @b@, @tan(θ/2)@ is @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@, which keeps its
+--  digits up to half a turn;
 -- and @tan(θ/4) = p / (q + √(p² + q²))@ when @tan(θ/2) = p/q@.
 part :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
 part c i px py qx qy

@@ -1,11 +1,13 @@
 -- | Curves given by tables, pieces or chains, and their shifts (ciphers), exactly.
 --
--- A curve gives its place for a parameter from 0 to the number of its spans. A shift is one more layer: it moves what is
--- below along the left normal by a distance that is itself a function of the parameter. Places, directions and
--- curvatures come from power series through all layers; nothing is sampled in between, so the only error is that of
--- doubles. Behind a corner that a shift opens, the curve goes on at another place: links are left to others.
+-- A curve gives its place for a parameter from 0 to the number of its spans. A shift is one more
+-- layer: it moves what is below along the left normal by a distance that is itself a function of
+-- the parameter. Places, directions and curvatures come from power series through all layers;
+-- nothing is sampled in between, so the only error is that of doubles. Behind a corner that a shift
+-- opens, the curve goes on at another place: links are left to others.
 --
--- The fields of bases, rows, columns and folds are read through the modules of those types below this one.
+-- The fields of bases, rows, columns and folds are read through the modules of those types below
+-- this one.
 module Geometry.Curve
   ( -- * What curves are
     Curve,
@@ -127,12 +129,17 @@ ofPieces pieces parameters = Plain <$> Base.ofPieces pieces parameters
 ofSegments :: NonEmpty Segment -> Either CurveFault Curve
 ofSegments segments = Plain <$> Base.ofSegments segments
 
--- | A chain of lines and arcs through the points of a table, in order; a closed one may leave out the first point at its end.
+-- | A chain of lines and arcs through the points of a table, in order; a closed one may leave out
+-- the first point at its end.
 ofChain :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
 ofChain segments points = Plain <$> Base.ofChain segments parameters
   where
     -- Every point is the beginning of a segment, or the end of the last one.
-    parameters = Vector.unfoldrN (Vector.length points) next (0, NonEmpty.toList segments, Vector.toList points)
+    parameters =
+      Vector.unfoldrN
+        (Vector.length points)
+        next
+        (0, NonEmpty.toList segments, Vector.toList points)
     next (u, ss, ps) = case (ss, ps) of
       (s : rest, p : more)
         | Vec.near (Segment.start s) p -> u `seq` Just (u, (u, ss, more))
@@ -150,7 +157,8 @@ rowCount = Vector.length . Base.rows . base
 
 -- | What a column is at a parameter.
 columnAt :: Curve -> Column -> Double -> Double
-columnAt curve c u = PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spot After u curve))
+columnAt curve c u =
+  PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spot After u curve))
 
 -- | The values at the rows of a curve in the order of its reverse.
 backwards :: Curve -> Vector Double -> Vector Double
@@ -166,7 +174,8 @@ joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     needed = times 2 (ramp joggle)
     there = minus (lengthTo curve ends) (lengthTo curve begins)
 
--- | The arcs and lines of a curve that consists of them, some of them arcs, and is not shifted. Of neighbours, one ends where the next begins.
+-- | The arcs and lines of a curve that consists of them, some of them arcs, and is not shifted. Of
+-- neighbours, one ends where the next begins.
 chain :: Curve -> Maybe (NonEmpty Segment)
 chain curve = case curve of
   Plain b -> Base.asSegments b
@@ -184,8 +193,8 @@ spans curve = Base.count (base curve)
 at :: Curve -> Double -> Point
 at = placeFrom After
 
--- | The place that the curve comes to before a parameter, or goes on from behind it: they differ where a shift has
--- opened a corner.
+-- | The place that the curve comes to before a parameter, or goes on from behind it: they differ
+-- where a shift has opened a corner.
 placeFrom :: Approach -> Curve -> Double -> Point
 placeFrom approach curve u = TaylorExpansion.place (jet approach 0 curve u)
 
@@ -231,13 +240,17 @@ lengthTo curve = ArcLength.lengthTo (ShiftedCurve.ruler curve)
 alongTo :: Curve -> Mm -> Double
 alongTo curve = ArcLength.parameterAt (ShiftedCurve.ruler curve)
 
--- | How far to the left the outermost shift moves the place with a parameter; nothing without a shift.
+-- | How far to the left the outermost shift moves the place with a parameter; nothing without a
+-- shift.
 distanceOf :: Curve -> Double -> Mm
 distanceOf curve u = case curve of
   Plain _ -> Mm 0
   Shifted layer lower _ ->
     let s = ShiftedCurve.spot After u curve
-     in Mm (PowerSeries.value (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.jetAt 1 lower s) s))
+     in Mm
+          ( PowerSeries.value
+              (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.jetAt 1 lower s) s)
+          )
 
 -- | The same curve walked from its end.
 reversed :: Curve -> Curve
@@ -245,7 +258,10 @@ reversed curve = case curve of
   Plain b -> Plain (Base.reversed b)
   Shifted layer lower _ ->
     let lower' = reversed lower
-     in shifted (otherSide (side layer)) (ShiftDistance.reversed (base lower) (base lower') (distance layer)) lower'
+     in shifted
+          (otherSide (side layer))
+          (ShiftDistance.reversed (base lower) (base lower') (distance layer))
+          lower'
 
 -- | The curve moved, turned, scaled, mirrored: distances grow with it and change sides in a mirror.
 transformed :: Transformation -> Curve -> Curve
@@ -258,7 +274,12 @@ transformed s curve = case curve of
 
 -- | How much longer everything becomes.
 factor :: Transformation -> Double
-factor s = let Mm k = Vec.distance (Transformation.point s (Vec.point 0 0)) (Transformation.point s (Vec.point far 0)) in k / far
+factor s =
+  let Mm k =
+        Vec.distance
+          (Transformation.point s (Vec.point 0 0))
+          (Transformation.point s (Vec.point far 0))
+   in k / far
   where
     -- So far that the rounding of large displacements does not tell.
     far = 1024

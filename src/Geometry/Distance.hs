@@ -57,7 +57,8 @@ segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
     onA = Segment.start a : Segment.end a : filter (Segment.spans a) (normals a b <> common a b)
     onB = Segment.start b : Segment.end b : filter (Segment.spans b) (normals b a)
 
--- | The points of the first segment's carrier at which its normal is also one of the second, an arc.
+-- | The points of the first segment's carrier at which its normal is also one of the second, an
+-- arc.
 normals :: Segment -> Segment -> [Point]
 normals a b = case (a, b) of
   (Straight p q, Arc {centre}) | p /= q -> [Vec.between (Segment.fraction a centre) p q]
@@ -118,14 +119,16 @@ uncovered reach others segment = gaps 0 (sort (concatMap covered others))
           toPoint (Segment.at ((a + b) / 2) segment) other <= reach
       ]
       where
-        marks = sort (0 : 1 : filter (\t -> t > 0 && t < 1) (map (Segment.fraction segment) boundary))
+        marks =
+          sort (0 : 1 : filter (\t -> t > 0 && t < 1) (map (Segment.fraction segment) boundary))
         boundary = ends <> concatMap (common segment) (neighbourhood reach other)
         -- A circle about an end bounds nothing when it is a point.
         ends = [p | reach <= Mm 0, p <- [Segment.start other, Segment.end other]]
 
 -- | The curves that bound the points within a distance of a segment, possibly with more.
 neighbourhood :: Mm -> Segment -> [Segment]
-neighbourhood reach@(Mm d) segment = disc (Segment.start segment) <> disc (Segment.end segment) <> beside
+neighbourhood reach@(Mm d) segment =
+  disc (Segment.start segment) <> disc (Segment.end segment) <> beside
   where
     disc p = [circleAbout p reach]
     beside = case segment of

@@ -33,7 +33,10 @@ data ElementCarrier
 ofSegment :: Segment -> ElementCarrier
 ofSegment s = case s of
   Straight p q -> OnLine (Line p q)
-  Arc {start, centre, sweep = Rad a} -> OnCircle (if a > 0 then CounterClockwise else Clockwise) (Circle centre (Segment.radius centre start))
+  Arc {start, centre, sweep = Rad a} ->
+    OnCircle
+      (if a > 0 then CounterClockwise else Clockwise)
+      (Circle centre (Segment.radius centre start))
 
 -- | As much of a shape as can reach into a box, as segments.
 within :: BoundingBox -> ElementCarrier -> NonEmpty Segment
@@ -44,7 +47,8 @@ within box walked = case walked of
         marks = [along (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
         place s = Vec.shift (Vec.scale s (Carrier.direction l)) (Carrier.from l)
      in Straight (place (minimum marks)) (place (maximum marks)) :| []
-  OnCircle turn circle@(Circle c (Mm r)) -> Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c) :| []
+  OnCircle turn circle@(Circle c (Mm r)) ->
+    Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c) :| []
   OnCurve p -> MeasuredPolyarc.segments p
   AtPoint p -> Straight p p :| []
 

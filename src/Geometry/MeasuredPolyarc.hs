@@ -45,7 +45,8 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
--- | Segments with a length, each of which ends where the next begins, and the places where they begin.
+-- | Segments with a length, each of which ends where the next begins, and the places where they
+-- begin.
 data Polyarc = Polyarc {chain :: Vector Segment, stations :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
@@ -53,14 +54,25 @@ fromSegments :: NonEmpty Segment -> Polyarc
 fromSegments ss = ofChain (Vector.fromList (NonEmpty.toList ss))
 
 ofChain :: Vector Segment -> Polyarc
-ofChain chain = Polyarc {chain, stations = Unboxed.scanl' (+) 0 (Unboxed.convert (Vector.map (\g -> let Mm l = Segment.length g in l) chain))}
+ofChain chain =
+  Polyarc
+    { chain,
+      stations =
+        Unboxed.scanl'
+          (+)
+          0
+          (Unboxed.convert (Vector.map (\g -> let Mm l = Segment.length g in l) chain))
+    }
 
 -- | An open outline with two vertices at least.
 fromOutline :: FlatPolyarc -> Polyarc
 fromOutline o = ofChain (Vector.unfoldrN (n - 1) segment (0, place 0))
   where
     n = FlatPolyarc.size o + 1
-    place i = Vec.point (PrimArray.indexPrimArray (FlatPolyarc.xs o) i) (PrimArray.indexPrimArray (FlatPolyarc.ys o) i)
+    place i =
+      Vec.point
+        (PrimArray.indexPrimArray (FlatPolyarc.xs o) i)
+        (PrimArray.indexPrimArray (FlatPolyarc.ys o) i)
     -- Neighbours share their points.
     segment (i, p)
       | i + 1 >= n = Nothing
@@ -73,7 +85,16 @@ fromOutline o = ofChain (Vector.unfoldrN (n - 1) segment (0, place 0))
 bent :: Point -> Point -> Double -> Segment
 bent p q b
   | b == 0 = Straight p q
-  | otherwise = Arc {Segment.start = p, Segment.end = q, Segment.centre = Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q))) (Vec.between 0.5 p q), Segment.sweep = Rad (4 * atan b)}
+  | otherwise =
+    Arc
+      { Segment.start = p,
+        Segment.end = q,
+        Segment.centre =
+          Vec.shift
+            (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q)))
+            (Vec.between 0.5 p q),
+        Segment.sweep = Rad (4 * atan b)
+      }
 
 -- | In the order of the walk.
 segments :: Polyarc -> NonEmpty Segment
@@ -119,7 +140,12 @@ directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vect
 station :: Polyarc -> Point -> Mm
 station p q = Mm (stations p Unboxed.! best + max 0 (min 1 along) * l)
   where
-    best = fst (minimumBy (comparing snd) [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))])
+    best =
+      fst
+        ( minimumBy
+            (comparing snd)
+            [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))]
+        )
     s' = chain p Vector.! best
     Mm l = Segment.length s'
     along
@@ -127,19 +153,28 @@ station p q = Mm (stations p Unboxed.! best + max 0 (min 1 along) * l)
       | Vec.distance q (Segment.start s') <= Vec.distance q (Segment.end s') = 0
       | otherwise = 1
 
--- | The segments from one place to a later one. What is shorter than a point at either end is left out.
+-- | The segments from one place to a later one. What is shorter than a point at either end is left
+-- out.
 stretch :: Polyarc -> Mm -> Mm -> [Segment]
-stretch p a b = [piece i | i <- [i1 .. i2], let Mm l = Segment.length (piece i), Mm l > Tolerance.coincident || i1 == i2 && l > 0]
+stretch p a b =
+  [ piece i
+    | i <- [i1 .. i2],
+      let Mm l = Segment.length (piece i),
+      Mm l > Tolerance.coincident || i1 == i2 && l > 0
+  ]
   where
     (i1, t1) = locate p a
     (i2, t2) = locate p b
     piece i =
       let s = chain p Vector.! i
           front = if i == i2 && t2 < 1 then fst (Segment.cutAt t2 s) else s
-       in if i == i1 && t1 > 0 then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front) else front
+       in if i == i1 && t1 > 0
+            then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front)
+            else front
 
--- | The points that two chains have in common, in the order of the first one. Chains that stand for curves touch when they come as near
--- as both are off; where they touch they may cross twice, and that is one point.
+-- | The points that two chains have in common, in the order of the first one. Chains that stand for
+-- curves touch when they come as near as both are off; where they touch they may cross twice, and
+-- that is one point.
 meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 meetings a b = case touching (crossings a b) of
   [] | closest <- nearest a b, distance closest <= slack -> [place closest]
@@ -151,7 +186,8 @@ meetings a b = case touching (crossings a b) of
       p : q : rest
         | toOther middle <= slack && Vec.distance p q < touch -> touching (middle : rest)
         where
-          middle = at whole (let (Mm s, Mm t) = (station whole p, station whole q) in Mm ((s + t) / 2))
+          middle =
+            at whole (let (Mm s, Mm t) = (station whole p, station whole q) in Mm ((s + t) / 2))
       p : rest -> p : touching rest
       [] -> []
     toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
@@ -160,15 +196,22 @@ meetings a b = case touching (crossings a b) of
 
 -- | The points where two chains cross, in the order of the first one.
 crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
-crossings a b = apart (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
+crossings a b =
+  apart
+    (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
   where
     index = BoundingBox.index BoundingBox.ofSegment (NonEmpty.toList b)
-    others s = BoundingBox.within (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment s)) index
+    others s =
+      BoundingBox.within (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment s)) index
     inOrder s ps = map snd (nubOrd [(Segment.fraction s p, p) | p <- ps])
-    -- Where segments join, both of them have the point; near such a place it may be twice with a small error.
+    -- Where segments join, both of them have the point; near such a place it may be twice with a
+    -- small error.
     apart ps = case ps of
       [] -> []
-      p : rest -> p : apart (filter (\q -> Vec.distance p q > plus Tolerance.coincident Tolerance.coincident) rest)
+      p : rest ->
+        p :
+        apart
+          (filter (\q -> Vec.distance p q > plus Tolerance.coincident Tolerance.coincident) rest)
 
 -- | The least distance of two chains.
 gap :: NonEmpty Segment -> NonEmpty Segment -> Mm
@@ -176,6 +219,9 @@ gap a b = distance (nearest a b)
 
 -- | Where two chains come nearest to one another.
 nearest :: NonEmpty Segment -> NonEmpty Segment -> ClosestPoint
-nearest a b = fromMaybe (Distance.segments (NonEmpty.head a) (NonEmpty.head b)) (BoundingBox.closest Distance.segments distance (indexOf a) (indexOf b))
+nearest a b =
+  fromMaybe
+    (Distance.segments (NonEmpty.head a) (NonEmpty.head b))
+    (BoundingBox.closest Distance.segments distance (indexOf a) (indexOf b))
   where
     indexOf = BoundingBox.index BoundingBox.ofSegment . NonEmpty.toList

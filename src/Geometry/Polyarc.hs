@@ -52,10 +52,18 @@ chained get set ends (first :| rest) = case rest of
   where
     follow from things = case things of
       [] -> []
-      [a] -> [set (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from}) a]
+      [a] ->
+        [ set
+            (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from})
+            a
+        ]
       a : more
         | isAt from (start (get a)) -> a : follow (end (get a)) more
-        | otherwise -> let s = (get a) {start = from}; a' = set s a in a' `seq` (a' : follow (end s) more)
+        | otherwise ->
+          let s =
+                (get a) {start = from}
+              a' = set s a
+           in a' `seq` (a' : follow (end s) more)
     -- Zeros of either sign are equal, but not the same.
     isAt p q = p == q && Vec.x p /= 0 && Vec.y p /= 0
     closing s = s {end = start (get first)}

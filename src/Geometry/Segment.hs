@@ -29,7 +29,12 @@ import Prelude hiding (length, reverse)
 -- points so that neighbours have exactly the same.
 data Segment
   = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
-  | Arc {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point, centre :: {-# UNPACK #-} Point, sweep :: Rad}
+  | Arc
+      { start :: {-# UNPACK #-} Point,
+        end :: {-# UNPACK #-} Point,
+        centre :: {-# UNPACK #-} Point,
+        sweep :: Rad
+      }
   deriving stock (Eq, Ord, Show)
 
 -- | The arc about a centre from one point to another in a sense; less than a full turn.
@@ -65,12 +70,20 @@ at t segment
   | otherwise = case segment of
     Straight a b -> Vec.between t a b
     Arc {start = a, end = b, centre, sweep = Rad s}
-      -- About a centre so far away a place would be as inexact as the centre is: the chord from the beginning to it is
+      -- About a centre so far away a place would be as inexact as the centre is: the chord from the
+      -- beginning to it is
       -- @2·r·sin(t·φ/2)@ long, and turned against the whole one by @(t − 1)·φ/2@.
-      | s /= 0 && abs s < flat -> Vec.shift (Vec.scale (sin (t * s / 2) / sin (s / 2)) (Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b))) a
+      | s /= 0 && abs s < flat ->
+        Vec.shift
+          ( Vec.scale
+              (sin (t * s / 2) / sin (s / 2))
+              (Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b))
+          )
+          a
       | otherwise -> Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre a)) centre
 
--- | Arcs of less, in radians, are almost lines: the radius is more than ten thousand times the chord.
+-- | Arcs of less, in radians, are almost lines: the radius is more than ten thousand times the
+-- chord.
 flat :: Double
 flat = 1e-4
 
@@ -99,7 +112,8 @@ forward (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
 reverse :: Segment -> Segment
 reverse segment = case segment of
   Straight a b -> Straight b a
-  Arc {start, end, centre, sweep = Rad s} -> Arc {start = end, end = start, centre, sweep = Rad (-s)}
+  Arc {start, end, centre, sweep = Rad s} ->
+    Arc {start = end, end = start, centre, sweep = Rad (-s)}
 
 -- | The segment in two at a fraction of its length between 0 and 1.
 cutAt :: Double -> Segment -> (Segment, Segment)
@@ -129,4 +143,7 @@ fraction segment p = case segment of
 bulge :: Segment -> Mm
 bulge segment = case segment of
   Straight _ _ -> Mm 0
-  Arc {start, centre, sweep = Rad s} -> let Mm r = radius centre start in Mm (2 * r * sin (s / 4) ^ (2 :: Int))
+  Arc {start, centre, sweep = Rad s} ->
+    let Mm r =
+          radius centre start
+     in Mm (2 * r * sin (s / 4) ^ (2 :: Int))

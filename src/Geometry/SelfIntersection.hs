@@ -46,20 +46,34 @@ crossingOf get ends things = case concatMap found (beside <> closeBy ends whole)
     -- Neighbours, which are joined.
     beside = alongside 0
     alongside i
-      | i + 1 < count = if straightOn (whole Vector.! i) (whole Vector.! (i + 1)) || lineBends (whole Vector.! i) (whole Vector.! (i + 1)) then alongside (i + 1) else (i, i + 1) : alongside (i + 1)
+      | i + 1 < count =
+        if straightOn (whole Vector.! i) (whole Vector.! (i + 1))
+          || lineBends (whole Vector.! i) (whole Vector.! (i + 1))
+          then alongside (i + 1)
+          else (i, i + 1) : alongside (i + 1)
       | otherwise = [(0, count - 1) | ends == Closed, count > 2]
     found (i, j)
       | closes && straightOn other s = []
       | not (BoundingBox.meets (BoundingBox.ofSegment s) (BoundingBox.ofSegment other)) = []
-      | otherwise = [(i, j, p) | p <- if null shared then Distance.crossings s other else retraced s other <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)]
+      | otherwise =
+        [ (i, j, p)
+          | p <-
+              if null shared
+                then Distance.crossings s other
+                else
+                  retraced s other
+                    <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
+        ]
       where
         s = whole Vector.! i
         other = whole Vector.! j
         closes = j /= i + 1 && ends == Closed && i == 0 && j == count - 1
         -- Where the two are joined: behind the first, or where the contour closes.
-        shared = [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
+        shared =
+          [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
 
--- | Segments of a contour that are no neighbours and lie so near to one another that they may touch, by number.
+-- | Segments of a contour that are no neighbours and lie so near to one another that they may
+-- touch, by number.
 closeBy :: Ends -> Vector Segment -> [(Int, Int)]
 closeBy ends whole
   | ClosedPolyarcs.walks chain == 0 = []
@@ -67,7 +81,8 @@ closeBy ends whole
     pairs <- newSTRef []
     SegmentTree.pairs boxes (pure True) $ \a b -> do
       let (i, j) = (number a, number b)
-      when (i >= 0 && j > i + 1 && j < count && not (ends == Closed && i == 0 && j == count - 1)) $ modifySTRef' pairs ((i, j) :)
+      when (i >= 0 && j > i + 1 && j < count && not (ends == Closed && i == 0 && j == count - 1)) $
+        modifySTRef' pairs ((i, j) :)
     readSTRef pairs
   where
     (outline, numbers) = FlatPolyarc.fromSegments ends whole
@@ -77,11 +92,18 @@ closeBy ends whole
     Mm margin = times 2 Tolerance.coincident
     boxes = SegmentTree.boxes margin chain
     -- A chain always closes; what closes an open contour is no segment of it.
-    number k = let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources chain) k) in if i < pieces then indexPrimArray numbers i else -1
+    number k =
+      let i =
+            fromIntegral (indexPrimArray (ClosedPolyarcs.sources chain) k)
+       in if i < pieces then indexPrimArray numbers i else -1
 
--- | Whether of two neighbours that hardly turn the one lies in a cone behind their joint and the other before it.
+-- | Whether of two neighbours that hardly turn the one lies in a cone behind their joint and the
+-- other before it.
 straightOn :: Segment -> Segment -> Bool
-straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, setting) in abs (Vec.cross u v) <= steepness * Vec.dot u v)
+straightOn a b =
+  hardlyTurns a
+    && hardlyTurns b
+    && (let (u, v) = (arriving, setting) in abs (Vec.cross u v) <= steepness * Vec.dot u v)
   where
     -- Directions, not of length 1.
     arriving = case a of
@@ -94,11 +116,14 @@ straightOn a b = hardlyTurns a && hardlyTurns b && (let (u, v) = (arriving, sett
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
 
--- | Whether two neighbours are lines, not too short for it to be certain, of which the other does not turn back along the one: they meet at
--- their joint alone.
+-- | Whether two neighbours are lines, not too short for it to be certain, of which the other does
+-- not turn back along the one: they meet at their joint alone.
 lineBends :: Segment -> Segment -> Bool
 lineBends a b = case (a, b) of
-  (Straight p q, Straight _ r) | u <- Vec.to p q, v <- Vec.to q r -> long u && long v && abs (Vec.cross u v) > -(steepness * Vec.dot u v)
+  (Straight p q, Straight _ r)
+    | u <- Vec.to p q,
+      v <- Vec.to q r ->
+      long u && long v && abs (Vec.cross u v) > -(steepness * Vec.dot u v)
   _ -> False
   where
     long v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)

@@ -58,8 +58,8 @@ smoothAngle = Rad 1e-7
 parallel :: Double
 parallel = 1e-12
 
--- | How much nearer than its radius the cutter's centre may come to the part by rounding of doubles.
--- It is above what 'smoothAngle' opens at the radius of a large cutter (50 mm).
+-- | How much nearer than its radius the cutter's centre may come to the part by rounding of
+-- doubles. It is above what 'smoothAngle' opens at the radius of a large cutter (50 mm).
 clearance :: Mm
 clearance = Mm 1e-5
 
@@ -67,7 +67,8 @@ clearance = Mm 1e-5
 slot :: Mm
 slot = Mm 0.01
 
--- | Two contours whose lengths differ by no more are equally long: the choice between them is a tie.
+-- | Two contours whose lengths differ by no more are equally long: the choice between them is a
+-- tie.
 sameLength :: Mm
 sameLength = Mm 1e-6
 
@@ -75,12 +76,13 @@ sameLength = Mm 1e-6
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
 
--- | Two fillets whose centres are no further apart are one: it touches where two segments of a curve join.
+-- | Two fillets whose centres are no further apart are one: it touches where two segments of a
+-- curve join.
 sameFillet :: Mm
 sameFillet = Mm 1e-5
 
--- | Of two points whose distances from a third differ by no more, neither is the nearer one: points on curves
--- are known to 'curve' at best.
+-- | Of two points whose distances from a third differ by no more, neither is the nearer one: points
+-- on curves are known to 'curve' at best.
 nearTie :: Mm
 nearTie = Mm 1e-4
 
@@ -104,8 +106,8 @@ slightRest = Mm 1e-5
 smallestCutter :: Mm
 smallestCutter = Mm 0.05
 
--- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm, radians,
--- minutes, none).
+-- | Numbers of a program that differ by no more are equal, in the units in which they are held (mm,
+-- radians, minutes, none).
 equal :: Double
 equal = 1e-9
 
@@ -134,8 +136,8 @@ parameter = 1e-12
 still :: Mm
 still = Mm 1e-9
 
--- | An arc that turns by no more is a straight line: its centre would be so far away that distances from it
--- lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the bulge (@c·2.5·10⁻⁹@) is worth.
+-- | An arc that turns by no more is a straight line: its centre would be so far away that distances
+-- from it lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the bulge (@c·2.5·10⁻⁹@) is worth.
 straight :: Rad
 straight = Rad 2e-8
 
@@ -147,24 +149,28 @@ oneArc = Rad 1e-9
 halfTurn :: Rad
 halfTurn = Rad (pi + 1e-9)
 
--- | A smooth curve may change its direction at a joint of its spans by this much; by more, it has a corner there.
+-- | A smooth curve may change its direction at a joint of its spans by this much; by more, it has a
+-- corner there.
 kink :: Rad
 kink = Rad 1e-3
 
--- | What rounding may add to a point of the offset kernel, as a share of the largest coordinate: some fifty units in the
--- last place.
+-- | What rounding may add to a point of the offset kernel, as a share of the largest coordinate:
+-- some fifty units in the last place.
 rounding :: Double
 rounding = 1e-14
 
--- | The offset kernel takes directions whose sine is no larger for one: what that moves is this share of the distance.
+-- | The offset kernel takes directions whose sine is no larger for one: what that moves is this
+-- share of the distance.
 tangential :: Double
 tangential = 1e-9
 
--- | The share of a tolerance that is kept back because a deviation is measured at finitely many points.
+-- | The share of a tolerance that is kept back because a deviation is measured at finitely many
+-- points.
 deviationShare :: Double
 deviationShare = 0.02
 
--- | The share that is kept back where a bound of the deviation is known, for the rounding of doubles.
+-- | The share that is kept back where a bound of the deviation is known, for the rounding of
+-- doubles.
 roundingShare :: Double
 roundingShare = 1e-3
 
@@ -184,21 +190,24 @@ crossing = Mm 1e-8
 curve :: Mm
 curve = Mm 1e-5
 
--- | A control rounds what it is sent to its pulses. A length that has to be larger than the cutter's radius there is larger
--- by this.
+-- | A control rounds what it is sent to its pulses. A length that has to be larger than the
+-- cutter's radius there is larger by this.
 byControl :: Mm
 byControl = Mm 0.01
 
--- | The centre rolls about the inside of an arc on an arc of its own. If that is smaller, what rounding to pulses adds to it may be
--- more than 'controlTurn': of 1500 arcs with 0.06 mm LinuxCNC refuses none, of those with 0.05 mm one.
+-- | The centre rolls about the inside of an arc on an arc of its own. If that is smaller, what
+-- rounding to pulses adds to it may be more than 'controlTurn': of 1500 arcs with 0.06 mm LinuxCNC
+-- refuses none, of those with 0.05 mm one.
 controlArc :: Mm
 controlArc = Mm 0.08
 
--- | LinuxCNC refuses an arc of the centre that turns further than it was programmed, by more than this.
+-- | LinuxCNC refuses an arc of the centre that turns further than it was programmed, by more than
+-- this.
 controlTurn :: Rad
 controlTurn = Rad 0.0254
 
--- | The ends of a line that a control is sent are rounded, to 0.001 mm mostly: one may be off by so much beside the other.
+-- | The ends of a line that a control is sent are rounded, to 0.001 mm mostly: one may be off by so
+-- much beside the other.
 controlRounding :: Mm
 controlRounding = Mm 1.5e-3
 
@@ -206,8 +215,8 @@ controlRounding = Mm 1.5e-3
 controlLength :: Mm
 controlLength = Mm 0.05
 
--- | LinuxCNC takes a corner that turns by less for none and goes straight over from the one way to the other. A way in has
--- to turn by twice as much.
+-- | LinuxCNC takes a corner that turns by less for none and goes straight over from the one way to
+-- the other. A way in has to turn by twice as much.
 controlBend :: Rad
 controlBend = Rad 0.05
 

@@ -24,8 +24,14 @@ import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | @p ↦ k·R·M·p + t@: a mirror in the x axis or none, a rotation, a factor above zero, a displacement.
-data Transformation = Transformation {mirrored :: Bool, turned :: Rad, factor :: Double, displaced :: Vec}
+-- | @p ↦ k·R·M·p + t@: a mirror in the x axis or none, a rotation, a factor above zero, a
+-- displacement.
+data Transformation = Transformation
+  { mirrored :: Bool,
+    turned :: Rad,
+    factor :: Double,
+    displaced :: Vec
+  }
   deriving stock (Eq, Show)
 
 identity :: Transformation
@@ -90,7 +96,12 @@ segment :: Transformation -> Segment -> Segment
 segment s g = case g of
   Straight a b -> Straight (point s a) (point s b)
   Arc {start, end, centre, sweep = Rad sweep} ->
-    Arc {start = point s start, end = point s end, centre = point s centre, sweep = Rad (if mirrored s then -sweep else sweep)}
+    Arc
+      { start = point s start,
+        end = point s end,
+        centre = point s centre,
+        sweep = Rad (if mirrored s then -sweep else sweep)
+      }
 
 contour :: Transformation -> Polyarc -> Polyarc
 contour s (Polyarc ends segments) = Polyarc ends (fmap (segment s) segments)

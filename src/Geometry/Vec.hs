@@ -121,4 +121,5 @@ near a b = distance a b <= Tolerance.coincident
 
 -- | A point as a person writes it, with at most so many decimals.
 written :: Int -> Point -> Text
-written decimals p = "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"
+written decimals p =
+  "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"

@@ -13,16 +13,17 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | How often closed chains go round a point, counter-clockwise; the order of the segments does not matter. Any number for
--- a point on one of them.
+-- | How often closed chains go round a point, counter-clockwise; the order of the segments does not
+-- matter. Any number for a point on one of them.
 --
--- The chords go round it by the sum of the angles under which they are seen; an arc goes round what lies between it and
--- its chord once more than the chord does.
+-- The chords go round it by the sum of the angles under which they are seen; an arc goes round what
+-- lies between it and its chord once more than the chord does.
 about :: Foldable f => Point -> f Segment -> Int
 about p chains = round (seen / (2 * pi)) + extra
   where
     (seen, extra) = foldl add (0, 0) chains
-    add (angle, count) s = let angle' = angle + chord s in angle' `seq` (angle', count + bow s) :: (Double, Int)
+    add (angle, count) s =
+      let angle' = angle + chord s in angle' `seq` (angle', count + bow s) :: (Double, Int)
     chord s = case s of
       _ | Vec.norm (from s) == 0 || Vec.norm (to s) == 0 -> 0
       -- The arc tells on which side of its chord it goes past a point on that.

@@ -49,7 +49,12 @@ welcome =
     [ "serverInfo" .= object ["name" .= ("partc" :: Text)],
       "capabilities"
         .= object
-          [ "textDocumentSync" .= object ["openClose" .= True, "change" .= incremental, "save" .= object ["includeText" .= False]],
+          [ "textDocumentSync"
+              .= object
+                [ "openClose" .= True,
+                  "change" .= incremental,
+                  "save" .= object ["includeText" .= False]
+                ],
             "hoverProvider" .= True,
             "definitionProvider" .= True,
             "documentSymbolProvider" .= True,

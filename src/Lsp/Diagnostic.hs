@@ -25,11 +25,16 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 -- | The notification that replaces all diagnostics of a document.
 publish :: Client -> Document -> Maybe Snapshot -> Outgoing
 publish client document snapshot =
-  notification document (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
+  notification
+    document
+    (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
 
 -- | The notification when the program could not be looked at because of a fault of our own.
 bug :: Document -> Text -> Outgoing
-bug document what = notification document [object ["range" .= top, "severity" .= number Error, "source" .= name, "message" .= message]]
+bug document what =
+  notification
+    document
+    [object ["range" .= top, "severity" .= number Error, "source" .= name, "message" .= message]]
   where
     message = "this is a bug in partc: please send us the program\n" <> what
 
@@ -41,7 +46,12 @@ notification Document {uri, version} diagnostics =
 diagnostic :: Client -> Uri -> Snapshot -> Report -> Value
 diagnostic client uri snapshot r =
   object $
-    ["range" .= range, "severity" .= number (severity r), "code" .= words', "source" .= name, "message" .= Text.intercalate "\n" (prefix <> title r : sentences)]
+    [ "range" .= range,
+      "severity" .= number (severity r),
+      "code" .= words',
+      "source" .= name,
+      "message" .= Text.intercalate "\n" (prefix <> title r : sentences)
+    ]
       <> ["relatedInformation" .= map relation (others r) | related client, not (null (others r))]
   where
     ReportCode words' = code r
@@ -57,13 +67,16 @@ diagnostic client uri snapshot r =
     relation (Label region said) =
       object ["location" .= Location.location uri source region, "message" .= said]
 
--- | Where a report is shown: at its place, or at the import that brings the file in which that lies, with the true
--- place in words.
+-- | Where a report is shown: at its place, or at the import that brings the file in which that
+-- lies, with the true place in words.
 placed :: Snapshot -> ReportPlace -> (LspRange, Text)
 placed snapshot place = case place of
   InSource region
     | Position.fileOf source region == Region.mainFile source -> (Position.range source region, "")
-    | otherwise -> (maybe top (Position.range source) (Snapshot.broughtBy snapshot region), lineOf source region <> ": ")
+    | otherwise ->
+      ( maybe top (Position.range source) (Snapshot.broughtBy snapshot region),
+        lineOf source region <> ": "
+      )
   InTape _ -> (top, "")
   InFile -> (top, "")
   where
@@ -73,7 +86,12 @@ placed snapshot place = case place of
 lineOf :: Source -> Region -> Text
 lineOf source region
   | Region.file at == Region.mainFile source = "line " <> Decimal.whole (Region.line at)
-  | otherwise = Region.file at <> ":" <> Decimal.whole (Region.line at) <> ":" <> Decimal.whole (Region.column at)
+  | otherwise =
+    Region.file at
+      <> ":"
+      <> Decimal.whole (Region.line at)
+      <> ":"
+      <> Decimal.whole (Region.column at)
   where
     at = Region.position source (start region)
 

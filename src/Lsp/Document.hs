@@ -38,7 +38,8 @@ open uri version text = Document {uri, version, text}
 
 -- | Edits one after another; each speaks of the text that the one before has left.
 edit :: Maybe Int -> [Edit] -> Document -> Document
-edit version edits document = document {version, text = foldl (applied (uri document)) (text document) edits}
+edit version edits document =
+  document {version, text = foldl (applied (uri document)) (text document) edits}
 
 applied :: Uri -> Text -> Edit -> Text
 applied uri before e = case e of
@@ -47,8 +48,8 @@ applied uri before e = case e of
     let Region from to = Position.region (Region.fromText (Uri.toPath uri) before) place
      in Text.concat [Text.take from before, put, Text.drop to before]
 
--- | The text for the compiler. A mark of the byte order is not part of the program, but the client counts it:
--- a space stands in its place.
+-- | The text for the compiler. A mark of the byte order is not part of the program, but the client
+-- counts it: a space stands in its place.
 program :: Document -> Text
 program Document {text} = Text.map unmarked (Text.take 1 text) <> Text.drop 1 text
   where

@@ -42,7 +42,13 @@ data Outgoing
 data Failure = Failure ErrorCode Text
   deriving stock (Eq, Show)
 
-data ErrorCode = ParseError | InvalidRequest | MethodNotFound | InvalidParams | InternalError | NotInitialized
+data ErrorCode
+  = ParseError
+  | InvalidRequest
+  | MethodNotFound
+  | InvalidParams
+  | InternalError
+  | NotInitialized
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | Read a message.
@@ -63,7 +69,9 @@ decode body = case Aeson.decodeStrict' body of
 encode :: Outgoing -> ByteString
 encode outgoing = LazyByteString.toStrict . Aeson.encode $ case outgoing of
   Result ident result -> object [version, "id" .= ident, "result" .= result]
-  Refusal ident (Failure trouble words') -> object [version, "id" .= ident, "error" .= object ["code" .= number trouble, "message" .= words']]
+  Refusal ident (Failure trouble words') ->
+    object
+      [version, "id" .= ident, "error" .= object ["code" .= number trouble, "message" .= words']]
   Notify method params -> object [version, "method" .= method, "params" .= params]
   where
     version = "jsonrpc" .= ("2.0" :: Text)

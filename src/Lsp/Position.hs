@@ -1,4 +1,5 @@
--- | The positions of the protocol: lines and UTF-16 units, both from 0. No other module converts them.
+-- | The positions of the protocol: lines and UTF-16 units, both from 0. No other module converts
+-- them.
 module Lsp.Position
   ( LspPosition (..),
     LspRange (..),
@@ -39,7 +40,11 @@ instance FromJSON LspRange where
 
 -- | The position of an offset in its file.
 position :: Source -> Int -> LspPosition
-position source at = LspPosition {line = Region.line place - 1, character = units (Text.take (Region.column place - 1) (Region.lineText source at))}
+position source at =
+  LspPosition
+    { line = Region.line place - 1,
+      character = units (Text.take (Region.column place - 1) (Region.lineText source at))
+    }
   where
     place = Region.position source at
 
@@ -51,10 +56,11 @@ range source (Region from to) = LspRange (position source from) (position source
 fileOf :: Source -> Region -> Text
 fileOf source place = Region.file (Region.position source (start place))
 
--- | The offset of a position in the program's own file. A position behind its line counts as the line's end,
--- one in the middle of a character as the beginning of the character.
+-- | The offset of a position in the program's own file. A position behind its line counts as the
+-- line's end, one in the middle of a character as the beginning of the character.
 offset :: Source -> LspPosition -> Int
-offset source LspPosition {line, character} = Region.offset source ordinal (1 + charactersIn character content)
+offset source LspPosition {line, character} =
+  Region.offset source ordinal (1 + charactersIn character content)
   where
     ordinal = min line (maxBound - 1) + 1
     content = Region.lineText source (Region.offset source ordinal 1)
@@ -72,7 +78,8 @@ units = Text.foldl' (\sum' c -> sum' + width c) 0
 
 -- | How many whole characters lie in so many units.
 charactersIn :: Int -> Text -> Int
-charactersIn limit content = length (takeWhile (<= limit) (drop 1 (scanl (\sum' c -> sum' + width c) 0 (Text.unpack content))))
+charactersIn limit content =
+  length (takeWhile (<= limit) (drop 1 (scanl (\sum' c -> sum' + width c) 0 (Text.unpack content))))
 
 -- | Characters outside the basic plane are written as a pair.
 width :: Char -> Int

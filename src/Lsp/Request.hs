@@ -44,16 +44,19 @@ table =
 
 -- | The offset that a request points at.
 pointed :: Subject -> Value -> Parser Int
-pointed subject = withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
+pointed subject =
+  withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
 
 -- | The program that the present text gives.
 source :: Subject -> Source
 source = Snapshot.source . now
 
 hover :: Method
-hover client subject params = maybe Null shown . Name.hover (now subject) (sound subject) <$> pointed subject params
+hover client subject params =
+  maybe Null shown . Name.hover (now subject) (sound subject) <$> pointed subject params
   where
-    shown h = object ["contents" .= contents h, "range" .= Position.range (source subject) (Name.place h)]
+    shown h =
+      object ["contents" .= contents h, "range" .= Position.range (source subject) (Name.place h)]
     contents h
       | markdown client = markup "markdown" ("```part\n" <> line h <> "\n```\n" <> Name.meaning h)
       | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
@@ -64,9 +67,11 @@ markup :: Text -> Text -> Value
 markup kind text = object ["kind" .= kind, "value" .= text]
 
 definition :: Method
-definition _ subject params = maybe Null shown . Name.definition (now subject) (sound subject) <$> pointed subject params
+definition _ subject params =
+  maybe Null shown . Name.definition (now subject) (sound subject) <$> pointed subject params
   where
-    shown target = Location.location (uri (document subject)) (Name.source target) (Name.region target)
+    shown target =
+      Location.location (uri (document subject)) (Name.source target) (Name.region target)
 
 symbols :: Method
 symbols client subject _ = pure (toJSON (map shown (Symbol.symbols (now subject))))
@@ -78,13 +83,19 @@ symbols client subject _ = pure (toJSON (map shown (Symbol.symbols (now subject)
           "range" .= Position.range (source subject) (Symbol.whole s),
           "selectionRange" .= Position.range (source subject) (Symbol.selection s)
         ]
-      | otherwise = ["location" .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)]
+      | otherwise =
+        ["location" .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)]
 
 formatting :: Method
-formatting _ subject _ = pure (toJSON (map edit (Maybe.maybeToList (Formatter.format text >>= Formatting.change text))))
+formatting _ subject _ =
+  pure (toJSON (map edit (Maybe.maybeToList (Formatter.format text >>= Formatting.change text))))
   where
     text = Region.text (source subject)
-    edit change = object ["range" .= Position.range (source subject) (Formatting.place change), "newText" .= Formatting.put change]
+    edit change =
+      object
+        [ "range" .= Position.range (source subject) (Formatting.place change),
+          "newText" .= Formatting.put change
+        ]
 
 -- | The protocol's number of a kind of symbol.
 number :: SymbolKind -> Int

@@ -1,7 +1,7 @@
 -- | The language server on a pair of streams: the loop round a 'Session'.
 --
--- One thread reads, handles and writes, so answers come in the order of the requests. While nothing arrives
--- it waits for the next deadline of the session.
+-- One thread reads, handles and writes, so answers come in the order of the requests. While nothing
+-- arrives it waits for the next deadline of the session.
 module Lsp.Server
   ( Host (..),
     serve,
@@ -9,7 +9,16 @@ module Lsp.Server
 where
 
 import Compile (LoadedProgram)
-import Control.Exception (AsyncException (..), IOException, SomeException, displayException, evaluate, fromException, throwIO, try)
+import Control.Exception
+  ( AsyncException (..),
+    IOException,
+    SomeException,
+    displayException,
+    evaluate,
+    fromException,
+    throwIO,
+    try,
+  )
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.Either qualified as Either
@@ -49,7 +58,8 @@ serve host = do
 -- | The bytes that are received but not yet handled, and the state.
 loop :: Host -> ByteString -> Session -> IO Ending
 loop host received session = case Transport.next received of
-  Transport.Complete body more -> handle host (Received (Message.decode body)) session >>= continue host more
+  Transport.Complete body more ->
+    handle host (Received (Message.decode body)) session >>= continue host more
   Transport.Headless more -> loop host more session
   Transport.Incomplete missing -> do
     now <- clock
@@ -72,7 +82,10 @@ continue host received outcome = case outcome of
 -- | The next bytes; nothing at the end of input. A long message is read in one piece.
 receive :: Host -> Int -> IO (Maybe ByteString)
 receive host missing = do
-  bytes <- if missing > chunk then ByteString.hGet (input host) missing else ByteString.hGetSome (input host) chunk
+  bytes <-
+    if missing > chunk
+      then ByteString.hGet (input host) missing
+      else ByteString.hGetSome (input host) chunk
   pure (if ByteString.null bytes then Nothing else Just bytes)
   where
     chunk = 65536
@@ -110,10 +123,12 @@ handle host event session = do
     firstLine :: SomeException -> Text
     firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
 
--- | The state behind an event and the messages to send. All is computed here, so that failures show here.
+-- | The state behind an event and the messages to send. All is computed here, so that failures show
+-- here.
 handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
 handled host now event session = do
-  supplied <- foldl (\before a -> before >>= look a) (pure session) (Session.awaited now event session)
+  supplied <-
+    foldl (\before a -> before >>= look a) (pure session) (Session.awaited now event session)
   prepared (Session.step now event supplied)
   where
     look Awaited {path, text} before = do

@@ -1,7 +1,8 @@
 -- | The conversation with one client as a state and a step: a message in, messages out. No effects.
 --
--- Before an event is handled, 'awaited' names the programs that have to be looked at for it and 'supply'
--- brings what was found; so reading imported files stays with the server, and a handler sees the present text.
+-- Before an event is handled, 'awaited' names the programs that have to be looked at for it and
+-- 'supply' brings what was found; so reading imported files stays with the server, and a handler
+-- sees the present text.
 module Lsp.Session
   ( Session,
     start,
@@ -102,12 +103,17 @@ data Awaited = Awaited {path :: Text, text :: Text}
 
 -- | The programs that an event asks about and that have not been looked at since they changed.
 awaited :: Milliseconds -> Event -> Session -> [Awaited]
-awaited now event session = [Awaited {path, text = Document.program (document o)} | (path, o) <- wanted, Maybe.isNothing (present o)]
+awaited now event session =
+  [ Awaited {path, text = Document.program (document o)}
+    | (path, o) <- wanted,
+      Maybe.isNothing (present o)
+  ]
   where
     wanted = case event of
-      Received (Request _ _ params) | Running _ <- phase session -> case Aeson.parseMaybe named params of
-        Just path -> [(path, o) | Just o <- [Map.lookup path (documents session)]]
-        Nothing -> []
+      Received (Request _ _ params) | Running _ <- phase session ->
+        case Aeson.parseMaybe named params of
+          Just path -> [(path, o) | Just o <- [Map.lookup path (documents session)]]
+          Nothing -> []
       Received _ -> []
       Due -> filter (isDue now . snd) (Map.toList (documents session))
 
@@ -118,7 +124,11 @@ isDue now o = maybe False (<= now) (due o)
 supply :: Text -> Snapshot -> Session -> Session
 supply path snapshot session = session {documents = Map.adjust supplied path (documents session)}
   where
-    supplied o = o {present = Just snapshot, sound = if Snapshot.isGood snapshot then Just snapshot else sound o}
+    supplied o =
+      o
+        { present = Just snapshot,
+          sound = if Snapshot.isGood snapshot then Just snapshot else sound o
+        }
 
 -- | The text of an open file, which goes before the one on disk.
 openText :: Session -> Text -> Maybe Text
@@ -148,33 +158,49 @@ leaving session = case phase session of
 -- | What is left to do when handling an event has failed: the request is refused, the texts stay.
 failed :: Milliseconds -> Text -> Event -> Session -> (Session, [Effect])
 failed now why event session = case event of
-  Received (Request ident _ _) -> (session, [Send (Refusal ident (Failure InternalError ("this is a bug in partc: " <> why)))])
+  Received (Request ident _ _) ->
+    (session, [Send (Refusal ident (Failure InternalError ("this is a bug in partc: " <> why)))])
   Received _ -> (session, [Send (logged why)])
   Due ->
-    ( session {documents = Map.map (\o -> if isDue now o then o {due = Nothing} else o) (documents session)},
+    ( session
+        { documents =
+            Map.map
+              (\o -> if isDue now o then o {due = Nothing} else o)
+              (documents session)
+        },
       [Send (Diagnostic.bug (document o) why) | o <- Map.elems (documents session), isDue now o]
     )
 
 logged :: Text -> Outgoing
-logged why = Notify "window/logMessage" (Aeson.object ["type" .= (1 :: Int), "message" .= ("this is a bug in partc: " <> why)])
+logged why =
+  Notify
+    "window/logMessage"
+    (Aeson.object ["type" .= (1 :: Int), "message" .= ("this is a bug in partc: " <> why)])
 
 -- Requests
 
 request :: Id -> Text -> Value -> Session -> (Session, [Effect])
 request ident method params session = case (phase session, method) of
-  (Waiting, "initialize") -> (session {phase = Running (Capability.fromInitialize params)}, [Send (Result ident Capability.welcome)])
+  (Waiting, "initialize") ->
+    ( session {phase = Running (Capability.fromInitialize params)},
+      [Send (Result ident Capability.welcome)]
+    )
   (Waiting, _) -> refuse NotInitialized "the first request must be initialize"
   (Closing, _) -> refuse InvalidRequest "the server has been shut down"
   (Running _, "initialize") -> refuse InvalidRequest "the server is initialized already"
-  (Running _, "shutdown") -> (session {phase = Closing, documents = Map.empty}, [Send (Result ident Null)])
+  (Running _, "shutdown") ->
+    (session {phase = Closing, documents = Map.empty}, [Send (Result ident Null)])
   (Running client, _) -> (session, [Send (answered client)])
   where
     refuse trouble why = (session, [Send (Refusal ident (Failure trouble why))])
     answered client = case Request.method method of
       Nothing -> Refusal ident (Failure MethodNotFound ("there is no request " <> method))
-      Just answer -> case Aeson.parseEither (\p -> subject p session >>= maybe (pure Null) (\s -> answer client s p)) params of
-        Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
-        Right result -> Result ident result
+      Just answer ->
+        case Aeson.parseEither
+          (\p -> subject p session >>= maybe (pure Null) (\s -> answer client s p))
+          params of
+          Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
+          Right result -> Result ident result
 
 -- | The open document that parameters speak of, if it has been looked at.
 subject :: Value -> Session -> Parser (Maybe Subject)
@@ -191,7 +217,8 @@ named params = Uri.toPath <$> aboutDocument "uri" params
 
 -- | A field of the document that parameters name.
 aboutDocument :: FromJSON a => Aeson.Key -> Value -> Parser a
-aboutDocument key = withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.: key))
+aboutDocument key =
+  withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.: key))
 
 -- Notifications
 
@@ -218,7 +245,8 @@ changeOf params = do
   pure (uri, version, edits)
 
 optionalVersion :: Value -> Parser (Maybe Int)
-optionalVersion = withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.:? "version"))
+optionalVersion =
+  withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.:? "version"))
 
 -- | A document is looked at as soon as it is open.
 opened :: Milliseconds -> Session -> Document -> (Session, [Effect])
@@ -230,7 +258,20 @@ opened now session document = (outside now (put path fresh session), [])
 changed :: Milliseconds -> Session -> (Uri, Maybe Int, [Edit]) -> (Session, [Effect])
 changed now session (uri, version, edits) = case Map.lookup path (documents session) of
   Nothing -> (session, [])
-  Just o -> (outside now (put path o {document = Document.edit version edits (document o), present = Nothing, due = Just (rest now)} session), [])
+  Just o ->
+    ( outside
+        now
+        ( put
+            path
+            o
+              { document = Document.edit version edits (document o),
+                present = Nothing,
+                due = Just (rest now)
+              }
+            session
+        ),
+      []
+    )
   where
     path = Uri.toPath uri
 
@@ -244,21 +285,28 @@ closed now session path = case phase session of
   Waiting -> Nothing
   Closing -> Nothing
   where
-    leave client o = (outside now session {documents = Map.delete path (documents session)}, [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing)])
+    leave client o =
+      ( outside now session {documents = Map.delete path (documents session)},
+        [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing)]
+      )
 
 -- | Files may have changed: programs that import some are looked at again.
 outside :: Milliseconds -> Session -> Session
 outside now session = session {documents = Map.map again (documents session)}
   where
     again o
-      | any hasImports (present o) = o {present = Nothing, due = Just (maybe (rest now) (min (rest now)) (due o))}
+      | any hasImports (present o) =
+        o {present = Nothing, due = Just (maybe (rest now) (min (rest now)) (due o))}
       | otherwise = o
     hasImports snapshot = not (null (Snapshot.imports snapshot))
 
 -- | Publish what is due. The text that was looked at is always the present one.
 published :: Milliseconds -> Session -> (Session, [Effect])
 published now session = case phase session of
-  Running client -> (session {documents = Map.map settled (documents session)}, concatMap (said client) (Map.elems (documents session)))
+  Running client ->
+    ( session {documents = Map.map settled (documents session)},
+      concatMap (said client) (Map.elems (documents session))
+    )
   Waiting -> (session, [])
   Closing -> (session, [])
   where

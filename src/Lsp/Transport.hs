@@ -36,9 +36,19 @@ next received = case ByteString.breakSubstring "\r\n\r\n" received of
         where
           body = ByteString.drop 4 rest
 
--- | The number behind @Content-Length:@, if it can be one. Before that may stand a message whose own header did not say how long it was.
+-- | The number behind @Content-Length:@, if it can be one. Before that may stand a message whose
+-- own header did not say how long it was.
 contentLength :: ByteString -> Maybe Int
-contentLength header = listToMaybe [n | line <- Char8.lines header, (key, rest) <- [Char8.breakEnd (== ':') line], isKey key, Just (n, "") <- [Char8.readInt (Char8.strip rest)], n >= 0, n <= longest]
+contentLength header =
+  listToMaybe
+    [ n
+      | line <- Char8.lines header,
+        (key, rest) <- [Char8.breakEnd (== ':') line],
+        isKey key,
+        Just (n, "") <- [Char8.readInt (Char8.strip rest)],
+        n >= 0,
+        n <= longest
+    ]
   where
     isKey key = "content-length:" `isSuffixOf` filter (/= ' ') (map toLower (Char8.unpack key))
 

@@ -1,5 +1,5 @@
--- | File addresses of the protocol. Clients percent-encode them differently, so they are compared decoded;
--- what is sent back is the client's own spelling.
+-- | File addresses of the protocol. Clients percent-encode them differently, so they are compared
+-- decoded; what is sent back is the client's own spelling.
 module Lsp.Uri
   ( Uri (..),
     toPath,
@@ -33,7 +33,8 @@ toPath (Uri uri) = decoded (Maybe.fromMaybe uri local)
 
 -- | The address of a file.
 fromPath :: Text -> Uri
-fromPath path = Uri ("file://" <> Text.concat (map escaped (ByteString.unpack (Encoding.encodeUtf8 path))))
+fromPath path =
+  Uri ("file://" <> Text.concat (map escaped (ByteString.unpack (Encoding.encodeUtf8 path))))
 
 escaped :: Word8 -> Text
 escaped byte
@@ -50,8 +51,14 @@ decoded = Encoding.decodeUtf8With Encoding.lenientDecode . bytes . Encoding.enco
 bytes :: ByteString -> ByteString
 bytes encoded = case ByteString.uncons rest of
   Nothing -> before
-  Just (sign, behind) -> case map (chr . fromIntegral) (ByteString.unpack (ByteString.take 2 behind)) of
-    [a, b] | isHexDigit a && isHexDigit b -> before <> ByteString.cons (fromIntegral (16 * digitToInt a + digitToInt b)) (bytes (ByteString.drop 2 behind))
-    _ -> before <> ByteString.cons sign (bytes behind)
+  Just (sign, behind) ->
+    case map (chr . fromIntegral) (ByteString.unpack (ByteString.take 2 behind)) of
+      [a, b]
+        | isHexDigit a && isHexDigit b ->
+          before
+            <> ByteString.cons
+              (fromIntegral (16 * digitToInt a + digitToInt b))
+              (bytes (ByteString.drop 2 behind))
+      _ -> before <> ByteString.cons sign (bytes behind)
   where
     (before, rest) = ByteString.break (== 0x25) encoded

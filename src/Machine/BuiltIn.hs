@@ -1,5 +1,5 @@
--- | The machines that partc knows by itself: the descriptions in the folder @machines/@. Each is read when it is asked
--- for.
+-- | The machines that partc knows by itself: the descriptions in the folder @machines/@. Each is
+-- read when it is asked for.
 module Machine.BuiltIn
   ( names,
     find,
@@ -37,7 +37,12 @@ text name = fst <$> lookup name known
 
 -- | Each file is named for its machine.
 known :: [(MachineName, (Text, Machine))]
-known = [(name, described name bytes) | (file, bytes) <- sortOn fst Embedded.files, Just n <- [Text.stripSuffix ".machine" (Text.pack file)], let name = MachineName n]
+known =
+  [ (name, described name bytes)
+    | (file, bytes) <- sortOn fst Embedded.files,
+      Just n <- [Text.stripSuffix ".machine" (Text.pack file)],
+      let name = MachineName n
+  ]
 
 described :: MachineName -> ByteString -> (Text, Machine)
 described (MachineName name) bytes = (content, machine)

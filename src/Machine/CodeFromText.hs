@@ -28,44 +28,73 @@ code given s = do
   (name, section) <- opened ["code \"NAME\" { … }"] "the code" named s
   made <-
     TapeCode name
-      <$> (Map.map value <$> required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width) section)
+      <$> ( Map.map value
+              <$> required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width) section
+          )
       <*> (Map.map value <$> optional "weights" Map.empty weightsFrom section)
       <*> track "parity-track" section
       <*> track "service-track" section
       <*> optional "skip" [] (skipsFrom width) section
       <* known ["symbols", "weights", "parity-track", "service-track", "skip"] [] section
-  Result.failing (maybe [] (\given' -> check (most width) section made given' <> unknown section given') (output (required "symbols" "" (symbolsFrom width) section))) made
+  Result.failing
+    ( maybe
+        []
+        (\given' -> check (most width) section made given' <> unknown section given')
+        (output (required "symbols" "" (symbolsFrom width) section))
+    )
+    made
   where
     width = maybe (Width 1 8) (\n -> Width (max 1 (n - 1)) n) given
     named args = case map value args of
       [Quoted n] -> Just (pure n)
       _ -> Nothing
-    -- A weight of a symbol that there is not, such as a letter of another alphabet that looks like it.
-    unknown section symbols' = [NotInCode r "the weight" [c] | Just weights' <- [output (optional "weights" Map.empty weightsFrom section)], (c, Located r _) <- Map.toList weights', Map.notMember c symbols']
-    track word = optional word Nothing (plain [word <> " 5"] (single (fmap (fmap Just) . wholeIn "the track" 1 (most width))))
+    -- A weight of a symbol that there is not, such as a letter of another alphabet that looks like
+    -- it.
+    unknown section symbols' =
+      [ NotInCode r "the weight" [c]
+        | Just weights' <- [output (optional "weights" Map.empty weightsFrom section)],
+          (c, Located r _) <- Map.toList weights',
+          Map.notMember c symbols'
+      ]
+    track word =
+      optional
+        word
+        Nothing
+        (plain [word <> " 5"] (single (fmap (fmap Just) . wholeIn "the track" 1 (most width))))
 
 single :: (Argument -> Maybe (Result w Error a)) -> [Argument] -> Maybe (Result w Error a)
 single f args = case args of
   [a] -> f a
   _ -> Nothing
 
--- | How many tracks a pattern may name: the highest may be left out, since it is often that of the service or of the parity.
+-- | How many tracks a pattern may name: the highest may be left out, since it is often that of the
+-- service or of the parity.
 data Width = Width {least :: Int, most :: Int}
 
 -- | The symbols, each with where it is given.
 symbolsFrom :: Width -> Statement -> Result w Error (Map Char (Located Word8))
 symbolsFrom width s = do
-  ((), section) <- opened ["symbols { 0 = 0000 … }"] "the symbols" (\args -> if null args then Just (pure ()) else Nothing) s
+  ((), section) <-
+    opened
+      ["symbols { 0 = 0000 … }"]
+      "the symbols"
+      (\args -> if null args then Just (pure ()) else Nothing)
+      s
   given <- concat . catMaybes <$> traverse (tried . symbol) (entries section)
-  Result.failing (repeated "the symbol " [(c, r) | (c, Located r _) <- given]) (Map.fromListWith (\_ first -> first) given)
+  Result.failing
+    (repeated "the symbol " [(c, r) | (c, Located r _) <- given])
+    (Map.fromListWith (\_ first -> first) given)
   where
     symbol e
       | keyWord e == Just "ascii" && null (arguments e) && isNothing (formula e) =
-        if most width < 7 then Result.failed (BadHoles (told e) TooFewTracks) else pure [(c, Located (told e) (fromIntegral (ord c))) | c <- '\n' : [' ' .. '~']]
+        if most width < 7
+          then Result.failed (BadHoles (told e) TooFewTracks)
+          else pure [(c, Located (told e) (fromIntegral (ord c))) | c <- '\n' : [' ' .. '~']]
       | otherwise = case (charOf e, formula e) of
         _ | broken e -> Result [] [] Nothing
         (Just c, Just (Located r (Constant digits _)))
-          | null (arguments e) -> (\p -> [(c, Located (region (key e)) p)]) <$> holesOf width (Located r digits)
+          | null (arguments e) ->
+            (\p -> [(c, Located (region (key e)) p)]) <$> holesOf width (Located r digits)
         _ -> malformed ["X = 0101", "\"\\n\" = 0101", "ascii"] e
 
 -- | Go on with what can be read.
@@ -87,14 +116,19 @@ charOf s = case value (key s) of
       _ -> Nothing
 
 repeated :: Text -> [(Char, Region)] -> [Error]
-repeated title given = [Twice r (title <> "‘" <> Text.singleton c <> "’") first | ((c, r), before) <- zip given befores, Just first <- [Map.lookup c before]]
+repeated title given =
+  [ Twice r (title <> "‘" <> Text.singleton c <> "’") first
+    | ((c, r), before) <- zip given befores,
+      Just first <- [Map.lookup c before]
+  ]
   where
     befores = scanl (\m (c, r) -> Map.insertWith (\_ old -> old) c r m) Map.empty given
 
 -- | A pattern of holes, the highest track first. Tracks above those that are written have no hole.
 holesOf :: Width -> Located Text -> Result w Error Word8
 holesOf width (Located r digits)
-  | Text.any (`notElem` ("01" :: String)) digits || size > most width || size < least width = Result.failed (BadHoles r (WrongWidth (most width) (least width)))
+  | Text.any (`notElem` ("01" :: String)) digits || size > most width || size < least width =
+    Result.failed (BadHoles r (WrongWidth (most width) (least width)))
   | otherwise = pure (Text.foldl' (\n d -> 2 * n + (if d == '1' then 1 else 0)) 0 digits)
   where
     size = Text.length digits
@@ -104,18 +138,31 @@ skipsFrom width = plain ["skip 00000 11111"] rows
   where
     rows args = if null args then Nothing else traverse row args >>= Just . sequenceA
     row a = case value a of
-      Number t _ -> Just (if Text.length t < most width then Result.failed (BadHoles (region a) (WrongWidth (most width) (most width))) else holesOf width (Located (region a) t))
+      Number t _ ->
+        Just
+          ( if Text.length t < most width
+              then Result.failed (BadHoles (region a) (WrongWidth (most width) (most width)))
+              else holesOf width (Located (region a) t)
+          )
       _ -> Nothing
 
 -- | The weights, each with where it is given.
 weightsFrom :: Statement -> Result w Error (Map Char (Located Int))
 weightsFrom s = do
-  ((), section) <- opened ["weights { digits … }"] "the weights" (\args -> if null args then Just (pure ()) else Nothing) s
+  ((), section) <-
+    opened
+      ["weights { digits … }"]
+      "the weights"
+      (\args -> if null args then Just (pure ()) else Nothing)
+      s
   given <- concat . catMaybes <$> traverse (tried . weight) (entries section)
-  Result.failing (repeated "the weight of " [(c, r) | (c, Located r _) <- given]) (Map.fromListWith (\_ first -> first) given)
+  Result.failing
+    (repeated "the weight of " [(c, r) | (c, Located r _) <- given])
+    (Map.fromListWith (\_ first -> first) given)
   where
     weight e
-      | keyWord e == Just "digits" && null (arguments e) && isNothing (formula e) = pure [(c, Located (told e) n) | (c, n) <- zip ['0' .. '9'] [0 ..]]
+      | keyWord e == Just "digits" && null (arguments e) && isNothing (formula e) =
+        pure [(c, Located (told e) n) | (c, n) <- zip ['0' .. '9'] [0 ..]]
       | otherwise = case (charOf e, formula e) of
         _ | broken e -> Result [] [] Nothing
         (Just c, Just (Located r (Constant t v)))
@@ -129,10 +176,31 @@ check :: Int -> Section -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made given = alike <> parity <> service <> twice <> skipped
   where
     rows = Map.toList given
-    alike = [BadHoles r (SameHoles (Text.singleton d) r') | (k, (_, Located r p)) <- zip [0 ..] rows, (d, Located r' _) <- take 1 [e | e@(_, Located _ q) <- take k rows, q == p]]
-    parity = [BadHoles r (InParityTrack t) | t <- maybeToList (evenTrack made), (_, Located r p) <- rows, testBit p (t - 1)]
-    service = [BadHoles r (InServiceTrack t) | t <- maybeToList (serviceTrack made), (c, Located r p) <- rows, c `elem` ("0123456789+-." :: String), testBit p (t - 1)]
-    twice = [BadHoles (told s) TwoUses | Just t <- [evenTrack made], serviceTrack made == Just t, s <- entries section, keyWord s == Just "service-track"]
+    alike =
+      [ BadHoles r (SameHoles (Text.singleton d) r')
+        | (k, (_, Located r p)) <- zip [0 ..] rows,
+          (d, Located r' _) <- take 1 [e | e@(_, Located _ q) <- take k rows, q == p]
+      ]
+    parity =
+      [ BadHoles r (InParityTrack t)
+        | t <- maybeToList (evenTrack made),
+          (_, Located r p) <- rows,
+          testBit p (t - 1)
+      ]
+    service =
+      [ BadHoles r (InServiceTrack t)
+        | t <- maybeToList (serviceTrack made),
+          (c, Located r p) <- rows,
+          c `elem` ("0123456789+-." :: String),
+          testBit p (t - 1)
+      ]
+    twice =
+      [ BadHoles (told s) TwoUses
+        | Just t <- [evenTrack made],
+          serviceTrack made == Just t,
+          s <- entries section,
+          keyWord s == Just "service-track"
+      ]
     skipped =
       [ BadHoles (told s) (SkippedSymbol (Text.singleton c))
         | s <- entries section,
@@ -141,7 +209,8 @@ check tracks section made given = alike <> parity <> service <> twice <> skipped
           (c, _) <- take 1 [e | e@(_, Located _ p) <- rows, row `elem` rowsOf tracks made p]
       ]
 
--- | The rows that a symbol can be on the tape: with the hole of the parity, with and without that of the service.
+-- | The rows that a symbol can be on the tape: with the hole of the parity, with and without that
+-- of the service.
 rowsOf :: Int -> TapeCode -> Word8 -> [Word8]
 rowsOf tracks made p = map even' (p : [p .|. bit' t | Just t <- [serviceTrack made], t <= tracks])
   where

@@ -20,7 +20,10 @@ check machine axes' arcsAt feedsAt items' =
   concat
     [ concatMap (strange machine) placed,
       twice placed,
-      [Unfit r (NoWord (contentWord (Along (axis a)))) | Located r a <- axes', isNothing (wordFor machine (Along (axis a)))],
+      [ Unfit r (NoWord (contentWord (Along (axis a))))
+        | Located r a <- axes',
+          isNothing (wordFor machine (Along (axis a)))
+      ],
       [Unfit feedsAt (NoWord (contentWord FeedWord)) | isNothing (wordFor machine FeedWord)],
       arcWords machine arcsAt,
       bits placed,
@@ -43,12 +46,18 @@ strange machine (r, w) = case content w of
     onAxis a = case axisForm machine a of
       Nothing -> [Unfit r (NoSuchAxis (axisText a))]
       Just f ->
-        [Unfit r (PulseNotDecimal (decimals (form w)) (step f)) | decimals (form w) > 0, not (isLast (decimals (form w)) (step f))]
+        [ Unfit r (PulseNotDecimal (decimals (form w)) (step f))
+          | decimals (form w) > 0,
+            not (isLast (decimals (form w)) (step f))
+        ]
           <> [Unfit r (NoSign (contentWord (content w))) | sign (form w) == Unsigned]
     isLast n (Mm p) = abs (p * 10 ^ n - 1) < samePulse
     motions m =
       let ns = catMaybes [rapid m, Just (straight m), clockwise m, counterClockwise m]
-       in [Unfit r (BadMotion n) | (k, n) <- zip [0 ..] ns, n `elem` take k ns || n >= 10 ^ digits (form w)]
+       in [ Unfit r (BadMotion n)
+            | (k, n) <- zip [0 ..] ns,
+              n `elem` take k ns || n >= 10 ^ digits (form w)
+          ]
 
 -- | Pulses are the same when they differ by this part.
 samePulse :: Double
@@ -62,7 +71,11 @@ axisText a = case a of
 
 -- | Words that hold the same.
 twice :: [(Region, Word')] -> [Error]
-twice placed = [Unfit r (TwoWords (contentWord (content w)) first) | (k, (r, w)) <- zip [0 ..] placed, (first, _) <- take 1 [p | p@(_, v) <- take k placed, same (content v) (content w)]]
+twice placed =
+  [ Unfit r (TwoWords (contentWord (content w)) first)
+    | (k, (r, w)) <- zip [0 ..] placed,
+      (first, _) <- take 1 [p | p@(_, v) <- take k placed, same (content v) (content w)]
+  ]
   where
     same a b = case (a, b) of
       (Motion _, Motion _) -> True
@@ -73,24 +86,53 @@ arcWords :: Machine -> Region -> [Error]
 arcWords machine r = case arcs machine of
   NoArcs -> []
   Arcs {} ->
-    [Unfit r (NoWord (contentWord (Centre a))) | a <- [X, Y], isNothing (wordFor machine (Centre a))]
-      <> [Unfit r (NoWord "the direction of an arc") | null [() | w <- wordsOf machine, Motion MotionCodes {clockwise = Just _, counterClockwise = Just _} <- [content w]]]
+    [ Unfit r (NoWord (contentWord (Centre a)))
+      | a <- [X, Y],
+        isNothing (wordFor machine (Centre a))
+    ]
+      <> [ Unfit r (NoWord "the direction of an arc")
+           | null
+               [ ()
+                 | w <- wordsOf machine,
+                   Motion MotionCodes {clockwise = Just _, counterClockwise = Just _} <- [content w]
+               ]
+         ]
       <> [Unfit r (NoSuchAxis (axisText a)) | a <- [X, Y], isNothing (axisForm machine a)]
 
--- | The bits of commands: each once, without a gap, in words that are always there, and no word for them besides.
+-- | The bits of commands: each once, without a gap, in words that are always there, and no word for
+-- them besides.
 bits :: [(Region, Word')] -> [Error]
 bits placed =
-  [BadService r (SameMeaning (bitText o k)) | (i, (r, o, k, _)) <- zip [0 ..] given, or [(o, k) == (o', k') | (_, o', k', _) <- take i given]]
-    <> [BadService r (BitGap (orderText o)) | (r, o) <- firsts, nub (sort [k | (_, o', k, _) <- given, o' == o]) /= [0 .. length (nub [k | (_, o', k, _) <- given, o' == o]) - 1]]
+  [ BadService r (SameMeaning (bitText o k))
+    | (i, (r, o, k, _)) <- zip [0 ..] given,
+      or [(o, k) == (o', k') | (_, o', k', _) <- take i given]
+  ]
+    <> [ BadService r (BitGap (orderText o))
+         | (r, o) <- firsts,
+           nub (sort [k | (_, o', k, _) <- given, o' == o])
+             /= [0 .. length (nub [k | (_, o', k, _) <- given, o' == o]) - 1]
+       ]
     <> [BadService r (BitsMayLack (orderText o)) | (r, o, _, Just ()) <- given]
-    <> [Unfit r (TwoWords (contentWord (Command o)) r') | (r, o) <- firsts, (r', w) <- placed, content w == Command o]
-    <> [BadService r (SameMeaning "braking") | (r, _) <- drop 1 [b | b@(_, w) <- placed, _ <- filter (== BrakingHole) (service (form w))]]
+    <> [ Unfit r (TwoWords (contentWord (Command o)) r')
+         | (r, o) <- firsts,
+           (r', w) <- placed,
+           content w == Command o
+       ]
+    <> [ BadService r (SameMeaning "braking")
+         | (r, _) <-
+             drop 1 [b | b@(_, w) <- placed, _ <- filter (== BrakingHole) (service (form w))]
+       ]
   where
-    given = [(r, o, k, if presence w == Always then Nothing else Just ()) | (r, w) <- placed, OrderBit o k <- service (form w)]
+    given =
+      [ (r, o, k, if presence w == Always then Nothing else Just ())
+        | (r, w) <- placed,
+          OrderBit o k <- service (form w)
+      ]
     firsts = Map.elems (Map.fromListWith (\_ first -> first) [(o, (r, o)) | (r, o, _, _) <- given])
     orderText (CommandName n) = n
     bitText (CommandName n) k = n <> ":" <> Decimal.whole k
 
 -- | Whether for every sum there is a digit that makes it a multiple.
 solves :: TapeCode -> Int -> Bool
-solves c modulus = length (nub [Map.findWithDefault 0 d (weights c) `mod` modulus | d <- ['0' .. '9']]) == modulus
+solves c modulus =
+  length (nub [Map.findWithDefault 0 d (weights c) `mod` modulus | d <- ['0' .. '9']]) == modulus

@@ -1,7 +1,7 @@
 {-# LANGUAGE TemplateHaskell #-}
 
--- | The files of the folder @machines/@, as they were when the program was built. What they mean is read in
--- "Machine.FromText".
+-- | The files of the folder @machines/@, as they were when the program was built. What they mean is
+-- read in "Machine.FromText".
 module Machine.Embedded
   ( files,
   )

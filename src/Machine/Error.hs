@@ -17,7 +17,15 @@ import Base.Quantity (Mm (..))
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode,
+    ReportPlace (..),
+    Severity (..),
+    quote,
+    report,
+  )
 
 -- | A fact about the description, and where it stands.
 data Error
@@ -29,7 +37,8 @@ data Error
     Unopened Region
   | -- | blocks nested deeper than so many
     TooDeep Region Int
-  | -- | a key that its section does not have: the key as it is written, the section, the keys that it has
+  | -- | a key that its section does not have: the key as it is written, the section, the keys that
+    -- it has
     UnknownKey Region Text Text [Text]
   | -- | something given twice: what, and where it stands first
     Twice Region Text Region
@@ -169,15 +178,30 @@ toReport err = case err of
   Unexpected region found expected ->
     (at region "E1001" ("found " <> found <> ", expected " <> expected))
       { label = "here",
-        hints = ["A line is a key, its arguments, perhaps a mark, perhaps a block in braces: pitch 2.54 mm reconstructed"]
+        hints =
+          [ "A line is a key, its arguments, perhaps a mark, perhaps a block in braces: pitch 2.54 \
+            \mm reconstructed"
+          ]
       }
-  Unclosed region -> (at region "E1001" "the brace is not closed") {label = "opened here", hints = ["A block ends with } on a line of its own."]}
-  Unopened region -> (at region "E1001" "a closing brace without an opening one") {hints = ["Is the { missing at the end of the line that begins the block?"]}
-  TooDeep region limit -> at region "E1001" ("blocks are nested more than " <> Decimal.whole limit <> " deep")
+  Unclosed region ->
+    (at region "E1001" "the brace is not closed")
+      { label = "opened here",
+        hints = ["A block ends with } on a line of its own."]
+      }
+  Unopened region ->
+    (at region "E1001" "a closing brace without an opening one")
+      { hints =
+          ["Is the { missing at the end of the line that begins the block?"]
+      }
+  TooDeep region limit ->
+    at region "E1001" ("blocks are nested more than " <> Decimal.whole limit <> " deep")
   UnknownKey region key section known ->
     (at region "E1002" (quote key <> " says nothing about " <> section))
       { message = ["Here may stand: " <> Text.intercalate ", " known <> "."],
-        hints = ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.lookAlike key known <> Name.nearest key known)]
+        hints =
+          [ "Did you mean " <> quote w <> "?"
+            | w <- take 1 (Name.lookAlike key known <> Name.nearest key known)
+          ]
       }
   Twice region what first ->
     (at region "E1003" (what <> " is given twice"))
@@ -193,9 +217,23 @@ toReport err = case err of
       { hints = ["Write: " <> Text.intercalate ", or: " forms]
       }
   Unmarked region more ->
-    (at region "E1006" ("nothing says how this is known" <> (if more == 0 then "" else ", nor " <> Decimal.whole more <> " more of this section")))
-      { message = ["Every value of a machine carries a mark: sourced (printed in a document), corrected (printed there, but the print contradicts itself) or reconstructed (chosen, because no document says it)."],
-        hints = ["Write the mark behind it, and where it is printed: sourced \"manual, page 12\"", "A mark before a block, or on the line of the machine, holds for all within that have none."]
+    ( at
+        region
+        "E1006"
+        ( "nothing says how this is known"
+            <> (if more == 0 then "" else ", nor " <> Decimal.whole more <> " more of this section")
+        )
+    )
+      { message =
+          [ "Every value of a machine carries a mark: sourced (printed in a document), \
+            \corrected (printed there, but the print contradicts itself) or reconstructed (chosen, \
+            \because no document says it)."
+          ],
+        hints =
+          [ "Write the mark behind it, and where it is printed: sourced \"manual, page 12\"",
+            "A mark before a block, or on the line of the machine, holds for all within that have \
+            \none."
+          ]
       }
   OutOfRange region what low high ->
     (at region "E1007" (what <> " cannot be this number"))
@@ -204,7 +242,11 @@ toReport err = case err of
   BadHoles region fault -> holesReport region fault
   NotInCode region what chars ->
     (at region "E1009" (what <> " needs " <> listed chars <> ", which the code lacks"))
-      { hints = ["Add the row of each to the symbols of the code: \"" <> Text.take 1 (Text.pack chars) <> "\" = 00101"]
+      { hints =
+          [ "Add the row of each to the symbols of the code: \""
+              <> Text.take 1 (Text.pack chars)
+              <> "\" = 00101"
+          ]
       }
   Unreadable region unclear -> unclearReport region unclear
   BadService region fault -> serviceReport region fault
@@ -212,7 +254,9 @@ toReport err = case err of
   BadTable region fault -> tableReport region fault
   BadCommand region fault -> commandReport region fault
   where
-    listed cs = Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs)) <> (if length cs > 12 then " …" else "")
+    listed cs =
+      Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))
+        <> (if length cs > 12 then " …" else "")
     -- A character as Haskell shows it, a Cyrillic one as itself.
     unquoted s = case s of
       "'\\n'" -> "\\n"
@@ -224,7 +268,12 @@ holesReport :: Region -> Holes -> Report
 holesReport region fault = case fault of
   WrongWidth tracks least ->
     (at region "E1008" "a row of other tracks than the tape's")
-      { hints = ["A pattern has a digit for each track, the highest first, 1 for a hole: " <> (if least < tracks then Decimal.whole least <> " or " else "") <> Decimal.whole tracks <> " digits."]
+      { hints =
+          [ "A pattern has a digit for each track, the highest first, 1 for a hole: "
+              <> (if least < tracks then Decimal.whole least <> " or " else "")
+              <> Decimal.whole tracks
+              <> " digits."
+          ]
       }
   InParityTrack track ->
     (at region "E1008" "a hole in the track of the parity")
@@ -232,7 +281,11 @@ holesReport region fault = case fault of
       }
   InServiceTrack track ->
     (at region "E1008" "a symbol of numbers has a hole in the service track")
-      { hints = ["What a hole in track " <> Decimal.whole track <> " means at a digit, the words of the frame say: leave 0 there."]
+      { hints =
+          [ "What a hole in track "
+              <> Decimal.whole track
+              <> " means at a digit, the words of the frame say: leave 0 there."
+          ]
       }
   SameHoles other first ->
     (at region "E1008" ("these are the holes of " <> quote other))
@@ -243,14 +296,25 @@ holesReport region fault = case fault of
     (at region "E1008" ("a row to skip is the symbol " <> quote other))
       { hints = ["Skip only rows that mean nothing."]
       }
-  TwoUses -> (at region "E1008" "one track for service and for parity") {hints = ["Give each a track of its own."]}
-  TooFewTracks -> (at region "E1008" "ASCII needs seven tracks") {hints = ["Give the row of each symbol: X = 0101"]}
+  TwoUses ->
+    (at region "E1008" "one track for service and for parity")
+      { hints =
+          ["Give each a track of its own."]
+      }
+  TooFewTracks ->
+    (at region "E1008" "ASCII needs seven tracks")
+      { hints =
+          ["Give the row of each symbol: X = 0101"]
+      }
 
 unclearReport :: Region -> Unclear -> Report
 unclearReport region unclear = case unclear of
   NoAddress ->
     (because "A word that need not stand in a frame is known by its address only.")
-      { hints = ["Give the word an address: word \"X\" along x", "Or let it stand in every frame: leave out ‘when’."]
+      { hints =
+          [ "Give the word an address: word \"X\" along x",
+            "Or let it stand in every frame: leave out ‘when’."
+          ]
       }
   SameAddress address first ->
     (because ("Two words have the address " <> quote address <> "."))
@@ -264,23 +328,37 @@ unclearReport region unclear = case unclear of
   Prefix short long other ->
     (because (quote long <> " begins with " <> quote short <> ", which may stand in its place."))
       { others = [Label other (quote short)],
-        hints = ["Change one of the two, or let the longer one stand first if its rest cannot be a number."]
+        hints =
+          [ "Change one of the two, or let the longer one stand first if its rest cannot be a \
+            \number."
+          ]
       }
   RunsOn next ->
     (because "The number has any length, and what follows it may begin with a digit.")
       { others = [Label next "follows it"],
-        hints = ["Give the number a fixed length: digits " <> "4", "Or give what follows an address."]
+        hints =
+          ["Give the number a fixed length: digits " <> "4", "Or give what follows an address."]
       }
   RunsOnClosing ->
     (because "The number has any length, and the symbols behind the last frame begin with a digit.")
-      { hints = ["Give the number a fixed length: digits 4", "Or end every frame with a symbol: symbols \"\\n\""]
+      { hints =
+          [ "Give the number a fixed length: digits 4",
+            "Or end every frame with a symbol: symbols \"\\n\""
+          ]
       }
   RunsOnBlank digit ->
-    (because ("The number has any length, and a blank row, which is skipped behind the frame, reads as " <> quote (Text.singleton digit) <> "."))
+    ( because
+        ( "The number has any length, and a blank row, which is skipped behind the frame, reads as "
+            <> quote (Text.singleton digit)
+            <> "."
+        )
+    )
       { hints = ["Give the number a fixed length: digits 4", "Or let the blank rows be ‘counted’."]
       }
   NothingFixed ->
-    (because "No word and no symbol stands in every frame, so nothing tells one frame from the next.")
+    ( because
+        "No word and no symbol stands in every frame, so nothing tells one frame from the next."
+    )
       { hints = ["End every frame with a symbol: symbols \"\\n\""]
       }
   BlankStart ->
@@ -292,45 +370,106 @@ unclearReport region unclear = case unclear of
       { others = [Label first "the other one"],
         hints = ["Keep one."]
       }
-  ClosingLikeFrame -> (because "The symbols behind the last frame begin like a frame.") {hints = ["Let them begin with a symbol that begins no frame."]}
+  ClosingLikeFrame ->
+    (because "The symbols behind the last frame begin like a frame.")
+      { hints =
+          ["Let them begin with a symbol that begins no frame."]
+      }
   where
     because why = (at region "E1010" "such frames cannot be read back") {message = [why]}
 
 serviceReport :: Region -> ServiceFault -> Report
 serviceReport region fault = case fault of
-  NoTrack -> (wrong "the code has no track for these holes") {hints = ["Name the track in the code: service-track 5"]}
+  NoTrack ->
+    (wrong "the code has no track for these holes")
+      { hints =
+          ["Name the track in the code: service-track 5"]
+      }
   WrongCount named digits ->
     (wrong (Decimal.whole named <> " holes for " <> Decimal.whole digits <> " digits"))
-      { hints = ["Say for each digit what a hole beside it means, - where there never is one: holes minus - - -"]
+      { hints =
+          [ "Say for each digit what a hole beside it means, - where there never is one: \
+            \holes minus - - -"
+          ]
       }
-  AnyLength -> (wrong "a number of any length has no fixed place for holes") {hints = ["Give it a fixed length: digits 4"]}
-  SameMeaning meaning -> (wrong (quote meaning <> " has two places")) {hints = ["A hole that says the same stands in one place of a frame."]}
-  BitGap name -> (wrong ("the bits of " <> quote name <> " have a gap")) {hints = ["They are counted from 0, without a gap: " <> name <> ":1 " <> name <> ":0"]}
-  BitsMayLack name -> (wrong ("the bits of " <> quote name <> " are not in every frame")) {hints = ["Let the word stand in every frame: leave out ‘when’."]}
-  NoBrakingHole -> (wrong "no hole says that a frame is braked") {hints = ["Name it in the word of the feed: holes braking -"]}
+  AnyLength ->
+    (wrong "a number of any length has no fixed place for holes")
+      { hints =
+          ["Give it a fixed length: digits 4"]
+      }
+  SameMeaning meaning ->
+    (wrong (quote meaning <> " has two places"))
+      { hints =
+          ["A hole that says the same stands in one place of a frame."]
+      }
+  BitGap name ->
+    (wrong ("the bits of " <> quote name <> " have a gap"))
+      { hints =
+          ["They are counted from 0, without a gap: " <> name <> ":1 " <> name <> ":0"]
+      }
+  BitsMayLack name ->
+    (wrong ("the bits of " <> quote name <> " are not in every frame"))
+      { hints =
+          ["Let the word stand in every frame: leave out ‘when’."]
+      }
+  NoBrakingHole ->
+    (wrong "no hole says that a frame is braked")
+      { hints =
+          ["Name it in the word of the feed: holes braking -"]
+      }
   where
     wrong = at region "E1011"
 
 misfitReport :: Region -> FrameMisfit -> Report
 misfitReport region misfit = case misfit of
-  NoSuchAxis axis -> (wrong ("the machine has no axis " <> axis)) {hints = ["Leave the word out, or describe the axis: axis " <> axis <> " { … }"]}
-  TwoWords what first -> (wrong ("two words hold the same: " <> what)) {others = [Label first "the other word"], hints = ["Keep one."]}
-  NoWord what -> (wrong ("the frame has no word for this: " <> what)) {hints = ["Add it to the frame: word …"]}
+  NoSuchAxis axis ->
+    (wrong ("the machine has no axis " <> axis))
+      { hints =
+          ["Leave the word out, or describe the axis: axis " <> axis <> " { … }"]
+      }
+  TwoWords what first ->
+    (wrong ("two words hold the same: " <> what))
+      { others = [Label first "the other word"],
+        hints = ["Keep one."]
+      }
+  NoWord what ->
+    (wrong ("the frame has no word for this: " <> what)) {hints = ["Add it to the frame: word …"]}
   Unsuited what why -> (wrong ("this does not suit the word: " <> what)) {message = [why]}
   PulseNotDecimal decimals pulse ->
     (wrong ("the last decimal is not a pulse of " <> millimetres pulse))
-      { message = ["A number with a point is in mm, so its last decimal has to be the pulse of its axis."],
-        hints = ["With " <> Decimal.whole decimals <> " decimals the pulse is " <> Decimal.exact (10 ^^ negate decimals) <> " mm."]
+      { message =
+          [ "A number with a point is in mm, so its last decimal has to be the pulse of its \
+            \axis."
+          ],
+        hints =
+          [ "With "
+              <> Decimal.whole decimals
+              <> " decimals the pulse is "
+              <> Decimal.exact (10 ^^ negate decimals)
+              <> " mm."
+          ]
       }
-  BadMotion n -> (wrong ("a motion cannot be " <> Decimal.whole n)) {hints = ["Each kind of motion has a number of its own that fits the digits of the word."]}
+  BadMotion n ->
+    (wrong ("a motion cannot be " <> Decimal.whole n))
+      { hints =
+          ["Each kind of motion has a number of its own that fits the digits of the word."]
+      }
   CentreOfZ -> (wrong "arcs have no centre along z") {hints = ["Arcs lie in the plane of x and y."]}
   NoCheckDigit modulus ->
     (wrong ("no digit makes every sum a multiple of " <> Decimal.whole modulus))
       { message = ["The weights of the digits 0 to 9 have to leave every remainder."],
         hints = ["Let every digit count itself: weights { digits }"]
       }
-  NoSign what -> (wrong ("this word cannot say which way: " <> what)) {hints = ["Say how: sign minus, sign both, sign priority 5 6 1 2, or holes minus …"]}
-  BrakedFrequencies -> (wrong "frames cannot be braked to a feed where codes are frequencies") {hints = ["Write: by slow-frames, or by control; or give the feeds in mm/min."]}
+  NoSign what ->
+    (wrong ("this word cannot say which way: " <> what))
+      { hints =
+          ["Say how: sign minus, sign both, sign priority 5 6 1 2, or holes minus …"]
+      }
+  BrakedFrequencies ->
+    (wrong "frames cannot be braked to a feed where codes are frequencies")
+      { hints =
+          ["Write: by slow-frames, or by control; or give the feeds in mm/min."]
+      }
   where
     wrong = at region "E1012"
     millimetres (Mm p) = Decimal.exact p <> " mm"
@@ -338,11 +477,31 @@ misfitReport region misfit = case misfit of
 tableReport :: Region -> TableFault -> Report
 tableReport region fault = case fault of
   EmptyTable -> (wrong "the table is empty") {hints = ["Write a line for each code: 1 = 15"]}
-  NoValue n -> (wrong ("the value of " <> Decimal.whole n <> " is no number above 0")) {hints = ["Feeds and speeds are above 0, and below 1000000000."]}
-  CodeTooLarge n largest -> (wrong ("the code " <> Decimal.whole n <> " does not fit the word of the feed")) {hints = ["Its digits hold 0 to " <> Decimal.whole largest <> "."]}
-  NoSuchCode n -> (wrong ("the table has no code " <> Decimal.whole n)) {hints = ["Name a code of the table, or write: rapid highest"]}
-  BadRange a b -> (wrong ("the range " <> Decimal.whole a <> ".." <> Decimal.whole b <> " is none")) {hints = ["A range goes from a number to one that is not below it, over 10000 numbers at most."]}
-  NoSuchFeed low high -> (wrong "the machine has no such feed") {hints = ["Its feeds are " <> Decimal.short 3 low <> " to " <> Decimal.short 3 high <> " mm/min."]}
+  NoValue n ->
+    (wrong ("the value of " <> Decimal.whole n <> " is no number above 0"))
+      { hints =
+          ["Feeds and speeds are above 0, and below 1000000000."]
+      }
+  CodeTooLarge n largest ->
+    (wrong ("the code " <> Decimal.whole n <> " does not fit the word of the feed"))
+      { hints =
+          ["Its digits hold 0 to " <> Decimal.whole largest <> "."]
+      }
+  NoSuchCode n ->
+    (wrong ("the table has no code " <> Decimal.whole n))
+      { hints =
+          ["Name a code of the table, or write: rapid highest"]
+      }
+  BadRange a b ->
+    (wrong ("the range " <> Decimal.whole a <> ".." <> Decimal.whole b <> " is none"))
+      { hints =
+          ["A range goes from a number to one that is not below it, over 10000 numbers at most."]
+      }
+  NoSuchFeed low high ->
+    (wrong "the machine has no such feed")
+      { hints =
+          ["Its feeds are " <> Decimal.short 3 low <> " to " <> Decimal.short 3 high <> " mm/min."]
+      }
   where
     wrong = at region "E1013"
 
@@ -351,13 +510,31 @@ commandReport region fault = case fault of
   NoPlace name known ->
     (wrong ("the frame has no place for " <> quote name))
       { hints =
-          ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.lookAlike name known <> Name.nearest name known)]
+          [ "Did you mean " <> quote w <> "?"
+            | w <- take 1 (Name.lookAlike name known <> Name.nearest name known)
+          ]
             <> ["Give it a word in the frame: word \"" <> name <> "\" command " <> name]
       }
-  TooLarge n largest -> (wrong ("the number " <> Decimal.whole n <> " does not fit")) {hints = ["Its place in the frame holds 0 to " <> Decimal.whole largest <> "."]}
-  NoSuchValue value event -> (wrong (quote value <> " means nothing for " <> quote event)) {hints = ["Give it a number: set M 8"]}
-  InDecimals -> (wrong "a whole number in a word with decimals") {hints = ["Only a diameter goes into a word with decimals."]}
-  AsksNothing -> (wrong "0 stands there when nothing is asked") {hints = ["Give it another number, or let the word stand only where it is needed: when needed"]}
+  TooLarge n largest ->
+    (wrong ("the number " <> Decimal.whole n <> " does not fit"))
+      { hints =
+          ["Its place in the frame holds 0 to " <> Decimal.whole largest <> "."]
+      }
+  NoSuchValue value event ->
+    (wrong (quote value <> " means nothing for " <> quote event))
+      { hints =
+          ["Give it a number: set M 8"]
+      }
+  InDecimals ->
+    (wrong "a whole number in a word with decimals")
+      { hints =
+          ["Only a diameter goes into a word with decimals."]
+      }
+  AsksNothing ->
+    (wrong "0 stands there when nothing is asked")
+      { hints =
+          ["Give it another number, or let the word stand only where it is needed: when needed"]
+      }
   where
     wrong = at region "E1014"
 

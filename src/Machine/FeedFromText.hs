@@ -16,7 +16,16 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes)
 import Data.Text qualified as Text
 import Machine.Error (Error (..), TableFault (..))
-import Machine.Machine (Braking (..), BrakingForm (..), FeedCode (..), FeedCodes (..), FeedMeasure (..), Feeds (..), RapidCode (..), Rule (..))
+import Machine.Machine
+  ( Braking (..),
+    BrakingForm (..),
+    FeedCode (..),
+    FeedCodes (..),
+    FeedMeasure (..),
+    Feeds (..),
+    RapidCode (..),
+    Rule (..),
+  )
 import Machine.Section
 import Machine.Syntax
 
@@ -25,16 +34,24 @@ table :: Section -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (tried . line) (entries section)
   let values = Map.fromListWith (\_ first -> first) [(n, v) | (n, _, v) <- given]
-  Result.failing (repeated given <> [BadTable (place section) EmptyTable | null (entries section)]) values
+  Result.failing
+    (repeated given <> [BadTable (place section) EmptyTable | null (entries section)])
+    values
   where
     tried r = r {output = Just (output r)}
     line e = case (codesOf e, formula e) of
       _ | broken e -> Result [] [] Nothing
       (Just (a, b), Just (Located r f))
-        | null (arguments e), Nothing <- block e -> range (region (key e)) a b >>= traverse (entry (region (key e)) r f)
+        | null (arguments e),
+          Nothing <- block e ->
+          range (region (key e)) a b >>= traverse (entry (region (key e)) r f)
       _ -> malformed ["1 = 15", "0..40 = 10 * 10^(n/20)"] e
-    range r a b = if a > b || b - a >= longest then Result.failed (BadTable r (BadRange a b)) else pure [a .. b]
-    entry r r' f n = let v = evaluate (fromIntegral n) f in if v > 0 && v < 1e9 then pure (n, r, v) else Result.failed (BadTable r' (NoValue n))
+    range r a b =
+      if a > b || b - a >= longest then Result.failed (BadTable r (BadRange a b)) else pure [a .. b]
+    entry r r' f n =
+      let v =
+            evaluate (fromIntegral n) f
+       in if v > 0 && v < 1e9 then pure (n, r, v) else Result.failed (BadTable r' (NoValue n))
     codesOf e = case value (key e) of
       Number t v | Text.all (/= '.') t && v < 1e9 -> Just (round v, round v)
       Range a b -> Just (a, b)
@@ -42,7 +59,9 @@ table section = do
 
 -- | Codes that are given twice, once for each line.
 repeated :: [(Int, Region, Double)] -> [Error]
-repeated given = dedupe [Twice r "a code" first | (n, r, _) <- given, Just first <- [Map.lookup n firsts], first /= r]
+repeated given =
+  dedupe
+    [Twice r "a code" first | (n, r, _) <- given, Just first <- [Map.lookup n firsts], first /= r]
   where
     firsts = Map.fromListWith (\_ first -> first) [(n, r) | (n, r, _) <- given]
     dedupe es = case es of
@@ -55,11 +74,20 @@ longest = 10000
 
 feeds :: Statement -> Result w Error Feeds
 feeds s = do
-  ((), section) <- opened ["feeds { … }"] "the feeds" (\args -> if null args then Just (pure ()) else Nothing) s
+  ((), section) <-
+    opened ["feeds { … }"] "the feeds" (\args -> if null args then Just (pure ()) else Nothing) s
   Feeds
-    <$> required "measure" "measure mm/min" (choice [("mm/min", AlongPath), ("Hz", LeadingAxis)]) section
+    <$> required
+      "measure"
+      "measure mm/min"
+      (choice [("mm/min", AlongPath), ("Hz", LeadingAxis)])
+      section
     <*> codesFrom section
-    <*> required "rule" "rule nearest" (choice [("not-above", NotAbove), ("nearest", Nearest)]) section
+    <*> required
+      "rule"
+      "rule nearest"
+      (choice [("not-above", NotAbove), ("nearest", Nearest)])
+      section
     <*> required "rapid" "rapid highest" (plain ["rapid highest", "rapid code 9"] rapid) section
     <* known ["measure", "table", "direct", "rule", "rapid"] [] section
   where
@@ -70,12 +98,23 @@ feeds s = do
 
 -- | Either a table or codes that are the values.
 codesFrom :: Section -> Result w Error FeedCodes
-codesFrom section = case ([s | s <- entries section, keyWord s == Just "table"], [s | s <- entries section, keyWord s == Just "direct"]) of
-  (t : _, d : _) -> Result.failed (Twice (told d) "the codes of the feeds" (told t))
-  (_, []) -> Listed . Map.mapKeysMonotonic FeedCode <$> required "table" "table { 1 = 15 … }, or: direct 1..999" listed section
-  ([], d : _) -> plain ["direct 1..999"] direct d
+codesFrom section =
+  case ( [s | s <- entries section, keyWord s == Just "table"],
+         [s | s <- entries section, keyWord s == Just "direct"]
+       ) of
+    (t : _, d : _) -> Result.failed (Twice (told d) "the codes of the feeds" (told t))
+    (_, []) ->
+      Listed . Map.mapKeysMonotonic FeedCode
+        <$> required "table" "table { 1 = 15 … }, or: direct 1..999" listed section
+    ([], d : _) -> plain ["direct 1..999"] direct d
   where
-    listed t = opened ["table { 1 = 15 … }"] "the table of feeds" (\args -> if null args then Just (pure ()) else Nothing) t >>= table . snd
+    listed t =
+      opened
+        ["table { 1 = 15 … }"]
+        "the table of feeds"
+        (\args -> if null args then Just (pure ()) else Nothing)
+        t
+        >>= table . snd
     direct args = case args of
       [Located r (Range a b)]
         | a < 1 || b < a -> Just (Result.failed (BadTable r (BadRange a b)))
@@ -84,10 +123,23 @@ codesFrom section = case ([s | s <- entries section, keyWord s == Just "table"],
 
 braking :: Statement -> Result w Error Braking
 braking s = do
-  ((), section) <- opened ["braking { … }"] "the braking" (\args -> if null args then Just (pure ()) else Nothing) s
+  ((), section) <-
+    opened
+      ["braking { … }"]
+      "the braking"
+      (\args -> if null args then Just (pure ()) else Nothing)
+      s
   Braking
-    <$> required "deceleration" "deceleration 5 mm/s2" (plain ["deceleration 5 mm/s2"] deceleration') section
-    <*> required "by" "by control" (plain ["by control", "by slow-frames", "by braked-frames 10 mm/min"] form) section
+    <$> required
+      "deceleration"
+      "deceleration 5 mm/s2"
+      (plain ["deceleration 5 mm/s2"] deceleration')
+      section
+    <*> required
+      "by"
+      "by control"
+      (plain ["by control", "by slow-frames", "by braked-frames 10 mm/min"] form)
+      section
     <* known ["deceleration", "by"] [] section
   where
     deceleration' args = case args of
@@ -96,10 +148,12 @@ braking s = do
     form args = case args of
       [Located _ (Word "control")] -> Just (pure ByControl)
       [Located _ (Word "slow-frames")] -> Just (pure SlowFrames)
-      [Located _ (Word "braked-frames"), a, b] -> fmap (BrakedFrames . Feed) <$> amountIn "the feed" "mm/min" 1e9 a b
+      [Located _ (Word "braked-frames"), a, b] ->
+        fmap (BrakedFrames . Feed) <$> amountIn "the feed" "mm/min" 1e9 a b
       _ -> Nothing
 
--- | What feeds and braking say of each other: where each stands, and the largest code that the word of the feed holds.
+-- | What feeds and braking say of each other: where each stands, and the largest code that the word
+-- of the feed holds.
 checkFeeds :: Located Feeds -> Located Braking -> Maybe Int -> [Error]
 checkFeeds (Located r f) (Located r' b) holds = rapid <> held <> slow
   where
@@ -115,5 +169,8 @@ checkFeeds (Located r f) (Located r' b) holds = rapid <> held <> slow
       Listed t -> Map.elems t
       Direct a z -> [fromIntegral a, fromIntegral z]
     slow = case (brakingForm b, feedMeasure f, values) of
-      (BrakedFrames (Feed v), AlongPath, _ : _) -> let (low, high) = (minimum values, maximum values) in [BadTable r' (NoSuchFeed low high) | v < low - 1e-9 * low || v > high + 1e-9 * high]
+      (BrakedFrames (Feed v), AlongPath, _ : _) ->
+        let (low, high) =
+              (minimum values, maximum values)
+         in [BadTable r' (NoSuchFeed low high) | v < low - 1e-9 * low || v > high + 1e-9 * high]
       _ -> []

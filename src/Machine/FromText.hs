@@ -1,8 +1,8 @@
 -- | Machines from their descriptions.
 --
--- A description is read in three steps: into statements ("Machine.Parser"), section by section into values, and the
--- sections against each other: the words of the frame against axes, code, feeds and commands. Each step reports all
--- that it finds.
+-- A description is read in three steps: into statements ("Machine.Parser"), section by section into
+-- values, and the sections against each other: the words of the frame against axes, code, feeds and
+-- commands. Each step reports all that it finds.
 module Machine.FromText
   ( read,
   )
@@ -52,12 +52,16 @@ described text ss = marked *> machine
       s : _ -> note s
       [] -> Nothing
     -- A line of the machine that cannot be read may have had a mark.
-    marked = Result.failing (if any broken heading then [] else Provenance.unmarked byHeading body) ()
+    marked =
+      Result.failing (if any broken heading then [] else Provenance.unmarked byHeading body) ()
     machine =
       assemble (Provenance.facts text byHeading body)
         <$> required "machine" "machine my-mill \"The mill in hall 3\"" nameFrom whole
         <*> sections whole
-        <* known ["machine", "tape", "code", "arcs", "frame", "feeds", "braking", "commands", "limits"] ["axis"] whole
+        <* known
+          ["machine", "tape", "code", "arcs", "frame", "feeds", "braking", "commands", "limits"]
+          ["axis"]
+          whole
 
 -- | The sections, each where it stands.
 data Sections = Sections
@@ -75,9 +79,22 @@ data Sections = Sections
 assemble :: [DescribedValue] -> (Text, Text) -> Sections -> Machine
 assemble fs (n, t) s = (machineOf s) {name = MachineName n, title = t, facts = fs}
 
--- | The sections, each by itself and then all together. What one lacks does not hide what is wrong in another.
+-- | The sections, each by itself and then all together. What one lacks does not hide what is wrong
+-- in another.
 sections :: Section -> Result w Error Sections
-sections whole = (Sections <$> tape <*> coded <*> axes' <*> arcs' <*> framed <*> feeds' <*> braking' <*> commands' <*> limits') >>= together
+sections whole =
+  ( Sections
+      <$> tape
+        <*> coded
+        <*> axes'
+        <*> arcs'
+        <*> framed
+        <*> feeds'
+        <*> braking'
+        <*> commands'
+        <*> limits'
+  )
+    >>= together
   where
     tape = required "tape" "tape { tracks 8 … }" (located tapeFrom) whole
     -- Known even where something else of the tape is wrong.
@@ -89,7 +106,12 @@ sections whole = (Sections <$> tape <*> coded <*> axes' <*> arcs' <*> framed <*>
     hasService = isJust . serviceTrack . value <$> Result.settled coded
     feeds' = required "feeds" "feeds { … }" (located FeedFromText.feeds) whole
     braking' = required "braking" "braking { … }" (located FeedFromText.braking) whole
-    commands' = optional "commands" (CommandFromText.CommandContext noOrders []) CommandFromText.commands whole
+    commands' =
+      optional
+        "commands"
+        (CommandFromText.CommandContext noOrders [])
+        CommandFromText.commands
+        whole
     limits' = optional "limits" (Limits Nothing) limitsFrom whole
     located f s = Located (told s) <$> f s
 
@@ -100,11 +122,27 @@ together s = Result.failing faults s
     machine = machineOf s
     faults =
       concat
-        [ Completeness.check machine (NonEmpty.toList (axesOf s)) (region (arcsOf s)) (region (feedsOf s)) (NonEmpty.toList (sites (frameOf s))),
-          UniqueDecoding.check (value (tapeOf s)) (region (tapeOf s)) (value (codeOf s)) (sites (frameOf s)) (separatorSite (frameOf s), separator (FrameFromText.layout (frameOf s))),
+        [ Completeness.check
+            machine
+            (NonEmpty.toList (axesOf s))
+            (region (arcsOf s))
+            (region (feedsOf s))
+            (NonEmpty.toList (sites (frameOf s))),
+          UniqueDecoding.check
+            (value (tapeOf s))
+            (region (tapeOf s))
+            (value (codeOf s))
+            (sites (frameOf s))
+            (separatorSite (frameOf s), separator (FrameFromText.layout (frameOf s))),
           FeedFromText.checkFeeds (feedsOf s) (brakingOf s) feedDigits,
-          [BadService (region (brakingOf s)) NoBrakingHole | BrakingHole `notElem` concatMap (service . form) (wordsOf machine), BrakedFrames _ <- [brakingForm (value (brakingOf s))]],
-          [Unfit (region (brakingOf s)) BrakedFrequencies | LeadingAxis <- [feedMeasure (feeds machine)], BrakedFrames _ <- [brakingForm (value (brakingOf s))]],
+          [ BadService (region (brakingOf s)) NoBrakingHole
+            | BrakingHole `notElem` concatMap (service . form) (wordsOf machine),
+              BrakedFrames _ <- [brakingForm (value (brakingOf s))]
+          ],
+          [ Unfit (region (brakingOf s)) BrakedFrequencies
+            | LeadingAxis <- [feedMeasure (feeds machine)],
+              BrakedFrames _ <- [brakingForm (value (brakingOf s))]
+          ],
           CommandFromText.check machine (commandsOf s)
         ]
     feedDigits = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
@@ -135,7 +173,10 @@ nameFrom = plain ["machine my-mill \"The mill in hall 3\""] heading
       [Quoted n, Quoted t] | isName n -> Just (pure (n, t))
       _ -> Nothing
     -- As a program writes it.
-    isName n = n /= "" && Text.all (\c -> isAlphaNum c || c `elem` ("-." :: String)) n && not ("--" `Text.isInfixOf` n)
+    isName n =
+      n /= ""
+        && Text.all (\c -> isAlphaNum c || c `elem` ("-." :: String)) n
+        && not ("--" `Text.isInfixOf` n)
 
 tracksFrom :: Statement -> Result w Error Int
 tracksFrom s = opened [] "" none s >>= required "tracks" "tracks 8" (count "tracks" 1 8) . snd
@@ -150,10 +191,17 @@ tapeFrom s = do
     <*> required "leader" "leader 25" (count "leader" 0 mostRows) section
     <*> required "gap" "gap 3" (count "gap" 0 mostRows) section
     <*> optional "even-shift" 0 (count "even-shift" 0 mostRows) section
-    <*> required "spare" "spare skipped" (choice [("counted", Counted), ("skipped", Skipped)]) section
+    <*> required
+      "spare"
+      "spare skipped"
+      (choice [("counted", Counted), ("skipped", Skipped)])
+      section
     <*> optional "opening" "" quotedText section
     <*> optional "closing" "" quotedText section
-    <* known ["tracks", "pitch", "suffix", "leader", "gap", "even-shift", "spare", "opening", "closing"] [] section
+    <* known
+      ["tracks", "pitch", "suffix", "leader", "gap", "even-shift", "spare", "opening", "closing"]
+      []
+      section
   where
     pitchFrom args = case args of
       [Located _ (Word "none")] -> Just (pure Nothing)
@@ -161,7 +209,9 @@ tapeFrom s = do
       _ -> Nothing
     suffixFrom e = do
       t <- quotedText e
-      if t /= "" && Text.all (\c -> isAlphaNum c || c `elem` ("-_" :: String)) t then pure t else malformed ["suffix \"tape\""] e
+      if t /= "" && Text.all (\c -> isAlphaNum c || c `elem` ("-_" :: String)) t
+        then pure t
+        else malformed ["suffix \"tape\""] e
 
 -- | Blank rows in a row.
 mostRows :: Int
@@ -186,7 +236,11 @@ axesFrom whole = do
     Nothing -> Result.failed (Missing (place whole) (what whole) "axis" "axis x { pulse 0.01 mm }")
     Just some -> Result.failing (twice found) some
   where
-    twice found = [Twice r "an axis" first | (k, Located r a) <- zip [0 ..] found, Located first _ <- take 1 [b | b <- take k found, axis (value b) == axis a]]
+    twice found =
+      [ Twice r "an axis" first
+        | (k, Located r a) <- zip [0 ..] found,
+          Located first _ <- take 1 [b | b <- take k found, axis (value b) == axis a]
+      ]
 
 axisFrom :: Statement -> Result w Error (Located AxisForm)
 axisFrom s = do
@@ -221,4 +275,6 @@ arcsFrom = plain ["arcs none", "arcs quadrant", "arcs any", "arcs any full-circl
 limitsFrom :: Statement -> Result w Error Limits
 limitsFrom s = do
   ((), section) <- opened ["limits { contours 30 }"] "the limits" none s
-  Limits <$> optional "contours" Nothing (fmap Just . count "contours" 1 1000000) section <* known ["contours"] [] section
+  Limits
+    <$> optional "contours" Nothing (fmap Just . count "contours" 1 1000000) section
+      <* known ["contours"] [] section

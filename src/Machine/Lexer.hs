@@ -1,4 +1,5 @@
--- | The text of a description into tokens. Total: what is no token becomes a broken one, which the parser reports.
+-- | The text of a description into tokens. Total: what is no token becomes a broken one, which the
+-- parser reports.
 module Machine.Lexer
   ( Token,
     Token_ (..),
@@ -57,10 +58,14 @@ go formula at rest = case Text.uncons rest of
   Just (c, after)
     | isLineEnd c -> Located (Region at (at + 1)) LineEnd : go False (at + 1) after
     | isSpace c -> go formula (at + 1) after
-    | "--" `Text.isPrefixOf` rest -> let size = Text.length (Text.takeWhile (not . isLineEnd) rest) in go formula (at + size) (Text.drop size rest)
+    | "--" `Text.isPrefixOf` rest ->
+      let size =
+            Text.length (Text.takeWhile (not . isLineEnd) rest)
+       in go formula (at + size) (Text.drop size rest)
     | otherwise ->
       let (t, size) = token formula c rest
-       in Located (Region at (at + size)) t : go (formula || t == Sign "=") (at + size) (Text.drop size rest)
+       in Located (Region at (at + size)) t :
+          go (formula || t == Sign "=") (at + size) (Text.drop size rest)
 
 -- | The token at the beginning of a text, and its length.
 token :: Bool -> Char -> Text -> (Token_, Int)
@@ -77,7 +82,8 @@ token formula c rest
 word :: Bool -> Text -> Text
 word formula rest = case Text.uncons behind of
   Just (c, more)
-    | not formula && c `elem` ("-." :: String) && Text.any isPart (Text.take 1 more) -> piece <> Text.singleton c <> word formula more
+    | not formula && c `elem` ("-." :: String) && Text.any isPart (Text.take 1 more) ->
+      piece <> Text.singleton c <> word formula more
   _ -> piece
   where
     (piece, behind) = Text.span isPart rest
@@ -119,7 +125,8 @@ escape rest = case Text.uncons rest of
   Just ('"', _) -> Just ('"', 1)
   Just ('\\', _) -> Just ('\\', 1)
   Just ('u', more)
-    | Text.length hex == 4 && Text.all isHexDigit hex -> Just (chr (Text.foldl' (\n d -> 16 * n + digitToInt d) 0 hex), 5)
+    | Text.length hex == 4 && Text.all isHexDigit hex ->
+      Just (chr (Text.foldl' (\n d -> 16 * n + digitToInt d) 0 hex), 5)
     where
       hex = Text.take 4 more
   _ -> Nothing

@@ -1,10 +1,10 @@
--- | A controller and its tape, as data. Nothing outside this folder knows any machine by name; inside it they are
--- text files.
+-- | A controller and its tape, as data. Nothing outside this folder knows any machine by name;
+-- inside it they are text files.
 --
--- A tape is a sequence of rows, and a 'TapeCode' says which symbol a row is. A frame is a sequence of symbols, and a
--- 'Layout' says which: words, each an address (none in a fixed format) and a number; symbols that always stand there;
--- a check digit. A five-track tape with digits in fixed places, one with letters and one in ASCII differ in their data
--- only.
+-- A tape is a sequence of rows, and a 'TapeCode' says which symbol a row is. A frame is a sequence
+-- of symbols, and a 'Layout' says which: words, each an address (none in a fixed format) and a
+-- number; symbols that always stand there; a check digit. A five-track tape with digits in fixed
+-- places, one with letters and one in ASCII differ in their data only.
 module Machine.Machine
   ( Machine (..),
     MachineName (..),
@@ -140,15 +140,18 @@ data Medium = Medium
 data Spare
   = -- | there are as many as the layout says
     Counted
-  | -- | there are at least as many as the layout says; rows that the code has for skipping are passed over wherever
-    -- they stand
+  | -- they stand
+
+    -- | there are at least as many as the layout says; rows that the code has for skipping are
+    -- passed over wherever
     Skipped
   deriving stock (Eq, Show)
 
 -- | The rows of the symbols.
 data TapeCode = TapeCode
   { codeName :: Text,
-    -- | the holes of each symbol, without those of the service track and of the parity track; no two alike
+    -- | the holes of each symbol, without those of the service track and of the parity track; no
+    -- two alike
     symbols :: Map Char Word8,
     -- | what a symbol counts in the sum of a frame; others count 0
     weights :: Map Char Int,
@@ -182,7 +185,8 @@ data AxisForm = AxisForm
 -- | The arcs that a frame can hold, in the plane of x and y.
 data Arcs
   = NoArcs
-  | -- | whether they end where they cross the axes through the centre, and whether one frame can hold a full circle
+  | -- | whether they end where they cross the axes through the centre, and whether one frame can
+    -- hold a full circle
     Arcs {quadrants :: Bool, fullCircle :: Bool}
   deriving stock (Eq, Show)
 
@@ -214,7 +218,8 @@ driven machine = [axis f | f <- NonEmpty.toList (axes machine), moves f]
 
 -- | The machine set up for turning: its axes as they point on a lathe.
 forTurning :: Machine -> Machine
-forTurning machine = machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
+forTurning machine =
+  machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
 
 -- | Whether what is on the left in the part is on the right for the machine.
 isMirrored :: Machine -> Bool
@@ -266,7 +271,12 @@ data Content
   deriving stock (Eq, Show)
 
 -- | Which number says what a frame does; none where the machine does not know it.
-data MotionCodes = MotionCodes {rapid :: Maybe Int, straight :: Int, clockwise :: Maybe Int, counterClockwise :: Maybe Int}
+data MotionCodes = MotionCodes
+  { rapid :: Maybe Int,
+    straight :: Int,
+    clockwise :: Maybe Int,
+    counterClockwise :: Maybe Int
+  }
   deriving stock (Eq, Show)
 
 data NumberForm = NumberForm
@@ -290,8 +300,10 @@ data Sign
     MinusSign
   | -- | plus or minus before every number
     EitherSign
-  | -- | a digit before the number says direction and which axis leads: the one with most pulses, of several the first;
-    -- leading forwards, leading backwards, following forwards, following backwards
+  | -- leading forwards, leading backwards, following forwards, following backwards
+
+    -- | a digit before the number says direction and which axis leads: the one with most pulses, of
+    -- several the first;
     Priority Int Int Int Int
   deriving stock (Eq, Show)
 
@@ -314,8 +326,10 @@ data Presence
   = Always
   | -- | in frames that move
     InMotion
-  | -- | a word of an axis: where that moves, or its position was not said yet; of a centre: in arcs; of a command: where
-    -- it is given
+  | -- it is given
+
+    -- | a word of an axis: where that moves, or its position was not said yet; of a centre: in
+    -- arcs; of a command: where
     WhenNeeded
   | -- | a feed: in frames that move at a feed other than the one said last
     WhenChanged
@@ -355,23 +369,30 @@ largest f = 10 ^ min 17 (digits f) - 1
 
 -- | The largest number of a command; none when a frame has no place for it.
 orderCapacity :: Machine -> CommandName -> Maybe Int
-orderCapacity machine order = case ([form w | w <- wordsOf machine, Command o <- [content w], o == order], bits) of
-  (f : _, _) -> Just (largest f)
-  ([], []) -> Nothing
-  ([], ks) -> Just (sum (map (2 ^) ks))
+orderCapacity machine order =
+  case ([form w | w <- wordsOf machine, Command o <- [content w], o == order], bits) of
+    (f : _, _) -> Just (largest f)
+    ([], []) -> Nothing
+    ([], ks) -> Just (sum (map (2 ^) ks))
   where
     bits = [k | w <- wordsOf machine, OrderBit o k <- service (form w), o == order]
 
 -- | The digits behind the decimal point in the word of a command.
 orderDecimals :: Machine -> CommandName -> Int
-orderDecimals machine order = maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command order])
+orderDecimals machine order =
+  maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command order])
 
--- | Whether a frame can hold this number of a command. Where the word or the bits stand in every frame, 0 says that
--- there is no command.
+-- | Whether a frame can hold this number of a command. Where the word or the bits stand in every
+-- frame, 0 says that there is no command.
 canOrder :: Machine -> CommandName -> Int -> Bool
 canOrder machine order v = case orderCapacity machine order of
   Nothing -> False
-  Just most -> v <= most && (v > 0 || v == 0 && or [standsAlone (presence w) | w <- wordsOf machine, content w == Command order])
+  Just most ->
+    v <= most
+      && ( v > 0
+             || v == 0
+               && or [standsAlone (presence w) | w <- wordsOf machine, content w == Command order]
+         )
   where
     standsAlone p = case p of
       Always -> False
@@ -409,7 +430,12 @@ newtype FeedCode = FeedCode Int
   deriving newtype (Eq, Ord)
   deriving stock (Show)
 
-data Feeds = Feeds {feedMeasure :: FeedMeasure, codes :: FeedCodes, rule :: Rule, rapidFeed :: RapidCode}
+data Feeds = Feeds
+  { feedMeasure :: FeedMeasure,
+    codes :: FeedCodes,
+    rule :: Rule,
+    rapidFeed :: RapidCode
+  }
   deriving stock (Eq, Show)
 
 -- | What the values of the codes are.
@@ -449,13 +475,16 @@ data FeedChoice
     NoSuchFeed Double Double
   deriving stock (Eq, Show)
 
--- | The code for a value in the machine's measure: mm/min or pulses a second. A value may lie beyond the ends of the codes by the
--- comparison's slack only.
+-- | The code for a value in the machine's measure: mm/min or pulses a second. A value may lie
+-- beyond the ends of the codes by the comparison's slack only.
 choose :: Machine -> Double -> FeedChoice
 choose machine asked
   | asked < low - sameFeed low || asked > high + sameFeed high = NoSuchFeed low high
   | otherwise = case codes f of
-    Direct a b -> let n = max (max 1 a) (min b (nearestTo (rule f))) in Given (FeedCode n) (fromIntegral n)
+    Direct a b ->
+      let n =
+            max (max 1 a) (min b (nearestTo (rule f)))
+       in Given (FeedCode n) (fromIntegral n)
     Listed table -> let (c, v) = pick (Map.toList table) in Given c v
   where
     f = feeds machine
@@ -521,7 +550,8 @@ data BrakingForm
     ByControl
   | -- | where the program says so, in a frame at the lowest feed
     SlowFrames
-  | -- | before every lower feed, in frames with a hole of their own; at the end of the program down to this feed
+  | -- | before every lower feed, in frames with a hole of their own; at the end of the program down
+    -- to this feed
     BrakedFrames Feed
   deriving stock (Eq, Show)
 
@@ -550,14 +580,19 @@ data CommandValue
   = Fixed Int
   | -- | the number that the program gives: of a tool, of an auxiliary command, turns a minute
     Argument
-  | -- | the step whose value is nearest to the turns a minute that the program gives; of two the lower
+  | -- | the step whose value is nearest to the turns a minute that the program gives; of two the
+    -- lower
     Step (Map Int Double)
   | -- | the cutter's diameter
     Diameter
   deriving stock (Eq, Show)
 
 -- | How the control is told to keep the cutter beside the contour, and to stop that.
-data CompensationCommands = CompensationCommands {keepLeft :: CommandWord, keepRight :: CommandWord, release :: CommandWord}
+data CompensationCommands = CompensationCommands
+  { keepLeft :: CommandWord,
+    keepRight :: CommandWord,
+    release :: CommandWord
+  }
   deriving stock (Eq, Show)
 
 noOrders :: CommandWords

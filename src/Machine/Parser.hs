@@ -1,4 +1,5 @@
--- | Tokens of a description into statements. Every line that cannot be read is reported, and the next one is read.
+-- | Tokens of a description into statements. Every line that cannot be read is reported, and the
+-- next one is read.
 module Machine.Parser
   ( Parsed (..),
     parse,
@@ -35,7 +36,10 @@ parse text = Parsed {statements = ss, mistakes = es, closed = not (any isBrace e
 
 topLevel :: Int -> [Token] -> ([Statement], [Error])
 topLevel size ts = case several size 0 ts of
-  (ss, es, Located region (Sign "}") : rest) -> let (more, es') = topLevel size rest in (ss <> more, es <> [Unopened region] <> es')
+  (ss, es, Located region (Sign "}") : rest) ->
+    let (more, es') =
+          topLevel size rest
+     in (ss <> more, es <> [Unopened region] <> es')
   (ss, es, _) -> (ss, es)
 
 -- | Statements up to a closing brace, which is left, or to the end.
@@ -61,10 +65,37 @@ statement size depth ts = case argument ts of
         (skipped, rest4) = toLineEnd rest3
         (inner, es, rest5) = blockOf size depth rest4
         (rubbish, rest6) = toLineEnd rest5
-        faults = take 1 (stopped <> stopped2 <> [Unexpected (region t) (describe (value t)) "the end of the line" | t <- take 1 skipped])
-        told = Region.span (Region.region first) (maybe (Region.region (last (first : args))) region computed)
-        s = Statement {key = first, arguments = args, formula = computed, note = known, block = inner, told, broken = not (null faults)}
-     in ([s], faults <> es <> [Unexpected (region t) (describe (value t)) "the end of the line" | t <- take 1 rubbish], rest6)
+        faults =
+          take
+            1
+            ( stopped
+                <> stopped2
+                <> [ Unexpected (region t) (describe (value t)) "the end of the line"
+                     | t <- take 1 skipped
+                   ]
+            )
+        told =
+          Region.span
+            (Region.region first)
+            (maybe (Region.region (last (first : args))) region computed)
+        s =
+          Statement
+            { key = first,
+              arguments = args,
+              formula = computed,
+              note = known,
+              block = inner,
+              told,
+              broken = not (null faults)
+            }
+     in ( [s],
+          faults
+            <> es
+            <> [ Unexpected (region t) (describe (value t)) "the end of the line"
+                 | t <- take 1 rubbish
+               ],
+          rest6
+        )
 
 -- | Arguments as far as they go; what stopped them, if that is no part of a statement.
 argumentsOf :: [Token] -> ([Argument], [Error], [Token])
@@ -90,20 +121,25 @@ argument ts = case ts of
   Located r (Text s) : rest -> Right (Located r (Quoted s), rest)
   Located r (Numeral s v) : rest -> Right (Located r (Number s v), rest)
   Located r (Sign "-") : rest -> Right (Located r Dash, rest)
-  Located r t : _ -> Left (Unexpected r (describe t) "a word, a number or a text in quotation marks")
+  Located r t : _ ->
+    Left (Unexpected r (describe t) "a word, a number or a text in quotation marks")
   [] -> Left (Unexpected (Region 0 0) "the end" "a statement")
   where
     nameOf t = case t of
       Name w -> Just w
       Text s -> Just s
       _ -> Nothing
-    whole s = if Text.length s <= 9 && Text.all (/= '.') s then Just (Text.foldl' (\n d -> 10 * n + digitToInt d) 0 s) else Nothing
+    whole s =
+      if Text.length s <= 9 && Text.all (/= '.') s
+        then Just (Text.foldl' (\n d -> 10 * n + digitToInt d) 0 s)
+        else Nothing
 
 -- | What stands behind @=@.
 formulaOf :: [Token] -> (Maybe (Located Formula), [Error], [Token])
 formulaOf ts = case ts of
   Located r (Sign "=") : rest -> case sums rest of
-    Right (f, behind) -> (Just (Located (foldl Region.merge r (map region (used rest behind))) f), [], behind)
+    Right (f, behind) ->
+      (Just (Located (foldl Region.merge r (map region (used rest behind))) f), [], behind)
     Left e -> (Nothing, [e], rest)
   _ -> (Nothing, [], ts)
   where
@@ -141,7 +177,12 @@ factor ts = case ts of
   [] -> Left (Unexpected (Region 0 0) "the end" "a number, ‘n’ or ‘(’")
 
 -- | Operators of one rank, from left to right.
-chain :: Reader Formula -> [(Text, Operator)] -> Formula -> [Token] -> Either Error (Formula, [Token])
+chain ::
+  Reader Formula ->
+  [(Text, Operator)] ->
+  Formula ->
+  [Token] ->
+  Either Error (Formula, [Token])
 chain next operators a ts = case ts of
   Located _ (Sign s) : rest | Just o <- lookup s operators -> do
     (b, behind) <- next rest
@@ -150,7 +191,9 @@ chain next operators a ts = case ts of
 
 noteOf :: [Token] -> (Maybe (Located Note), [Token])
 noteOf ts = case ts of
-  Located r (Name w) : Located r' (Text s) : rest | Just m <- lookup w marks -> (Just (Located (Region.span r r') (Note m (Just s))), rest)
+  Located r (Name w) : Located r' (Text s) : rest
+    | Just m <- lookup w marks ->
+      (Just (Located (Region.span r r') (Note m (Just s))), rest)
   Located r (Name w) : rest | Just m <- lookup w marks -> (Just (Located r (Note m Nothing)), rest)
   _ -> (Nothing, ts)
 

@@ -1,4 +1,5 @@
--- | Reading statements by their keys: what a section may hold, what it has to hold, and what each line says.
+-- | Reading statements by their keys: what a section may hold, what it has to hold, and what each
+-- line says.
 module Machine.Section
   ( Section (..),
 
@@ -49,17 +50,25 @@ known once often section = Result.failing (concat (zipWith fault [0 ..] (entries
     fault k s = case keyWord s of
       Just w
         | w `elem` often -> []
-        | w `elem` once -> [Twice (region (key s)) (quoted w) (region (key first)) | first <- take 1 (named w (take k (entries section)))]
+        | w `elem` once ->
+          [ Twice (region (key s)) (quoted w) (region (key first))
+            | first <- take 1 (named w (take k (entries section)))
+          ]
       _ -> [UnknownKey (region (key s)) (keyText s) (what section) (once <> often)]
     quoted w = "‘" <> w <> "’"
 
--- | The statement with a key; the form shows how it is written where it is missing. A key that was meant to be this one is
--- reported as unknown, and that is enough.
+-- | The statement with a key; the form shows how it is written where it is missing. A key that was
+-- meant to be this one is reported as unknown, and that is enough.
 required :: Text -> Text -> (Statement -> Result w Error a) -> Section -> Result w Error a
 required word form f section = case named word (entries section) of
   s : _ -> f s
   []
-    | or [not (null (Name.nearest w [word] <> Name.lookAlike w [word])) | s <- entries section, Just w <- [keyWord s]] -> silent
+    | or
+        [ not (null (Name.nearest w [word] <> Name.lookAlike w [word]))
+          | s <- entries section,
+            Just w <- [keyWord s]
+        ] ->
+      silent
     | otherwise -> Result.failed (Missing (place section) (what section) word form)
 
 -- | The statement with a key, or what holds without it.
@@ -77,7 +86,8 @@ named word ss = [s | s <- ss, keyWord s == Just word]
 
 -- Lines -------------------------------------------------------------------------------------------
 
--- | A line with arguments only; the forms are the ways to write it. Nothing fits another number of arguments.
+-- | A line with arguments only; the forms are the ways to write it. Nothing fits another number of
+-- arguments.
 plain :: [Text] -> ([Argument] -> Maybe (Result w Error a)) -> Statement -> Result w Error a
 plain forms f s
   | broken s = silent
@@ -85,10 +95,18 @@ plain forms f s
   | otherwise = malformed forms s
 
 -- | A line with a block: what its arguments say, and the section.
-opened :: [Text] -> Text -> ([Argument] -> Maybe (Result w Error a)) -> Statement -> Result w Error (a, Section)
+opened ::
+  [Text] ->
+  Text ->
+  ([Argument] -> Maybe (Result w Error a)) ->
+  Statement ->
+  Result w Error (a, Section)
 opened forms title f s = case block s of
   _ | broken s -> silent
-  Just ss | Just r <- f (arguments s), Nothing <- formula s -> (,Section {what = title, place = told s, entries = ss}) <$> r
+  Just ss
+    | Just r <- f (arguments s),
+      Nothing <- formula s ->
+      (,Section {what = title, place = told s, entries = ss}) <$> r
   _ -> malformed forms s
 
 malformed :: [Text] -> Statement -> Result w Error a
@@ -115,7 +133,8 @@ wholeIn :: Text -> Int -> Int -> Argument -> Maybe (Result w Error Int)
 wholeIn name low high a = case value a of
   Number t v
     | Text.any (== '.') t -> Nothing
-    | v < fromIntegral low || v > fromIntegral high -> Just (Result.failed (OutOfRange (region a) name (Decimal.whole low) (Decimal.whole high)))
+    | v < fromIntegral low || v > fromIntegral high ->
+      Just (Result.failed (OutOfRange (region a) name (Decimal.whole low) (Decimal.whole high)))
     | otherwise -> Just (pure (round v))
   _ -> Nothing
 
@@ -124,7 +143,9 @@ amountIn :: Text -> Text -> Double -> Argument -> Argument -> Maybe (Result w Er
 amountIn name unit high a b = case (value a, value b) of
   (Number _ v, Word u)
     | u /= unit -> Nothing
-    | v < smallest || v > high -> Just (Result.failed (OutOfRange (region a) name (Decimal.exact smallest) (Decimal.exact high)))
+    | v < smallest || v > high ->
+      Just
+        (Result.failed (OutOfRange (region a) name (Decimal.exact smallest) (Decimal.exact high)))
     | otherwise -> Just (pure v)
   _ -> Nothing
 

@@ -75,7 +75,8 @@ keyWord s = case value (key s) of
 
 -- | A stretch of the text on one line, blanks made one.
 written :: Text -> Region -> Text
-written text region = Text.unwords (Text.words (Text.take (end region - start region) (Text.drop (start region) text)))
+written text region =
+  Text.unwords (Text.words (Text.take (end region - start region) (Text.drop (start region) text)))
 
 -- | The value for an n. Not a number, or without end, where there is none.
 evaluate :: Double -> Formula -> Double

@@ -1,11 +1,13 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | A chain cut at every place where it meets itself, with the winding number on both sides of every edge.
+-- | A chain cut at every place where it meets itself, with the winding number on both sides of
+-- every edge.
 --
--- This decides what general position leaves out: segments that run along one another, crossings at vertices, touching
--- circles. Points that fall together within a tolerance are one node, edges between the same nodes with the same rise are
--- one edge that is walked several times, and at every node the edges are put in order round it. The winding numbers then
--- follow from edge to edge; whether they agree everywhere says whether the order was right.
+-- This decides what general position leaves out: segments that run along one another, crossings at
+-- vertices, touching circles. Points that fall together within a tolerance are one node, edges
+-- between the same nodes with the same rise are one edge that is walked several times, and at every
+-- node the edges are put in order round it. The winding numbers then follow from edge to edge;
+-- whether they agree everywhere says whether the order was right.
 module Offset.Arrangement
   ( Arrangement,
     arrange,
@@ -48,7 +50,8 @@ data Arrangement = Arrangement
     -- | The node of every vertex of the chain.
     owned :: PrimArray Int,
     edges :: Vector Edge,
-    -- | The half-edges that leave a node, counter-clockwise: @2e@ leaves the beginning of the edge @e@, @2e + 1@ its end.
+    -- | The half-edges that leave a node, counter-clockwise: @2e@ leaves the beginning of the edge
+    -- @e@, @2e + 1@ its end.
     rings :: IntMap (Vector Int),
     -- | The winding number on the left of every edge.
     lefts :: IntMap Int,
@@ -56,8 +59,8 @@ data Arrangement = Arrangement
     proper :: [(Int, Int)]
   }
 
--- | Cut a chain. Within the tolerance in mm points fall together; the boxes are wider by it. Nothing when the winding
--- numbers do not agree.
+-- | Cut a chain. Within the tolerance in mm points fall together; the boxes are wider by it.
+-- Nothing when the winding numbers do not agree.
 arrange :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe Arrangement
 arrange tolerance c bs
   | agree arrangement = Just arrangement
@@ -66,12 +69,28 @@ arrange tolerance c bs
     (cuts, pairs) = events tolerance c bs
     (places, nodeOf, cutNodes) = nodesOf tolerance c cuts
     found = Vector.fromList (merged tolerance places (slices c places nodeOf cutNodes))
-    outgoing = IntMap.fromListWith (<>) (concat [[(from e, [2 * i]), (to e, [2 * i + 1])] | (i, e) <- Vector.toList (Vector.indexed found)])
+    outgoing =
+      IntMap.fromListWith
+        (<>)
+        ( concat
+            [ [(from e, [2 * i]), (to e, [2 * i + 1])]
+              | (i, e) <- Vector.toList (Vector.indexed found)
+            ]
+        )
     ordered = fmap (Vector.fromList . ring places found) outgoing
-    arrangement = Arrangement {chain = c, nodes = places, owned = nodeOf, edges = found, rings = ordered, lefts = propagated places found ordered, proper = pairs}
+    arrangement =
+      Arrangement
+        { chain = c,
+          nodes = places,
+          owned = nodeOf,
+          edges = found,
+          rings = ordered,
+          lefts = propagated places found ordered,
+          proper = pairs
+        }
 
--- | Where each segment has to be cut, and which segments cross properly. Arcs are also cut where they are leftmost, so that the
--- leftmost place of everything that hangs together is a node.
+-- | Where each segment has to be cut, and which segments cross properly. Arcs are also cut where
+-- they are leftmost, so that the leftmost place of everything that hangs together is a node.
 events :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
 events tolerance c bs = runST $ do
   cuts <- newMutVar []
@@ -87,10 +106,17 @@ events tolerance c bs = runST $ do
   SegmentTree.pairs bs (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
   found <- readMutVar cuts
   crossings <- readMutVar pairs
-  pure (found <> concatMap leftmost [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 2], reverse crossings)
+  pure
+    ( found <> concatMap leftmost [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 2],
+      reverse crossings
+    )
   where
     leftmost i
-      | b == 0 || ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i) = []
+      | b == 0
+          || ClosedPolyarcs.marked
+            ClosedPolyarcs.copied
+            (indexPrimArray (ClosedPolyarcs.marks c) i) =
+        []
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
         let co = 1 - b * b
             si = 2 * b
@@ -102,25 +128,44 @@ events tolerance c bs = runST $ do
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
 -- | The nodes: their places, the node of every vertex, and the nodes at which segments are cut.
-nodesOf :: Double -> ClosedPolyarcs -> [(Int, Double, Double)] -> (Vector (Double, Double), PrimArray Int, IntMap [Int])
-nodesOf tolerance c cuts = (Vector.fromList (map place clusters), own, IntMap.fromListWith (<>) [(s, [indexPrimArray ids (n + k)]) | (k, (s, _, _)) <- zip [0 ..] cuts])
+nodesOf ::
+  Double ->
+  ClosedPolyarcs ->
+  [(Int, Double, Double)] ->
+  (Vector (Double, Double), PrimArray Int, IntMap [Int])
+nodesOf tolerance c cuts =
+  ( Vector.fromList (map place clusters),
+    own,
+    IntMap.fromListWith (<>) [(s, [indexPrimArray ids (n + k)]) | (k, (s, _, _)) <- zip [0 ..] cuts]
+  )
   where
     n = sizeofPrimArray (ClosedPolyarcs.xs c)
-    points = [(indexPrimArray (ClosedPolyarcs.xs c) i, indexPrimArray (ClosedPolyarcs.ys c) i, i) | i <- [0 .. n - 1]] <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
+    points =
+      [ (indexPrimArray (ClosedPolyarcs.xs c) i, indexPrimArray (ClosedPolyarcs.ys c) i, i)
+        | i <- [0 .. n - 1]
+      ]
+        <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
     clusters = concatMap (together snd3 . sortOn snd3) (together fst3 (sortOn fst3 points))
     -- Values one after the other that are no further apart than the tolerance.
     together f ps = case ps of
       [] -> []
       p : rest -> let (same, others) = grab f (f p) rest in (p : same) : together f others
     grab f v ps = case ps of
-      q : rest | f q - v <= 4 * tolerance -> let (same, others) = grab f (f q) rest in (q : same, others)
+      q : rest
+        | f q - v <= 4 * tolerance ->
+          let (same, others) =
+                grab f (f q) rest
+           in (q : same, others)
       _ -> ([], ps)
     fst3 (x, _, _) = x
     snd3 (_, y, _) = y
     number (_, _, i) = i
     -- A vertex has its exact place.
     place ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
-    ids = runPrimArray' (n + length cuts) (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
+    ids =
+      runPrimArray'
+        (n + length cuts)
+        (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
     own = clonePrimArray ids 0 n
 
 runPrimArray' :: Int -> [(Int, Int)] -> PrimArray Int
@@ -130,21 +175,69 @@ runPrimArray' n filled = runPrimArray $ do
   pure a
 
 -- | The segments cut at their nodes: from, to, segment, bulge.
-slices :: ClosedPolyarcs -> Vector (Double, Double) -> PrimArray Int -> IntMap [Int] -> [(Int, Int, Int, Double)]
-slices c places nodeOf cutNodes = concatMap one [i | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 1], not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))]
+slices ::
+  ClosedPolyarcs ->
+  Vector (Double, Double) ->
+  PrimArray Int ->
+  IntMap [Int] ->
+  [(Int, Int, Int, Double)]
+slices c places nodeOf cutNodes =
+  concatMap
+    one
+    [ i
+      | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 1],
+        not
+          (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))
+    ]
   where
     one i =
       let a = indexPrimArray nodeOf i
           b = indexPrimArray nodeOf (i + 1)
-          inner = maybe [] (map snd . sortOn fst . map (\k -> (along i k, k)) . IntSet.toList . IntSet.delete a . IntSet.delete b . IntSet.fromList) (IntMap.lookup i cutNodes)
+          inner =
+            maybe
+              []
+              ( map snd
+                  . sortOn fst
+                  . map (\k -> (along i k, k))
+                  . IntSet.toList
+                  . IntSet.delete a
+                  . IntSet.delete b
+                  . IntSet.fromList
+              )
+              (IntMap.lookup i cutNodes)
           stops = a : inner <> [b]
-       in [(p, q, i, if null inner then indexPrimArray (ClosedPolyarcs.bulges c) i else bulgeOf i p q) | (p, q) <- zip stops (drop 1 stops), p /= q]
-    bulgeOf i p q = let ((x, y), (x', y')) = (places Vector.! p, places Vector.! q) in ClosedPolyarcs.part c i x y x' y'
-    along i k = ClosedPolyarcs.chord c i $ \dx dy -> let (x, y) = places Vector.! k in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy :: Double
+       in [ ( p,
+              q,
+              i,
+              if null inner then indexPrimArray (ClosedPolyarcs.bulges c) i else bulgeOf i p q
+            )
+            | (p, q) <- zip stops (drop 1 stops),
+              p /= q
+          ]
+    bulgeOf i p q =
+      let ((x, y), (x', y')) =
+            (places Vector.! p, places Vector.! q)
+       in ClosedPolyarcs.part c i x y x' y'
+    along i k =
+      ClosedPolyarcs.chord c i $ \dx dy ->
+        let (x, y) =
+              places Vector.! k
+         in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
+              + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy ::
+              Double
 
--- | Slices between the same nodes that rise equally are one edge; what is walked as often there as back is none.
+-- | Slices between the same nodes that rise equally are one edge; what is walked as often there as
+-- back is none.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
-merged tolerance places cut = concatMap edgesOf (Map.toList (Map.fromListWith (<>) [((min a b, max a b), [(a < b, i, if a < b then g else -g)]) | (a, b, i, g) <- cut]))
+merged tolerance places cut =
+  concatMap
+    edgesOf
+    ( Map.toList
+        ( Map.fromListWith
+            (<>)
+            [((min a b, max a b), [(a < b, i, if a < b then g else -g)]) | (a, b, i, g) <- cut]
+        )
+    )
   where
     edgesOf ((a, b), list) = case list of
       [one] -> [edge a b 1 one]
@@ -153,8 +246,14 @@ merged tolerance places cut = concatMap edgesOf (Map.toList (Map.fromListWith (<
         rise (_, _, g) = g * chordOf a b / 2
         alike ps = case ps of
           [] -> []
-          p : rest -> let (same, others) = span (\q -> rise q - rise p <= 4 * tolerance) rest in (p : same) : alike others
-    chordOf a b = let ((x, y), (x', y')) = (places Vector.! a, places Vector.! b) in sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
+          p : rest ->
+            let (same, others) =
+                  span (\q -> rise q - rise p <= 4 * tolerance) rest
+             in (p : same) : alike others
+    chordOf a b =
+      let ((x, y), (x', y')) =
+            (places Vector.! a, places Vector.! b)
+       in sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
       EQ -> []
@@ -165,22 +264,41 @@ merged tolerance places cut = concatMap edgesOf (Map.toList (Map.fromListWith (<
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap; at the leftmost node of
--- what hangs together, behind the one on the left.
+-- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap;
+-- at the leftmost node of what hangs together, behind the one on the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring places es halves = case halves of
   [_] -> halves
   _ -> map fst3 (sortBy order [(h, turnedBy cut angle, leaving) | (h, angle, leaving) <- aimed])
   where
     fst3 (h, _, _) = h
-    aimed = sortOn (\(_, angle, _) -> angle) [(h, atan2 dy dx, (dx, dy, l, k)) | h <- halves, let (dx, dy, l, k) = direction h]
+    aimed =
+      sortOn
+        (\(_, angle, _) -> angle)
+        [(h, atan2 dy dx, (dx, dy, l, k)) | h <- halves, let (dx, dy, l, k) = direction h]
     angles = map (\(_, angle, _) -> angle) aimed
-    gaps = zipWith (\a b -> (b - a, (a + b) / 2)) angles (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    -- Two that leave a leftmost place straight up and down have as wide a gap on their right; the last gap is the left one.
-    cut = snd (maximumBy (comparing fst) (zipWith (\k (gap, middle) -> (if k == length gaps then gap + tie else gap, middle)) [1 ..] gaps))
+    gaps =
+      zipWith
+        (\a b -> (b - a, (a + b) / 2))
+        angles
+        (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
+    -- Two that leave a leftmost place straight up and down have as wide a gap on their right; the
+    -- last gap is the left one.
+    cut =
+      snd
+        ( maximumBy
+            (comparing fst)
+            ( zipWith
+                (\k (gap, middle) -> (if k == length gaps then gap + tie else gap, middle))
+                [1 ..]
+                gaps
+            )
+        )
     turnedBy :: Double -> Double -> Double
-    turnedBy from' angle = let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
-    -- Of two that set out in nearly the same direction, compare how far to the left they are a little further on.
+    turnedBy from' angle =
+      let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
+    -- Of two that set out in nearly the same direction, compare how far to the left they are a
+    -- little further on.
     order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
       | abs (a - b) > tie = compare a b
       | otherwise =
@@ -206,12 +324,20 @@ ring places es halves = case halves of
 tie :: Double
 tie = 1e-3
 
--- | The winding number on the left of every edge, from outside at the leftmost node of whatever hangs together.
+-- | The winding number on the left of every edge, from outside at the leftmost node of whatever
+-- hangs together.
 propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
-propagated places es ordered = foldl' component IntMap.empty (map snd (sortOn fst [(places Vector.! k, k) | k <- IntMap.keys ordered]))
+propagated places es ordered =
+  foldl'
+    component
+    IntMap.empty
+    (map snd (sortOn fst [(places Vector.! k, k) | k <- IntMap.keys ordered]))
   where
     component known k = case ordered IntMap.!? k of
-      Just halves | h <- Vector.head halves, IntMap.notMember (h `div` 2) known -> spread known [(h, outside k)]
+      Just halves
+        | h <- Vector.head halves,
+          IntMap.notMember (h `div` 2) known ->
+          spread known [(h, outside k)]
       _ -> known
     -- What all that does not hang together with a node says there.
     outside k =
@@ -223,7 +349,12 @@ propagated places es ordered = foldl' component IntMap.empty (map snd (sortOn fs
             where
               edge = es Vector.! (i `div` 2)
        in SegmentTree.around around (-1e300) y x y (0 :: Int) add
-    apart = ClosedPolyarcs.apart [(x, y, x', y', bulge e) | e <- Vector.toList es, let ((x, y), (x', y')) = (places Vector.! from e, places Vector.! to e)]
+    apart =
+      ClosedPolyarcs.apart
+        [ (x, y, x', y', bulge e)
+          | e <- Vector.toList es,
+            let ((x, y), (x', y')) = (places Vector.! from e, places Vector.! to e)
+        ]
     around = SegmentTree.boxes 0 apart
     islands = islandsOf es ordered
     -- Half-edges with what is on their right, seen as they leave.
@@ -231,7 +362,13 @@ propagated places es ordered = foldl' component IntMap.empty (map snd (sortOn fs
       [] -> known
       (h, right) : rest
         | IntMap.member e known -> spread known rest
-        | otherwise -> spread (IntMap.insert e left known) (round' (from edge) (2 * e) left <> round' (to edge) (2 * e + 1) (left - times edge) <> rest)
+        | otherwise ->
+          spread
+            (IntMap.insert e left known)
+            ( round' (from edge) (2 * e) left
+                <> round' (to edge) (2 * e + 1) (left - times edge)
+                <> rest
+            )
         where
           e = h `div` 2
           edge = es Vector.! e
@@ -239,25 +376,47 @@ propagated places es ordered = foldl' component IntMap.empty (map snd (sortOn fs
     -- The next half-edge round a node has on its right what this one has on its left, as it leaves.
     round' k h leftward = case ordered IntMap.!? k of
       Nothing -> []
-      Just halves -> go leftward (take (Vector.length halves - 1) (drop 1 (dropWhile (/= h) (Vector.toList halves <> Vector.toList halves))))
+      Just halves ->
+        go
+          leftward
+          ( take
+              (Vector.length halves - 1)
+              (drop 1 (dropWhile (/= h) (Vector.toList halves <> Vector.toList halves)))
+          )
     go _ [] = []
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
 -- | For every node one that stands for all that hang together with it.
 islandsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
-islandsOf es ordered = foldl' (\known k -> if IntMap.member k known then known else reach k known [k]) IntMap.empty (IntMap.keys ordered)
+islandsOf es ordered =
+  foldl'
+    (\known k -> if IntMap.member k known then known else reach k known [k])
+    IntMap.empty
+    (IntMap.keys ordered)
   where
     reach name known todo = case todo of
       [] -> known
       k : rest
         | IntMap.member k known -> reach name known rest
-        | otherwise -> reach name (IntMap.insert k name known) (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
+        | otherwise ->
+          reach
+            name
+            (IntMap.insert k name known)
+            (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
     other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
 -- | Whether the numbers agree round every node.
 agree :: Arrangement -> Bool
-agree a = all (\halves -> and (Vector.toList (Vector.zipWith fits halves (Vector.drop 1 halves <> Vector.take 1 halves)))) (IntMap.elems (rings a))
+agree a =
+  all
+    ( \halves ->
+        and
+          ( Vector.toList
+              (Vector.zipWith fits halves (Vector.drop 1 halves <> Vector.take 1 halves))
+          )
+    )
+    (IntMap.elems (rings a))
   where
     fits h h' = fst (sides a h) == snd (sides a h')
 
@@ -270,20 +429,45 @@ sides a h = if even h then (left, left - m) else (left - m, left)
 
 -- | The least and the largest winding number of all places.
 numbers :: Arrangement -> (Int, Int)
-numbers a = foldl' (\(low, high) v -> (min low v, max high v)) (0, 0) (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
+numbers a =
+  foldl'
+    (\(low, high) v -> (min low v, max high v))
+    (0, 0)
+    (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
 
--- | Two segments that cross: properly if there are such, or the first two that meet where the winding number leaves the bounds.
+-- | Two segments that cross: properly if there are such, or the first two that meet where the
+-- winding number leaves the bounds.
 crossed :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
-crossed (low, high) a = listToMaybe (proper a <> [(min i j, max i j) | (k, e) <- Vector.toList (Vector.indexed (edges a)), let (l, r) = sides a (2 * k), max l r > high || min l r < low, let i = segment e, node <- [from e, to e], h <- maybe [] Vector.toList (IntMap.lookup node (rings a)), let j = segment (edges a Vector.! (h `div` 2)), abs (i - j) > 1])
+crossed (low, high) a =
+  listToMaybe
+    ( proper a
+        <> [ (min i j, max i j)
+             | (k, e) <- Vector.toList (Vector.indexed (edges a)),
+               let (l, r) = sides a (2 * k),
+               max l r > high || min l r < low,
+               let i = segment e,
+               node <- [from e, to e],
+               h <- maybe [] Vector.toList (IntMap.lookup node (rings a)),
+               let j = segment (edges a Vector.! (h `div` 2)),
+               abs (i - j) > 1
+           ]
+    )
 
--- | The loops along which the wanted number is on the left and the free places on a side: there they have the number
--- itself, or one less on the right.
+-- | The loops along which the wanted number is on the left and the free places on a side: there
+-- they have the number itself, or one less on the right.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
-loops turn wanted a = gathered . map vertices <$> walks (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], kept e])
+loops turn wanted a =
+  gathered . map vertices
+    <$> walks (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], kept e])
   where
     gathered made =
       let listed f = primArrayFromList (map f (concat made))
-       in OffsetLoops (primArrayFromList (scanl (+) 0 (map length made))) (listed (\(x, _, _, _) -> x)) (listed (\(_, y, _, _) -> y)) (listed (\(_, _, b, _) -> b)) (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
+       in OffsetLoops
+            (primArrayFromList (scanl (+) 0 (map length made)))
+            (listed (\(x, _, _, _) -> x))
+            (listed (\(_, y, _, _) -> y))
+            (listed (\(_, _, b, _) -> b))
+            (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
     kept e =
       let (l, r) = sides a (2 * e)
        in case turn of
@@ -302,7 +486,8 @@ loops turn wanted a = gathered . map vertices <$> walks (IntSet.fromList [e | e 
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The edge that bounds the same free places: the neighbour of this one round the node where it ends.
+    -- The edge that bounds the same free places: the neighbour of this one round the node where it
+    -- ends.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
@@ -325,4 +510,13 @@ loops turn wanted a = gathered . map vertices <$> walks (IntSet.fromList [e | e 
           i = segment e
           -- A whole segment has its own bulge again.
           entire = indexPrimArray (owned a) i == from e && indexPrimArray (owned a) (i + 1) == to e'
-       in (x, y, if NonEmpty.length run == 1 then bulge e else if entire then indexPrimArray (ClosedPolyarcs.bulges (chain a)) i else ClosedPolyarcs.part (chain a) i x y x' y', i)
+       in ( x,
+            y,
+            if NonEmpty.length run == 1
+              then bulge e
+              else
+                if entire
+                  then indexPrimArray (ClosedPolyarcs.bulges (chain a)) i
+                  else ClosedPolyarcs.part (chain a) i x y x' y',
+            i
+          )

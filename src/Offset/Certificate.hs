@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Whether the kernel's answer is true, looked at without what led to it: a place on every loop is as far from the source
--- as was asked.
+-- | Whether the kernel's answer is true, looked at without what led to it: a place on every loop is
+-- as far from the source as was asked.
 module Offset.Certificate
   ( Clearance (..),
     clear,
@@ -18,23 +18,41 @@ import Geometry.Index.SegmentTree qualified as SegmentTree
 import Offset.Loop (OffsetLoops)
 import Offset.Loop qualified as Loop
 
--- | What a place is measured by, in mm: the error allowed; the distance that is kept from all segments, the largest one, and
--- that of each segment, which holds on the cutter's side and between the segment's ends.
-data Clearance = Clearance {slack :: Double, least :: Double, largest :: Double, distance :: Int -> Double, turn :: Sense}
+-- | What a place is measured by, in mm: the error allowed; the distance that is kept from all
+-- segments, the largest one, and that of each segment, which holds on the cutter's side and between
+-- the segment's ends.
+data Clearance = Clearance
+  { slack :: Double,
+    least :: Double,
+    largest :: Double,
+    distance :: Int -> Double,
+    turn :: Sense
+  }
 
--- | Whether the middle of a loop's first segment is no nearer to any segment of the source than is asked.
+-- | Whether the middle of a loop's first segment is no nearer to any segment of the source than is
+-- asked.
 clear :: Clearance -> ClosedPolyarcs -> SegmentTree -> OffsetLoops -> Int -> Bool
 clear measure source bs l k = uncurry (farFrom measure source bs) (witness l k)
 
 -- | Whether a cutter that stands where that place is reaches every segment of the source.
 covers :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
-covers measure source l k = and [fromPoint source i x y (\d _ -> d <= asked measure source i + slack measure) | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs source) - 1], not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks source) i))]
+covers measure source l k =
+  and
+    [ fromPoint source i x y (\d _ -> d <= asked measure source i + slack measure)
+      | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs source) - 1],
+        not
+          ( ClosedPolyarcs.marked
+              ClosedPolyarcs.copied
+              (indexPrimArray (ClosedPolyarcs.marks source) i)
+          )
+    ]
   where
     (x, y) = witness l k
 
 -- | What is asked of a segment.
 asked :: Clearance -> ClosedPolyarcs -> Int -> Double
-asked measure source i = distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
+asked measure source i =
+  distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
 
 -- | The middle of a loop's first segment.
 witness :: OffsetLoops -> Int -> (Double, Double)
@@ -48,8 +66,22 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
 
 -- | Whether a point is far enough from every segment.
 farFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
-farFrom measure source bs x y = SegmentTree.around bs (x - widest) (y - widest) (x + widest) (y + widest) True $ \good i ->
-  good && fromPoint source i x y (\d beside -> d >= (if beside > slack measure && facing i then asked measure source i else least measure) - slack measure)
+farFrom measure source bs x y =
+  SegmentTree.around bs (x - widest) (y - widest) (x + widest) (y + widest) True $ \good i ->
+    good
+      && fromPoint
+        source
+        i
+        x
+        y
+        ( \d beside ->
+            d
+              >= ( if beside > slack measure && facing i
+                     then asked measure source i
+                     else least measure
+                 )
+                - slack measure
+        )
   where
     widest = largest measure
     facing i = case turn measure of
@@ -59,13 +91,17 @@ farFrom measure source bs x y = SegmentTree.around bs (x - widest) (y - widest) 
 -- | Whether a point lies on the left of a segment or its circle.
 leftOf :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
 leftOf c i x y
-  | b == 0 = ClosedPolyarcs.chord c i $ \ux uy -> ux * (y - indexPrimArray (ClosedPolyarcs.ys c) i) - uy * (x - indexPrimArray (ClosedPolyarcs.xs c) i) > 0
+  | b == 0 =
+    ClosedPolyarcs.chord c i $ \ux uy ->
+      ux * (y - indexPrimArray (ClosedPolyarcs.ys c) i)
+        - uy * (x - indexPrimArray (ClosedPolyarcs.xs c) i)
+        > 0
   | otherwise = ClosedPolyarcs.power c i x y * b < 0
   where
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The distance of a point from a segment, and how far between the segment's ends the foot lies: not more than 0 if the
--- nearest place is an end.
+-- | The distance of a point from a segment, and how far between the segment's ends the foot lies:
+-- not more than 0 if the nearest place is an end.
 fromPoint :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 fromPoint c i x y k
   | b == 0 = ClosedPolyarcs.chord c i $ \ux uy ->
@@ -73,7 +109,12 @@ fromPoint c i x y k
         along = (ux * ax + uy * ay) / square
         t = max 0 (min 1 along)
      in k (hypotenuse (ax - t * ux) (ay - t * uy)) (min along (1 - along) * sqrt square)
-  | inSector > 0 = k (abs (ClosedPolyarcs.power c i x y) / (0.5 * hypotenuse gx gy + 0.5 * ClosedPolyarcs.diameter c i)) inSector
+  | inSector > 0 =
+    k
+      ( abs (ClosedPolyarcs.power c i x y)
+          / (0.5 * hypotenuse gx gy + 0.5 * ClosedPolyarcs.diameter c i)
+      )
+      inSector
   | otherwise = k (min (hypotenuse ax ay) (hypotenuse bx by)) inSector
   where
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
@@ -87,6 +128,9 @@ fromPoint c i x y k
     (px, py) = ClosedPolyarcs.gradient c i x0 y0 (,)
     (qx, qy) = ClosedPolyarcs.gradient c i x1 y1 (,)
     -- The foot's distances from the rays to both ends.
-    inSector = 0.5 * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx)) / max 1e-300 (hypotenuse gx gy)
+    inSector =
+      0.5
+        * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx))
+          / max 1e-300 (hypotenuse gx gy)
     hypotenuse u v = sqrt (u * u + v * v)
 {-# INLINE fromPoint #-}

@@ -19,7 +19,8 @@ import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 
--- | One loop after the other, each segment with the number of the segment of the raw equidistant that it is a part of.
+-- | One loop after the other, each segment with the number of the segment of the raw equidistant
+-- that it is a part of.
 data OffsetLoops = OffsetLoops
   { -- | where the loops begin, and where one more would
     starts :: PrimArray Int,
@@ -30,7 +31,13 @@ data OffsetLoops = OffsetLoops
   }
 
 none :: OffsetLoops
-none = OffsetLoops (primArrayFromList [0]) (primArrayFromList []) (primArrayFromList []) (primArrayFromList []) (primArrayFromList [])
+none =
+  OffsetLoops
+    (primArrayFromList [0])
+    (primArrayFromList [])
+    (primArrayFromList [])
+    (primArrayFromList [])
+    (primArrayFromList [])
 
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1
@@ -58,7 +65,14 @@ area = sum . map FlatPolyarc.area . outlines
 only :: (Int -> Bool) -> OffsetLoops -> OffsetLoops
 only keep l
   | length kept == count l = l
-  | otherwise = OffsetLoops {starts = primArrayFromList (scanl (+) 0 (map (size l) kept)), xs = gathered (xs l), ys = gathered (ys l), bulges = gathered (bulges l), raws = gathered (raws l)}
+  | otherwise =
+    OffsetLoops
+      { starts = primArrayFromList (scanl (+) 0 (map (size l) kept)),
+        xs = gathered (xs l),
+        ys = gathered (ys l),
+        bulges = gathered (bulges l),
+        raws = gathered (raws l)
+      }
   where
     kept = filter keep [0 .. count l - 1]
     begin = indexPrimArray (starts l)

@@ -3,10 +3,11 @@
 
 -- | The raw equidistant: every segment moved to its side, and joined to the next.
 --
--- Outer corners get an arc about the corner (or two lines to where the ways meet), smooth joints nothing; at an inner corner two
--- lines that keep a rest are cut where they meet, others are joined straight on. Arcs keep their bulge when
--- the distance is larger than their radius: they then run backwards. The raw equidistant grows out of the source without
--- a jump when the distance grows from 0, so that its winding number tells what the cutter's centre can reach.
+-- Outer corners get an arc about the corner (or two lines to where the ways meet), smooth joints
+-- nothing; at an inner corner two lines that keep a rest are cut where they meet, others are joined
+-- straight on. Arcs keep their bulge when the distance is larger than their radius: they then run
+-- backwards. The raw equidistant grows out of the source without a jump when the distance grows
+-- from 0, so that its winding number tells what the cutter's centre can reach.
 module Offset.RawOffset
   ( Corners (..),
     raw,
@@ -25,19 +26,35 @@ data Corners = Round | Sharp
   deriving stock (Eq, Show)
 
 -- | Arrays that are filled from the front.
-data Filling s = Filling (MutablePrimArray s Double) (MutablePrimArray s Double) (MutablePrimArray s Double) (MutablePrimArray s Word8) (MutablePrimArray s Int32)
+data Filling s
+  = Filling
+      (MutablePrimArray s Double)
+      (MutablePrimArray s Double)
+      (MutablePrimArray s Double)
+      (MutablePrimArray s Word8)
+      (MutablePrimArray s Int32)
 
 -- | What lies between two segments.
 data Joint = Smooth | Step | Outer | Trimmed | Over
   deriving stock (Eq)
 
--- | The raw equidistant of a chain at a distance in mm that is given by the chain's segment, and another one about its ends (uneven if they are not all the same), positive to the
--- right of the walk; and the chain with its smooth joints marked. What is shorter than the
--- tolerance (mm) is left out; directions whose sine is no larger than the smoothness are one.
-raw :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> (Int -> Double) -> ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
+-- | The raw equidistant of a chain at a distance in mm that is given by the chain's segment, and
+-- another one about its ends (uneven if they are not all the same), positive to the right of the
+-- walk; and the chain with its smooth joints marked. What is shorter than the tolerance (mm) is
+-- left out; directions whose sine is no larger than the smoothness are one.
+raw ::
+  Double ->
+  Double ->
+  Corners ->
+  Bool ->
+  (Int -> Double) ->
+  (Int -> Double) ->
+  ClosedPolyarcs ->
+  (ClosedPolyarcs, ClosedPolyarcs)
 raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
-      -- A segment and what lies behind it: an arc or a line, two lines for a sharp corner; two steps more between distances.
+      -- A segment and what lies behind it: an arc or a line, two lines for a sharp corner; two
+      -- steps more between distances.
       room = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
   rx <- newPrimArray room
   ry <- newPrimArray room
@@ -50,7 +67,20 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
       each !w !k !kept
         | w >= ClosedPolyarcs.walks c = writePrimArray rh kept k >> pure (k, kept)
         | otherwise = do
-          k' <- walk tolerance smoothness corners uneven distance corner c marks filling (ClosedPolyarcs.first c w) (ClosedPolyarcs.behind c w) k
+          k' <-
+            walk
+              tolerance
+              smoothness
+              corners
+              uneven
+              distance
+              corner
+              c
+              marks
+              filling
+              (ClosedPolyarcs.first c w)
+              (ClosedPolyarcs.behind c w)
+              k
           if k' - k < 2
             then each (w + 1) k kept
             else do
@@ -64,7 +94,14 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   shrinkMutablePrimArray rm used
   shrinkMutablePrimArray rs used
   shrinkMutablePrimArray rh (kept + 1)
-  result <- ClosedPolyarcs <$> unsafeFreezePrimArray rx <*> unsafeFreezePrimArray ry <*> unsafeFreezePrimArray rb <*> unsafeFreezePrimArray rm <*> unsafeFreezePrimArray rs <*> unsafeFreezePrimArray rh
+  result <-
+    ClosedPolyarcs
+      <$> unsafeFreezePrimArray rx
+        <*> unsafeFreezePrimArray ry
+        <*> unsafeFreezePrimArray rb
+        <*> unsafeFreezePrimArray rm
+        <*> unsafeFreezePrimArray rs
+        <*> unsafeFreezePrimArray rh
   marks' <- unsafeFreezePrimArray marks
   pure (result, c {ClosedPolyarcs.marks = marks'})
 {-# INLINE raw #-}
@@ -83,127 +120,188 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.closing)
 
 -- | One walk, from the place in the arrays where it begins; gives the place behind it.
-walk :: Double -> Double -> Corners -> Bool -> (Int -> Double) -> (Int -> Double) -> ClosedPolyarcs -> MutablePrimArray s Word8 -> Filling s -> Int -> Int -> Int -> ST s Int
-walk !tolerance !smoothness corners uneven distance corner !c marks (Filling rx ry rb rm rs) !a !e !k0 =
-  tangents a $ \sx sy ex ey l ->
-    tangents (e - 1) $ \_ _ zx zy lz ->
-      joint (e - 1) a zx zy sx sy (if lz < l then lz else l) lz l $ \closing bend cut -> do
-        markSmooth a closing
-        go a k0 sx sy ex ey l cut (if closing == Smooth then ClosedPolyarcs.smooth else 0) $ const (closing, bend, cut)
-  where
-    bulge i = indexPrimArray (ClosedPolyarcs.bulges c) i
-    -- The directions at both ends, and the length of the chord: half the sweep is turned off the chord.
-    tangents i k =
-      let x0 = indexPrimArray (ClosedPolyarcs.xs c) i
-          y0 = indexPrimArray (ClosedPolyarcs.ys c) i
-          dx = indexPrimArray (ClosedPolyarcs.xs c) (i + 1) - x0
-          dy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1) - y0
-          l = sqrt (dx * dx + dy * dy)
-          ux = dx / l
-          uy = dy / l
-          b = bulge i
-       in if b == 0
-            then k ux uy ux uy l
-            else
-              let q = 1 / (1 + b * b)
-                  co = (1 - b * b) * q
-                  si = 2 * b * q
-               in k (ux * co + uy * si) (uy * co - ux * si) (ux * co - uy * si) (uy * co + ux * si) l
-    {-# INLINE tangents #-}
-    dist = distance
-    markSmooth i j = case j of
-      Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smooth)
-      _ -> pure ()
-    -- From the end of segment i into segment j: the kind of joint, tan(θ/4) of an outer one, and by how much lines are cut
-    -- that are so long at least. The direction of a chord is known to the rounding of its ends; no corner is made of that where
-    -- the ways beside it are not moved sideways, by the turn or with an arc, by more than rounding either.
-    joint i j ax ay bx by shorter restI restJ k
-      | dt > 0 && (abs cr <= smoothness || abs cr * shorter <= tolerance && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance) = k (if di == dj then Smooth else Step) 0 0
-      -- Into a cusp that opens to this side nothing reaches; at one distance, what goes round it is blocked all the same.
-      | dt < 0 && abs (cr * d) <= tolerance = k (if uneven && d * (ClosedPolyarcs.curvature c i + ClosedPolyarcs.curvature c j) > smoothness then Over else Outer) (signum d) 0
-      | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
-      | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ = k Trimmed 0 cut
-      | otherwise = k Over 0 0
-      where
-        di = dist i
-        dj = dist j
-        d = if abs di > abs dj then di else dj
-        cr = ax * by - ay * bx
-        dt = ax * bx + ay * by
-        cut = abs (d * cr / (1 + dt))
-        -- What is cut off lies beside that much of both lines. At one distance, what lies beyond is blocked all the same.
-        taken
-          | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
-          | otherwise = cut
-    {-# INLINE joint #-}
-    put !k !x !y !b !m !s = do
-      writePrimArray rx k x
-      writePrimArray ry k y
-      writePrimArray rb k b
-      writePrimArray rm k (m :: Word8)
-      writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
-    -- Segment i with its directions, the length of its chord, what is cut off at its beginning, and whether it begins smoothly;
-    -- the joint at the end of the walk is known.
-    go !i !k !sx !sy !ex !ey !l !cut !begins closing
-      | i == e - 1 = case closing () of
-        (kind, bend, back) -> segment i a k sx sy ex ey l cut back begins kind bend $ \k' _ -> pure k'
-      | otherwise =
-        tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
-          let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
-          joint i (i + 1) ex ey sx' sy' (if l < l' then l else l') (l - cut) kept $ \kind bend cut' -> do
-            markSmooth (i + 1) kind
-            segment i (i + 1) k sx sy ex ey l cut cut' begins kind bend $ \k' begins' ->
-              go (i + 1) k' sx' sy' ex' ey' l' cut' begins' closing
-    -- Write a segment and the joint behind it.
-    segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !begins kind !bend next = do
-      let d = dist i
-          b = bulge i
-          x = indexPrimArray (ClosedPolyarcs.xs c) i + d * sy + cut * sx
-          y = indexPrimArray (ClosedPolyarcs.ys c) i - d * sx + cut * sy
-          vx = indexPrimArray (ClosedPolyarcs.xs c) (i + 1)
-          vy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
-          fx = vx + d * ey
-          fy = vy - d * ex
-          -- An arc about a centre on its left has its radius grow to the right.
-          remains = if b == 0 then l - cut - cut' > tolerance else abs (l + 4 * d * b / (1 + b * b)) > tolerance
-          k1 = if remains then k + 1 else k
-          ends = if remains then ClosedPolyarcs.smooth else 0
-      if remains then put k x y b begins i else pure ()
-      case kind of
-        Smooth -> next k1 ends
-        Step -> put k1 fx fy 0 ClosedPolyarcs.around i >> next (k1 + 1) 0
-        Trimmed -> next k1 0
-        -- Where distances differ, over the corner: what lies further out may be free.
-        Over
-          | uneven -> put k1 fx fy 0 ClosedPolyarcs.connecting i >> put (k1 + 1) vx vy 0 ClosedPolyarcs.connecting i >> next (k1 + 2) 0
-          | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connecting i >> next (k1 + 1) 0
-        Outer -> do
-          let dj = dist j
-              wide = if abs (corner j) > abs (corner i) then corner j else corner i
-          k2 <- if wide == d then pure k1 else put k1 fx fy 0 ClosedPolyarcs.around i >> pure (k1 + 1)
-          let gx = vx + wide * ey
-              gy = vy - wide * ex
-              ends' = (if wide == d then ends else 0) + ClosedPolyarcs.around
-          -- bend is tan(θ/4); up to 120°, the ways meet at wide·tan(θ/2) from either end.
-          k3 <-
-            if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
-              then do
-                let out = abs (wide * 2 * bend / (1 - bend * bend))
-                put k2 gx gy 0 ends' i
-                put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 ClosedPolyarcs.around i
-                pure (k2 + 2)
-              else put k2 gx gy bend ends' i >> pure (k2 + 1)
-          if wide == dj
-            then next k3 (if corners == Sharp && d == dj then 0 else ClosedPolyarcs.smooth)
-            else do
-              -- The direction behind the corner: before it, turned by θ.
-              let p = (1 - bend * bend) / (1 + bend * bend)
-                  q = 2 * bend / (1 + bend * bend)
-                  co = p * p - q * q
-                  si = 2 * p * q
-                  ex' = ex * co - ey * si
-                  ey' = ey * co + ex * si
-              put k3 (vx + wide * ey') (vy - wide * ex') 0 ClosedPolyarcs.around i
-              next (k3 + 1) 0
-    {-# INLINE segment #-}
+walk ::
+  Double ->
+  Double ->
+  Corners ->
+  Bool ->
+  (Int -> Double) ->
+  (Int -> Double) ->
+  ClosedPolyarcs ->
+  MutablePrimArray s Word8 ->
+  Filling s ->
+  Int ->
+  Int ->
+  Int ->
+  ST s Int
+walk
+  !tolerance
+  !smoothness
+  corners
+  uneven
+  distance
+  corner
+  !c
+  marks
+  (Filling rx ry rb rm rs)
+  !a
+  !e
+  !k0 =
+    tangents a $ \sx sy ex ey l ->
+      tangents (e - 1) $ \_ _ zx zy lz ->
+        joint (e - 1) a zx zy sx sy (if lz < l then lz else l) lz l $ \closing bend cut -> do
+          markSmooth a closing
+          go a k0 sx sy ex ey l cut (if closing == Smooth then ClosedPolyarcs.smooth else 0) $
+            const (closing, bend, cut)
+    where
+      bulge i = indexPrimArray (ClosedPolyarcs.bulges c) i
+      -- The directions at both ends, and the length of the chord: half the sweep is turned off the
+      -- chord.
+      tangents i k =
+        let x0 = indexPrimArray (ClosedPolyarcs.xs c) i
+            y0 = indexPrimArray (ClosedPolyarcs.ys c) i
+            dx = indexPrimArray (ClosedPolyarcs.xs c) (i + 1) - x0
+            dy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1) - y0
+            l = sqrt (dx * dx + dy * dy)
+            ux = dx / l
+            uy = dy / l
+            b = bulge i
+         in if b == 0
+              then k ux uy ux uy l
+              else
+                let q = 1 / (1 + b * b)
+                    co = (1 - b * b) * q
+                    si = 2 * b * q
+                 in k
+                      (ux * co + uy * si)
+                      (uy * co - ux * si)
+                      (ux * co - uy * si)
+                      (uy * co + ux * si)
+                      l
+      {-# INLINE tangents #-}
+      dist = distance
+      markSmooth i j = case j of
+        Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smooth)
+        _ -> pure ()
+      -- From the end of segment i into segment j: the kind of joint, tan(θ/4) of an outer one, and
+      -- by how much lines are cut that are so long at least. The direction of a chord is known to
+      -- the rounding of its ends; no corner is made of that where the ways beside it are not moved
+      -- sideways, by the turn or with an arc, by more than rounding either.
+      joint i j ax ay bx by shorter restI restJ k
+        | dt > 0
+            && ( abs cr <= smoothness
+                   || abs cr * shorter <= tolerance
+                     && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance
+               ) =
+          k (if di == dj then Smooth else Step) 0 0
+        -- Into a cusp that opens to this side nothing reaches; at one distance, what goes round it
+        -- is blocked all the same.
+        | dt < 0 && abs (cr * d) <= tolerance =
+          k
+            ( if uneven
+                && d * (ClosedPolyarcs.curvature c i + ClosedPolyarcs.curvature c j) > smoothness
+                then Over
+                else Outer
+            )
+            (signum d)
+            0
+        | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
+        | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ =
+          k Trimmed 0 cut
+        | otherwise = k Over 0 0
+        where
+          di = dist i
+          dj = dist j
+          d = if abs di > abs dj then di else dj
+          cr = ax * by - ay * bx
+          dt = ax * bx + ay * by
+          cut = abs (d * cr / (1 + dt))
+          -- What is cut off lies beside that much of both lines. At one distance, what lies beyond
+          -- is blocked all the same.
+          taken
+            | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
+            | otherwise = cut
+      {-# INLINE joint #-}
+      put !k !x !y !b !m !s = do
+        writePrimArray rx k x
+        writePrimArray ry k y
+        writePrimArray rb k b
+        writePrimArray rm k (m :: Word8)
+        writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
+      -- Segment i with its directions, the length of its chord, what is cut off at its beginning,
+      -- and whether it begins smoothly; the joint at the end of the walk is known.
+      go !i !k !sx !sy !ex !ey !l !cut !begins closing
+        | i == e - 1 = case closing () of
+          (kind, bend, back) ->
+            segment i a k sx sy ex ey l cut back begins kind bend $ \k' _ -> pure k'
+        | otherwise =
+          tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
+            let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
+            joint i (i + 1) ex ey sx' sy' (if l < l' then l else l') (l - cut) kept $
+              \kind bend cut' ->
+                do
+                  markSmooth (i + 1) kind
+                  segment i (i + 1) k sx sy ex ey l cut cut' begins kind bend $ \k' begins' ->
+                    go (i + 1) k' sx' sy' ex' ey' l' cut' begins' closing
+      -- Write a segment and the joint behind it.
+      segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !begins kind !bend next = do
+        let d = dist i
+            b = bulge i
+            x = indexPrimArray (ClosedPolyarcs.xs c) i + d * sy + cut * sx
+            y = indexPrimArray (ClosedPolyarcs.ys c) i - d * sx + cut * sy
+            vx = indexPrimArray (ClosedPolyarcs.xs c) (i + 1)
+            vy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
+            fx = vx + d * ey
+            fy = vy - d * ex
+            -- An arc about a centre on its left has its radius grow to the right.
+            remains =
+              if b == 0
+                then l - cut - cut' > tolerance
+                else abs (l + 4 * d * b / (1 + b * b)) > tolerance
+            k1 = if remains then k + 1 else k
+            ends = if remains then ClosedPolyarcs.smooth else 0
+        if remains then put k x y b begins i else pure ()
+        case kind of
+          Smooth -> next k1 ends
+          Step -> put k1 fx fy 0 ClosedPolyarcs.around i >> next (k1 + 1) 0
+          Trimmed -> next k1 0
+          -- Where distances differ, over the corner: what lies further out may be free.
+          Over
+            | uneven ->
+              put k1 fx fy 0 ClosedPolyarcs.connecting i
+                >> put (k1 + 1) vx vy 0 ClosedPolyarcs.connecting i
+                >> next (k1 + 2) 0
+            | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connecting i >> next (k1 + 1) 0
+          Outer -> do
+            let dj = dist j
+                wide = if abs (corner j) > abs (corner i) then corner j else corner i
+            k2 <-
+              if wide == d
+                then pure k1
+                else put k1 fx fy 0 ClosedPolyarcs.around i >> pure (k1 + 1)
+            let gx = vx + wide * ey
+                gy = vy - wide * ex
+                ends' = (if wide == d then ends else 0) + ClosedPolyarcs.around
+            -- bend is tan(θ/4); up to 120°, the ways meet at wide·tan(θ/2) from either end.
+            k3 <-
+              if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
+                then do
+                  let out = abs (wide * 2 * bend / (1 - bend * bend))
+                  put k2 gx gy 0 ends' i
+                  put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 ClosedPolyarcs.around i
+                  pure (k2 + 2)
+                else put k2 gx gy bend ends' i >> pure (k2 + 1)
+            if wide == dj
+              then next k3 (if corners == Sharp && d == dj then 0 else ClosedPolyarcs.smooth)
+              else do
+                -- The direction behind the corner: before it, turned by θ.
+                let p = (1 - bend * bend) / (1 + bend * bend)
+                    q = 2 * bend / (1 + bend * bend)
+                    co = p * p - q * q
+                    si = 2 * p * q
+                    ex' = ex * co - ey * si
+                    ey' = ey * co + ex * si
+                put k3 (vx + wide * ey') (vy - wide * ex') 0 ClosedPolyarcs.around i
+                next (k3 + 1) 0
+      {-# INLINE segment #-}
 {-# INLINE walk #-}

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | How two segments of a chain meet: where they cross, and where, to within rounding, an end of one lies on the other or
--- they touch. Whoever asks decides what to do with the latter.
+-- | How two segments of a chain meet: where they cross, and where, to within rounding, an end of
+-- one lies on the other or they touch. Whoever asks decides what to do with the latter.
 module Offset.SegmentIntersection
   ( Visitor (..),
     meet,
@@ -17,8 +17,10 @@ import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
 -- | What is told of a meeting.
 data Visitor s = Visitor
-  { -- | the first segment and how far along its chord (0 to 1), the second one likewise, the point, and the cross product
-    -- of the two directions, whose sign says to which side the second one crosses
+  { -- of the two directions, whose sign says to which side the second one crosses
+
+    -- | the first segment and how far along its chord (0 to 1), the second one likewise, the point,
+    -- and the cross product
     crossing :: Int -> Double -> Int -> Double -> Double -> Double -> Double -> ST s (),
     -- | a segment, and a vertex that lies on it
     resting :: Int -> Int -> ST s (),
@@ -26,31 +28,40 @@ data Visitor s = Visitor
     touching :: Int -> Int -> Double -> Double -> ST s ()
   }
 
--- | Visit the meetings of two different segments, the first before the second in the chain, but for the vertices that they
--- share as neighbours. The tolerance (in mm) is that of rounding; boxes of segments that meet within it overlap.
+-- | Visit the meetings of two different segments, the first before the second in the chain, but for
+-- the vertices that they share as neighbours. The tolerance (in mm) is that of rounding; boxes of
+-- segments that meet within it overlap.
 meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
     pair !i !j
       | j == i + 1 = unless (goesOn tolerance c i j) (joined tolerance c visitor i j)
-      | mark ClosedPolyarcs.opening i && mark ClosedPolyarcs.closing j = joined tolerance c visitor i j
+      | mark ClosedPolyarcs.opening i && mark ClosedPolyarcs.closing j =
+        joined tolerance c visitor i j
       | otherwise = others i j
     others = apart' tolerance c visitor
     mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
 {-# INLINE meet #-}
 
--- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back onto themselves. Not for a walk
--- of two segments.
+-- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back onto
+-- themselves. Not for a walk of two segments.
 goesOn :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 goesOn tolerance c i j
   | ClosedPolyarcs.marked ClosedPolyarcs.opening (indexPrimArray (ClosedPolyarcs.marks c) i) = False
-  | curved c i || curved c j = ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j)
-  | otherwise = ClosedPolyarcs.chord c i (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
+  | curved c i || curved c j =
+    ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j)
+  | otherwise =
+    ClosedPolyarcs.chord
+      c
+      i
+      (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
 {-# INLINE goesOn #-}
 
--- | Whether the second of two vectors leads back along the first, so that the end of one lies on the other.
+-- | Whether the second of two vectors leads back along the first, so that the end of one lies on
+-- the other.
 foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
-foldsBack tolerance ux uy vx vy = ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
+foldsBack tolerance ux uy vx vy =
+  ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
   where
     cross = ux * vy - uy * vx
     uu = ux * ux + uy * uy
@@ -61,7 +72,8 @@ curved :: ClosedPolyarcs -> Int -> Bool
 curved c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
 {-# INLINE curved #-}
 
--- | Two segments that are neighbours, or the first and the last of walks that may be different ones.
+-- | Two segments that are neighbours, or the first and the last of walks that may be different
+-- ones.
 joined :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 joined !tolerance !c visitor !i !j
   | after && before = when (curved c i || curved c j) (alike tolerance c visitor i j)
@@ -72,7 +84,12 @@ joined !tolerance !c visitor !i !j
     -- Where the one ends the other begins.
     after = j == i + 1
     mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
-    before = mark ClosedPolyarcs.opening i && mark ClosedPolyarcs.closing j && mark ClosedPolyarcs.copied (j + 1) && at (ClosedPolyarcs.xs c) && at (ClosedPolyarcs.ys c)
+    before =
+      mark ClosedPolyarcs.opening i
+        && mark ClosedPolyarcs.closing j
+        && mark ClosedPolyarcs.copied (j + 1)
+        && at (ClosedPolyarcs.xs c)
+        && at (ClosedPolyarcs.ys c)
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
 {-# NOINLINE joined #-}
 
@@ -84,8 +101,12 @@ apart' !tolerance !c visitor = pair
       | curved c i = if curved c j then arcsBySize i j else lineAndArc j i
       | curved c j = lineAndArc i j
       | otherwise = lines' tolerance c visitor i j
-    lineAndArc !i !j = unless (beside tolerance c i j) (lineArc tolerance c visitor (crossingAlong c visitor i j) i j)
-    arcsBySize !i !j = if ClosedPolyarcs.diameter c i <= ClosedPolyarcs.diameter c j then bySize i j else bySize j i
+    lineAndArc !i !j =
+      unless
+        (beside tolerance c i j)
+        (lineArc tolerance c visitor (crossingAlong c visitor i j) i j)
+    arcsBySize !i !j =
+      if ClosedPolyarcs.diameter c i <= ClosedPolyarcs.diameter c j then bySize i j else bySize j i
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
 {-# INLINE apart' #-}
 
@@ -114,7 +135,8 @@ lines' !tolerance !c visitor !i !j =
               !py = y i + s * uy
           crossing visitor i s j t px py den
     unless (apart startJ endJ nearU || apart startI endI nearV) $
-      if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV || not (eitherRests tolerance c i j) && startJ * endJ < 0 && startI * endI < 0
+      if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV
+        || not (eitherRests tolerance c i j) && startJ * endJ < 0 && startI * endI < 0
         then crosses
         else rests tolerance c visitor i j
 {-# INLINE lines' #-}
@@ -129,7 +151,11 @@ rests !tolerance !c visitor !i !j = do
 
 -- | Whether an end of one of two segments lies on the other.
 eitherRests :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-eitherRests tolerance c i j = liesOn tolerance c i j || liesOn tolerance c i (j + 1) || liesOn tolerance c j i || liesOn tolerance c j (i + 1)
+eitherRests tolerance c i j =
+  liesOn tolerance c i j
+    || liesOn tolerance c i (j + 1)
+    || liesOn tolerance c j i
+    || liesOn tolerance c j (i + 1)
 
 -- | Whether a vertex lies on a segment.
 liesOn :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
@@ -145,14 +171,18 @@ liesOn !tolerance !c !i !k =
         aside = ux * ay - uy * ax
         along = ux * ax + uy * ay
         square = ux * ux + uy * uy
-        atAnEnd = ax * ax + ay * ay <= tolerance * tolerance || bx * bx + by * by <= tolerance * tolerance
+        atAnEnd =
+          ax * ax + ay * ay <= tolerance * tolerance || bx * bx + by * by <= tolerance * tolerance
      in atAnEnd
           || if b == 0
             then aside * aside <= tolerance * tolerance * square && along > 0 && along < square
-            else aside * b <= 0 && abs (ClosedPolyarcs.power c i px py) <= tolerance * (ClosedPolyarcs.diameter c i + tolerance)
+            else
+              aside * b <= 0
+                && abs (ClosedPolyarcs.power c i px py)
+                  <= tolerance * (ClosedPolyarcs.diameter c i + tolerance)
 
--- | Whether a line and an arc are certainly apart: the parallelogram over the arc's chord that its highest point touches lies
--- on one side of the line, or the line on one side of the parallelogram.
+-- | Whether a line and an arc are certainly apart: the parallelogram over the arc's chord that its
+-- highest point touches lies on one side of the line, or the line on one side of the parallelogram.
 beside :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 beside !tolerance !c !i !j =
   above nearLine arcStart arcEnd rise
@@ -170,11 +200,13 @@ beside !tolerance !c !i !j =
     !wx = x j - x i
     !wy = y j - y i
     !turning = ux * dy - uy * dx
-    -- Twice the areas between the line and the arc's ends, and by how much more its highest point may lie beside it.
+    -- Twice the areas between the line and the arc's ends, and by how much more its highest point
+    -- may lie beside it.
     !arcStart = ux * wy - uy * wx
     !arcEnd = arcStart + turning
     !rise = -0.5 * b * (ux * dx + uy * dy)
-    -- Those between the chord and the line's ends, on the arc's side, and how far the arc reaches there.
+    -- Those between the chord and the line's ends, on the arc's side, and how far the arc reaches
+    -- there.
     !sign = if b > 0 then 1 else -1
     !lineStart = sign * (dx * wy - dy * wx)
     !lineEnd = lineStart + sign * turning
@@ -185,10 +217,11 @@ beside !tolerance !c !i !j =
     {-# INLINE above #-}
 {-# INLINE beside #-}
 
--- | A line and an arc that are no neighbours. Along the line the power is @aa·s² + 2·half·s + c0@, from a place near the arc.
+-- | A line and an arc that are no neighbours. Along the line the power is @aa·s² + 2·half·s + c0@,
+-- from a place near the arc.
 --
--- Where both cross at an angle, a point of one may be off by the tolerance over its sine. Nearer to an end than that
--- nothing is decided here.
+-- Where both cross at an angle, a point of one may be off by the tolerance over its sine. Nearer to
+-- an end than that nothing is decided here.
 lineArc :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
 lineArc !tolerance !c visitor tell !i !j
   | disc < -verge = pure ()
@@ -209,7 +242,11 @@ lineArc !tolerance !c visitor tell !i !j
     !ux = indexPrimArray (ClosedPolyarcs.xs c) (i + 1) - lx
     !uy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1) - ly
     !aa = ux * ux + uy * uy
-    !s0 = (ux * (indexPrimArray (ClosedPolyarcs.xs c) j - lx) + uy * (indexPrimArray (ClosedPolyarcs.ys c) j - ly)) / aa
+    !s0 =
+      ( ux * (indexPrimArray (ClosedPolyarcs.xs c) j - lx)
+          + uy * (indexPrimArray (ClosedPolyarcs.ys c) j - ly)
+      )
+        / aa
     !x0 = lx + s0 * ux
     !y0 = ly + s0 * uy
     !half = ClosedPolyarcs.gradient c j x0 y0 (\gx gy -> 0.5 * (gx * ux + gy * uy))
@@ -239,10 +276,18 @@ lineArc !tolerance !c visitor tell !i !j
           try step = when (s0 + step > 0 && s0 + step < 1) $ do
             let px = lx + (s0 + step) * ux
                 py = ly + (s0 + step) * uy
-            when (onArc c j px py && not (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))) (tell (s0 + step))
+            when
+              ( onArc c j px py
+                  && not
+                    (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+              )
+              (tell (s0 + step))
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
-        then when (not rest && foot > 0 && foot < 1 && onArc c j footX footY) (touching visitor i j footX footY)
+        then
+          when
+            (not rest && foot > 0 && foot < 1 && onArc c j footX footY)
+            (touching visitor i j footX footY)
         else try (q / aa) >> try (if half == 0 then -(q / aa) else c0 / q)
 {-# INLINE lineArc #-}
 
@@ -261,7 +306,20 @@ crossingAt :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> Double -> S
 crossingAt c visitor !i !j !px !py = do
   let !s = parameter c i px py
       !t = parameter c j px py
-      !turn = ClosedPolyarcs.gradient c i px py (\ax ay -> ClosedPolyarcs.gradient c j px py (\bx by -> turned c i (turned c j (ax * by - ay * bx))))
+      !turn =
+        ClosedPolyarcs.gradient
+          c
+          i
+          px
+          py
+          ( \ax ay ->
+              ClosedPolyarcs.gradient
+                c
+                j
+                px
+                py
+                (\bx by -> turned c i (turned c j (ax * by - ay * bx)))
+          )
   crossing visitor i s j t px py turn
 {-# INLINE crossingAt #-}
 
@@ -269,7 +327,8 @@ crossingAt c visitor !i !j !px !py = do
 data Verdict = Crosses | Passes | Doubtful
   deriving stock (Eq)
 
--- | Tell of the points of two that are known to be crossings, unless a doubtful one calls for a closer look.
+-- | Tell of the points of two that are known to be crossings, unless a doubtful one calls for a
+-- closer look.
 decided :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
 decided closely first tellFirst second tellSecond
   | first == Doubtful || second == Doubtful = closely
@@ -287,7 +346,14 @@ nearEnds c i within px py = near i || near (i + 1)
 {-# INLINE nearEnds #-}
 
 -- | Two arcs that are no neighbours, the one with the smaller circle first.
-arcs :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> Double -> ST s ()) -> Int -> Int -> ST s ()
+arcs ::
+  Double ->
+  ClosedPolyarcs ->
+  Visitor s ->
+  (Double -> Double -> ST s ()) ->
+  Int ->
+  Int ->
+  ST s ()
 arcs !tolerance !c visitor tell !i !j
   | dist <= 4 * tolerance = rests tolerance c visitor i j
   | disc < -verge = pure ()
@@ -305,11 +371,24 @@ arcs !tolerance !c visitor tell !i !j
     !x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     !y0 = indexPrimArray (ClosedPolyarcs.ys c) i
     -- The powers differ by a linear function, which is 0 where the circles meet.
-    !gx = ClosedPolyarcs.gradient c i x0 y0 (\ax _ -> ClosedPolyarcs.gradient c j x0 y0 (\bx _ -> ax - bx))
-    !gy = ClosedPolyarcs.gradient c i x0 y0 (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
+    !gx =
+      ClosedPolyarcs.gradient
+        c
+        i
+        x0
+        y0
+        (\ax _ -> ClosedPolyarcs.gradient c j x0 y0 (\bx _ -> ax - bx))
+    !gy =
+      ClosedPolyarcs.gradient
+        c
+        i
+        x0
+        y0
+        (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- The square of half the chord in which two circles meet grows by twice this for each mm that they overlap.
+    -- The square of half the chord in which two circles meet grows by twice this for each mm that
+    -- they overlap.
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
     -- A point of that line, and how the first circle's power goes along it: gg·s² + 2·half·s + c0.
@@ -340,10 +419,19 @@ arcs !tolerance !c visitor tell !i !j
           try s = do
             let px = lx - s * gy
                 py = ly + s * gx
-            when (onArc c i px py && onArc c j px py && not (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))) (tell px py)
+            when
+              ( onArc c i px py
+                  && onArc c j px py
+                  && not
+                    (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+              )
+              (tell px py)
       when rest (rests tolerance c visitor i j)
       if abs disc <= verge
-        then when (not rest && onArc c i footX footY && onArc c j footX footY) (touching visitor i j footX footY)
+        then
+          when
+            (not rest && onArc c i footX footY && onArc c j footX footY)
+            (touching visitor i j footX footY)
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# INLINE arcs #-}
 
@@ -351,8 +439,10 @@ arcs !tolerance !c visitor tell !i !j
 neighbours :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | bi == 0 && bj == 0 =
-    ClosedPolyarcs.chord c i $ \ux uy -> ClosedPolyarcs.chord c j $ \vx vy -> when (foldsBack tolerance ux uy vx vy) farEnds
-  | ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j) = pure ()
+    ClosedPolyarcs.chord c i $ \ux uy ->
+      ClosedPolyarcs.chord c j $ \vx vy -> when (foldsBack tolerance ux uy vx vy) farEnds
+  | ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j) =
+    pure ()
   | liesOn tolerance c j i || liesOn tolerance c i (j + 1) = farEnds
   | bi == 0 = other i j False
   | bj == 0 = other j i True
@@ -363,46 +453,103 @@ neighbours !tolerance !c visitor !i !j !vertex
     farEnds = do
       when (liesOn tolerance c j i) (resting visitor j i)
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
-    -- Whether what two segments enclose between two places where they meet is no wider than rounding: from the square of the
-    -- distance of both, and half the curvature of the one towards the other.
+    -- Whether what two segments enclose between two places where they meet is no wider than
+    -- rounding: from the square of the distance of both, and half the curvature of the one towards
+    -- the other.
     thin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
     -- The other point in which a line l through the vertex meets the circle of an arc.
-    other l arc lineIsSecond = ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
-      let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
-          s = if lineIsSecond then step else 1 + step
-          px = vx0 + step * ux
-          !py = vy0 + step * uy
-      when (s > 0 && s < 1 && onArc c arc px py) $
-        unless (thin ((px - vx0) * (px - vx0) + (py - vy0) * (py - vy0)) (1 / ClosedPolyarcs.diameter c arc)) $
-          crossing visitor l s arc (parameter c arc px py) px py (ClosedPolyarcs.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
-    otherOfArcs = ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay -> ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
-      let gx = ax - bx
-          gy = ay - by
-          gg = gx * gx + gy * gy
-          -- Back along the line in which both powers agree.
-          k = (ay * gx - ax * gy) / gg
-          px = vx0 + k * gy
-          py = vy0 - k * gx
-          -- Arcs about centres on opposite sides of the chord bend apart.
-          hx = px - vx0
-          hy = py - vy0
-          bend = abs (1 / ClosedPolyarcs.diameter c i - signum ((hx * ay - hy * ax) * (hx * by - hy * bx)) / ClosedPolyarcs.diameter c j)
-      when (gg > 16 * tolerance * tolerance && onArc c i px py && onArc c j px py && not (thin (hx * hx + hy * hy) bend)) $
-        crossing visitor i (parameter c i px py) j (parameter c j px py) px py (ClosedPolyarcs.gradient c i px py (\ex ey -> ClosedPolyarcs.gradient c j px py (\fx fy -> turned c i (turned c j (ex * fy - ey * fx)))))
+    other l arc lineIsSecond =
+      ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
+        let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
+            s = if lineIsSecond then step else 1 + step
+            px = vx0 + step * ux
+            !py = vy0 + step * uy
+        when (s > 0 && s < 1 && onArc c arc px py) $
+          unless
+            ( thin
+                ((px - vx0) * (px - vx0) + (py - vy0) * (py - vy0))
+                (1 / ClosedPolyarcs.diameter c arc)
+            )
+            $ crossing
+              visitor
+              l
+              s
+              arc
+              (parameter c arc px py)
+              px
+              py
+              (ClosedPolyarcs.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
+    otherOfArcs =
+      ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
+        ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
+          let gx = ax - bx
+              gy = ay - by
+              gg = gx * gx + gy * gy
+              -- Back along the line in which both powers agree.
+              k = (ay * gx - ax * gy) / gg
+              px = vx0 + k * gy
+              py = vy0 - k * gx
+              -- Arcs about centres on opposite sides of the chord bend apart.
+              hx = px - vx0
+              hy = py - vy0
+              bend =
+                abs
+                  ( 1 / ClosedPolyarcs.diameter c i
+                      - signum ((hx * ay - hy * ax) * (hx * by - hy * bx))
+                        / ClosedPolyarcs.diameter c j
+                  )
+          when
+            ( gg > 16 * tolerance * tolerance
+                && onArc c i px py
+                && onArc c j px py
+                && not (thin (hx * hx + hy * hy) bend)
+            )
+            $ crossing
+              visitor
+              i
+              (parameter c i px py)
+              j
+              (parameter c j px py)
+              px
+              py
+              ( ClosedPolyarcs.gradient
+                  c
+                  i
+                  px
+                  py
+                  ( \ex ey ->
+                      ClosedPolyarcs.gradient
+                        c
+                        j
+                        px
+                        py
+                        (\fx fy -> turned c i (turned c j (ex * fy - ey * fx)))
+                  )
+              )
 {-# NOINLINE neighbours #-}
 
--- | Two segments that share both ends, not both of them lines: they are the same one, or meet nowhere else.
+-- | Two segments that share both ends, not both of them lines: they are the same one, or meet
+-- nowhere else.
 alike :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 alike !tolerance !c visitor !i !j =
   -- Walked back, an arc has its bulge with the sign turned.
   ClosedPolyarcs.chord c i $ \ux uy ->
-    when (0.5 * abs (indexPrimArray (ClosedPolyarcs.bulges c) i + indexPrimArray (ClosedPolyarcs.bulges c) j) * sqrt (ux * ux + uy * uy) <= tolerance) $
-      resting visitor i j
+    when
+      ( 0.5
+          * abs
+            ( indexPrimArray (ClosedPolyarcs.bulges c) i
+                + indexPrimArray (ClosedPolyarcs.bulges c) j
+            )
+          * sqrt (ux * ux + uy * uy)
+            <= tolerance
+      )
+      $ resting visitor i j
 
--- | Whether a point of the circle belongs to the arc: it lies on the arc's side of the chord. Near the ends of a flat arc
--- rounding would decide that; such an arc is what lies beside its chord, and the rest of the circle is far away.
+-- | Whether a point of the circle belongs to the arc: it lies on the arc's side of the chord. Near
+-- the ends of a flat arc rounding would decide that; such an arc is what lies beside its chord, and
+-- the rest of the circle is far away.
 onArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
 onArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   let ax = px - indexPrimArray (ClosedPolyarcs.xs c) i
@@ -417,10 +564,14 @@ onArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
 -- | How far along the chord a point of a segment lies.
 parameter :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
-  (ux * (px - indexPrimArray (ClosedPolyarcs.xs c) i) + uy * (py - indexPrimArray (ClosedPolyarcs.ys c) i)) / (ux * ux + uy * uy)
+  ( ux * (px - indexPrimArray (ClosedPolyarcs.xs c) i)
+      + uy * (py - indexPrimArray (ClosedPolyarcs.ys c) i)
+  )
+    / (ux * ux + uy * uy)
 {-# INLINE parameter #-}
 
--- | The sign of the walk on an arc: what holds counter-clockwise is turned when it is walked clockwise.
+-- | The sign of the walk on an arc: what holds counter-clockwise is turned when it is walked
+-- clockwise.
 turned :: ClosedPolyarcs -> Int -> Double -> Double
 turned c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
 {-# INLINE turned #-}

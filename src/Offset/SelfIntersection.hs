@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | The places where a chain crosses itself, when it does so in general position: not at an end of a segment, and not
--- along one.
+-- | The places where a chain crosses itself, when it does so in general position: not at an end of
+-- a segment, and not along one.
 module Offset.SelfIntersection
   ( SelfIntersections (..),
     SearchResult (..),
@@ -25,9 +25,13 @@ import Geometry.Index.SegmentTree qualified as SegmentTree
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 
--- | Of each crossing: x, y, and how far along the chords of both segments; and the segments. Each has two occurrences, one on
--- either segment: @2h@ and @2h + 1@ of the crossing @h@.
-data SelfIntersections = SelfIntersections {count :: Int, reals :: PrimArray Double, segments :: PrimArray Int32}
+-- | Of each crossing: x, y, and how far along the chords of both segments; and the segments. Each
+-- has two occurrences, one on either segment: @2h@ and @2h + 1@ of the crossing @h@.
+data SelfIntersections = SelfIntersections
+  { count :: Int,
+    reals :: PrimArray Double,
+    segments :: PrimArray Int32
+  }
 
 data SearchResult
   = SearchResult SelfIntersections
@@ -57,8 +61,12 @@ find !tolerance !c !bs = runST $ do
         writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if turn > 0 then 0 else 1)))
         writePrimArray state 0 (k + 1)
         when (turn == 0) unclear
-      visitor = Visitor {crossing = record, resting = \_ _ -> unclear, touching = \_ _ _ _ -> unclear}
-  SegmentTree.pairs bs ((== 0) <$> readPrimArray state 1) (SegmentIntersection.meet tolerance c visitor)
+      visitor =
+        Visitor {crossing = record, resting = \_ _ -> unclear, touching = \_ _ _ _ -> unclear}
+  SegmentTree.pairs
+    bs
+    ((== 0) <$> readPrimArray state 1)
+    (SegmentIntersection.meet tolerance c visitor)
   k <- readPrimArray state 0
   bad <- readPrimArray state 1
   if bad /= 0
@@ -68,17 +76,31 @@ find !tolerance !c !bs = runST $ do
       g <- readMutVar ss >>= unsafeFreezePrimArray
       pure (SearchResult (SelfIntersections k r g))
 
--- | Two segments that cross, if there are such; what ends on another one or touches it does not cross it.
+-- | Two segments that cross, if there are such; what ends on another one or touches it does not
+-- cross it.
 proper :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
 proper tolerance c bs = runST $ do
   found <- newMutVar Nothing
-  let visitor = Visitor {crossing = \i _ j _ _ _ _ -> writeMutVar found (Just (i, j)), resting = \_ _ -> pure (), touching = \_ _ _ _ -> pure ()}
-  SegmentTree.pairs bs ((== Nothing) <$> readMutVar found) (SegmentIntersection.meet tolerance c visitor)
+  let visitor =
+        Visitor
+          { crossing = \i _ j _ _ _ _ -> writeMutVar found (Just (i, j)),
+            resting = \_ _ -> pure (),
+            touching = \_ _ _ _ -> pure ()
+          }
+  SegmentTree.pairs
+    bs
+    ((== Nothing) <$> readMutVar found)
+    (SegmentIntersection.meet tolerance c visitor)
   readMutVar found
 
--- | Room for one more: none at first, then for so many, and then always twice as much. Room that is not used costs no
--- memory, but what was copied does.
-grow :: Int -> MutVar s (MutablePrimArray s Double) -> MutVar s (MutablePrimArray s Int32) -> Int -> ST s ()
+-- | Room for one more: none at first, then for so many, and then always twice as much. Room that is
+-- not used costs no memory, but what was copied does.
+grow ::
+  Int ->
+  MutVar s (MutablePrimArray s Double) ->
+  MutVar s (MutablePrimArray s Int32) ->
+  Int ->
+  ST s ()
 grow some rs ss k = do
   g <- readMutVar ss
   room <- getSizeofMutablePrimArray g

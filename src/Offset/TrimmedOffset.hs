@@ -1,5 +1,5 @@
--- | The ways that the centre of a cutter can go beside a contour, cut from the kernel's loops, each piece with the segment of
--- the contour that it belongs to.
+-- | The ways that the centre of a cutter can go beside a contour, cut from the kernel's loops, each
+-- piece with the segment of the contour that it belongs to.
 module Offset.TrimmedOffset
   ( CornerStyle (..),
     radiusAt,
@@ -36,10 +36,13 @@ import Geometry.Vec qualified as Vec
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
 
--- | How the path goes round outer corners, and how much further than the radius it stays from each segment.
+-- | How the path goes round outer corners, and how much further than the radius it stays from each
+-- segment.
 data CornerStyle = CornerStyle
-  { -- | straight on to where the two ways meet, instead of on an arc about the corner; corners that turn by
-    -- more than 120° stay round
+  { -- more than 120° stay round
+
+    -- | straight on to where the two ways meet, instead of on an arc about the corner; corners that
+    -- turn by
     sharp :: Bool,
     -- | by the number of the segment; not negative
     extra :: Int -> Mm
@@ -79,32 +82,55 @@ numberOf origin = case origin of
 data TrimmedOffset = TrimmedOffset
   { ends :: Ends,
     pieces :: NonEmpty OffsetSegment,
-    -- | the segments of the contour that stop the cutter before and behind an open way; nothing where the contour ends
+    -- | the segments of the contour that stop the cutter before and behind an open way; nothing
+    -- where the contour ends
     stops :: (Maybe Int, Maybe Int)
   }
   deriving stock (Eq, Show)
 
--- | Whether the cutter reaches every segment: there is one way, and nothing but arcs that have shrunk to a point is missing on it, nor does
--- anything stop the cutter at the ends of an open contour. Corners are not looked at.
+-- | Whether the cutter reaches every segment: there is one way, and nothing but arcs that have
+-- shrunk to a point is missing on it, nor does anything stop the cutter at the ends of an open
+-- contour. Corners are not looked at.
 reachesAll :: CornerStyle -> Side -> Mm -> Polyarc -> Bool
 reachesAll style side radius contour = case asked style side radius contour of
   Just reach | isWhole reach -> True
   _ -> case along style side radius contour of
-    [way] -> Polyarc.ends contour == ends way && inOrder (map (numberOf . origin) (NonEmpty.toList (pieces way))) && isOpenAtEnds way
+    [way] ->
+      Polyarc.ends contour == ends way
+        && inOrder (map (numberOf . origin) (NonEmpty.toList (pieces way)))
+        && isOpenAtEnds way
     [] -> all shrunk (Vector.toList (Vector.indexed whole))
     _ -> False
   where
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     -- Nothing of the raw equidistant was cut away.
-    isWhole reach = let l = Kernel.loops reach in Loop.count l == 1 && PrimArray.sizeofPrimArray (Loop.raws l) == PrimArray.sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw reach)) - 1
-    inOrder numbers = and (zipWith (<=) numbers (drop 1 numbers)) && all (\i -> shrunk (i, whole Vector.! i)) (IntSet.toList (IntSet.difference (IntSet.fromList [0 .. Vector.length whole - 1]) (IntSet.fromList numbers)))
+    isWhole reach =
+      let l =
+            Kernel.loops reach
+       in Loop.count l == 1
+            && PrimArray.sizeofPrimArray (Loop.raws l)
+              == PrimArray.sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw reach)) - 1
+    inOrder numbers =
+      and (zipWith (<=) numbers (drop 1 numbers))
+        && all
+          (\i -> shrunk (i, whole Vector.! i))
+          ( IntSet.toList
+              ( IntSet.difference
+                  (IntSet.fromList [0 .. Vector.length whole - 1])
+                  (IntSet.fromList numbers)
+              )
+          )
     -- Where the way begins or ends the contour does, but for arcs that have shrunk.
-    isOpenAtEnds way = maybe True (< firstOf way) (fst (stops way)) && maybe True (> finalOf way) (snd (stops way))
+    isOpenAtEnds way =
+      maybe True (< firstOf way) (fst (stops way)) && maybe True (> finalOf way) (snd (stops way))
     firstOf = numberOf . origin . NonEmpty.head . pieces
     finalOf = numberOf . origin . NonEmpty.last . pieces
     shrunk (i, s) = case s of
       Straight a b -> Vec.near a b
-      Arc {start, centre} -> let Mm d = minus (Segment.radius centre start) (radiusAt style radius i) in Mm (abs d) <= Tolerance.clearance
+      Arc {start, centre} ->
+        let Mm d =
+              minus (Segment.radius centre start) (radiusAt style radius i)
+         in Mm (abs d) <= Tolerance.clearance
 
 -- | What the kernel says; nothing for a contour that crosses itself.
 asked :: CornerStyle -> Side -> Mm -> Polyarc -> Maybe Kernel.ReachableRegion
@@ -116,12 +142,22 @@ asked style side radius contour = case Kernel.offset task [outline] of
   where
     (outline, elements) = FlatPolyarc.fromContour contour
     plainly = all ((== Mm 0) . extra style) [0 .. NonEmpty.length (segments contour) - 1]
-    task = Kernel.OffsetRequest {Kernel.side, Kernel.corners = if sharp style then Kernel.Sharp else Kernel.Round, Kernel.distance = radius, Kernel.extra = if plainly then Nothing else Just (extra style . PrimArray.indexPrimArray elements)}
+    task =
+      Kernel.OffsetRequest
+        { Kernel.side,
+          Kernel.corners = if sharp style then Kernel.Sharp else Kernel.Round,
+          Kernel.distance = radius,
+          Kernel.extra =
+            if plainly then Nothing else Just (extra style . PrimArray.indexPrimArray elements)
+        }
 
 -- | The ways, by the kernel.
 along :: CornerStyle -> Side -> Mm -> Polyarc -> [TrimmedOffset]
 along style side radius contour = case asked style side radius contour of
-  Just reach -> sortOn (origin . NonEmpty.head . pieces) (concatMap (way reach) [0 .. Loop.count (Kernel.loops reach) - 1])
+  Just reach ->
+    sortOn
+      (origin . NonEmpty.head . pieces)
+      (concatMap (way reach) [0 .. Loop.count (Kernel.loops reach) - 1])
   Nothing -> []
   where
     elements = snd (FlatPolyarc.fromContour contour)
@@ -129,11 +165,16 @@ along style side radius contour = case asked style side radius contour of
     whole = Vector.fromList (NonEmpty.toList (segments contour))
     way reach k = joined (zipWith (piece reach whole elements) parts (drop 1 parts <> take 1 parts))
       where
-        parts = [PrimArray.indexPrimArray (Loop.starts l) k .. PrimArray.indexPrimArray (Loop.starts l) (k + 1) - 1]
+        parts =
+          [ PrimArray.indexPrimArray (Loop.starts l) k
+            .. PrimArray.indexPrimArray (Loop.starts l) (k + 1)
+              - 1
+          ]
         l = Kernel.loops reach
     joined found = case Polyarc.ends contour of
       Closed -> [round' ps | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
-      -- The loop goes round the whole contour: here counts what lies on the side that was asked, up to the ends.
+      -- The loop goes round the whole contour: here counts what lies on the side that was asked, up
+      -- to the ends.
       Open -> case span own found of
         (_, []) -> [round' ps | Just ps <- [NonEmpty.nonEmpty (map snd found)]]
         (front, other : rest) -> runs other other (rest <> front)
@@ -150,7 +191,15 @@ along style side radius contour = case asked style side radius contour of
           next <- headOr behind others ->
           stretch before (p :| more) next : runs next behind (drop 1 others)
         | otherwise -> runs p behind rest
-    stretch before own' next = TrimmedOffset {ends = Open, pieces = merged (fmap snd own'), stops = (stopAt (2 * numbers - 1) 0 before (NonEmpty.head own'), stopAt (numbers - 1) (numbers - 1) next (NonEmpty.last own'))}
+    stretch before own' next =
+      TrimmedOffset
+        { ends = Open,
+          pieces = merged (fmap snd own'),
+          stops =
+            ( stopAt (2 * numbers - 1) 0 before (NonEmpty.head own'),
+              stopAt (numbers - 1) (numbers - 1) next (NonEmpty.last own')
+            )
+        }
     headOr other list = case list of
       a : _ -> a
       [] -> other
@@ -166,20 +215,37 @@ along style side radius contour = case asked style side radius contour of
         (front, rest) = NonEmpty.break isLeast ps
         (lastRun, others) = span isLeast (reverse (rest <> front))
 
--- | A segment of a loop as a piece, about the exact centre of what it stems from; and the number of the segment of the outline.
-piece :: Kernel.ReachableRegion -> Vector Segment -> PrimArray.PrimArray Int -> Int -> Int -> (Int, OffsetSegment)
+-- | A segment of a loop as a piece, about the exact centre of what it stems from; and the number of
+-- the segment of the outline.
+piece ::
+  Kernel.ReachableRegion ->
+  Vector Segment ->
+  PrimArray.PrimArray Int ->
+  Int ->
+  Int ->
+  (Int, OffsetSegment)
 piece reach whole elements k after = (number, OffsetSegment {origin, segment})
   where
     l = Kernel.loops reach
     raw = fromIntegral (PrimArray.indexPrimArray (Loop.raws l) k)
     number = fromIntegral (PrimArray.indexPrimArray (ClosedPolyarcs.sources (Kernel.raw reach)) raw)
     -- An open outline is walked there and back.
-    element = PrimArray.indexPrimArray elements (if number < PrimArray.sizeofPrimArray elements then number else 2 * PrimArray.sizeofPrimArray elements - 1 - number)
-    isAround = ClosedPolyarcs.marked ClosedPolyarcs.around (PrimArray.indexPrimArray (ClosedPolyarcs.marks (Kernel.raw reach)) raw)
+    element =
+      PrimArray.indexPrimArray
+        elements
+        ( if number < PrimArray.sizeofPrimArray elements
+            then number
+            else 2 * PrimArray.sizeofPrimArray elements - 1 - number
+        )
+    isAround =
+      ClosedPolyarcs.marked
+        ClosedPolyarcs.around
+        (PrimArray.indexPrimArray (ClosedPolyarcs.marks (Kernel.raw reach)) raw)
     origin = if isAround then Around element else Along element
     s = whole Vector.! element
     (a, b) = (vertex k, vertex after)
-    vertex i = Vec.point (PrimArray.indexPrimArray (Loop.xs l) i) (PrimArray.indexPrimArray (Loop.ys l) i)
+    vertex i =
+      Vec.point (PrimArray.indexPrimArray (Loop.xs l) i) (PrimArray.indexPrimArray (Loop.ys l) i)
     g = PrimArray.indexPrimArray (Loop.bulges l) k
     segment
       | g == 0 = Straight a b
@@ -192,6 +258,10 @@ piece reach whole elements k after = (number, OffsetSegment {origin, segment})
 merged :: NonEmpty OffsetSegment -> NonEmpty OffsetSegment
 merged (p :| rest) = case rest of
   q : more
-    | origin p == origin q, Arc {centre, start, sweep = Rad s} <- segment p, Arc {centre = c, end, sweep = Rad t} <- segment q, c == centre -> merged (p {segment = Arc {start, end, centre, sweep = Rad (s + t)}} :| more)
+    | origin p == origin q,
+      Arc {centre, start, sweep = Rad s} <- segment p,
+      Arc {centre = c, end, sweep = Rad t} <- segment q,
+      c == centre ->
+      merged (p {segment = Arc {start, end, centre, sweep = Rad (s + t)}} :| more)
     | otherwise -> NonEmpty.cons p (merged (q :| more))
   [] -> p :| []

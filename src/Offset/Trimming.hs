@@ -1,9 +1,9 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | What of a chain in general position bounds the places with the wanted winding number: walk along it once from where
--- the winding number is known, add what the crossings say, keep the slices that have the wanted number on their left,
--- and join them at the crossings.
+-- | What of a chain in general position bounds the places with the wanted winding number: walk
+-- along it once from where the winding number is known, add what the crossings say, keep the slices
+-- that have the wanted number on their left, and join them at the crossings.
 module Offset.Trimming
   ( clip,
   )
@@ -23,9 +23,9 @@ import Offset.SelfIntersection qualified as SelfIntersection
 import Offset.WindingNumber (Extreme (..), Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | The loops that have the wanted winding number on their left. Nothing when the chain turns out not to be in general
--- position: two crossings fall together within the tolerance (in mm), a walk folds back where it is outermost, or
--- the sums do not agree.
+-- | The loops that have the wanted winding number on their left. Nothing when the chain turns out
+-- not to be in general position: two crossings fall together within the tolerance (in mm), a walk
+-- folds back where it is outermost, or the sums do not agree.
 clip :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
 clip !tolerance !wanted !c !bs !xs = do
   -- On the left of each walk at its leftmost place, and at its rightmost.
@@ -51,34 +51,60 @@ clip !tolerance !wanted !c !bs !xs = do
       let leftmost = WindingNumber.extreme Leftmost c bs w
           rightmost = WindingNumber.extreme Rightmost c bs w
           single = ClosedPolyarcs.walks c == 1
-          base = if single then 0 else WindingNumber.at c bs (x leftmost - 4 * tolerance) (y leftmost)
+          base =
+            if single then 0 else WindingNumber.at c bs (x leftmost - 4 * tolerance) (y leftmost)
       a <- leftMore leftmost
       b <- leftMore rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
--- | The walks of a chain that does not cross itself, as they are; one that is all there is, without a copy.
+-- | The walks of a chain that does not cross itself, as they are; one that is all there is, without
+-- a copy.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
 uncut wanted c known
   | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) known = Nothing
-  | kept == [0] && ClosedPolyarcs.walks c == 1 = Just (OffsetLoops starts (ClosedPolyarcs.xs c) (ClosedPolyarcs.ys c) (ClosedPolyarcs.bulges c) raws)
-  | otherwise = Just (OffsetLoops starts (gathered (ClosedPolyarcs.xs c)) (gathered (ClosedPolyarcs.ys c)) (gathered (ClosedPolyarcs.bulges c)) raws)
+  | kept == [0] && ClosedPolyarcs.walks c == 1 =
+    Just
+      ( OffsetLoops
+          starts
+          (ClosedPolyarcs.xs c)
+          (ClosedPolyarcs.ys c)
+          (ClosedPolyarcs.bulges c)
+          raws
+      )
+  | otherwise =
+    Just
+      ( OffsetLoops
+          starts
+          (gathered (ClosedPolyarcs.xs c))
+          (gathered (ClosedPolyarcs.ys c))
+          (gathered (ClosedPolyarcs.bulges c))
+          raws
+      )
   where
     kept = [w | (w, (_, left, _)) <- zip [0 ..] known, left == wanted]
     size w = ClosedPolyarcs.behind c w - ClosedPolyarcs.first c w
     starts = primArrayFromList (scanl (+) 0 (map size kept))
     gathered a = mconcat [clonePrimArray a (ClosedPolyarcs.first c w) (size w) | w <- kept]
-    raws = mconcat [generatePrimArray (size w) (\i -> fromIntegral (ClosedPolyarcs.first c w + i)) | w <- kept]
+    raws =
+      mconcat
+        [generatePrimArray (size w) (\i -> fromIntegral (ClosedPolyarcs.first c w + i)) | w <- kept]
 
--- | Fill the occurrences of every segment, in the order of the walk; and where those of each segment begin (there is room for
--- two more).
-sorted :: ClosedPolyarcs -> SelfIntersections -> MutablePrimArray s Int32 -> MutablePrimArray s Int32 -> ST s ()
+-- | Fill the occurrences of every segment, in the order of the walk; and where those of each
+-- segment begin (there is room for two more).
+sorted ::
+  ClosedPolyarcs ->
+  SelfIntersections ->
+  MutablePrimArray s Int32 ->
+  MutablePrimArray s Int32 ->
+  ST s ()
 sorted c xs begins order = do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       total = 2 * SelfIntersection.count xs
       segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
   setPrimArray begins 0 (n + 2) 0
   setPrimArray order 0 total (-1)
-  forM' total $ \o -> readPrimArray begins (segmentOf o + 2) >>= writePrimArray begins (segmentOf o + 2) . (+ 1)
+  forM' total $ \o ->
+    readPrimArray begins (segmentOf o + 2) >>= writePrimArray begins (segmentOf o + 2) . (+ 1)
   let add !i !a
         | i > n + 1 = pure ()
         | otherwise = do
@@ -86,7 +112,8 @@ sorted c xs begins order = do
           writePrimArray begins i (a + v)
           add (i + 1) (a + v)
   add 2 0
-  -- Behind every segment stands where its next occurrence goes, and at last where those of the one behind it begin.
+  -- Behind every segment stands where its next occurrence goes, and at last where those of the one
+  -- behind it begin.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
@@ -107,7 +134,8 @@ sorted c xs begins order = do
       found <- traverse (readPrimArray order) [from .. to - 1]
       zipWithM_ (writePrimArray order) [from ..] (sortOn (parameterOf xs . fromIntegral) found)
   where
-    -- So many on each that to put them in their places one by one takes too long, as where all segments meet in the middle of a circle.
+    -- So many on each that to put them in their places one by one takes too long, as where all
+    -- segments meet in the middle of a circle.
     isMany = 2 * SelfIntersection.count xs > 32 * sizeofPrimArray (ClosedPolyarcs.xs c)
 
 -- | How far along its segment's chord an occurrence lies.
@@ -139,8 +167,16 @@ distinct tolerance xs begins order n = go 0 1
             b = indexPrimArray order q
          in (abs (at a 0 - at b 0) > tolerance || abs (at a 1 - at b 1) > tolerance) && go i (q + 1)
 
--- | The winding number on the left behind every occurrence of a walk; whether they come out right at the rightmost place.
-sums :: ClosedPolyarcs -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> MutablePrimArray s Int32 -> (Int, (Extreme, Int, Maybe (Extreme, Int))) -> ST s Bool
+-- | The winding number on the left behind every occurrence of a walk; whether they come out right
+-- at the rightmost place.
+sums ::
+  ClosedPolyarcs ->
+  SelfIntersections ->
+  PrimArray Int32 ->
+  PrimArray Int32 ->
+  MutablePrimArray s Int32 ->
+  (Int, (Extreme, Int, Maybe (Extreme, Int))) ->
+  ST s Bool
 sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
   go q0 0 left
   case rightmost of
@@ -170,8 +206,17 @@ sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
         writePrimArray lefts q (fromIntegral v')
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
--- | The loops from the slices that are kept. A slice goes from one occurrence to the next on its walk.
-gather :: Int -> ClosedPolyarcs -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> MutablePrimArray s Int32 -> [(Extreme, Int, Maybe (Extreme, Int))] -> ST s (Maybe OffsetLoops)
+-- | The loops from the slices that are kept. A slice goes from one occurrence to the next on its
+-- walk.
+gather ::
+  Int ->
+  ClosedPolyarcs ->
+  SelfIntersections ->
+  PrimArray Int32 ->
+  PrimArray Int32 ->
+  MutablePrimArray s Int32 ->
+  [(Extreme, Int, Maybe (Extreme, Int))] ->
+  ST s (Maybe OffsetLoops)
 gather wanted c xs begins order lefts known = do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       total = 2 * SelfIntersection.count xs
@@ -182,10 +227,14 @@ gather wanted c xs begins order lefts known = do
   os <- newPrimArray room
   starts <- newPrimArray (total + ClosedPolyarcs.walks c + 1)
   position <- newPrimArray (max 1 total)
-  forM' total $ \q -> writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
+  forM' total $ \q ->
+    writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
   -- Of one walk all is on that.
   walkOf <- newPrimArray (if single then 0 else max 1 total)
-  unless single $ forM_ [0 .. ClosedPolyarcs.walks c - 1] $ \w -> forM' (rangeEnd w - rangeBegin w) $ \q -> writePrimArray walkOf (rangeBegin w + q) (fromIntegral w :: Int32)
+  unless single $
+    forM_ [0 .. ClosedPolyarcs.walks c - 1] $ \w ->
+      forM' (rangeEnd w - rangeBegin w) $ \q ->
+        writePrimArray walkOf (rangeBegin w + q) (fromIntegral w :: Int32)
   let emit !k !x !y !b !s = do
         writePrimArray ox k x
         writePrimArray oy k y
@@ -196,7 +245,14 @@ gather wanted c xs begins order lefts known = do
           writePrimArray starts made l
           let copy !i !o
                 | i >= ClosedPolyarcs.behind c w = pure o
-                | otherwise = emit o (indexPrimArray (ClosedPolyarcs.xs c) i) (indexPrimArray (ClosedPolyarcs.ys c) i) (indexPrimArray (ClosedPolyarcs.bulges c) i) i >> copy (i + 1) (o + 1)
+                | otherwise =
+                  emit
+                    o
+                    (indexPrimArray (ClosedPolyarcs.xs c) i)
+                    (indexPrimArray (ClosedPolyarcs.ys c) i)
+                    (indexPrimArray (ClosedPolyarcs.bulges c) i)
+                    i
+                    >> copy (i + 1) (o + 1)
           l' <- copy (ClosedPolyarcs.first c w) l
           pure (l', made + 1)
         | otherwise = pure (l, made)
@@ -215,12 +271,41 @@ gather wanted c xs begins order lefts known = do
           if s == s' && next > q
             then emit l px py (part s px py px' py') s >> pure (l + 1)
             else do
-              emit l px py (part s px py (indexPrimArray (ClosedPolyarcs.xs c) (s + 1)) (indexPrimArray (ClosedPolyarcs.ys c) (s + 1))) s
+              emit
+                l
+                px
+                py
+                ( part
+                    s
+                    px
+                    py
+                    (indexPrimArray (ClosedPolyarcs.xs c) (s + 1))
+                    (indexPrimArray (ClosedPolyarcs.ys c) (s + 1))
+                )
+                s
               let middle !i !k
                     | i == s' = pure k
-                    | otherwise = emit k (indexPrimArray (ClosedPolyarcs.xs c) i) (indexPrimArray (ClosedPolyarcs.ys c) i) (indexPrimArray (ClosedPolyarcs.bulges c) i) i >> middle (after w i) (k + 1)
+                    | otherwise =
+                      emit
+                        k
+                        (indexPrimArray (ClosedPolyarcs.xs c) i)
+                        (indexPrimArray (ClosedPolyarcs.ys c) i)
+                        (indexPrimArray (ClosedPolyarcs.bulges c) i)
+                        i
+                        >> middle (after w i) (k + 1)
               k <- middle (after w s) (l + 1)
-              emit k (indexPrimArray (ClosedPolyarcs.xs c) s') (indexPrimArray (ClosedPolyarcs.ys c) s') (part s' (indexPrimArray (ClosedPolyarcs.xs c) s') (indexPrimArray (ClosedPolyarcs.ys c) s') px' py') s'
+              emit
+                k
+                (indexPrimArray (ClosedPolyarcs.xs c) s')
+                (indexPrimArray (ClosedPolyarcs.ys c) s')
+                ( part
+                    s'
+                    (indexPrimArray (ClosedPolyarcs.xs c) s')
+                    (indexPrimArray (ClosedPolyarcs.ys c) s')
+                    px'
+                    py'
+                )
+                s'
               pure (k + 1)
         partner <- fromIntegral <$> readPrimArray position (if even o' then o' + 1 else o' - 1)
         v <- readPrimArray lefts partner
@@ -248,7 +333,14 @@ gather wanted c xs begins order lefts known = do
       shrinkMutablePrimArray ob l
       shrinkMutablePrimArray os l
       shrinkMutablePrimArray starts (made + 1)
-      Just <$> (OffsetLoops <$> unsafeFreezePrimArray starts <*> unsafeFreezePrimArray ox <*> unsafeFreezePrimArray oy <*> unsafeFreezePrimArray ob <*> unsafeFreezePrimArray os)
+      Just
+        <$> ( OffsetLoops
+                <$> unsafeFreezePrimArray starts
+                  <*> unsafeFreezePrimArray ox
+                  <*> unsafeFreezePrimArray oy
+                  <*> unsafeFreezePrimArray ob
+                  <*> unsafeFreezePrimArray os
+            )
   where
     single = ClosedPolyarcs.walks c == 1
     -- What is on the left of a slice that was walked; no number of a free place.

@@ -23,7 +23,8 @@ import Geometry.Tolerance qualified as Tolerance
 at :: ClosedPolyarcs -> SegmentTree -> Double -> Double -> Int
 at c bs px py = SegmentTree.around bs (-1e300) py px py 0 (\total i -> total + passed c px py i)
 
--- | What a segment adds to that: whether a ray to the left meets its chord, and whether the point is between it and its chord.
+-- | What a segment adds to that: whether a ray to the left meets its chord, and whether the point
+-- is between it and its chord.
 passed :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 passed c px py i = crossed + between
   where
@@ -37,18 +38,29 @@ passed c px py i = crossed + between
       | y0 <= py && y1 > py = if side < 0 then -1 else 0
       | y1 <= py && y0 > py = if side > 0 then 1 else 0
       | otherwise = 0
-    between = if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0 then (if b > 0 then 1 else -1) else 0
-    -- A point on the chord itself counts as one a little to its left, as above, or over a level one.
+    between =
+      if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0
+        then (if b > 0 then 1 else -1)
+        else 0
+    -- A point on the chord itself counts as one a little to its left, as above, or over a level
+    -- one.
     aside
       | side /= 0 = side
       | y1 /= y0 = y1 - y0
       | otherwise = x1 - x0
 {-# INLINE passed #-}
 
--- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on the left of the walk
--- beside what there is outside: 1 or 0; nothing if it runs back along itself there. A walk may turn back at a cusp: where the way beside an arc that is
--- too narrow, which is walked backwards, goes over into the next one.
-data Extreme = Extreme {segment :: Int, place :: Double, x :: Double, y :: Double, leftMore :: Maybe Int}
+-- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on
+-- the left of the walk beside what there is outside: 1 or 0; nothing if it runs back along itself
+-- there. A walk may turn back at a cusp: where the way beside an arc that is too narrow, which is
+-- walked backwards, goes over into the next one.
+data Extreme = Extreme
+  { segment :: Int,
+    place :: Double,
+    x :: Double,
+    y :: Double,
+    leftMore :: Maybe Int
+  }
 
 data Outward = Leftmost | Rightmost
   deriving stock (Eq)
@@ -85,35 +97,65 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
                     cx = indexPrimArray (ClosedPolyarcs.xs c) i + 0.5 * dx - co / (4 * b) * dy
                     cy = indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dy + co / (4 * b) * dx
                     ex = sign * cx - r
-                    t' = (dx * (sign * ex - indexPrimArray (ClosedPolyarcs.xs c) i) + dy * (cy - indexPrimArray (ClosedPolyarcs.ys c) i)) / (l * l)
-                 in if out < 0 && into > 0 && ex < least1 && t' > hair && t' < 1 - hair then go (i + 1) i t' ex else go (i + 1) best1 t1 least1
+                    t' =
+                      ( dx * (sign * ex - indexPrimArray (ClosedPolyarcs.xs c) i)
+                          + dy * (cy - indexPrimArray (ClosedPolyarcs.ys c) i)
+                      )
+                        / (l * l)
+                 in if out < 0 && into > 0 && ex < least1 && t' > hair && t' < 1 - hair
+                      then go (i + 1) i t' ex
+                      else go (i + 1) best1 t1 least1
       where
         edge = SegmentTree.leaf bs i outermost
     -- Nearer to an end an arc is outermost at that end: its vertex knows what goes on there.
     hair = Tolerance.hair
-    -- The outermost vertex of the run that reaches furthest out: what does not reach as far is left out.
+    -- The outermost vertex of the run that reaches furthest out: what does not reach as far is left
+    -- out.
     bound =
       let i = furthest start start 1e300
-       in foldl' min 1e300 [sign * indexPrimArray (ClosedPolyarcs.xs c) k | k <- [i .. min end (SegmentTree.behind i) - 1]]
+       in foldl'
+            min
+            1e300
+            [ sign * indexPrimArray (ClosedPolyarcs.xs c) k
+              | k <- [i .. min end (SegmentTree.behind i) - 1]
+            ]
     furthest !i !best !least
       | i >= end = best
-      | otherwise = let edge = SegmentTree.run bs i outermost in if edge < least then furthest (SegmentTree.behind i) i edge else furthest (SegmentTree.behind i) best least
+      | otherwise =
+        let edge =
+              SegmentTree.run bs i outermost
+         in if edge < least
+              then furthest (SegmentTree.behind i) i edge
+              else furthest (SegmentTree.behind i) best least
     -- The side of a box that lies furthest out.
     outermost lx _ hx _ = case outward of
       Leftmost -> lx
       Rightmost -> -hx
     found i t least
-      | t > 0 = Extreme i t (sign * least) (indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dyOf i + heightOf i) (Just (if b > 0 then 1 else 0))
+      | t > 0 =
+        Extreme
+          i
+          t
+          (sign * least)
+          (indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dyOf i + heightOf i)
+          (Just (if b > 0 then 1 else 0))
       | otherwise = Extreme i 0 (sign * least) (indexPrimArray (ClosedPolyarcs.ys c) i) (atVertex i)
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
     bend = ClosedPolyarcs.curvature c
     dyOf i = ClosedPolyarcs.chord c i (\_ dy -> dy)
-    heightOf i = ClosedPolyarcs.chord c i (\dx _ -> let b = indexPrimArray (ClosedPolyarcs.bulges c) i in (1 - b * b) / (4 * b) * dx)
+    heightOf i =
+      ClosedPolyarcs.chord
+        c
+        i
+        (\dx _ -> let b = indexPrimArray (ClosedPolyarcs.bulges c) i in (1 - b * b) / (4 * b) * dx)
     -- The walk turns left at its outermost vertex: its inside is on its left.
     atVertex i
       | abs turning > 1e-9 * size = Just (if turning > 0 then 1 else 0)
-      | ix * ox + iy * oy < 0 = if abs bent > alike * (abs (bend previous) + abs (bend i)) then Just (if bent < 0 then 1 else 0) else Nothing
+      | ix * ox + iy * oy < 0 =
+        if abs bent > alike * (abs (bend previous) + abs (bend i))
+          then Just (if bent < 0 then 1 else 0)
+          else Nothing
       | otherwise = Just (if sign * oy < 0 then 1 else 0)
       where
         previous = if i == start then end - 1 else i - 1
@@ -124,7 +166,8 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
         ox = ClosedPolyarcs.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
         oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
         turning = ix * oy - iy * ox
-        -- Seen from a cusp, what leads away from it lies to the left of what leads to it when it bends more to the left.
+        -- Seen from a cusp, what leads away from it lies to the left of what leads to it when it
+        -- bends more to the left.
         bent = bend previous + bend i
         -- Two that bend alike to this part of both may be one that is walked there and back.
         alike = 1e-3

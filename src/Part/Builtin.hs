@@ -72,33 +72,59 @@ apply region builtin arguments = case (builtin, arguments) of
   (Truth, []) -> pure (TruthValue True)
   (Falsehood, []) -> pure (TruthValue False)
   (Polar, [Plain (Quantity r), Plain (Quantity a)]) -> spatial region (Vec.polar (Mm r) (Rad a))
-  (Intersection, Plain a : Plain b : choice) | none isCurve [a, b] -> intersection region (curve a) (curve b) choice
+  (Intersection, Plain a : Plain b : choice)
+    | none isCurve [a, b] ->
+      intersection region (curve a) (curve b) choice
   (CentreOf, [Plain (CircleValue c)]) -> at (centre c)
   (Midpoint, [Plain (Spatial p), Plain (Spatial q)]) -> at (Vec.between 0.5 (place p) (place q))
   (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Carrier.foot l (place p))
-  (Tangency, [Plain (Spatial p), c]) -> at . to =<< tangentLine region "point of tangency" (APoint . to) (Plain (Spatial p)) c
+  (Tangency, [Plain (Spatial p), c]) ->
+    at . to =<< tangentLine region "point of tangency" (APoint . to) (Plain (Spatial p)) c
   (Tangency, [Plain a, Plain b]) -> tangency region (curve a) (curve b)
-  (PointOn, [Plain (CircleValue (Circle c r)), Plain (Quantity a)]) -> at (Vec.shift (Vec.polar r (Rad a)) c)
+  (PointOn, [Plain (CircleValue (Circle c r)), Plain (Quantity a)]) ->
+    at (Vec.shift (Vec.polar r (Rad a)) c)
   (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
     | Vec.near (place p) (place q) -> Evaluation.mistake (ZeroLine region (place p))
     | otherwise -> pure (LineValue (Line (place p) (place q)))
-  (MakeLine, [Plain (Spatial p), Plain (Quantity a)]) -> pure (LineValue (ray (place p) (Vec.polar (Mm 1) (Rad a))))
+  (MakeLine, [Plain (Spatial p), Plain (Quantity a)]) ->
+    pure (LineValue (ray (place p) (Vec.polar (Mm 1) (Rad a))))
   (MakeLine, [a, b]) -> LineValue <$> tangentLine region "line" ALine a b
-  (Horizontal, [Plain (Quantity h)]) -> LineValue (ray (Vec.point 0 h) (Vec.vec 1 0)) <$ within region h
-  (Vertical, [Plain (Quantity h)]) -> LineValue (ray (Vec.point h 0) (Vec.vec 0 1)) <$ within region h
-  (Parallel, [Plain (LineValue l), Choosing ToLeft (Quantity d)]) -> LineValue (Carrier.parallelAt (Mm d) l) <$ within region d
-  (Parallel, [Plain (LineValue l), Choosing ToRight (Quantity d)]) -> LineValue (Carrier.parallelAt (Mm (-d)) l) <$ within region d
-  (Parallel, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (Line (place p) (Vec.shift (Vec.to (from l) (to l)) (place p))))
-  (Perpendicular, [Plain (LineValue l), Plain (Spatial p)]) -> pure (LineValue (ray (place p) (Vec.left (Carrier.direction l))))
+  (Horizontal, [Plain (Quantity h)]) ->
+    LineValue (ray (Vec.point 0 h) (Vec.vec 1 0)) <$ within region h
+  (Vertical, [Plain (Quantity h)]) ->
+    LineValue (ray (Vec.point h 0) (Vec.vec 0 1)) <$ within region h
+  (Parallel, [Plain (LineValue l), Choosing ToLeft (Quantity d)]) ->
+    LineValue (Carrier.parallelAt (Mm d) l) <$ within region d
+  (Parallel, [Plain (LineValue l), Choosing ToRight (Quantity d)]) ->
+    LineValue (Carrier.parallelAt (Mm (-d)) l) <$ within region d
+  (Parallel, [Plain (LineValue l), Plain (Spatial p)]) ->
+    pure (LineValue (Line (place p) (Vec.shift (Vec.to (from l) (to l)) (place p))))
+  (Perpendicular, [Plain (LineValue l), Plain (Spatial p)]) ->
+    pure (LineValue (ray (place p) (Vec.left (Carrier.direction l))))
   (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> circleOf (place c) r
-  (MakeCircle, [Plain (Spatial c), Plain (LineValue l)]) -> let Mm d = Carrier.signedDistance l (place c) in circleOf (place c) (abs d)
+  (MakeCircle, [Plain (Spatial c), Plain (LineValue l)]) ->
+    let Mm d =
+          Carrier.signedDistance l (place c)
+     in circleOf (place c) (abs d)
   (MakeCircle, [Plain (Spatial p), Plain (Spatial q), Plain (Spatial s)]) ->
-    maybe (Evaluation.mistake (OnOneLine region)) (\(Circle c (Mm r)) -> circleOf c r) (TangentCircle.through (place p) (place q) (place s))
+    maybe
+      (Evaluation.mistake (OnOneLine region))
+      (\(Circle c (Mm r)) -> circleOf c r)
+      (TangentCircle.through (place p) (place q) (place s))
   (MakeCircle, Plain (Quantity r) : a : b : choice)
     | r <= 0 -> Evaluation.mistake (RadiusNotPositive region (Mm r))
     | otherwise -> do
       within region r
-      found <- picked Tolerance.coincident region "circle" ACircle centre [] [c | ta <- touched a, tb <- touched b, c <- TangentCircle.circles (Mm r) ta tb] choice
+      found <-
+        picked
+          Tolerance.coincident
+          region
+          "circle"
+          ACircle
+          centre
+          []
+          [c | ta <- touched a, tb <- touched b, c <- TangentCircle.circles (Mm r) ta tb]
+          choice
       circleOf (centre found) r
   (Concentric, [Plain (CircleValue (Circle c (Mm r))), Plain (Quantity d)]) -> circleOf c (r + d)
   (Distance, [Plain (Spatial p), Plain (Spatial q)]) -> measured (Vec.distance (place p) (place q))
@@ -110,7 +136,8 @@ apply region builtin arguments = case (builtin, arguments) of
     _ -> Evaluation.mistake (NoAnswer region "distance" "These lines are not parallel.")
   (DirectionOf, [Plain (LineValue l)]) -> angled (Vec.angle (Carrier.direction l))
   (DirectionOf, [Plain (Spatial v)])
-    | Vec.norm v <= 0 -> Evaluation.mistake (NoAnswer region "direction" "The vector has no length.")
+    | Vec.norm v <= 0 ->
+      Evaluation.mistake (NoAnswer region "direction" "The vector has no length.")
     | otherwise -> angled (Vec.angle v)
   (RadiusOf, [Plain (CircleValue (Circle _ r))]) -> measured r
   (LengthOf, [Plain (ContourValue c)]) -> measured (Polyarc.length (outline c))
@@ -140,14 +167,29 @@ apply region builtin arguments = case (builtin, arguments) of
     count <- whole region "the number of points in a row" n
     Evaluation.spend region count
     points [Vec.shift (Vec.scale (fromIntegral k) v) (place p) | k <- [0 .. count - 1]]
-  (Grid, [Plain (Spatial p), Plain (Spatial v), Plain (Quantity n), Plain (Spatial w), Plain (Quantity m)]) -> do
-    count <- whole region "the number of points in a row" n
-    rows <- whole region "the number of rows" m
-    Evaluation.spend region (min 100000000 (count * rows))
-    points [Vec.shift (Vec.add (Vec.scale (fromIntegral k) v) (Vec.scale (fromIntegral j) w)) (place p) | j <- [0 .. rows - 1], k <- [0 .. count - 1]]
+  ( Grid,
+    [ Plain (Spatial p),
+      Plain (Spatial v),
+      Plain (Quantity n),
+      Plain (Spatial w),
+      Plain (Quantity m)
+      ]
+    ) ->
+      do
+        count <- whole region "the number of points in a row" n
+        rows <- whole region "the number of rows" m
+        Evaluation.spend region (min 100000000 (count * rows))
+        points
+          [ Vec.shift
+              (Vec.add (Vec.scale (fromIntegral k) v) (Vec.scale (fromIntegral j) w))
+              (place p)
+            | j <- [0 .. rows - 1],
+              k <- [0 .. count - 1]
+          ]
   (Around, [Plain (CircleValue c), Plain (Quantity n)]) -> around c n 0 Nothing
   (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a)]) -> around c n a Nothing
-  (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a), Plain (Quantity b)]) -> around c n a (Just b)
+  (Around, [Plain (CircleValue c), Plain (Quantity n), Plain (Quantity a), Plain (Quantity b)]) ->
+    around c n a (Just b)
   (Count, [Plain (ListValue vs)]) -> pure (Quantity (fromIntegral (Vector.length vs)))
   (ItemOf, [Plain (ListValue vs), Plain (Quantity n)]) -> do
     k <- whole region "the number of an item" n
@@ -156,14 +198,23 @@ apply region builtin arguments = case (builtin, arguments) of
   (Sin, [Plain (Quantity a)]) -> pure (Quantity (sin a))
   (Cos, [Plain (Quantity a)]) -> pure (Quantity (cos a))
   (Tan, [Plain (Quantity a)])
-    | abs (cos a) < 1e-15 -> Evaluation.mistake (OutOfRange region "tan" (Decimal.short 6 (degrees (Rad a)) <> " deg") "any angle but 90 deg, 270 deg, …")
+    | abs (cos a) < 1e-15 ->
+      Evaluation.mistake
+        ( OutOfRange
+            region
+            "tan"
+            (Decimal.short 6 (degrees (Rad a)) <> " deg")
+            "any angle but 90 deg, 270 deg, …"
+        )
     | otherwise -> finite region (tan a)
   (Asin, [Plain (Quantity x)]) -> inverse "asin" asin x
   (Acos, [Plain (Quantity x)]) -> inverse "acos" acos x
-  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> Evaluation.mistake (OutOfRange region "atan2" "0 and 0" "two values that are not both 0")
+  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) ->
+    Evaluation.mistake (OutOfRange region "atan2" "0 and 0" "two values that are not both 0")
   (Atan2, [Plain (Quantity y), Plain (Quantity x)]) -> pure (Quantity (atan2 y x))
   (Sqrt, [Plain (Quantity x)])
-    | x < negate Tolerance.equal -> Evaluation.mistake (OutOfRange region "sqrt" (Decimal.short 9 x) "values from 0 upwards")
+    | x < negate Tolerance.equal ->
+      Evaluation.mistake (OutOfRange region "sqrt" (Decimal.short 9 x) "values from 0 upwards")
     | otherwise -> pure (Quantity (sqrt (max 0 x)))
   (Abs, [Plain (Quantity x)]) -> pure (Quantity (abs x))
   (Min, [Plain (Quantity a), Plain (Quantity b)]) -> pure (Quantity (min a b))
@@ -185,10 +236,12 @@ apply region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
     scaling k p
-      | k <= 0 = Evaluation.mistake (NotPositive region "the factor of a scaling" (Decimal.short 6 k))
+      | k <= 0 =
+        Evaluation.mistake (NotPositive region "the factor of a scaling" (Decimal.short 6 k))
       | otherwise = pure (Transformation.scaling k p)
     inverse name f x
-      | abs x > 1 + Tolerance.equal = Evaluation.mistake (OutOfRange region name (Decimal.short 9 x) "values from −1 to 1")
+      | abs x > 1 + Tolerance.equal =
+        Evaluation.mistake (OutOfRange region name (Decimal.short 9 x) "values from −1 to 1")
       | otherwise = pure (Quantity (f (max (-1) (min 1 x))))
     -- Points on a circle: all round, or from one angle to another, both included.
     around (Circle c r) n a b = do
@@ -220,7 +273,17 @@ intersection region a b choice = case meeting of
   CrossingOnce p -> chosen [p]
   Crossing p q -> chosen [p, q]
   where
-    chosen ps = picked Tolerance.coincident region "point" APoint id [ElementCarrier.alongLine l | OnLine l <- [a, b]] ps choice >>= spatial region . offset
+    chosen ps =
+      picked
+        Tolerance.coincident
+        region
+        "point"
+        APoint
+        id
+        [ElementCarrier.alongLine l | OnLine l <- [a, b]]
+        ps
+        choice
+        >>= spatial region . offset
     meeting = case (a, b) of
       (OnLine l, OnLine m) -> Intersection.lines l m
       (OnLine l, OnCircle _ c) -> Intersection.lineCircle l c
@@ -241,17 +304,21 @@ tangency region a b = case (a, b) of
   where
     lineAt l c@(Circle o (Mm r)) = case Intersection.lineCircle l c of
       Touching p -> spatial region (offset p)
-      _ -> let Mm h = Carrier.signedDistance l o in Evaluation.mistake (NotTouching region (Mm (abs (abs h - r))))
+      _ ->
+        let Mm h =
+              Carrier.signedDistance l o
+         in Evaluation.mistake (NotTouching region (Mm (abs (abs h - r))))
     circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
       let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
 
--- | The directed line that touches two circles, or goes through a point. The word before a circle says on
--- which side of the line it lies.
+-- | The directed line that touches two circles, or goes through a point. The word before a circle
+-- says on which side of the line it lies.
 tangentLine :: Region -> Text -> (Line -> Candidate) -> Argument -> Argument -> Eval Line
-tangentLine region what candidate a b = case TangentCircle.touchingLines (circleAt a) (circleAt b) of
-  [one] -> pure one
-  [] -> Evaluation.mistake (NoAnswer region what why)
-  several -> Evaluation.mistake (Several region what (map candidate several))
+tangentLine region what candidate a b =
+  case TangentCircle.touchingLines (circleAt a) (circleAt b) of
+    [one] -> pure one
+    [] -> Evaluation.mistake (NoAnswer region what why)
+    several -> Evaluation.mistake (Several region what (map candidate several))
   where
     circleAt g = case g of
       Plain (Spatial p) -> ([CounterClockwise, Clockwise], Circle (place p) (Mm 0))
@@ -270,8 +337,15 @@ tangentLine region what candidate a b = case TangentCircle.touchingLines (circle
        in case () of
             _
               | r == Mm 0 && s == Mm 0 -> "The points are the same."
-              | (r == Mm 0 || s == Mm 0) && abs (reach - d) <= tolerance -> "The point " <> Vec.written 4 place' <> " lies on the circle; the line that touches it there is perpendicular to its radius."
-              | r == Mm 0 || s == Mm 0 -> "The point lies inside the circle, " <> Decimal.mm (Mm (reach - d)) <> " from its edge."
+              | (r == Mm 0 || s == Mm 0) && abs (reach - d) <= tolerance ->
+                "The point "
+                  <> Vec.written 4 place'
+                  <> " lies on the circle; the line that touches it there is perpendicular to its \
+                     \radius."
+              | r == Mm 0 || s == Mm 0 ->
+                "The point lies inside the circle, "
+                  <> Decimal.mm (Mm (reach - d))
+                  <> " from its edge."
               | d <= tolerance && inside <= tolerance -> "The circles are the same."
               | d <= inside -> "One circle lies inside the other."
               | otherwise -> "The circles overlap by " <> Decimal.mm (Mm (reach - d)) <> "."
@@ -302,12 +376,28 @@ transformed region arguments make = case [v | Plain v <- arguments] of
 image :: Region -> Transformation -> Value -> Eval Value
 image region s v = case v of
   Spatial p -> spatial region (offset (Transformation.point s (place p)))
-  CircleValue c -> let d@(Circle o (Mm r)) = Transformation.circle s c in CircleValue d <$ (within region (Vec.norm (offset o)) *> within region r)
-  LineValue l -> let m = Transformation.line s l in LineValue m <$ within region (Vec.norm (offset (from m)))
+  CircleValue c ->
+    let d@(Circle o (Mm r)) =
+          Transformation.circle s c
+     in CircleValue d <$ (within region (Vec.norm (offset o)) *> within region r)
+  LineValue l ->
+    let m =
+          Transformation.line s l
+     in LineValue m <$ within region (Vec.norm (offset (from m)))
   ContourValue c -> do
-    let d = c {elements = fmap (\e -> e {segment = Transformation.segment s (segment e)}) (elements c), legs = []}
+    let d =
+          c
+            { elements =
+                fmap
+                  (\e -> e {segment = Transformation.segment s (segment e)})
+                  (elements c),
+              legs = []
+            }
     mapM_ (within region . Vec.norm . offset . Segment.end . segment) (elements d)
     pure (ContourValue d)
   ListValue vs -> ListValue <$> traverse (image region s) vs
-  CurveValue c -> let d = Curve.transformed s c in CurveValue d <$ mapM_ (within region . Vec.norm . offset) (Curve.ends d)
+  CurveValue c ->
+    let d =
+          Curve.transformed s c
+     in CurveValue d <$ mapM_ (within region . Vec.norm . offset) (Curve.ends d)
   _ -> bug "a transformation of something else"

@@ -39,7 +39,13 @@ import Part.Expression (Environment)
 import Part.Expression qualified as Expression
 import Part.LinkSolver (Link (..))
 import Part.LinkSolver qualified as LinkSolver
-import Part.Part (Contour (..), ContourElement (ContourElement), Ends (..), Finish (..), plainFinish)
+import Part.Part
+  ( Contour (..),
+    ContourElement (ContourElement),
+    Ends (..),
+    Finish (..),
+    plainFinish,
+  )
 import Part.Part qualified as Part
 import Part.Piece qualified as Piece
 import Part.Value (Value (..))
@@ -53,12 +59,22 @@ contour env name closure items = do
     Nothing -> Evaluation.mistake (EmptyContour (region name) (value name))
     Just some -> case LinkSolver.solve (region name) ends some of
       Left facts -> Evaluation.mistakes (NonEmpty.toList (fmap (`Error` []) facts))
-      Right elements -> let legs = map leg (NonEmpty.toList some) in pure Contour {contourName = name, ends, elements, legs = foldr seq legs legs}
+      Right elements ->
+        let legs =
+              map leg (NonEmpty.toList some)
+         in pure Contour {contourName = name, ends, elements, legs = foldr seq legs legs}
   where
     ends = case closure of
       Checked.Open -> Open
       Checked.Closed -> Closed
-    leg w = ContourElement {Part.spot = LinkSolver.place w, Part.shape = LinkSolver.shape w, Part.source = LinkSolver.source w, Part.asked = LinkSolver.finish w, Part.link = snd <$> LinkSolver.link w}
+    leg w =
+      ContourElement
+        { Part.spot = LinkSolver.place w,
+          Part.shape = LinkSolver.shape w,
+          Part.source = LinkSolver.source w,
+          Part.asked = LinkSolver.finish w,
+          Part.link = snd <$> LinkSolver.link w
+        }
 
 item :: Environment -> Item -> Eval [LinkSolver.LinkedElement]
 item env (Located _ i) = case i of
@@ -90,35 +106,70 @@ bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
   e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
 -- | The walks of an element: one, or those of a whole contour.
-walksOf :: Region -> Maybe Part.Sense -> Value -> Finish -> Maybe (Region, Link) -> Eval [LinkSolver.LinkedElement]
+walksOf ::
+  Region ->
+  Maybe Part.Sense ->
+  Value ->
+  Finish ->
+  Maybe (Region, Link) ->
+  Eval [LinkSolver.LinkedElement]
 walksOf at walk v finish link = case (v, walk) of
   (CircleValue c, Just Checked.Clockwise) -> one (OnCircle Clockwise c) Nothing Nothing
-  (CircleValue c, Just Checked.CounterClockwise) -> one (OnCircle CounterClockwise c) Nothing Nothing
+  (CircleValue c, Just Checked.CounterClockwise) ->
+    one (OnCircle CounterClockwise c) Nothing Nothing
   (LineValue l@(Line p q), Nothing) -> one (OnLine l) (Just p) (Just q)
   (Spatial _, Nothing) -> let p = Expression.point v; end = Just p in one (AtPoint p) end end
-  (CurveValue c, Nothing) -> one (OnCurve (Curve.laid c)) (listToMaybe (Curve.ends c)) (listToMaybe (drop 1 (Curve.ends c)))
+  (CurveValue c, Nothing) ->
+    one (OnCurve (Curve.laid c)) (listToMaybe (Curve.ends c)) (listToMaybe (drop 1 (Curve.ends c)))
   (ContourValue c, Nothing) -> case ends c of
     Closed -> Evaluation.mistake (ClosedElement at (value (contourName c)))
     Open -> pure (chained (NonEmpty.toList (elements c)))
   _ -> bug "an element that can not be walked"
   where
     -- It is made at once: what it is made of is not held.
-    one shape begins stops = let w = LinkSolver.LinkedElement {LinkSolver.place = at, LinkSolver.shape, LinkSolver.begins, LinkSolver.stops, LinkSolver.finish, LinkSolver.bevel = [], LinkSolver.source = case v of CurveValue c -> Just c; _ -> Nothing, LinkSolver.link} in w `seq` pure [w]
+    one shape begins stops =
+      let w =
+            LinkSolver.LinkedElement
+              { LinkSolver.place = at,
+                LinkSolver.shape,
+                LinkSolver.begins,
+                LinkSolver.stops,
+                LinkSolver.finish,
+                LinkSolver.bevel = [],
+                LinkSolver.source = case v of CurveValue c -> Just c; _ -> Nothing,
+                LinkSolver.link
+              }
+       in w `seq` pure [w]
     chained es = case Part.runs es of
       [] -> []
-      runs' -> zipWith walkOf runs' (map (Just . (at,) . Fixed . Segment.end . Part.segment . NonEmpty.last) (init runs') <> [link])
+      runs' ->
+        zipWith
+          walkOf
+          runs'
+          ( map (Just . (at,) . Fixed . Segment.end . Part.segment . NonEmpty.last) (init runs')
+              <> [link]
+          )
     walkOf run@(e :| more) link' =
       LinkSolver.LinkedElement
         { LinkSolver.place = Part.origin e,
-          LinkSolver.shape = if null more then ElementCarrier.ofSegment (Part.segment e) else OnCurve (MeasuredPolyarc.fromSegments (fmap Part.segment run)),
+          LinkSolver.shape =
+            if null more
+              then ElementCarrier.ofSegment (Part.segment e)
+              else OnCurve (MeasuredPolyarc.fromSegments (fmap Part.segment run)),
           LinkSolver.begins = Just (Segment.start (Part.segment e)),
           LinkSolver.stops = Just (Segment.end (Part.segment (NonEmpty.last run))),
           LinkSolver.finish = merged (Part.finish e),
-          LinkSolver.bevel = [(0, b) | Just (b, _) <- [Part.bevel e]] <> [(s, b) | (s, Just (_, b)) <- zip (drop 1 (stationsOf run)) (map Part.bevel (NonEmpty.toList run))],
+          LinkSolver.bevel =
+            [(0, b) | Just (b, _) <- [Part.bevel e]]
+              <> [ (s, b)
+                   | (s, Just (_, b)) <-
+                       zip (drop 1 (stationsOf run)) (map Part.bevel (NonEmpty.toList run))
+                 ],
           LinkSolver.source = Nothing,
           LinkSolver.link = link'
         }
-    stationsOf run = scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = Segment.length (Part.segment x)]
+    stationsOf run =
+      scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = Segment.length (Part.segment x)]
     -- What is asked on the whole counts where its elements ask nothing.
     merged own =
       Finish
@@ -157,7 +208,9 @@ lengthOf :: Environment -> Text -> Expr -> Eval Mm
 lengthOf env what = positive env what Decimal.mm Mm
 
 feedOf :: Environment -> Expr -> Eval (Located Feed)
-feedOf env e = Located (region e) <$> positive env "the feed" (\(Feed f) -> Decimal.short 4 f <> " mm/min") Feed e
+feedOf env e =
+  Located (region e)
+    <$> positive env "the feed" (\(Feed f) -> Decimal.short 4 f <> " mm/min") Feed e
 
 -- | A closed contour that begins where it comes nearest to a point.
 startingNear :: Point -> Contour -> Contour
@@ -172,7 +225,11 @@ startingNear p c = case NonEmpty.nonEmpty turned of
     closest best least i es = case es of
       [] -> best
       e : more
-        | minus (BoundingBox.distance p (BoundingBox.ofSegment (Part.segment e))) Tolerance.coincident > least -> closest best least (i + 1) more
+        | minus
+            (BoundingBox.distance p (BoundingBox.ofSegment (Part.segment e)))
+            Tolerance.coincident
+            > least ->
+          closest best least (i + 1) more
         | d <- Distance.toPoint p (Part.segment e), d < least -> closest i d (i + 1) more
         | otherwise -> closest best least (i + 1) more
     (before, from) = splitAt nearest list
@@ -180,22 +237,38 @@ startingNear p c = case NonEmpty.nonEmpty turned of
       [] -> list
       e : rest -> case cut (Part.segment e) of
         Nothing
-          | Vec.distance p (Segment.start (Part.segment e)) <= Vec.distance p (Segment.end (Part.segment e)) -> from <> before
+          | Vec.distance p (Segment.start (Part.segment e))
+              <= Vec.distance p (Segment.end (Part.segment e)) ->
+            from <> before
           | otherwise -> rest <> before <> [e]
         Just (a, b) ->
           let Mm l = Segment.length (Part.segment e)
               share = if l > 0 then (let Mm front = Segment.length a in front) / l else 0
               lean = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
-           in e {Part.segment = b, Part.continues = Part.ofCurve e, Part.bevel = (,) <$> lean <*> fmap snd (Part.bevel e)} :
-              rest <> unhurried (Part.continues e) before <> [e {Part.segment = a, Part.finish = (Part.finish e) {slow = False}, Part.bevel = (,) <$> fmap fst (Part.bevel e) <*> lean}]
+           in e
+                { Part.segment = b,
+                  Part.continues = Part.ofCurve e,
+                  Part.bevel = (,) <$> lean <*> fmap snd (Part.bevel e)
+                } :
+              rest
+                <> unhurried (Part.continues e) before
+                <> [ e
+                       { Part.segment = a,
+                         Part.finish = (Part.finish e) {slow = False},
+                         Part.bevel = (,) <$> fmap fst (Part.bevel e) <*> lean
+                       }
+                   ]
     -- A curve that is cut slows down where it ends, not where it is cut.
     unhurried goesOn = reverse . backwards goesOn . reverse
     backwards goesOn es = case es of
-      e : others | goesOn -> e {Part.finish = (Part.finish e) {slow = False}} : backwards (Part.continues e) others
+      e : others
+        | goesOn ->
+          e {Part.finish = (Part.finish e) {slow = False}} : backwards (Part.continues e) others
       _ -> es
     -- The segment in two, unless the point is at one of its ends.
     cut s
-      | t <= 0 || t >= 1 || Vec.near foot (Segment.start s) || Vec.near foot (Segment.end s) = Nothing
+      | t <= 0 || t >= 1 || Vec.near foot (Segment.start s) || Vec.near foot (Segment.end s) =
+        Nothing
       | otherwise = Just (Segment.cutAt t s)
       where
         t = Segment.fraction s p

@@ -41,18 +41,24 @@ import Part.Value
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments = case (builtin, arguments) of
   (MakeSpline, [t]) -> Just (made t (Exact.spline Exact.Natural))
-  (MakeSpline, [t, Plain (Quantity a), Plain (Quantity b)]) -> Just (made t (Exact.spline (Exact.Clamped (direction a) (direction b))))
+  (MakeSpline, [t, Plain (Quantity a), Plain (Quantity b)]) ->
+    Just (made t (Exact.spline (Exact.Clamped (direction a) (direction b))))
   (ClosedSpline, [t]) -> Just (made t (Exact.spline Exact.Periodic))
   (Polyline, [t]) -> Just (made t Exact.polyline)
   (Parabola, [t]) -> Just (made t Exact.parabola)
-  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just (positive d *> chain region (sconcat (ParametricFit.approximate (Mm d) (Curve.track (exact c)))))
+  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) ->
+    Just
+      ( positive d
+          *> chain region (sconcat (ParametricFit.approximate (Mm d) (Curve.track (exact c))))
+      )
   (Biarcs, [t]) -> Just (arcs t Open)
   (ClosedBiarcs, [t]) -> Just (arcs t Closed)
   (Fit, [t, Choosing UpTo (Quantity d)]) -> Just $ do
     positive d
     table <- tableOf t
     points <- ordered region table (Section.table (pointsOf table))
-    let chosen = SectionFit.fit (Section.LineKind :| [Section.ParabolaKind, Section.ArcKind]) (Mm d) points
+    let chosen =
+          SectionFit.fit (Section.LineKind :| [Section.ParabolaKind, Section.ArcKind]) (Mm d) points
     pieced region table points chosen
   (Sections, [t, Plain (ListValue lists)]) -> Just $ do
     table <- tableOf t
@@ -62,26 +68,59 @@ apply region builtin arguments = case (builtin, arguments) of
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
     chosen <- traverse (rowNumber region t) [n | Quantity n <- Vector.toList ns]
     pure (TableValue t {rows = NumberTable.picked (map (subtract 1) chosen) (rows t)})
-  (PointsOf, [t@(Plain (TableValue _))]) -> Just (tableOf t >>= fmap (ListValue . Vector.fromList) . traverse at . pointsOf)
-  (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) -> Just $ case Exact.atX x (exact c) of
-    [] -> let (low, high) = Curve.abscissas (exact c) in Evaluation.mistake (NoAnswer region "point" ("The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."))
-    us -> picked Tolerance.nearTie region "point" APoint id [place' c] (map (Exact.at (exact c)) us) choice >>= at
+  (PointsOf, [t@(Plain (TableValue _))]) ->
+    Just (tableOf t >>= fmap (ListValue . Vector.fromList) . traverse at . pointsOf)
+  (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) ->
+    Just $ case Exact.atX x (exact c) of
+      [] ->
+        let (low, high) =
+              Curve.abscissas (exact c)
+         in Evaluation.mistake
+              ( NoAnswer
+                  region
+                  "point"
+                  ( "The curve runs from x = "
+                      <> Decimal.mm low
+                      <> " to x = "
+                      <> Decimal.mm high
+                      <> "."
+                  )
+              )
+      us ->
+        picked
+          Tolerance.nearTie
+          region
+          "point"
+          APoint
+          id
+          [place' c]
+          (map (Exact.at (exact c)) us)
+          choice
+          >>= at
   (PointAlong, [Plain (CurveValue c), Plain (Quantity s)])
-    | s < -slack || s > l + slack -> Just (Evaluation.mistake (NoAnswer region "point" ("The curve is " <> written l <> " long.")))
+    | s < -slack || s > l + slack ->
+      Just (Evaluation.mistake (NoAnswer region "point" ("The curve is " <> written l <> " long.")))
     | otherwise -> Just (at (Exact.at (exact c) (Exact.alongTo (exact c) (Mm s))))
     where
       Mm l = Exact.length (exact c)
-  (LengthAlong, [Plain (CurveValue c), Plain (Spatial p)]) -> Just (let Mm s = place' c (place p) in pure (Quantity s))
-  (LengthOf, [Plain (CurveValue c)]) -> Just (let Mm l = Exact.length (exact c) in pure (Quantity l))
+  (LengthAlong, [Plain (CurveValue c), Plain (Spatial p)]) ->
+    Just (let Mm s = place' c (place p) in pure (Quantity s))
+  (LengthOf, [Plain (CurveValue c)]) ->
+    Just (let Mm l = Exact.length (exact c) in pure (Quantity l))
   (StartOf, [Plain (CurveValue c)]) -> Just (at (Exact.start (exact c)))
   (EndOf, [Plain (CurveValue c)]) -> Just (at (Exact.end (exact c)))
-  (TangentOf, [Plain (CurveValue c), Plain (Spatial p)]) -> Just (angled (Exact.tangent (exact c) (near c p)))
-  (NormalOf, [Plain (CurveValue c), Plain (Spatial p)]) -> Just (angled (Exact.normal (exact c) (near c p)))
-  (CurvatureOf, [Plain (CurveValue c), Plain (Spatial p)]) -> Just (finite region (Exact.curvature (exact c) (near c p)))
+  (TangentOf, [Plain (CurveValue c), Plain (Spatial p)]) ->
+    Just (angled (Exact.tangent (exact c) (near c p)))
+  (NormalOf, [Plain (CurveValue c), Plain (Spatial p)]) ->
+    Just (angled (Exact.normal (exact c) (near c p)))
+  (CurvatureOf, [Plain (CurveValue c), Plain (Spatial p)]) ->
+    Just (finite region (Exact.curvature (exact c) (near c p)))
   (Foot, [Plain (Spatial p), Plain (CurveValue c)]) -> Just (at (Exact.at (exact c) (near c p)))
   (Distance, [Plain (Spatial p), Plain (CurveValue c)]) -> Just (distance p c)
   (Distance, [Plain (CurveValue c), Plain (Spatial p)]) -> Just (distance p c)
-  (Intersection, Plain a : Plain b : choice) | Just (v, w) <- (,) <$> walkedOf a <*> walkedOf b -> Just (intersection region v w choice)
+  (Intersection, Plain a : Plain b : choice)
+    | Just (v, w) <- (,) <$> walkedOf a <*> walkedOf b ->
+      Just (intersection region v w choice)
   _ -> Nothing
   where
     at = spatial region . offset
@@ -89,7 +128,8 @@ apply region builtin arguments = case (builtin, arguments) of
     angled v = let Rad a = Vec.angle v in pure (Quantity a)
     near c p = Exact.nearest (place p) (exact c)
     place' c p = Exact.lengthTo (exact c) (Exact.nearest p (exact c))
-    distance p c = let Mm d = Vec.distance (place p) (Exact.at (exact c) (near c p)) in finite region d
+    distance p c =
+      let Mm d = Vec.distance (place p) (Exact.at (exact c) (near c p)) in finite region d
     Mm slack = Tolerance.coincident
     written l = Decimal.mm (Mm l)
     numbers v = case v of
@@ -97,10 +137,18 @@ apply region builtin arguments = case (builtin, arguments) of
       _ -> []
     positive d
       | d > 0 = within region d
-      | otherwise = Evaluation.mistake (NotPositive region "the tolerance of a curve" (Decimal.mm (Mm d)))
+      | otherwise =
+        Evaluation.mistake (NotPositive region "the tolerance of a curve" (Decimal.mm (Mm d)))
     tableOf t = case t of
       Plain (TableValue table) -> table <$ Evaluation.spend region (NumberTable.count (rows table))
-      Plain (ListValue ps) -> PartTable {rows = NumberTable.fromList [(region, coordinates (place p)) | Spatial p <- Vector.toList ps], names = []} <$ Evaluation.spend region (Vector.length ps)
+      Plain (ListValue ps) ->
+        PartTable
+          { rows =
+              NumberTable.fromList
+                [(region, coordinates (place p)) | Spatial p <- Vector.toList ps],
+            names = []
+          }
+          <$ Evaluation.spend region (Vector.length ps)
       _ -> Evaluation.absent
     coordinates p = PrimArray.primArrayFromListN 2 [Vec.x p, Vec.y p]
     made t make = do
@@ -124,14 +172,25 @@ pointsOf = Vector.toList . Curve.points
 
 -- | A curve of arcs and lines.
 chain :: Region -> NonEmpty Exact.Segment -> Eval Value
-chain region segments = either (\_ -> Evaluation.mistake (NoLength region)) (pure . CurveValue . Curve.plain) (Exact.ofSegments segments)
+chain region segments =
+  either
+    (\_ -> Evaluation.mistake (NoLength region))
+    (pure . CurveValue . Curve.plain)
+    (Exact.ofSegments segments)
 
 -- | A curve of pieces, with what they miss.
 pieced :: Region -> PartTable -> Section.PointTable -> NonEmpty Section.Section -> Eval Value
 pieced region table points chosen = do
   let (pieces', stations) = Curve.piecesOf (Curve.points table) chosen
   c <- either (flawed region table) pure (Exact.ofPieces pieces' stations)
-  pure (CurveValue (Curve.curve (Curve.columns table) (Just (Fitting chosen (SectionFit.deviations points chosen) (Curve.points table))) c))
+  pure
+    ( CurveValue
+        ( Curve.curve
+            (Curve.columns table)
+            (Just (Fitting chosen (SectionFit.deviations points chosen) (Curve.points table)))
+            c
+        )
+    )
 
 -- | What is wrong with the points of a curve, at the row where it shows.
 flawed :: Region -> PartTable -> Exact.CurveFault -> Eval a
@@ -167,9 +226,11 @@ fitted region table = either (Evaluation.mistake . fact) pure
     fact flaw = case flaw of
       SectionFit.NoSections -> noCurve region table Nothing NoSection
       SectionFit.WrongCount s n -> noCurve region table Nothing (SectionRows s n)
-      SectionFit.NoSuchRow _ k -> NoSuchRow region (listing region table) k (NumberTable.count (rows table))
+      SectionFit.NoSuchRow _ k ->
+        NoSuchRow region (listing region table) k (NumberTable.count (rows table))
       SectionFit.RowsDoNotRise s -> noCurve region table Nothing (SectionOrder s)
-      SectionFit.NotJoined s begins must -> noCurve region table Nothing (SectionJoint s begins must)
+      SectionFit.NotJoined s begins must ->
+        noCurve region table Nothing (SectionJoint s begins must)
       SectionFit.EndsEarly final all' -> noCurve region table Nothing (SectionEnd final all')
 
 noCurve :: Region -> PartTable -> Maybe Region -> ListFault -> ValueFact
@@ -182,7 +243,14 @@ listing region table = if rowAt table 1 == Just region then InList else InTable
 -- | The number of a row that there is.
 rowNumber :: Region -> PartTable -> Double -> Eval Int
 rowNumber region table x
-  | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal = Evaluation.mistake (NotWhole region ("the number of a " <> (case listing region table of InTable -> "row"; InList -> "point")) ("from 1 to " <> Decimal.whole count) x)
+  | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal =
+    Evaluation.mistake
+      ( NotWhole
+          region
+          ("the number of a " <> (case listing region table of InTable -> "row"; InList -> "point"))
+          ("from 1 to " <> Decimal.whole count)
+          x
+      )
   | n < 1 || n > count = Evaluation.mistake (NoSuchRow region (listing region table) n count)
   | otherwise = pure n
   where
@@ -203,15 +271,26 @@ walkedOf v = case v of
   _ -> Nothing
 
 -- | The points that a curve has in common with something.
-intersection :: Region -> (ElementCarrier, Foot) -> (ElementCarrier, Foot) -> [Argument] -> Eval Value
+intersection ::
+  Region ->
+  (ElementCarrier, Foot) ->
+  (ElementCarrier, Foot) ->
+  [Argument] ->
+  Eval Value
 intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.meetings as bs of
   [] -> Evaluation.mistake (NothingCommon region a b (MeasuredPolyarc.gap as bs))
-  ps -> picked Tolerance.nearTie region "point" APoint id ways ps choice >>= spatial region . offset . Intersection.exactly footA footB
+  ps ->
+    picked Tolerance.nearTie region "point" APoint id ways ps choice
+      >>= spatial region . offset . Intersection.exactly footA footB
   where
     as = ElementCarrier.within (extent b) a
     bs = ElementCarrier.within (extent a) b
     extent w = case w of
-      OnCurve p -> foldl (\box s -> BoundingBox.union box (BoundingBox.ofSegment s)) (BoundingBox.ofPoints (MeasuredPolyarc.start p) []) (MeasuredPolyarc.segments p)
+      OnCurve p ->
+        foldl
+          (\box s -> BoundingBox.union box (BoundingBox.ofSegment s))
+          (BoundingBox.ofPoints (MeasuredPolyarc.start p) [])
+          (MeasuredPolyarc.segments p)
       _ -> BoundingBox.ofPoints (Vec.point 0 0) []
     -- First and last along the thing that is named first and has a beginning.
     ways = [way w | w <- [a, b], hasWay w]

@@ -36,7 +36,11 @@ data Error = Error {fact :: ValueFact, calls :: [Region]}
   deriving stock (Eq, Show)
 
 -- | Two neighbours in a contour, and the link between them.
-data Joined = Joined {link :: Region, before :: {-# UNPACK #-} (Located ElementCarrier), after :: {-# UNPACK #-} (Located ElementCarrier)}
+data Joined = Joined
+  { link :: Region,
+    before :: {-# UNPACK #-} (Located ElementCarrier),
+    after :: {-# UNPACK #-} (Located ElementCarrier)
+  }
   deriving stock (Eq, Show)
 
 -- | One of several answers.
@@ -117,8 +121,10 @@ data ValueFact
     NoFillet Joined Mm (Maybe Mm)
   | -- | centres of the arcs that make equally long contours
     AmbiguousFillet Joined [Point]
-  | -- | an element whose end lies before its beginning, by so much; the links at its ends; the largest radius of
-    -- a fillet among them that fits
+  | -- a fillet among them that fits
+
+    -- | an element whose end lies before its beginning, by so much; the links at its ends; the
+    -- largest radius of
     Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
   | -- | a curve that two things do not have in common: they miss one another by so much
     NothingCommon Region ElementCarrier ElementCarrier Mm
@@ -156,13 +162,15 @@ data ValueFact
     ClosedCurve Region
   | -- | a place to begin on a contour that begins at its first element
     OpenBegins Region Name
-  | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter there is
+  | -- | a statement that needs another cutter: the statement, the cutter that it needs, the cutter
+    -- there is
     WrongCutter Region Text Text Text
   | -- | several depths with a cutter that is widest at its tip: the depth
     StepsUndercut Region
   | -- | the points of a curve: the call, what they stand in, the row, why
     NoCurve Region Listing (Maybe Region) ListFault
-  | -- | a shift of a curve beyond its radius of curvature: the cipher, the place, the distance, the largest there
+  | -- | a shift of a curve beyond its radius of curvature: the cipher, the place, the distance, the
+    -- largest there
     Folds Region Point Mm Mm
   | -- | a shift of a curve with a corner: the cipher, the place, the angle
     ShiftsCorner Region Point Rad
@@ -170,16 +178,20 @@ data ValueFact
     SteepBevel Region (Maybe Int) Rad
   | -- | the ends of a change of distance do not follow one another along the curve
     GrowthEnds Region
-  | -- | a coordinate of a joggle that the piece does not have, or has several times: the points; from where to where its
-    -- coordinates run
+  | -- coordinates run
+
+    -- | a coordinate of a joggle that the piece does not have, or has several times: the points;
+    -- from where to where its
     JoggleCoordinate Region Mm [Point] (Mm, Mm)
   | -- | the two coordinates of a joggle are one place
     JoggleNowhere Region
-  | -- | a joggle's radius does not fit: its radius, the length between its ends, the largest that fits
+  | -- | a joggle's radius does not fit: its radius, the length between its ends, the largest that
+    -- fits
     JoggleRadius Region Mm Mm (Maybe Mm)
   | -- | a joggle's radius is too small for its depth: the least
     JoggleDepth Region Mm Mm
-  | -- | the contour, two of its elements, where they meet, and whether there are fillets that could be wrong
+  | -- | the contour, two of its elements, where they meet, and whether there are fillets that could
+    -- be wrong
     CrossesItself Region Region Region Point Bool
   | -- | contours that make no pocket
     NoPocket PocketMisfit
@@ -215,11 +227,18 @@ toReport (Error fact calls) = addCalls $ case fact of
   TooLarge region -> at region "E0303" "the result is too large for a number"
   OutOfReach region limit ->
     (at region "E0326" "this is further than any machine reaches")
-      { message = ["A place is no further than " <> Decimal.mm limit <> " from zero, and no radius is longer."]
+      { message =
+          [ "A place is no further than "
+              <> Decimal.mm limit
+              <> " from zero, and no radius is longer."
+          ]
       }
   TooMuchWork region limit ->
     (at region "E0327" ("this takes more than " <> Decimal.whole limit <> " steps to compute"))
-      { message = ["Functions that use one another several times, or repetitions in repetitions, multiply their steps."]
+      { message =
+          [ "Functions that use one another several times, or repetitions in repetitions, \
+            \multiply their steps."
+          ]
       }
   NoLength region ->
     at region "E0328" "the contour has no length"
@@ -233,7 +252,11 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   ZeroLine region p ->
     (at region "E0305" "this line has no length")
-      { message = ["Both its points are " <> Vec.written 4 p <> "; a line needs two different ones."]
+      { message =
+          [ "Both its points are "
+              <> Vec.written 4 p
+              <> "; a line needs two different ones."
+          ]
       }
   NotPositive region what value ->
     at region "E0306" (what <> " must be more than zero, this one is " <> value)
@@ -241,7 +264,10 @@ toReport (Error fact calls) = addCalls $ case fact of
     at region "E0307" ("the contour " <> quote name <> " has no elements")
   LoneElement region walked ->
     (at region "E0308" ("a closed contour cannot consist of " <> describe walked <> " alone"))
-      { hints = ["Only a circle or a closed curve closes by itself; add the other elements, or make the contour open."]
+      { hints =
+          [ "Only a circle or a closed curve closes by itself; add the other elements, or \
+            \make the contour open."
+          ]
       }
   NoEnd region walked ->
     (at region "E0309" ("an open contour cannot begin or end on " <> describe walked))
@@ -258,13 +284,20 @@ toReport (Error fact calls) = addCalls $ case fact of
       { message = [stop "17533"],
         hints =
           if any isCurve [before j, after j]
-            then ["A curve ends with the last row of its table, a piece where its curve ends. Correct the numbers, or join them by a line: line(end_of(a), start_of(b))."]
-            else ["Correct the numbers; circles that are apart are joined by tangent or fillet, and a line begins at the point before it."]
+            then
+              [ "A curve ends with the last row of its table, a piece where its curve ends. \
+                \Correct the numbers, or join them by a line: line(end_of(a), start_of(b))."
+              ]
+            else
+              [ "Correct the numbers; circles that are apart are joined by tangent or fillet, \
+                \and a line begins at the point before it."
+              ]
       }
   ParallelLines j gap ->
     (joined "E0312" j ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
       { message = [stop "17533"],
-        hints = ["Is an edge between them missing? A closed contour joins its last element to its first."]
+        hints =
+          ["Is an edge between them missing? A closed contour joins its last element to its first."]
       }
   SameCurve j ->
     (joined "E0313" j "these are the same curve, so they have no one point in common")
@@ -272,7 +305,14 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   AmbiguousMeeting j points ->
     (joined "E0314" j (things j <> " meet in more than one point"))
-      { message = ["They meet at " <> Text.intercalate (if length points > mostPoints then ", " else " and at ") (map (Vec.written 4) (take mostPoints points)) <> andMore mostPoints points <> "."],
+      { message =
+          [ "They meet at "
+              <> Text.intercalate
+                (if length points > mostPoints then ", " else " and at ")
+                (map (Vec.written 4) (take mostPoints points))
+              <> andMore mostPoints points
+              <> "."
+          ],
         hints = ["Choose with: meet near " <> Vec.written 4 p | p <- take 1 points]
       }
   NotSmooth j gap ->
@@ -281,8 +321,16 @@ toReport (Error fact calls) = addCalls $ case fact of
         hints = ["Correct the numbers, or join them with a fillet."]
       }
   Kinked j angle ->
-    (joined "E0348" j (things j <> " meet at an angle of " <> Decimal.short 2 (degrees angle) <> " deg"))
-      { message = ["Smooth neighbours differ in direction by at most " <> Decimal.short 2 (degrees Tolerance.smoothTurn) <> " deg."],
+    ( joined
+        "E0348"
+        j
+        (things j <> " meet at an angle of " <> Decimal.short 2 (degrees angle) <> " deg")
+    )
+      { message =
+          [ "Smooth neighbours differ in direction by at most "
+              <> Decimal.short 2 (degrees Tolerance.smoothTurn)
+              <> " deg."
+          ],
         hints = ["Correct the numbers, round the corner with a fillet, or leave smooth out."]
       }
   TurnsBack j ->
@@ -292,11 +340,17 @@ toReport (Error fact calls) = addCalls $ case fact of
   TangentNeedsCircles j
     | any isCurve [before j, after j] ->
       (joined "E0317" j "a tangent joins circles, not a curve")
-        { hints = ["If its neighbour goes on where the curve ends, write smooth; to round the corner, write fillet and a radius."]
+        { hints =
+            [ "If its neighbour goes on where the curve ends, write smooth; to round the \
+              \corner, write fillet and a radius."
+            ]
         }
     | otherwise ->
       (joined "E0317" j "a tangent joins circles, not a line that is already there")
-        { hints = ["If the line touches the circle, write smooth; to round the corner, write fillet and a radius."]
+        { hints =
+            [ "If the line touches the circle, write smooth; to round the corner, write \
+              \fillet and a radius."
+            ]
         }
   ConcentricTangent j ->
     (joined "E0318" j "concentric circles have no common tangent")
@@ -310,32 +364,68 @@ toReport (Error fact calls) = addCalls $ case fact of
     (joined "E0320" j "no common tangent fits the senses in which these circles are walked")
       { message = [stop "17533"],
         hints = case senses of
-          [] -> ["One circle lies inside the other: there is no common tangent at all. Join them with a fillet."]
+          [] ->
+            [ "One circle lies inside the other: there is no common tangent at all. Join them with \
+              \a fillet."
+            ]
           _ -> ["There is one when they are walked " <> Text.intercalate ", or " senses <> "."]
       }
   FilletAtPoint j ->
-    (joined "E0321" j "a fillet or chamfer needs a line, a circle or a curve on both sides, not a point")
+    ( joined
+        "E0321"
+        j
+        "a fillet or chamfer needs a line, a circle or a curve on both sides, not a point"
+    )
       { hints = ["Write the edges as lines: line(p, q)."]
       }
   NoFillet j r largest ->
-    (joined "E0322" j ("no arc of radius " <> Decimal.mm r <> " touches both neighbours in the direction of the walk"))
+    ( joined
+        "E0322"
+        j
+        ( "no arc of radius "
+            <> Decimal.mm r
+            <> " touches both neighbours in the direction of the walk"
+        )
+    )
       { message = [stop "17535"],
         hints =
           ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
-            <> ["With the other sign there is one: fillet " <> signed <> "." | Just signed <- [otherSign j r]]
-            <> ["+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses of the neighbours."]
+            <> [ "With the other sign there is one: fillet " <> signed <> "."
+                 | Just signed <- [otherSign j r]
+               ]
+            <> [ "+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the \
+                 \senses of the neighbours."
+               ]
       }
   AmbiguousFillet j centres ->
     (joined "E0323" j "two fillets make contours of the same length")
-      { message = ["Their centres are " <> Text.intercalate " and " (map (Vec.written 4) centres) <> "."],
-        hints = ["Change the order or the senses of the elements so that one of them is the shorter way."]
+      { message =
+          [ "Their centres are "
+              <> Text.intercalate " and " (map (Vec.written 4) centres)
+              <> "."
+          ],
+        hints =
+          ["Change the order or the senses of the elements so that one of them is the shorter way."]
       }
   Overrun region walked overlap links largest ->
-    (at region "E0324" ("the links do not fit: " <> describe walked <> " is too short for them by " <> Decimal.some overlap))
+    ( at
+        region
+        "E0324"
+        ( "the links do not fit: "
+            <> describe walked
+            <> " is too short for them by "
+            <> Decimal.some overlap
+        )
+    )
       { label = "it would have to be walked backwards",
         others = [Label l "this link takes its share" | l <- nub links],
         message = [stop "17535"],
-        hints = [maybe "Make the fillet or chamfer smaller, or check the directions of the neighbours." (\m -> "The largest radius that fits here is " <> downTo m <> ".") largest]
+        hints =
+          [ maybe
+              "Make the fillet or chamfer smaller, or check the directions of the neighbours."
+              (\m -> "The largest radius that fits here is " <> downTo m <> ".")
+              largest
+          ]
       }
   NothingCommon region a b gap ->
     (at region "E0330" (described a <> " and " <> described b <> " do not meet"))
@@ -346,7 +436,16 @@ toReport (Error fact calls) = addCalls $ case fact of
   Several region what candidates ->
     (at region "E0332" ("there is more than one such " <> what))
       { message = [listed candidates],
-        hints = [if what == "line" || what == "point of tangency" then "Say for each circle on which side of the directed line it lies: left C or right C." else "Choose one that stays right when the part is turned: near P, left L or right L (of a directed line), inside C or outside C" <> (if what == "point" then ", first or last along a line." else ".")]
+        hints =
+          [ if what == "line" || what == "point of tangency"
+              then
+                "Say for each circle on which side of the directed line it lies: left C or \
+                \right C."
+              else
+                "Choose one that stays right when the part is turned: near P, left L or right L \
+                \(of a directed line), inside C or outside C"
+                  <> (if what == "point" then ", first or last along a line." else ".")
+          ]
       }
   NoneFits region what candidates ->
     (at region "E0333" ("no such " <> what <> " is where it is sought"))
@@ -373,10 +472,27 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   NoSuchItem region n count ->
     (at region "E0339" ("the list has no item " <> Decimal.whole n))
-      { message = ["It has " <> Decimal.whole count <> (if count == 1 then " item" else " items") <> ", counted from 1."]
+      { message =
+          [ "It has "
+              <> Decimal.whole count
+              <> (if count == 1 then " item" else " items")
+              <> ", counted from 1."
+          ]
       }
   NoSuchRow region listing n count ->
-    (at region "E0339" ("the " <> (case listing of InTable -> "table"; InList -> "list") <> " has no " <> nounOf listing <> " " <> Decimal.whole n <> ", it has " <> (if count == 0 then "none" else Decimal.whole count)))
+    ( at
+        region
+        "E0339"
+        ( "the "
+            <> (case listing of InTable -> "table"; InList -> "list")
+            <> " has no "
+            <> nounOf listing
+            <> " "
+            <> Decimal.whole n
+            <> ", it has "
+            <> (if count == 0 then "none" else Decimal.whole count)
+        )
+    )
       { message = ["They count from 1." | n < 1]
       }
   StepOfZero region ->
@@ -392,10 +508,18 @@ toReport (Error fact calls) = addCalls $ case fact of
   DoNotAgree region (leftRegion, left) (rightRegion, right) difference allowed ->
     (at region "E0342" ("this is " <> left <> ", not " <> right))
       { others = [Label leftRegion left, Label rightRegion right],
-        message = [if difference == allowed then "They differ by somewhat more than " <> allowed <> ", which is allowed." else "They differ by " <> difference <> "; " <> allowed <> " is allowed."]
+        message =
+          [ if difference == allowed
+              then "They differ by somewhat more than " <> allowed <> ", which is allowed."
+              else "They differ by " <> difference <> "; " <> allowed <> " is allowed."
+          ]
       }
   ClosedElement region (Name name) ->
-    (at region "E0343" ("the contour " <> quote name <> " is closed and cannot be a part of another"))
+    ( at
+        region
+        "E0343"
+        ("the contour " <> quote name <> " is closed and cannot be a part of another")
+    )
       { hints = ["Only an open contour leads on to the next element."]
       }
   ClosedCurve region ->
@@ -404,7 +528,11 @@ toReport (Error fact calls) = addCalls $ case fact of
       }
   OpenBegins region (Name name) ->
     (at region "E0347" ("the contour " <> quote name <> " is open and begins at its first element"))
-      { hints = ["Leave ‘start near’ out. To begin at its other end, mill reversed(" <> name <> ") on the other side."]
+      { hints =
+          [ "Leave ‘start near’ out. To begin at its other end, mill reversed("
+              <> name
+              <> ") on the other side."
+          ]
       }
   NoCurve region listing row trouble ->
     (at (fromMaybe region row) "E0349" (troubled (nounOf listing) trouble))
@@ -412,27 +540,64 @@ toReport (Error fact calls) = addCalls $ case fact of
         hints = troubleHint (nounOf listing) trouble
       }
   Folds region p asked largest ->
-    (at region "E0350" ("the curve folds over: at " <> Vec.written 3 p <> " its radius of curvature is only " <> below largest))
-      { message = ["It is shifted there by " <> Decimal.mm asked <> " towards the inside of the bend; a curve can be shifted by less than its radius."],
+    ( at
+        region
+        "E0350"
+        ( "the curve folds over: at "
+            <> Vec.written 3 p
+            <> " its radius of curvature is only "
+            <> below largest
+        )
+    )
+      { message =
+          [ "It is shifted there by "
+              <> Decimal.mm asked
+              <> " towards the inside of the bend; a curve can be shifted by less than its radius."
+          ],
         hints = ["The largest distance that fits there is less than " <> below largest <> "."]
       }
   ShiftsCorner region p angle ->
-    (at region "E0351" ("the curve has a corner of " <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle) <> " deg at " <> Vec.written 3 p))
+    ( at
+        region
+        "E0351"
+        ( "the curve has a corner of "
+            <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle)
+            <> " deg at "
+            <> Vec.written 3 p
+        )
+    )
       { message = ["A shift would tear it open there, or let its parts cross."],
-        hints = ["Lay a spline through the points, a closed_spline if they close, or make a piece of each part and join them by a link."]
+        hints =
+          [ "Lay a spline through the points, a closed_spline if they close, or make a piece of \
+            \each part and join them by a link."
+          ]
       }
   SteepBevel region row angle ->
     (at region "E0352" (Decimal.short 3 (degrees angle) <> " deg is no bevel"))
       { message = ["In row " <> Decimal.whole k <> " of the table." | Just k <- [row]],
-        hints = ["The bevel is measured from the axis of the tool; it lies between -90 deg and 90 deg."]
+        hints =
+          ["The bevel is measured from the axis of the tool; it lies between -90 deg and 90 deg."]
       }
   GrowthEnds region ->
     (at region "E0353" "the change of distance must end behind its beginning, along the walk")
       { hints = ["Give the point first that the walk comes to first."]
       }
   JoggleCoordinate region x points (low, high) ->
-    (at region "E0354" (case points of [] -> "the piece does not come to x = " <> Decimal.mm x; _ -> "the piece has more than one point with x = " <> Decimal.mm x))
-      { message = [if null points then "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "." else listed (map APoint points), stop "15074"],
+    ( at
+        region
+        "E0354"
+        ( case points of
+            [] ->
+              "the piece does not come to x = " <> Decimal.mm x
+            _ -> "the piece has more than one point with x = " <> Decimal.mm x
+        )
+    )
+      { message =
+          [ if null points
+              then "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
+              else listed (map APoint points),
+            stop "15074"
+          ],
         hints = ["A joggle needs x coordinates that the piece passes once."]
       }
   JoggleNowhere region ->
@@ -440,9 +605,26 @@ toReport (Error fact calls) = addCalls $ case fact of
       { message = [stop "15074"]
       }
   JoggleRadius region r there largest ->
-    (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " does not fit into " <> Decimal.mm there <> " of the piece"))
+    ( at
+        region
+        "E0355"
+        ( "a joggle of radius "
+            <> Decimal.mm r
+            <> " does not fit into "
+            <> Decimal.mm there
+            <> " of the piece"
+        )
+    )
       { message = [stop "14174"],
-        hints = [maybe ("No radius fits: the depth must be less than half of this length, " <> downTo (times 0.5 there) <> ".") (\m -> "The largest radius that fits is " <> downTo m <> ".") largest]
+        hints =
+          [ maybe
+              ( "No radius fits: the depth must be less than half of this length, "
+                  <> downTo (times 0.5 there)
+                  <> "."
+              )
+              (\m -> "The largest radius that fits is " <> downTo m <> ".")
+              largest
+          ]
       }
   JoggleDepth region r least ->
     (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " cannot go so deep"))
@@ -451,7 +633,11 @@ toReport (Error fact calls) = addCalls $ case fact of
   WrongCutter region statement needed there ->
     (at region "E0344" (quote statement <> " needs " <> needed))
       { message = ["The tool is " <> there <> "."],
-        hints = ["Change it first: change 2 " <> (if statement == "pocket" then "mill" else statement) <> (if statement == "turn" then "(nose 0.4 mm)" else "(diameter 5 mm)")]
+        hints =
+          [ "Change it first: change 2 "
+              <> (if statement == "pocket" then "mill" else statement)
+              <> (if statement == "turn" then "(nose 0.4 mm)" else "(diameter 5 mm)")
+          ]
       }
   StepsUndercut region ->
     (at region "E0360" "a cutter that is widest at its tip cannot go down in steps")
@@ -461,13 +647,22 @@ toReport (Error fact calls) = addCalls $ case fact of
   CrossesItself contour first second p fillets ->
     (at first "E0325" "the contour crosses or touches itself")
       { label = "this element",
-        others = [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
+        others =
+          [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
         message = ["They meet at " <> Vec.written 4 p <> "."],
-        hints = ["Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise." | fillets]
+        hints =
+          [ "Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise."
+            | fillets
+          ]
       }
   NoPocket misfit -> PocketError.toReport misfit
   where
-    addCalls r = r {others = others r <> [Label c "in this call" | c <- nub (take 1 calls <> take 1 (reverse calls))]}
+    addCalls r =
+      r
+        { others =
+            others r
+              <> [Label c "in this call" | c <- nub (take 1 calls <> take 1 (reverse calls))]
+        }
 
 -- | What stands in a table or a list.
 nounOf :: Listing -> Text
@@ -478,15 +673,42 @@ nounOf listing = case listing of
 -- | What is wrong, of rows or points.
 troubled :: Text -> ListFault -> Text
 troubled noun trouble = case trouble of
-  FewPoints there needed -> "a curve needs " <> Decimal.whole needed <> " points, " <> thereAre there
-  FewDifferent there needed -> "a closed curve needs " <> Decimal.whole needed <> " different points, " <> thereAre there
+  FewPoints there needed ->
+    "a curve needs " <> Decimal.whole needed <> " points, " <> thereAre there
+  FewDifferent there needed ->
+    "a closed curve needs " <> Decimal.whole needed <> " different points, " <> thereAre there
   SamePoint k -> noun <> " " <> Decimal.whole k <> " is the same point as the one before it"
   EvenPoints n -> "parabolas need an odd number of points, there are " <> Decimal.whole n
   Unordered k -> "x does not go on in " <> noun <> " " <> Decimal.whole k <> " as it began"
-  SectionRows s n -> "section " <> Decimal.whole s <> " names " <> Decimal.whole n <> " " <> noun <> (if n == 1 then "" else "s")
+  SectionRows s n ->
+    "section "
+      <> Decimal.whole s
+      <> " names "
+      <> Decimal.whole n
+      <> " "
+      <> noun
+      <> (if n == 1 then "" else "s")
   SectionOrder s -> "the " <> noun <> "s of section " <> Decimal.whole s <> " do not rise"
-  SectionJoint s begins must -> "section " <> Decimal.whole s <> " begins with " <> noun <> " " <> Decimal.whole begins <> ", not with " <> noun <> " " <> Decimal.whole must
-  SectionEnd final all' -> "the last section ends with " <> noun <> " " <> Decimal.whole final <> ", not with the last " <> noun <> ", " <> Decimal.whole all'
+  SectionJoint s begins must ->
+    "section "
+      <> Decimal.whole s
+      <> " begins with "
+      <> noun
+      <> " "
+      <> Decimal.whole begins
+      <> ", not with "
+      <> noun
+      <> " "
+      <> Decimal.whole must
+  SectionEnd final all' ->
+    "the last section ends with "
+      <> noun
+      <> " "
+      <> Decimal.whole final
+      <> ", not with the last "
+      <> noun
+      <> ", "
+      <> Decimal.whole all'
   NoSection -> "a curve of sections needs at least one"
   where
     thereAre n = case n of
@@ -499,11 +721,24 @@ troubleHint noun trouble = case trouble of
   FewPoints _ _ -> []
   FewDifferent _ _ -> ["The last point, when it is the first again, does not count."]
   SamePoint _ -> ["Leave one of the two " <> noun <> "s out."]
-  EvenPoints _ -> ["The first parabola goes through " <> noun <> "s 1 to 3, the next through " <> noun <> "s 3 to 5, and so on."]
-  Unordered _ -> ["Sort the " <> noun <> "s by x. A curve that turns back in x is a spline, arcs or a polyline."]
+  EvenPoints _ ->
+    [ "The first parabola goes through "
+        <> noun
+        <> "s 1 to 3, the next through "
+        <> noun
+        <> "s 3 to 5, and so on."
+    ]
+  Unordered _ ->
+    ["Sort the " <> noun <> "s by x. A curve that turns back in x is a spline, arcs or a polyline."]
   SectionRows _ _ -> [example]
   SectionOrder _ -> ["Write the " <> noun <> "s in their order: [3, 5, 8]."]
-  SectionJoint {} -> ["The first section begins with " <> noun <> " 1, every other one with the " <> noun <> " that the one before ends with."]
+  SectionJoint {} ->
+    [ "The first section begins with "
+        <> noun
+        <> " 1, every other one with the "
+        <> noun
+        <> " that the one before ends with."
+    ]
   SectionEnd _ _ -> []
   NoSection -> [example]
   where
@@ -543,7 +778,11 @@ describe :: ElementCarrier -> Text
 describe walked = case walked of
   OnLine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
   OnCircle _ (Circle c r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
-  OnCurve c -> "the curve from " <> Vec.written 4 (MeasuredPolyarc.start c) <> " to " <> Vec.written 4 (MeasuredPolyarc.end c)
+  OnCurve c ->
+    "the curve from "
+      <> Vec.written 4 (MeasuredPolyarc.start c)
+      <> " to "
+      <> Vec.written 4 (MeasuredPolyarc.end c)
   AtPoint p -> "the point " <> Vec.written 4 p
 
 -- | A curve in words, without where it is entered.
@@ -555,13 +794,24 @@ listed :: [Candidate] -> Text
 listed candidates = case candidates of
   [] -> "There is none."
   [one] -> "There is only " <> words' one <> "."
-  _ | length candidates > mostCandidates -> "There are " <> Text.intercalate ", " (map words' (take mostCandidates candidates)) <> andMore mostCandidates candidates <> "."
-  _ -> "There are " <> Text.intercalate ", " (map words' (init candidates)) <> " and " <> words' (last candidates) <> "."
+  _
+    | length candidates > mostCandidates ->
+      "There are "
+        <> Text.intercalate ", " (map words' (take mostCandidates candidates))
+        <> andMore mostCandidates candidates
+        <> "."
+  _ ->
+    "There are "
+      <> Text.intercalate ", " (map words' (init candidates))
+      <> " and "
+      <> words' (last candidates)
+      <> "."
   where
     words' c = case c of
       APoint p -> Vec.written 4 p
       ALine (Line p q) -> "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
-      ACircle (Circle c' r) -> "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c'
+      ACircle (Circle c' r) ->
+        "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c'
 
 -- | So many points in which two neighbours meet are told.
 mostPoints :: Int
@@ -577,8 +827,8 @@ andMore most answers = case length answers - most of
   n | n > 0 -> " and " <> Decimal.whole n <> " more"
   _ -> ""
 
--- | A length that is not to be reached, with three decimals; one that is whole but for the noise of doubles is told as
--- whole.
+-- | A length that is not to be reached, with three decimals; one that is whole but for the noise of
+-- doubles is told as whole.
 below :: Mm -> Text
 below (Mm x) = downTo (Mm (x + noise))
   where

@@ -25,7 +25,8 @@ newtype Eval a = Eval (Int -> Outcome a)
 -- | The steps then left, and what was found; or the mistakes, none when they are reported already.
 data Outcome a = Found Int a | Failed Int [Error]
 
--- | One by its steps. It is run once, as the compiler is told: then it makes no function of it first.
+-- | One by its steps. It is run once, as the compiler is told: then it makes no function of it
+-- first.
 steps :: (Int -> Outcome a) -> Eval a
 steps f = Eval (oneShot f)
 {-# INLINE steps #-}
@@ -117,4 +118,5 @@ mostSteps = 5000000
 inCall :: Region -> Eval a -> Eval a
 inCall region (Eval e) = steps $ \left -> case e left of
   Found left' a -> Found left' a
-  Failed left' errors -> Failed left' (map (\(Error fact calls) -> Error fact (calls <> [region])) errors)
+  Failed left' errors ->
+    Failed left' (map (\(Error fact calls) -> Error fact (calls <> [region])) errors)

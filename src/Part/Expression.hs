@@ -64,12 +64,26 @@ evaluate :: Environment -> Expr -> Eval Value
 evaluate env (Located region e) =
   Evaluation.spend region 1 *> case e of
     Number x -> pure (Quantity x)
-    Variable name -> maybe Evaluation.absent pure (firstOf (Map.lookup name (locals env)) (Map.lookup name (values env)))
+    Variable name ->
+      maybe
+        Evaluation.absent
+        pure
+        (firstOf (Map.lookup name (locals env)) (Map.lookup name (values env)))
     Apply name arguments -> case Map.lookup name (functions env) of
       Nothing -> Evaluation.absent
       Just (around, parameters, body) -> do
         vs <- traverse (evaluate env) arguments
-        Evaluation.inCall region (evaluate env {locals = Map.union (Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs))) around} body)
+        Evaluation.inCall
+          region
+          ( evaluate
+              env
+                { locals =
+                    Map.union
+                      (Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs)))
+                      around
+                }
+              body
+          )
     Builtin builtin arguments -> traverse argument arguments >>= Builtin.apply region builtin
     Negate inner -> evaluate env inner >>= Builtin.binary region Multiply (Quantity (-1))
     Not inner -> TruthValue . not . isTrue <$> evaluate env inner
@@ -115,7 +129,13 @@ evaluate env (Located region e) =
       | otherwise = do
         let count = floor ((b - a) / by + Tolerance.equal) + 1 :: Integer
         Evaluation.spend region (fromInteger (max 0 (min 100000000 count)))
-        pure (ListValue (Vector.generate (max 0 (fromInteger count)) (\k -> Quantity (a + fromIntegral k * by))))
+        pure
+          ( ListValue
+              ( Vector.generate
+                  (max 0 (fromInteger count))
+                  (\k -> Quantity (a + fromIntegral k * by))
+              )
+          )
 
 -- | A checked number.
 number :: Value -> Double
@@ -146,14 +166,16 @@ written :: Dimension -> Value -> Text
 written dimension v = case v of
   Quantity x ->
     let unit = Dimension.unitWord dimension
-     in Decimal.short 6 (x / Dimension.defaultUnit dimension) <> (if unit == "" then "" else " " <> unit)
+     in Decimal.short 6 (x / Dimension.defaultUnit dimension)
+          <> (if unit == "" then "" else " " <> unit)
   Spatial p -> Vec.written 4 (Value.place p)
   SpaceValue p (Mm z) -> Vec.written 4 p <> " at height " <> Decimal.mm (Mm z)
   TruthValue b -> if b then "true" else "false"
   CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
   LineValue (Line p q) -> "from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
   ContourValue c -> "length " <> Decimal.mm (Polyarc.length (outline c))
-  ListValue vs -> Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
+  ListValue vs ->
+    Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
   TableValue t -> Decimal.whole (NumberTable.count (Curve.rows t)) <> " rows"
   CurveValue c -> "length " <> Decimal.mm (Exact.length (Curve.exact c))

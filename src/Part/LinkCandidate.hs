@@ -41,15 +41,19 @@ data Link
   deriving stock (Eq, Show)
 
 -- | Where the walk leaves one element and enters the next, and what lies between.
-data Joint = Joint {leave :: {-# UNPACK #-} Point, enter :: {-# UNPACK #-} Point, inserted :: Maybe Segment}
+data Joint = Joint
+  { leave :: {-# UNPACK #-} Point,
+    enter :: {-# UNPACK #-} Point,
+    inserted :: Maybe Segment
+  }
   deriving stock (Eq, Show)
 
 -- | A joint at one point.
 through :: Point -> Joint
 through p = Joint p p Nothing
 
--- | All joints that a link can make of its neighbours. The points are the ends that the neighbours have of
--- their own: one of them decides where two curves meet in two points.
+-- | All joints that a link can make of its neighbours. The points are the ends that the neighbours
+-- have of their own: one of them decides where two curves meet in two points.
 candidates :: Joined -> [Point] -> Link -> Either ValueFact (NonEmpty Joint)
 candidates j own link = case link of
   Meet near -> (:| []) <$> meet j own near
@@ -62,8 +66,8 @@ candidates j own link = case link of
 shapes :: Joined -> (ElementCarrier, ElementCarrier)
 shapes j = (value (before j), value (after j))
 
--- | The intersection. Of several the one nearest to the point given; without one, the one that is an
--- end of a neighbour.
+-- | The intersection. Of several the one nearest to the point given; without one, the one that is
+-- an end of a neighbour.
 meet :: Joined -> [Point] -> Maybe Point -> Either ValueFact Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
@@ -81,7 +85,10 @@ meet j own near = case shapes j of
   (OnCircle _ c, OnLine l) -> points (Intersection.lineCircle l c)
   (OnCircle _ c, OnCircle _ d) -> points (Intersection.circles c d)
   where
-    on p shape = let gap = distanceTo shape p in if gap <= slack shape then Right (through p) else Left (NoMeeting j gap)
+    on p shape =
+      let gap =
+            distanceTo shape p
+       in if gap <= slack shape then Right (through p) else Left (NoMeeting j gap)
     -- The chain that stands for a curve is off by so much.
     slack shape = case shape of
       OnCurve _ -> plus Tolerance.curve Tolerance.coincident
@@ -98,7 +105,11 @@ meet j own near = case shapes j of
       [] -> Left (NoMeeting j (MeasuredPolyarc.gap a b))
       [p] -> Right (through p)
       ps -> choose Tolerance.nearTie ps
-    extent c = foldl (\box s -> BoundingBox.union box (BoundingBox.ofSegment s)) (BoundingBox.ofPoints (MeasuredPolyarc.start c) []) (MeasuredPolyarc.segments c)
+    extent c =
+      foldl
+        (\box s -> BoundingBox.union box (BoundingBox.ofSegment s))
+        (BoundingBox.ofPoints (MeasuredPolyarc.start c) [])
+        (MeasuredPolyarc.segments c)
     choose (Mm tolerance) ps =
       through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
         (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
@@ -119,7 +130,11 @@ smooth :: Joined -> Either ValueFact Joint
 smooth j = case shapes j of
   (OnLine l, OnLine m)
     | Vec.dot (Carrier.direction l) (Carrier.direction m) > 0 -> case Intersection.lines l m of
-      Same -> Right (through (if Vec.near (Carrier.to l) (Carrier.from m) then Carrier.to l else Carrier.from m))
+      Same ->
+        Right
+          ( through
+              (if Vec.near (Carrier.to l) (Carrier.from m) then Carrier.to l else Carrier.from m)
+          )
       Apart gap -> Left (NotSmooth j gap)
       _ -> meet j [] Nothing
     | otherwise -> Left (TurnsBack j)
@@ -128,8 +143,14 @@ smooth j = case shapes j of
   (OnCircle t1 c1, OnCircle t2 c2) -> circles (t1, c1) (t2, c2)
   (AtPoint _, _) -> meet j [] Nothing
   (_, AtPoint _) -> meet j [] Nothing
-  (OnCurve c, b) -> let (p, u) = (MeasuredPolyarc.end c, MeasuredPolyarc.directionAt c (MeasuredPolyarc.length c)) in goesOn (p, u) (sidedBy b p)
-  (a, OnCurve c) -> let (q, v) = (MeasuredPolyarc.start c, MeasuredPolyarc.directionAt c (Mm 0)) in goesOn (sidedBy a q) (q, v)
+  (OnCurve c, b) ->
+    let (p, u) =
+          (MeasuredPolyarc.end c, MeasuredPolyarc.directionAt c (MeasuredPolyarc.length c))
+     in goesOn (p, u) (sidedBy b p)
+  (a, OnCurve c) ->
+    let (q, v) =
+          (MeasuredPolyarc.start c, MeasuredPolyarc.directionAt c (Mm 0))
+     in goesOn (sidedBy a q) (q, v)
   where
     Mm tolerance = Tolerance.coincident
     -- Curves come from measured points: a small gap and a small turn are theirs.
@@ -145,8 +166,13 @@ smooth j = case shapes j of
     sidedBy shape p = case shape of
       OnLine l -> (Carrier.foot l p, Carrier.direction l)
       OnCircle turn (Circle c (Mm r)) ->
-        let out = Vec.unit (Vec.to c p) in (Vec.shift (Vec.scale r out) c, Vec.scale (Carrier.sense turn) (Vec.left out))
-      OnCurve c -> let s = MeasuredPolyarc.station c p in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
+        let out =
+              Vec.unit (Vec.to c p)
+         in (Vec.shift (Vec.scale r out) c, Vec.scale (Carrier.sense turn) (Vec.left out))
+      OnCurve c ->
+        let s =
+              MeasuredPolyarc.station c p
+         in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
       AtPoint q -> (q, Vec.unit (Vec.to q p))
     touching gap p
       | abs gap <= tolerance = Right (through p)
@@ -180,10 +206,20 @@ tangent j = case shapes j of
   (AtPoint _, AtPoint _) -> meet j [] Nothing
   where
     between a@(_, c1@(Circle p1 _)) b@(_, c2@(Circle p2 _))
-      | Vec.near p1 p2 = Left (if Intersection.circles c1 c2 == Same then CoincidentTangent j else ConcentricTangent j)
+      | Vec.near p1 p2 =
+        Left
+          (if Intersection.circles c1 c2 == Same then CoincidentTangent j else ConcentricTangent j)
       | otherwise = case TangentLine.directed a b of
-        Just l -> Right (Joint (Carrier.from l) (Carrier.to l) (Just (Straight (Carrier.from l) (Carrier.to l))))
-        Nothing -> Left (NoTangent j [sense t1 <> " then " <> sense t2 | (t1, t2, _) <- TangentLine.all c1 c2])
+        Just l ->
+          Right
+            ( Joint
+                (Carrier.from l)
+                (Carrier.to l)
+                (Just (Straight (Carrier.from l) (Carrier.to l)))
+            )
+        Nothing ->
+          Left
+            (NoTangent j [sense t1 <> " then " <> sense t2 | (t1, t2, _) <- TangentLine.all c1 c2])
 
 sense :: Sense -> Text
 sense turn = case turn of
@@ -199,7 +235,11 @@ fillet j turn r = case shapes j of
     [] -> Left (NoFillet j r Nothing)
     first : rest -> Right (first :| rest)
   where
-    joint f = Joint (Fillet.start f) (Fillet.end f) (Just (Segment.arc turn (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
+    joint f =
+      Joint
+        (Fillet.start f)
+        (Fillet.end f)
+        (Just (Segment.arc turn (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
     length' = fmap Segment.length . inserted
 
 -- | A straight line between the points at a distance along each neighbour from their intersection.
@@ -218,8 +258,12 @@ chamfer j own (Mm d) = case shapes j of
     -- A curve has to be as long as the chamfer takes from it.
     reaches (Located region shape) s p = case shape of
       OnCurve c
-        | not (MeasuredPolyarc.isClosed c), t < -tolerance -> Left (Overrun region shape (Mm (-t)) [link j] Nothing)
-        | not (MeasuredPolyarc.isClosed c), t > l + tolerance -> Left (Overrun region shape (Mm (t - l)) [link j] Nothing)
+        | not (MeasuredPolyarc.isClosed c),
+          t < -tolerance ->
+          Left (Overrun region shape (Mm (-t)) [link j] Nothing)
+        | not (MeasuredPolyarc.isClosed c),
+          t > l + tolerance ->
+          Left (Overrun region shape (Mm (t - l)) [link j] Nothing)
         where
           Mm at = MeasuredPolyarc.station c p
           Mm l = MeasuredPolyarc.length c
@@ -228,6 +272,7 @@ chamfer j own (Mm d) = case shapes j of
       _ -> Right ()
     along shape s p = case shape of
       OnLine l -> Vec.shift (Vec.scale s (Carrier.direction l)) p
-      OnCircle turn (Circle c (Mm r)) -> Vec.shift (Vec.rotate (Rad (Carrier.sense turn * s / r)) (Vec.to c p)) c
+      OnCircle turn (Circle c (Mm r)) ->
+        Vec.shift (Vec.rotate (Rad (Carrier.sense turn * s / r)) (Vec.to c p)) c
       OnCurve c -> let Mm t = MeasuredPolyarc.station c p in MeasuredPolyarc.at c (Mm (t + s))
       AtPoint q -> q

@@ -37,7 +37,15 @@ where
 import Base.Name (Name)
 import Base.Quantity (Feed, Mm (..))
 import Base.Region (Located, Region)
-import Checked.Syntax (Corners (..), CutSense (..), LeadForm (..), MachineRef (..), Sense (..), Side (..), Switch (..))
+import Checked.Syntax
+  ( Corners (..),
+    CutSense (..),
+    LeadForm (..),
+    MachineRef (..),
+    Sense (..),
+    Side (..),
+    Switch (..),
+  )
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
@@ -81,9 +89,15 @@ data Contour = Contour
   }
   deriving stock (Eq, Show)
 
--- | One element of a contour as it was written: what was walked, exactly if it is a curve; what is asked on it; the link
--- behind it.
-data ContourElement = ContourElement {spot :: Region, shape :: ElementCarrier, source :: Maybe PartCurve, asked :: Finish, link :: Maybe Link}
+-- | One element of a contour as it was written: what was walked, exactly if it is a curve; what is
+-- asked on it; the link behind it.
+data ContourElement = ContourElement
+  { spot :: Region,
+    shape :: ElementCarrier,
+    source :: Maybe PartCurve,
+    asked :: Finish,
+    link :: Maybe Link
+  }
   deriving stock (Eq, Show)
 
 -- | A segment, the element or the link of the program that it came from, and what is asked on it.
@@ -91,12 +105,13 @@ data Element = Element
   { segment :: Segment,
     origin :: Region,
     finish :: Finish,
-    -- | it goes on, without a corner, with the curve of the element before: one of the arcs that a curve is
-    -- replaced by
+    -- | it goes on, without a corner, with the curve of the element before: one of the arcs that a
+    -- curve is replaced by
     continues :: Bool,
     -- | it is one of the arcs that a curve is replaced by
     ofCurve :: Bool,
-    -- | how far its surface leans from the axis of the tool at its beginning and its end, in radians, if it is said
+    -- | how far its surface leans from the axis of the tool at its beginning and its end, in
+    -- radians, if it is said
     bevel :: Maybe (Double, Double)
   }
   deriving stock (Eq, Show)
@@ -124,9 +139,18 @@ runs es = case es of
 
 -- | A contour walked the other way. An element then continues the one that continued it.
 backwards :: Contour -> Contour
-backwards c = c {elements = NonEmpty.reverse (snd (mapAccumR turned (continues (NonEmpty.head (elements c))) (elements c))), legs = []}
+backwards c =
+  c
+    { elements =
+        NonEmpty.reverse
+          (snd (mapAccumR turned (continues (NonEmpty.head (elements c))) (elements c))),
+      legs = []
+    }
   where
-    turned next e = (continues e, e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next})
+    turned next e =
+      ( continues e,
+        e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next}
+      )
 
 -- | The bare geometry of a contour.
 outline :: Contour -> Polyarc.Polyarc
@@ -165,7 +189,8 @@ data Milling = Milling
     feed :: Located Feed,
     approach :: [Stop],
     retract :: [Stop],
-    -- | the heights of the passes, downwards; none when the cutter stays at the height at which it stands
+    -- | the heights of the passes, downwards; none when the cutter stays at the height at which it
+    -- stands
     levels :: [Mm],
     -- | the height at which nothing is in the way
     clearance :: Maybe Mm,
@@ -178,14 +203,15 @@ data Milling = Milling
     sense :: Maybe (Located CutSense),
     -- | of the spindle
     spin :: Sense,
-    -- | where it is asked that the control keeps the cutter beside the contour; else the compiler does
+    -- | where it is asked that the control keeps the cutter beside the contour; else the compiler
+    -- does
     byControl :: Maybe Region,
     rest :: RestPolicy
   }
   deriving stock (Eq, Show)
 
--- | What is done where the cutter cannot reach: into a corner, a concave radius smaller than its own, a gap narrower than
--- itself.
+-- | What is done where the cutter cannot reach: into a corner, a concave radius smaller than its
+-- own, a gap narrower than itself.
 data RestPolicy
   = -- | there is no path
     Refused
@@ -195,8 +221,10 @@ data RestPolicy
 
 -- | A closed contour whose inside is cleared.
 data Pocketing = Pocketing
-  { -- | the outline, milled inside, with the ways, depths, allowances and feeds of the whole pocket. It has no leads, round
-    -- corners, and no compensation by the control
+  { -- corners, and no compensation by the control
+
+    -- | the outline, milled inside, with the ways, depths, allowances and feeds of the whole
+    -- pocket. It has no leads, round
     wall :: Milling,
     -- | closed contours inside it, apart from it and from one another, that stay standing
     islands :: [Contour],

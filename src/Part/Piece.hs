@@ -1,4 +1,5 @@
--- | Tables, and the recalculations that make a piece of a part out of a curve (Kolsanova, sections 2 and 5).
+-- | Tables, and the recalculations that make a piece of a part out of a curve (Kolsanova, sections
+-- 2 and 5).
 module Part.Piece
   ( table,
     piece,
@@ -13,7 +14,17 @@ import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
 import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region)
-import Checked.Syntax (Cells (..), Cipher, Cipher_ (..), Columns (..), Expr, Expr_ (..), Joggle, Joggle_ (..), Side (..))
+import Checked.Syntax
+  ( Cells (..),
+    Cipher,
+    Cipher_ (..),
+    Columns (..),
+    Expr,
+    Expr_ (..),
+    Joggle,
+    Joggle_ (..),
+    Side (..),
+  )
 import Checked.Syntax qualified as Checked
 import Control.Monad (foldM, when)
 import Data.Foldable (find)
@@ -48,7 +59,8 @@ table env (Columns names written) = do
       Numbers rows -> rows <$ Evaluation.collect (number rows) [0 .. NumberTable.count rows - 1]
       Written at es -> do
         vs <- traverse (fmap Expression.number . Expression.evaluate env) es
-        NumberTable.fromList [(at, PrimArray.primArrayFromList vs)] <$ mapM_ (Value.within at) (take 2 vs)
+        NumberTable.fromList [(at, PrimArray.primArrayFromList vs)]
+          <$ mapM_ (Value.within at) (take 2 vs)
     -- Numbers take no steps: there are no more than were written.
     number :: NumberTable -> Int -> Eval [()]
     number rows k = do
@@ -70,13 +82,21 @@ piece env base ciphers (Located _ side) joggles = do
       Inside -> bug "a piece inside a curve"
       On -> bug "a piece on a curve"
 
--- | One cipher. Columns give a value for every row of the table, which goes along the curve as the points do.
-recalculated :: Environment -> PartCurve -> Carrier.Side -> Exact.Curve -> Cipher -> Eval Exact.Curve
+-- | One cipher. Columns give a value for every row of the table, which goes along the curve as the
+-- points do.
+recalculated ::
+  Environment ->
+  PartCurve ->
+  Carrier.Side ->
+  Exact.Curve ->
+  Cipher ->
+  Eval Exact.Curve
 recalculated env base side lower (Located at cipher) = do
   distance <- case cipher of
     Constant h mu -> fixed h >>= square mu . Exact.Constant
     Pointwise h mu -> column h >>= square mu . Exact.Pointwise
-    Bevelled mu height delta -> Exact.Bevelled <$> bevels mu <*> column height <*> maybe (pure (Mm 0)) fixed delta
+    Bevelled mu height delta ->
+      Exact.Bevelled <$> bevels mu <*> column height <*> maybe (pure (Mm 0)) fixed delta
     Growing h1 h2 mu span' -> do
       from <- fixed h1
       to <- fixed h2
@@ -146,9 +166,18 @@ shiftedBy at side distance lower = do
     Nothing -> pure whole
   where
     torn whole u
-      | u <= 0 = Vec.distance (Exact.placeFrom Exact.Before whole (Exact.domain whole)) (Exact.placeFrom Exact.After whole 0)
-      | otherwise = Vec.distance (Exact.placeFrom Exact.Before whole u) (Exact.placeFrom Exact.After whole u)
-    turnAt u = let Rad a = Vec.turn (Exact.tangentFrom Exact.Before lower u) (Exact.tangentFrom Exact.After lower u) in Rad (abs a)
+      | u <= 0 =
+        Vec.distance
+          (Exact.placeFrom Exact.Before whole (Exact.domain whole))
+          (Exact.placeFrom Exact.After whole 0)
+      | otherwise =
+        Vec.distance (Exact.placeFrom Exact.Before whole u) (Exact.placeFrom Exact.After whole u)
+    turnAt u =
+      let Rad a =
+            Vec.turn
+              (Exact.tangentFrom Exact.Before lower u)
+              (Exact.tangentFrom Exact.After lower u)
+       in Rad (abs a)
 
 -- | A joggle between two coordinates of the curve (Kolsanova, control stops 15074 and 14174).
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
@@ -158,10 +187,17 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   when (a == b) (Evaluation.mistake (JoggleNowhere at))
   deep <- lengthOf depth
   r <- lengthOf radius
-  let joggle = ShiftDistance.Joggle {ShiftDistance.begins = min a b, ShiftDistance.ends = max a b, ShiftDistance.depth = deep, ShiftDistance.radius = r}
+  let joggle =
+        ShiftDistance.Joggle
+          { ShiftDistance.begins = min a b,
+            ShiftDistance.ends = max a b,
+            ShiftDistance.depth = deep,
+            ShiftDistance.radius = r
+          }
   case Exact.joggled joggle lower of
     Left Exact.DeepJoggle -> Evaluation.mistake (JoggleDepth (region radius) r (times 0.5 deep))
-    Left (Exact.LongJoggle _ there) -> Evaluation.mistake (JoggleRadius (region radius) r there (largest deep there))
+    Left (Exact.LongJoggle _ there) ->
+      Evaluation.mistake (JoggleRadius (region radius) r there (largest deep there))
     Left _ -> Evaluation.mistake (JoggleNowhere at)
     Right distance -> shiftedBy at side distance lower
   where
@@ -169,14 +205,22 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
       x <- Expression.number <$> Expression.evaluate env e
       case Exact.atX x lower of
         [u] -> pure u
-        us -> Evaluation.mistake (JoggleCoordinate (region e) (Mm x) (map (Exact.at lower) us) (Curve.abscissas lower))
+        us ->
+          Evaluation.mistake
+            (JoggleCoordinate (region e) (Mm x) (map (Exact.at lower) us) (Curve.abscissas lower))
     lengthOf e = do
       x <- Expression.number <$> Expression.evaluate env e
-      when (x <= 0) (Evaluation.mistake (NotPositive (region e) "a measure of a joggle" (Decimal.mm (Mm x))))
+      when
+        (x <= 0)
+        (Evaluation.mistake (NotPositive (region e) "a measure of a joggle" (Decimal.mm (Mm x))))
       Mm x <$ Value.within (region e) x
     -- Two ramps of @√(d·(4r − d))@ take all of the length.
     largest deep there =
-      let r = Mm ((let Mm l = there in l * l / 4) / (4 * (let Mm d = deep in d)) + (let Mm d = times 0.25 deep in d))
+      let r =
+            Mm
+              ( (let Mm l = there in l * l / 4) / (4 * (let Mm d = deep in d))
+                  + (let Mm d = times 0.25 deep in d)
+              )
        in if over r deep > 0.5 then Just r else Nothing
 
 -- | How far the surface of an element leans, along the chain that stands for its curve.
@@ -191,7 +235,9 @@ bevelled env on e = case on of
 -- | Bevels of less than a right angle.
 upright :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
 upright c e values = case find ((>= steepest) . abs . snd) (zip [1 ..] (Vector.toList values)) of
-  Just (k, a) -> Evaluation.mistake (SteepBevel (region e) (if mentions (map fst (fields c)) e then Just k else Nothing) (Rad a))
+  Just (k, a) ->
+    Evaluation.mistake
+      (SteepBevel (region e) (if mentions (map fst (fields c)) e then Just k else Nothing) (Rad a))
   Nothing -> pure values
 
 -- | No bevel comes nearer to a right angle, in radians.

@@ -1,5 +1,5 @@
--- | What has to hold of the contours of a pocket: all of them are closed, and the islands lie inside the outline and apart
--- from it and from one another.
+-- | What has to hold of the contours of a pocket: all of them are closed, and the islands lie
+-- inside the outline and apart from it and from one another.
 module Part.PocketCheck
   ( misfits,
     halfWidth,
@@ -37,16 +37,25 @@ misfits outline islands = case filter isOpen (outline : islands) of
     isOpen n = ends (contour n) == Open
     numbered = zip [0 ..] (outline : islands)
     meetings = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
-    met (i, j, p) = let (a, b) = (named j, named i) in Meets (place a) (nameOf a) (nameOf b) (i == 0) p
+    met (i, j, p) =
+      let (a, b) = (named j, named i) in Meets (place a) (nameOf a) (nameOf b) (i == 0) p
     named i = (outline : islands) !! i
     -- Of islands that meet something it is said already.
-    loose = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` concat [[i, j] | (i, j, _) <- meetings]]
+    loose =
+      [(k, n) | (k, n) <- drop 1 numbered, k `notElem` concat [[i, j] | (i, j, _) <- meetings]]
     -- An island meets nothing, so all of it lies where its beginning lies.
     astray (k, n)
-      | not (WindingNumber.encloses (Part.outline (contour outline)) (beginning n)) = Just (Outside (place n) (nameOf n) (nameOf outline))
-      | otherwise = case [m | (l, m) <- drop 1 numbered, l /= k, BoundingBox.meets (boxOf n) (boxOf m), WindingNumber.encloses (Part.outline (contour m)) (beginning n)] of
-        m : _ -> Just (InIsland (place n) (nameOf n) (nameOf m))
-        [] -> Nothing
+      | not (WindingNumber.encloses (Part.outline (contour outline)) (beginning n)) =
+        Just (Outside (place n) (nameOf n) (nameOf outline))
+      | otherwise =
+        case [ m
+               | (l, m) <- drop 1 numbered,
+                 l /= k,
+                 BoundingBox.meets (boxOf n) (boxOf m),
+                 WindingNumber.encloses (Part.outline (contour m)) (beginning n)
+             ] of
+          m : _ -> Just (InIsland (place n) (nameOf n) (nameOf m))
+          [] -> Nothing
 
 -- | Where elements of two of some numbered contours cross or touch: the lower number first.
 crossings :: [(Int, Named)] -> [(Int, Int, Point)]
@@ -59,13 +68,17 @@ crossings numbered =
       p <- take 1 (Distance.crossings s other)
   ]
   where
-    index = BoundingBox.index (BoundingBox.ofSegment . snd) [(i, s) | (i, n) <- numbered, s <- segments n]
+    index =
+      BoundingBox.index (BoundingBox.ofSegment . snd) [(i, s) | (i, n) <- numbered, s <- segments n]
 
 segments :: Named -> [Segment]
 segments n = NonEmpty.toList (Polyarc.segments (Part.outline (contour n)))
 
 boxOf :: Named -> BoundingBox
-boxOf n = let s :| more = fmap BoundingBox.ofSegment (Polyarc.segments (Part.outline (contour n))) in foldl BoundingBox.union s more
+boxOf n =
+  let s :| more =
+        fmap BoundingBox.ofSegment (Polyarc.segments (Part.outline (contour n)))
+   in foldl BoundingBox.union s more
 
 -- | No place in the contour lies further from it.
 halfWidth :: Named -> Mm

@@ -23,7 +23,8 @@ data PocketMisfit
     Outside Region Name Name
   | -- | an island that lies inside another one: both names
     InIsland Region Name Name
-  | -- | an island that crosses or touches another contour of its pocket: both names, whether that is the outline, where
+  | -- | an island that crosses or touches another contour of its pocket: both names, whether that
+    -- is the outline, where
     Meets Region Name Name Bool Point
   | -- | passes that lie further apart than the diameter of the cutter
     StepTooWide Region Mm Mm
@@ -35,7 +36,11 @@ toReport misfit = case misfit of
   OpenContour region (Name name) there ->
     (at region "E0356" ("the contour " <> quote name <> " is open and has no inside"))
       { others = [Label there "this contour is open"],
-        hints = ["The outline of a pocket and its islands are closed contours: contour " <> name <> " closed { … }"]
+        hints =
+          [ "The outline of a pocket and its islands are closed contours: contour "
+              <> name
+              <> " closed { … }"
+          ]
       }
   Outside region (Name name) (Name outline) ->
     (at region "E0357" ("the island " <> quote name <> " lies outside the pocket"))
@@ -48,14 +53,35 @@ toReport misfit = case misfit of
         hints = ["Leave one of them out. A hollow in an island is a pocket of its own."]
       }
   Meets region (Name name) (Name other) isOutline p ->
-    (at region "E0358" ("the island " <> quote name <> " meets " <> (if isOutline then "the outline of the pocket" else "the island " <> quote other)))
-      { message = ["They cross or touch at " <> Vec.written 4 p <> (if isOutline then "; the outline is " <> quote other <> "." else ".")],
-        hints = [if isOutline then "What is joined to the wall is a part of the outline: draw the outline round it." else "Draw islands that grow together as one contour."]
+    ( at
+        region
+        "E0358"
+        ( "the island "
+            <> quote name
+            <> " meets "
+            <> (if isOutline then "the outline of the pocket" else "the island " <> quote other)
+        )
+    )
+      { message =
+          [ "They cross or touch at "
+              <> Vec.written 4 p
+              <> (if isOutline then "; the outline is " <> quote other <> "." else ".")
+          ],
+        hints =
+          [ if isOutline
+              then "What is joined to the wall is a part of the outline: draw the outline round it."
+              else "Draw islands that grow together as one contour."
+          ]
       }
   StepTooWide region apart diameter ->
     (at region "E0359" ("passes " <> Decimal.mm apart <> " apart leave material between them"))
-      { message = ["The cutter has a diameter of " <> Decimal.mm diameter <> "; a pass clears no more than that."],
-        hints = ["A usual step is half of the diameter: step " <> Decimal.mm (times 0.5 diameter) <> "."]
+      { message =
+          [ "The cutter has a diameter of "
+              <> Decimal.mm diameter
+              <> "; a pass clears no more than that."
+          ],
+        hints =
+          ["A usual step is half of the diameter: step " <> Decimal.mm (times 0.5 diameter) <> "."]
       }
 
 at :: Region -> ReportCode -> Text -> Report

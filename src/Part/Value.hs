@@ -60,7 +60,8 @@ spatial region v = Spatial v <$ within region (Vec.norm v)
 
 -- | A point with a height that a machine reaches.
 lifted :: Region -> Point -> Mm -> Eval Value
-lifted region p z@(Mm h) = SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
+lifted region p z@(Mm h) =
+  SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
 
 -- | A length that a machine reaches.
 within :: Region -> Double -> Eval ()
@@ -86,27 +87,51 @@ offset = Vec.to (Vec.point 0 0)
 -- | A whole number from 1 upwards.
 whole :: Region -> Text -> Double -> Eval Int
 whole region what x
-  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 = Evaluation.mistake (NotWhole region what "from 1 to 10000000" x)
+  | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 =
+    Evaluation.mistake (NotWhole region what "from 1 to 10000000" x)
   | otherwise = pure n
   where
     n = if abs x > 1e8 then 0 else round x :: Int
 
--- | The one answer that is meant. Distances that differ by no more than the length given are a tie. The function tells the point by which an answer is chosen; the ways
--- tell how far along something an answer lies, so that there is a first and a last.
-picked :: Mm -> Region -> Text -> (a -> Candidate) -> (a -> Point) -> [a -> Mm] -> [a] -> [Argument] -> Eval a
+-- | The one answer that is meant. Distances that differ by no more than the length given are a tie.
+-- The function tells the point by which an answer is chosen; the ways tell how far along something
+-- an answer lies, so that there is a first and a last.
+picked ::
+  Mm ->
+  Region ->
+  Text ->
+  (a -> Candidate) ->
+  (a -> Point) ->
+  [a -> Mm] ->
+  [a] ->
+  [Argument] ->
+  Eval a
 picked (Mm tie) region what candidate key ways found choice = case (found, choice) of
-  ([], _) -> Evaluation.mistake (NoAnswer region what ("No " <> what <> " of this size touches both things on these sides, or goes through them."))
+  ([], _) ->
+    Evaluation.mistake
+      ( NoAnswer
+          region
+          what
+          ( "No "
+              <> what
+              <> " of this size touches both things on these sides, or goes through them."
+          )
+      )
   ([one], []) -> pure one
   (_, []) -> Evaluation.mistake (Several region what all')
   (_, Choosing Near (Spatial p) : _) -> case sortOn (Vec.distance (place p) . key) found of
-    a : b : _ | near (Vec.distance (place p) (key a)) (Vec.distance (place p) (key b)) -> Evaluation.mistake (SeveralFit region what all')
+    a : b : _
+      | near (Vec.distance (place p) (key a)) (Vec.distance (place p) (key b)) ->
+        Evaluation.mistake (SeveralFit region what all')
     a : _ -> pure a
     [] -> only []
   (_, Choosing ToLeft (LineValue l) : _) -> only (filter (\a -> sideOf l a > tolerance) found)
   (_, Choosing ToRight (LineValue l) : _) -> only (filter (\a -> sideOf l a < -tolerance) found)
   (_, Choosing Within' (CircleValue c) : _) -> only (filter (\a -> depth c a > tolerance) found)
   (_, Choosing Beyond (CircleValue c) : _) -> only (filter (\a -> depth c a < -tolerance) found)
-  (_, Ranking rank : _) | along : _ <- ways -> pure (ranked rank (NonEmpty.fromList (sortOn along found)))
+  (_, Ranking rank : _)
+    | along : _ <- ways ->
+      pure (ranked rank (NonEmpty.fromList (sortOn along found)))
   _ -> bug "a choice of another kind"
   where
     all' = map candidate found

@@ -17,7 +17,9 @@ data Change = Change {place :: Region, put :: Text}
 change :: Text -> Text -> Maybe Change
 change before after
   | before == after = Nothing
-  | otherwise = Just Change {place = Region from (from + sum (map Text.length middle)), put = Text.concat middle'}
+  | otherwise =
+    Just
+      Change {place = Region from (from + sum (map Text.length middle)), put = Text.concat middle'}
   where
     (front, old, new) = common (linesOf before) (linesOf after)
     (_, old', new') = common (reverse old) (reverse new)

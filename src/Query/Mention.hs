@@ -13,7 +13,8 @@ import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
 
--- | All names of a program, and the values of what it defines: the place of the name, the value in words.
+-- | All names of a program, and the values of what it defines: the place of the name, the value in
+-- words.
 data Mentions = Mentions {mentions :: [Mention], values :: [(Region, Text)]}
   deriving stock (Eq, Show)
 

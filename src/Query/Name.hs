@@ -30,7 +30,8 @@ data Hover = Hover {place :: Region, name :: Text, value :: Maybe Text, meaning 
 -- | A stretch of one of the files of a source.
 data Target = Target {source :: Source, region :: Region}
 
--- | What is known of the name at an offset of the present text. The other snapshot is the last sound one.
+-- | What is known of the name at an offset of the present text. The other snapshot is the last
+-- sound one.
 hover :: Snapshot -> Maybe Snapshot -> Int -> Maybe Hover
 hover now before at = said <$> listToMaybe (found now before at)
   where
@@ -38,7 +39,8 @@ hover now before at = said <$> listToMaybe (found now before at)
       Hover
         { place,
           name = Mention.word mention,
-          value = Mention.definition mention >>= \d -> lookup d (Mention.values (Snapshot.facts origin)),
+          value =
+            Mention.definition mention >>= \d -> lookup d (Mention.values (Snapshot.facts origin)),
           meaning = Mention.meaning mention
         }
 
@@ -46,13 +48,16 @@ hover now before at = said <$> listToMaybe (found now before at)
 definition :: Snapshot -> Maybe Snapshot -> Int -> Maybe Target
 definition now before at = listToMaybe (mapMaybe target (found now before at))
   where
-    target (Found origin carry mention _) = Mention.definition mention >>= placed (Snapshot.source origin) carry
+    target (Found origin carry mention _) =
+      Mention.definition mention >>= placed (Snapshot.source origin) carry
     placed source carry region = case carry of
-      Just moved | isOwn source region -> Target (Snapshot.source now) <$> RegionMap.forward moved region
+      Just moved
+        | isOwn source region ->
+          Target (Snapshot.source now) <$> RegionMap.forward moved region
       _ -> Just Target {source, region}
 
--- | A mention under the cursor: the snapshot that knows it, how that one's text became the present one if it
--- is an older one, and the place of the mention in the present text.
+-- | A mention under the cursor: the snapshot that knows it, how that one's text became the present
+-- one if it is an older one, and the place of the mention in the present text.
 data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
 found :: Snapshot -> Maybe Snapshot -> Int -> [Found]

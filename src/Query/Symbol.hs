@@ -17,7 +17,13 @@ import Query.Snapshot (Snapshot (..))
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
 
 -- | A name, a few words more, the whole statement and the name in it.
-data DocumentSymbol = DocumentSymbol {name :: Text, detail :: Text, kind :: SymbolKind, whole :: Region, selection :: Region}
+data DocumentSymbol = DocumentSymbol
+  { name :: Text,
+    detail :: Text,
+    kind :: SymbolKind,
+    whole :: Region,
+    selection :: Region
+  }
   deriving stock (Eq, Show)
 
 -- | What a symbol stands for.
@@ -33,7 +39,11 @@ symbol source (Located whole s) = case s of
   Part what title -> named Part' what (maybe "" value title)
   LetValue what _ -> named Value what ""
   Param what _ -> named Value what "param"
-  LetFunction what parameters _ -> named Function what ("(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")")
+  LetFunction what parameters _ ->
+    named
+      Function
+      what
+      ("(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")")
   Contour what _ _ -> named Contour' what ""
   Table what _ -> named Value what "table"
   Curve what _ -> named Value what "curve"
@@ -43,10 +53,14 @@ symbol source (Located whole s) = case s of
   Turn what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
   Drill places depth _ -> Just (unnamed (Region (start whole) (end (region depth))) (region places))
   Travel _ _ -> Just (unnamed whole whole)
-  Change number' cutter -> Just (unnamed (Region (start whole) (end (region cutter))) (region number'))
-  Repeat (Located selection _) list _ -> Just (unnamed (Region (start whole) (end (region list))) selection)
-  When condition _ _ -> Just (unnamed (Region (start whole) (end (region condition))) (region condition))
-  With placement _ -> Just (unnamed (Region (start whole) (end (region placement))) (region placement))
+  Change number' cutter ->
+    Just (unnamed (Region (start whole) (end (region cutter))) (region number'))
+  Repeat (Located selection _) list _ ->
+    Just (unnamed (Region (start whole) (end (region list))) selection)
+  When condition _ _ ->
+    Just (unnamed (Region (start whole) (end (region condition))) (region condition))
+  With placement _ ->
+    Just (unnamed (Region (start whole) (end (region placement))) (region placement))
   Broken _ what -> what >>= \n -> named Value n ""
   Machine _ -> Nothing
   Import _ -> Nothing
@@ -60,8 +74,10 @@ symbol source (Located whole s) = case s of
   Coolant _ -> Nothing
   Auxiliary _ -> Nothing
   where
-    named kind (Located selection (Name name)) detail = Just DocumentSymbol {name, detail, kind, whole, selection}
-    unnamed words' selection = DocumentSymbol {name = slice source words', detail = "", kind = Machining, whole, selection}
+    named kind (Located selection (Name name)) detail =
+      Just DocumentSymbol {name, detail, kind, whole, selection}
+    unnamed words' selection =
+      DocumentSymbol {name = slice source words', detail = "", kind = Machining, whole, selection}
 
 -- | A piece of the text on one line.
 slice :: Source -> Region -> Text

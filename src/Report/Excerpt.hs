@@ -15,18 +15,36 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Text.DocLayout (realLength)
 
--- | A line to print, and where under it the marks go, in columns of the terminal from 0; so many of its characters
--- are left out at its front, and the same line as that of the excerpt before need not be printed again.
-data Excerpt = Excerpt {place :: Position, shown :: Text, indent :: Int, width :: Int, skipped :: Int, isSame :: Bool}
+-- | A line to print, and where under it the marks go, in columns of the terminal from 0; so many of
+-- its characters are left out at its front, and the same line as that of the excerpt before need
+-- not be printed again.
+data Excerpt = Excerpt
+  { place :: Position,
+    shown :: Text,
+    indent :: Int,
+    width :: Int,
+    skipped :: Int,
+    isSame :: Bool
+  }
   deriving stock (Eq, Show)
 
--- | The line on which each region begins. A region of several lines is marked to the end of its first.
+-- | The line on which each region begins. A region of several lines is marked to the end of its
+-- first.
 excerpts :: Source -> [Region] -> [Excerpt]
-excerpts source = snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing
+excerpts source =
+  snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing
 
 -- | The line on which a region begins, behind another one.
 excerpt :: Source -> Maybe Excerpt -> Region -> Excerpt
-excerpt source before region = Excerpt {place, shown = Text.concat (cutBefore <> window <> cutAfter), indent, width, skipped, isSame}
+excerpt source before region =
+  Excerpt
+    { place,
+      shown = Text.concat (cutBefore <> window <> cutAfter),
+      indent,
+      width,
+      skipped,
+      isSame
+    }
   where
     place@Position {file = file', line = line', column} = Region.position source (start region)
     content = Region.lineText source (start region)
@@ -35,7 +53,10 @@ excerpt source before region = Excerpt {place, shown = Text.concat (cutBefore <>
     -- Of a very long line only the surroundings of the place are shown.
     (skipped, isSame) = case before of
       Just Excerpt {place = Position {file, line}, skipped = front}
-        | file == file', line == line', front == own || front < column && column - 1 + length' <= front + longest -> (front, True)
+        | file == file',
+          line == line',
+          front == own || front < column && column - 1 + length' <= front + longest ->
+          (front, True)
       _ -> (own, False)
     own = if Text.length content > longest then max 0 (column - 1 - longest `div` 2) else 0
     window = take longest (drop skipped cells)

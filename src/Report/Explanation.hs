@@ -55,7 +55,8 @@ everything = sortOn order (mapMaybe readOne Embedded.files)
     -- Warnings stand behind the errors of their group.
     order e = let ReportCode c = code e in (Text.take 2 (Text.drop 1 c), Text.take 1 c, c)
 
--- | Read a file: a heading with the code that its name tells, paragraphs, the wrong example, the right one.
+-- | Read a file: a heading with the code that its name tells, paragraphs, the wrong example, the
+-- right one.
 parse :: FilePath -> Text -> Maybe Explanation
 parse file text = do
   name <- Text.stripSuffix ".md" (Text.pack file)
@@ -79,8 +80,8 @@ example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") begun of
       (_, "") -> Nothing
       (content, behind) -> Just (Example language (content <> "\n"), Text.drop 5 behind)
 
--- | The explanations that a person asks for. The letter may be small, it and zeros in front may be left
--- out, and a code may be copied with its brackets: @e314@, @314@, @error[E0314]@.
+-- | The explanations that a person asks for. The letter may be small, it and zeros in front may be
+-- left out, and a code may be copied with its brackets: @e314@, @314@, @error[E0314]@.
 find :: Text -> [Explanation]
 find word = filter isMeant everything
   where
@@ -89,9 +90,11 @@ find word = filter isMeant everything
       let ReportCode c = code e
        in number /= "" && Text.drop 1 c == number && (letters == "" || Text.take 1 c == letters)
 
--- | A code as it was probably meant: its letters in upper case, four digits. No digits when it is none.
+-- | A code as it was probably meant: its letters in upper case, four digits. No digits when it is
+-- none.
 readCode :: Text -> (Text, Text)
-readCode word = (letters, if isNumber then Text.justifyRight 4 '0' (Text.dropWhile (== '0') digits) else "")
+readCode word =
+  (letters, if isNumber then Text.justifyRight 4 '0' (Text.dropWhile (== '0') digits) else "")
   where
     within = Text.takeWhile (/= ']') (snd (Text.breakOnEnd "[" (Text.strip word)))
     (letters, digits) = Text.break isDigit (Text.toUpper within)
@@ -108,9 +111,14 @@ near word
     (letters, number) = readCode word
     codes = [(Text.drop 1 c, c) | e <- everything, let ReportCode c = code e]
     sameNumber = [c | (n, c) <- codes, n == number]
-    sameLetter = [(n, c) | (n, c) <- codes, letters `notElem` ["E", "W"] || Text.take 1 c == letters]
+    sameLetter =
+      [(n, c) | (n, c) <- codes, letters `notElem` ["E", "W"] || Text.take 1 c == letters]
     exchanged = [c | (n, c) <- sameLetter, n `elem` exchanges number]
-    sameGroup = [(abs (value n - value number), c) | (n, c) <- sameLetter, Text.take 2 n == Text.take 2 number]
+    sameGroup =
+      [ (abs (value n - value number), c)
+        | (n, c) <- sameLetter,
+          Text.take 2 n == Text.take 2 number
+      ]
     value = Text.foldl' (\n d -> 10 * n + fromEnum d - fromEnum '0') 0
 
 -- | A number with two neighbouring digits exchanged, in every place.
@@ -130,7 +138,8 @@ render :: Explanation -> Text
 render e = page (c <> ": " <> plain (title e)) (plain (prose e)) indented e
   where
     ReportCode c = code e
-    indented content = Text.intercalate "\n" [if Text.null l then "" else "    " <> l | l <- Text.lines content]
+    indented content =
+      Text.intercalate "\n" [if Text.null l then "" else "    " <> l | l <- Text.lines content]
 
 -- | One explanation for a viewer of Markdown.
 markdown :: Explanation -> Text
@@ -141,7 +150,8 @@ markdown e = page ("# " <> c <> ": " <> title e) (prose e) fenced e
 
 page :: Text -> Text -> (Text -> Text) -> Explanation -> Text
 page heading body shown e =
-  Text.unlines [heading, "", body, "", "Wrong:", "", content (wrong e), "", "Right:", "", content (right e)]
+  Text.unlines
+    [heading, "", body, "", "Wrong:", "", content (wrong e), "", "Right:", "", content (right e)]
   where
     content (Example _ text) = shown text
 

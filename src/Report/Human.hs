@@ -40,7 +40,11 @@ render colour path source report = Text.unlines (heading : location <> body <> a
       InTape _ -> map (False,) (others r)
       InFile -> map (False,) (others r)
     ordered = sortOn (\(_, Label region _) -> start region) marks
-    excerpts = [(isMain, e, words') | ((isMain, Label _ words'), e) <- zip ordered (Excerpt.excerpts source [region | (_, Label region _) <- ordered])]
+    excerpts =
+      [ (isMain, e, words')
+        | ((isMain, Label _ words'), e) <-
+            zip ordered (Excerpt.excerpts source [region | (_, Label region _) <- ordered])
+      ]
     gutter = maximum (1 : [Text.length (number' e) | (_, e, _) <- excerpts])
     bar = Text.replicate (gutter + 1) " " <> paint' Frame "|"
     location = [Text.replicate gutter " " <> paint' Frame "--> " <> where' | where' /= ""]
@@ -48,13 +52,18 @@ render colour path source report = Text.unlines (heading : location <> body <> a
       InSource region -> written (Region.position source (start region))
       InTape row -> path <> ", row " <> Decimal.whole row
       InFile -> path
-    written Position {file, line, column} = file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
+    written Position {file, line, column} =
+      file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
     body = concat (zipWith shownAt (Nothing : map Just excerpts) excerpts)
     -- Nothing between two marks of one line; a heading where another file begins.
     shownAt before (isMain, e, words') =
       [bar | not (isSame e)]
-        <> [Text.replicate gutter " " <> paint' Frame "::: " <> written (Excerpt.place e) | fileOf e /= fileBefore]
-        <> [paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e | not (isSame e)]
+        <> [ Text.replicate gutter " " <> paint' Frame "::: " <> written (Excerpt.place e)
+             | fileOf e /= fileBefore
+           ]
+        <> [ paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
+             | not (isSame e)
+           ]
         <> [bar <> " " <> Text.replicate (indent e) " " <> mark isMain e words']
       where
         fileBefore = maybe mainPlace (\(_, b, _) -> fileOf b) before
@@ -66,7 +75,9 @@ render colour path source report = Text.unlines (heading : location <> body <> a
     mark isMain e words' =
       let role = if isMain then Severe (severity r) else Secondary
           sign = if isMain then "^" else "-"
-       in paint' role (Text.replicate (width e) sign <> (if words' == "" then "" else " " <> words'))
+       in paint'
+            role
+            (Text.replicate (width e) sign <> (if words' == "" then "" else " " <> words'))
     advice =
       [bar | not (null excerpts) && not (null (message r) && null (hints r))]
         <> concatMap (noted "") (message r)
@@ -126,7 +137,8 @@ paint :: Colour -> Role -> Text -> Text
 paint colour role text = case colour of
   Plain -> text
   Coloured | Text.null text -> text
-  Coloured -> Text.pack (Ansi.setSGRCode (codes role)) <> text <> Text.pack (Ansi.setSGRCode [Ansi.Reset])
+  Coloured ->
+    Text.pack (Ansi.setSGRCode (codes role)) <> text <> Text.pack (Ansi.setSGRCode [Ansi.Reset])
 
 codes :: Role -> [Ansi.SGR]
 codes role = case role of

@@ -20,7 +20,14 @@ import Report.Report qualified as Report
 -- | @file:line:col: error[E0123]: text@. A report about a tape has the row in the line's place.
 short :: Text -> Source -> Report -> Text
 short path source r =
-  at <> ": " <> Report.severityWord (severity r) <> "[" <> code <> "]: " <> Excerpt.visible (title r) <> "\n"
+  at
+    <> ": "
+    <> Report.severityWord (severity r)
+    <> "["
+    <> code
+    <> "]: "
+    <> Excerpt.visible (title r)
+    <> "\n"
   where
     ReportCode code = Report.code r
     at = case place r of
@@ -62,4 +69,9 @@ json path source r =
        in object ["line" .= line, "column" .= column]
     related (Label region words') =
       let Position {file} = Region.position source (start region)
-       in object ["file" .= file, "start" .= position (start region), "end" .= position (end region), "label" .= words']
+       in object
+            [ "file" .= file,
+              "start" .= position (start region),
+              "end" .= position (end region),
+              "label" .= words'
+            ]

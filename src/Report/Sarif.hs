@@ -1,5 +1,5 @@
--- | Reports as one log in SARIF 2.1.0, the format that code scanners exchange: for viewers in editors
--- and on the pages of a repository. The log holds no time, path or version of its own.
+-- | Reports as one log in SARIF 2.1.0, the format that code scanners exchange: for viewers in
+-- editors and on the pages of a repository. The log holds no time, path or version of its own.
 --
 -- <https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>; paragraphs below are its.
 module Report.Sarif
@@ -34,7 +34,8 @@ data Filed = Filed {path :: Text, source :: Source, report :: Report}
 
 -- | The log of one run: its rules are the codes that occur, with their explanations.
 log :: [Explanation] -> [Filed] -> Text
-log explanations filed = Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
+log explanations filed =
+  Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
   where
     whole =
       pairs $
@@ -56,7 +57,9 @@ rule explanations code@(ReportCode name) = pairs ("id" .= name <> maybe mempty e
     found = listToMaybe [e | e <- explanations, Explanation.code e == code]
     explained e =
       pair "shortDescription" (pairs ("text" .= Explanation.title e))
-        <> pair "help" (pairs ("text" .= Explanation.render e <> "markdown" .= Explanation.markdown e))
+        <> pair
+          "help"
+          (pairs ("text" .= Explanation.render e <> "markdown" .= Explanation.markdown e))
 
 result :: Map ReportCode Int -> Filed -> Encoding
 result indices Filed {path, source, report = r} =
@@ -71,30 +74,48 @@ result indices Filed {path, source, report = r} =
     ReportCode code = Report.code r
     sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (hints r))
     located = case place r of
-      InSource region -> [inSource source region <> (if label r == "" then mempty else pair "message" (message' (label r)))]
+      InSource region ->
+        [ inSource source region
+            <> (if label r == "" then mempty else pair "message" (message' (label r)))
+        ]
       -- A tape is no text: a row is a byte of it (3.30.3).
-      InTape row -> [at path (pair "region" (pairs ("byteOffset" .= max 0 (row - 1) <> "byteLength" .= (1 :: Int))))]
+      InTape row ->
+        [ at
+            path
+            (pair "region" (pairs ("byteOffset" .= max 0 (row - 1) <> "byteLength" .= (1 :: Int))))
+        ]
       InFile -> [at path mempty | path /= ""]
     -- No two of them may be alike (3.27.22); repetitions of one element are.
     places = nub (others r)
-    related (Label region words') = pairs (inSource source region <> (if words' == "" then mempty else pair "message" (message' words')))
+    related (Label region words') =
+      pairs
+        ( inSource source region
+            <> (if words' == "" then mempty else pair "message" (message' words'))
+        )
 
--- | A stretch of a text. Columns count characters from 1; the end is behind the last character (3.30.8).
+-- | A stretch of a text. Columns count characters from 1; the end is behind the last character
+-- (3.30.8).
 inSource :: Source -> Region -> Series
 inSource source region = at file (pair "region" (pairs stretch))
   where
     Position {file, line, column} = Region.position source (start region)
     Position {line = endLine, column = endColumn} = Region.position source (end region)
-    stretch = "startLine" .= line <> "startColumn" .= column <> "endLine" .= endLine <> "endColumn" .= endColumn
+    stretch =
+      "startLine" .= line
+        <> "startColumn" .= column
+        <> "endLine" .= endLine
+        <> "endColumn" .= endColumn
 
 at :: Text -> Series -> Series
-at path region = pair "physicalLocation" (pairs (pair "artifactLocation" (pairs ("uri" .= uri path)) <> region))
+at path region =
+  pair "physicalLocation" (pairs (pair "artifactLocation" (pairs ("uri" .= uri path)) <> region))
 
 -- | Braces would be placeholders, so they are doubled (3.11.5).
 message' :: Text -> Encoding
 message' words' = pairs ("text" .= Text.replace "}" "}}" (Text.replace "{" "{{" words'))
 
--- | The path of a file as a reference: relative if it is, each byte encoded that has a meaning there.
+-- | The path of a file as a reference: relative if it is, each byte encoded that has a meaning
+-- there.
 uri :: Text -> Text
 uri path = case Text.stripPrefix "/" path of
   Just rest -> "file:///" <> encoded rest

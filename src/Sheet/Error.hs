@@ -11,7 +11,15 @@ import Base.Decimal qualified as Decimal
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode,
+    ReportPlace (..),
+    Severity (..),
+    quote,
+    report,
+  )
 import Sheet.Sheet (address, generalWords, mostArrays)
 
 -- | A number of the sheet: where it stands, and the how-manieth it is, from 1.
@@ -21,7 +29,8 @@ data NumberPosition = NumberPosition {site :: Region, number :: Int}
 data Error
   = -- | a word that is no number
     NotANumber NumberPosition Text
-  | -- | the general data end too early: the word at which they do, or the last one, and how many there are
+  | -- | the general data end too early: the word at which they do, or the last one, and how many
+    -- there are
     GeneralShort NumberPosition Int
   | -- | a number of the general data that cannot be: what it is, what it has to be
     GeneralWrong NumberPosition Text Text
@@ -47,7 +56,8 @@ data Error
 
 -- | How a piece does not fit its cipher.
 data PieceMisfit
-  = -- | so many numbers before the points, for each point, behind the points, for each point once more; so many are there
+  = -- | so many numbers before the points, for each point, behind the points, for each point once
+    -- more; so many are there
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew
@@ -66,7 +76,16 @@ toReport err = case err of
         hints = wordHint text
       }
   GeneralShort spot have ->
-    (at spot "E0902" ("the general data are incomplete: " <> Decimal.whole have <> " of " <> Decimal.whole generalWords <> " numbers"))
+    ( at
+        spot
+        "E0902"
+        ( "the general data are incomplete: "
+            <> Decimal.whole have
+            <> " of "
+            <> Decimal.whole generalWords
+            <> " numbers"
+        )
+    )
       { message = [counted spot, "The addresses 0070 to 0107 hold the general data."],
         hints = ["Write 0 for what is not used."]
       }
@@ -78,17 +97,26 @@ toReport err = case err of
   ApproachShifted spot how ->
     (at spot "E0904" "the points of the approach are shifted")
       { message = [counted spot, how, stop "13555"],
-        hints = ["Each point has x, y, z and a feed above 0; -0 closes them. Look for a number that is missing or written twice."]
+        hints =
+          [ "Each point has x, y, z and a feed above 0; -0 closes them. Look for a number that is \
+            \missing or written twice."
+          ]
       }
   OnwardShifted spot how ->
     (at spot "E0905" "the points behind the array are shifted")
       { message = [counted spot, how, stop "13570"],
-        hints = ["Each point has x, y, z and a feed. -0 closes them before the next array; the feed 0 ends the program."]
+        hints =
+          [ "Each point has x, y, z and a feed. -0 closes them before the next array; the feed 0 \
+            \ends the program."
+          ]
       }
   CipherUnknown spot why ->
     (at spot "E0906" "there is no such cipher")
       { message = [counted spot, why, stop "14441"],
-        hints = ["A cipher is made of the digits 1, 2, 4 and 6, in the order in which the curve is recalculated; 0 leaves it as it is."]
+        hints =
+          [ "A cipher is made of the digits 1, 2, 4 and 6, in the order in which the curve is \
+            \recalculated; 0 leaves it as it is."
+          ]
       }
   PieceMisfit spot opened misfit -> misfitReport spot opened misfit
   TooManyArrays spot ->
@@ -99,12 +127,18 @@ toReport err = case err of
   EndMissing spot expected ->
     (at spot "E0909" ("the sheet ends before " <> expected))
       { message = [counted spot],
-        hints = ["Pieces and points of approach are closed by -0; the feed 0 of its last point ends a program."]
+        hints =
+          [ "Pieces and points of approach are closed by -0; the feed 0 of its last point ends a \
+            \program."
+          ]
       }
   LinkMissing spot expected ->
     (at spot "E0910" ("here stands no " <> expected))
       { message = [counted spot],
-        hints = ["Behind the -0 of a piece stand two numbers: its link (+R, -R, + or -, and 0 at the end of an array), and its allowance."]
+        hints =
+          [ "Behind the -0 of a piece stand two numbers: its link (+R, -R, + or -, and 0 at the end \
+            \of an array), and its allowance."
+          ]
       }
   BehindTheEnd spot ->
     (at spot "E0911" "the program has ended before this number")
@@ -113,7 +147,11 @@ toReport err = case err of
       }
   NoWorkingFeed spot ->
     (at spot "E0912" "the pieces would be cut in rapid")
-      { message = [counted spot, "A feed holds from its point on; that of the last point before an array is the feed of its pieces."],
+      { message =
+          [ counted spot,
+            "A feed holds from its point on; that of the last point before an array is the feed of \
+            \its pieces."
+          ],
         hints = ["Write the feed of the pieces here."]
       }
 
@@ -128,14 +166,28 @@ misfitReport spot opened misfit =
     (short, long) = case misfit of
       CountOff before each behind again have ->
         ( "",
-          "It asks " <> Text.intercalate ", " ([numbers before <> " before the points" | before > 0] <> [numbers each <> " for each point"] <> [numbers behind <> " behind them" | behind > 0] <> [numbers again <> " more for each point" | again > 0] <> ["the flag of the feed"])
+          "It asks "
+            <> Text.intercalate
+              ", "
+              ( [numbers before <> " before the points" | before > 0]
+                  <> [numbers each <> " for each point"]
+                  <> [numbers behind <> " behind them" | behind > 0]
+                  <> [numbers again <> " more for each point" | again > 0]
+                  <> ["the flag of the feed"]
+              )
             <> "; there are "
             <> Decimal.whole have
             <> " numbers, which is no whole number of points."
         )
       PointsFew -> (": fewer than two points", "A curve needs two points at least.")
-      FlagOff -> (": the flag of the feed is neither 0 nor 1", "The last number before -0 is the flag: 1 slows down at the end of the piece, 0 does not.")
-      LoneSign -> (": a sign without a number", "A sign alone is a link, which stands behind the -0 of a piece.")
+      FlagOff ->
+        ( ": the flag of the feed is neither 0 nor 1",
+          "The last number before -0 is the flag: 1 slows down at the end of the piece, 0 does not."
+        )
+      LoneSign ->
+        ( ": a sign without a number",
+          "A sign alone is a link, which stands behind the -0 of a piece."
+        )
     numbers n = if n == 1 then "1 number" else Decimal.whole n <> " numbers"
 
 at :: NumberPosition -> ReportCode -> Text -> Report
@@ -143,7 +195,12 @@ at spot code = report Error code (InSource (site spot))
 
 -- | Which number it is.
 counted :: NumberPosition -> Text
-counted spot = "This is number " <> Decimal.whole (number spot) <> " of the sheet, at the address " <> address (number spot) <> "."
+counted spot =
+  "This is number "
+    <> Decimal.whole (number spot)
+    <> " of the sheet, at the address "
+    <> address (number spot)
+    <> "."
 
 stop :: Text -> Text
 stop number' = "The Minsk-22 system stopped here with " <> number' <> "."
@@ -152,4 +209,5 @@ wordHint :: Text -> [Text]
 wordHint text
   | Text.any (== ',') text = ["Write the decimal point as a point: 59.3"]
   | Text.any (`elem` ("−–—" :: String)) text = ["Write the minus sign as -."]
-  | otherwise = ["A sheet holds numbers alone, like 41, -0.5 or +6, with spaces or line ends between them."]
+  | otherwise =
+    ["A sheet holds numbers alone, like 41, -0.5 or +6, with spaces or line ends between them."]

@@ -29,8 +29,8 @@ import Sheet.Sheet
 import Sheet.Unsupported (Unfit (..))
 import Text.Read (readMaybe)
 
--- | One shift: 1 to the left of the walk, -1 to the right; whether its distance is square to the surface; the
--- distance.
+-- | One shift: 1 to the left of the walk, -1 to the right; whether its distance is square to the
+-- surface; the distance.
 data Shift = Shift {sign :: Double, square :: Maybe (Vector Double), distance :: Distance}
 
 -- | The piece that is walked at a place, if there is one.
@@ -42,8 +42,15 @@ piece at curve finish = do
       turned = map (turnedTo (sideSign shifts)) shifts
   mapM_ (plain at) turned
   surface <- surfaceOf at (Vector.length base) turned
-  rows <- maybe (refused (NoPiece at "a curve of no points" "")) pure (NonEmpty.nonEmpty (zipWith row (Vector.toList base) (maybe (repeat Nothing) (map Just) surface)))
-  let cipher = map recalculation turned <> [Bevelled | not (any isBevelled turned), Just _ <- [surface]]
+  rows <-
+    maybe
+      (refused (NoPiece at "a curve of no points" ""))
+      pure
+      ( NonEmpty.nonEmpty
+          (zipWith row (Vector.toList base) (maybe (repeat Nothing) (map Just) surface))
+      )
+  let cipher =
+        map recalculation turned <> [Bevelled | not (any isBevelled turned), Just _ <- [surface]]
   pure
     Piece
       { towards = here (if null cipher then LeftSide else sides),
@@ -69,7 +76,14 @@ pointsOf :: Region -> Base.Base -> Result w Unfit (Vector Vec.Point)
 pointsOf at base = case Base.method base of
   Base.Spline Base.Natural -> pure points
   Base.Polyline | Vector.length points == 2 -> pure points
-  _ -> refused (NoPiece at "this curve" "The curve of a piece is a spline through the points of a table, or a polyline through two points.")
+  _ ->
+    refused
+      ( NoPiece
+          at
+          "this curve"
+          "The curve of a piece is a spline through the points of a table, or a polyline through \
+          \two points."
+      )
   where
     points = Vector.map Base.place (Base.rows base)
 
@@ -87,8 +101,8 @@ shiftOf (side, distance) = case distance of
       Carrier.LeftOf -> 1
       Carrier.RightOf -> -1
 
--- | The side to which the distances of a piece count: that of its first distance before the points; where that is
--- nothing or 0, the side of the first shift.
+-- | The side to which the distances of a piece count: that of its first distance before the points;
+-- where that is nothing or 0, the side of the first shift.
 sideSign :: [Shift] -> Double
 sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
@@ -108,7 +122,8 @@ turnedTo wanted s
     opposite d = case d of
       ShiftDistance.Constant h -> ShiftDistance.Constant (minus h)
       ShiftDistance.Pointwise c -> ShiftDistance.Pointwise (negative c)
-      ShiftDistance.Bevelled mu height delta -> ShiftDistance.Bevelled mu (negative height) (minus delta)
+      ShiftDistance.Bevelled mu height delta ->
+        ShiftDistance.Bevelled mu (negative height) (minus delta)
       ShiftDistance.Growing g -> ShiftDistance.Growing g {from = minus (from g), to = minus (to g)}
       ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
       ShiftDistance.Joggled j -> ShiftDistance.Joggled j
@@ -119,9 +134,24 @@ turnedTo wanted s
 -- | What a sheet has no numbers for.
 plain :: Region -> Shift -> Result w Unfit ()
 plain at s = case distance s of
-  ShiftDistance.Bevelled _ _ (Mm delta) | delta /= 0 -> refused (NoCipher at "its 4 has an allowance" "Write the allowance behind the element: allowance 0.5")
-  ShiftDistance.Growing Growth {between = Just _} -> refused (NoCipher at "its 1 changes between two points" "On a sheet the distance changes along the whole piece: make pieces of the parts.")
-  ShiftDistance.Joggled _ -> refused (NoCipher at "it has a joggle" "Keep the program as it is, or make pieces of the parts.")
+  ShiftDistance.Bevelled _ _ (Mm delta)
+    | delta /= 0 ->
+      refused
+        ( NoCipher
+            at
+            "its 4 has an allowance"
+            "Write the allowance behind the element: allowance 0.5"
+        )
+  ShiftDistance.Growing Growth {between = Just _} ->
+    refused
+      ( NoCipher
+          at
+          "its 1 changes between two points"
+          "On a sheet the distance changes along the whole piece: make pieces of the parts."
+      )
+  ShiftDistance.Joggled _ ->
+    refused
+      (NoCipher at "it has a joggle" "Keep the program as it is, or make pieces of the parts.")
   ShiftDistance.Square _ inner -> plain at s {distance = inner}
   ShiftDistance.Bevelled {} -> pure ()
   ShiftDistance.Growing _ -> pure ()
@@ -132,12 +162,37 @@ plain at s = case distance s of
 surfaceOf :: Region -> Int -> [Shift] -> Result w Unfit (Maybe [Surface])
 surfaceOf at count shifts
   | null leans = pure Nothing
-  | different leans = refused (NoCipher at "its bevels differ from one recalculation to another" "On a sheet a point has one bevel.")
-  | different heights = refused (NoCipher at "its heights differ from one 4 to another" "On a sheet a point has one height.")
-  | any (\s -> null (square s) && needsSquare (distance s)) shifts = refused (NoCipher at "a distance is not square to the surface" "On a sheet, distances of a piece with a bevel are square to the surface: 2(h, mu).")
-  | otherwise = pure (Just (zipWith (\m h -> Surface {mu = here (degreesOf m), flange = here h}) (concatMap toList (take 1 leans)) (concatMap toList (take 1 heights) <> replicate count 0)))
+  | different leans =
+    refused
+      ( NoCipher
+          at
+          "its bevels differ from one recalculation to another"
+          "On a sheet a point has one bevel."
+      )
+  | different heights =
+    refused
+      (NoCipher at "its heights differ from one 4 to another" "On a sheet a point has one height.")
+  | any (\s -> null (square s) && needsSquare (distance s)) shifts =
+    refused
+      ( NoCipher
+          at
+          "a distance is not square to the surface"
+          "On a sheet, distances of a piece with a bevel are square to the surface: 2(h, mu)."
+      )
+  | otherwise =
+    pure
+      ( Just
+          ( zipWith
+              (\m h -> Surface {mu = here (degreesOf m), flange = here h})
+              (concatMap toList (take 1 leans))
+              (concatMap toList (take 1 heights) <> replicate count 0)
+          )
+      )
   where
-    bevelled = [(Column.values mu, Column.values h) | Shift {distance = ShiftDistance.Bevelled mu h _} <- shifts]
+    bevelled =
+      [ (Column.values mu, Column.values h)
+        | Shift {distance = ShiftDistance.Bevelled mu h _} <- shifts
+      ]
     leans = [mu | Shift {square = Just mu} <- shifts] <> map fst bevelled
     heights = map snd bevelled
     different list = case list of

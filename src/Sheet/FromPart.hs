@@ -32,18 +32,24 @@ import Sheet.FromCurve qualified as FromCurve
 import Sheet.Sheet
 import Sheet.Unsupported (Unfit (..))
 
--- | The sheet of a part, or all that does not fit one. The program tells the dimensions of a cone, which the part no
--- longer knows.
+-- | The sheet of a part, or all that does not fit one. The program tells the dimensions of a cone,
+-- which the part no longer knows.
 fromPart :: Checked.Program -> Part -> Result w Unfit Sheet
 fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
   (_, Left e) -> Result [] [e] Nothing
   (Nothing, _) -> Result [] [NoWay Nothing "the program does not say where the tool stands"] Nothing
   (Just _, Right ([], _)) -> Result [] [NoWay Nothing "the program mills nothing"] Nothing
   (Just (Located _ spot), Right (one : more, final)) ->
-    checkCount (one : more) *> (build <$> generalData written part (fmap milled (one :| more)) <*> wayOf spot (one : more) final <*> traverse (arrayOf . milled) (one :| more))
+    checkCount (one : more)
+      *> ( build
+             <$> generalData written part (fmap milled (one :| more))
+               <*> wayOf spot (one : more) final
+               <*> traverse (arrayOf . milled) (one :| more)
+         )
   where
-    build general (approach, onwards) arrays' = case NonEmpty.zipWith (\a w -> a {onward = w}) arrays' onwards of
-      a :| as -> Sheet {general, approach, first = a, others = as}
+    build general (approach, onwards) arrays' =
+      case NonEmpty.zipWith (\a w -> a {onward = w}) arrays' onwards of
+        a :| as -> Sheet {general, approach, first = a, others = as}
     checkCount list = case drop mostArrays list of
       [] -> pure ()
       r : _ -> refused (ManyArrays (region' r))
@@ -63,7 +69,15 @@ runsOf = go []
       Part.Travel ss : rest -> go (before <> toList ss) rest
       Part.Mill (Located at m) : rest -> do
         (runs, final) <- go (Part.retract m) rest
-        Right (Run {stops = before <> Part.approach m, region' = keyword at, milled = (keyword at, m)} : runs, final)
+        Right
+          ( Run
+              { stops = before <> Part.approach m,
+                region' = keyword at,
+                milled = (keyword at, m)
+              } :
+            runs,
+            final
+          )
       Part.Pocket (Located at _) : _ -> Left (NoNumbers at "the clearing of a pocket")
       Part.Drill (Located at _) : _ -> Left (NoNumbers at "drilling")
       Part.Command (Located at c) : _ -> Left (NoNumbers at (commandName c))
@@ -116,12 +130,19 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at "the outside of a contour")
   Part.Inside -> refused (NoNumbers at "the inside of a contour")
 
--- | Diameter, bevel in degrees and height of the tool: those of the program's cone, if it touches at this radius. Without a bevel it is a
--- cylinder.
+-- | Diameter, bevel in degrees and height of the tool: those of the program's cone, if it touches
+-- at this radius. Without a bevel it is a cylinder.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
-toolOf written (Mm radius) = case [(d, mu, h) | Located _ (Checked.Tool (Located _ (Checked.ConeCutter a b c))) <- Checked.statements written, Just d <- [literal a], Just mu <- [literal b], Just h <- [literal c]] of
-  (d, mu, h) : _ | mu /= 0, d / 2 + h * tan mu == radius -> (d, FromCurve.degreesOf mu, h)
-  _ -> (2 * radius, 0, 0)
+toolOf written (Mm radius) =
+  case [ (d, mu, h)
+         | Located _ (Checked.Tool (Located _ (Checked.ConeCutter a b c))) <-
+             Checked.statements written,
+           Just d <- [literal a],
+           Just mu <- [literal b],
+           Just h <- [literal c]
+       ] of
+    (d, mu, h) : _ | mu /= 0, d / 2 + h * tan mu == radius -> (d, FromCurve.degreesOf mu, h)
+    _ -> (2 * radius, 0, 0)
   where
     literal (Located _ e) = case e of
       Checked.Number n -> Just n
@@ -143,13 +164,18 @@ titleNumbers title = do
 
 -- | A number of at most nine digits.
 wholeNumber :: Text -> Maybe Double
-wholeNumber text = if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.amount text else Nothing
+wholeNumber text =
+  if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.amount text else Nothing
 
 -- The way
 
--- | The points up to the first array, and those behind each: where the tool stands at first, the runs, the stops
--- behind the last one.
-wayOf :: Part.SpacePoint -> [Run] -> [Part.Stop] -> Result w Unfit (NonEmpty Waypoint, NonEmpty (NonEmpty Waypoint))
+-- | The points up to the first array, and those behind each: where the tool stands at first, the
+-- runs, the stops behind the last one.
+wayOf ::
+  Part.SpacePoint ->
+  [Run] ->
+  [Part.Stop] ->
+  Result w Unfit (NonEmpty Waypoint, NonEmpty (NonEmpty Waypoint))
 wayOf spot runs final = do
   feeds <- traverse feedOfRun runs
   before <- traverse (traverse paced . stops) runs
@@ -159,12 +185,25 @@ wayOf spot runs final = do
       let z0 = let Mm z = Part.height spot in z
           (z1, begin) = walk z0 [] first'
           approach = points (Vec.x (Part.plane spot), Vec.y (Part.plane spot), z0) begin f
-      mapM_ (refused . unheighted) [s | Run {milled = (_, m)} : _ <- [runs], Just _ <- [Part.gear m], s <- concatMap stops (drop 1 runs) <> final, Nothing <- [Part.level s]]
+      mapM_
+        (refused . unheighted)
+        [ s
+          | Run {milled = (_, m)} : _ <- [runs],
+            Just _ <- [Part.gear m],
+            s <- concatMap stops (drop 1 runs) <> final,
+            Nothing <- [Part.level s]
+        ]
       onwards <- behind z1 f (zip3 (map region' runs) (rest <> [after]) (map Just fs <> [Nothing]))
-      maybe (refused (NoWay Nothing "the program mills nothing")) (pure . (approach,)) (NonEmpty.nonEmpty onwards)
+      maybe
+        (refused (NoWay Nothing "the program mills nothing"))
+        (pure . (approach,))
+        (NonEmpty.nonEmpty onwards)
     _ -> refused (NoWay Nothing "the program mills nothing")
   where
-    unheighted s = NoWay (Just (region (Part.place s))) "a swivelling blade leaves its height, and this point does not say one"
+    unheighted s =
+      NoWay
+        (Just (region (Part.place s)))
+        "a swivelling blade leaves its height, and this point does not say one"
     walk z done list = case list of
       [] -> (z, reverse done)
       (s, pace) : rest ->
@@ -178,7 +217,16 @@ wayOf spot runs final = do
       [] -> pure []
       (at, ss, onto) : rest -> case walk z [] ss of
         (z', (place, pace) : others') -> do
-          if pace == f then pure () else refused (NoFeed (maybe at (region . Part.place . fst) (listToMaybe ss)) "the tool leaves a contour at another feed than that of the contour" "On a sheet a feed holds from a point on: go to the first point behind a contour at the contour's feed, and from there as you like.")
+          if pace == f
+            then pure ()
+            else
+              refused
+                ( NoFeed
+                    (maybe at (region . Part.place . fst) (listToMaybe ss))
+                    "the tool leaves a contour at another feed than that of the contour"
+                    "On a sheet a feed holds from a point on: go to the first point behind a \
+                    \contour at the contour's feed, and from there as you like."
+                )
           (points place others' (fromMaybe 0 onto) :) <$> behind z' (fromMaybe 0 onto) rest
         (_, []) -> refused (NoWay (Just at) "behind this contour the tool goes to no point")
     waypoint (a, b, c) f = Waypoint {x = here a, y = here b, z = here c, feed = here f}
@@ -194,7 +242,8 @@ feedOfRun = plainFeed . Part.feed . snd . milled
 
 plainFeed :: Located Feed -> Result w Unfit Double
 plainFeed (Located at (Feed f))
-  | f >= rapidFeed = refused (NoFeed at "a feed of 9999 mm/min or more" "On a sheet 9999 means rapid.")
+  | f >= rapidFeed =
+    refused (NoFeed at "a feed of 9999 mm/min or more" "On a sheet 9999 means rapid.")
   | otherwise = pure f
 
 -- Arrays
@@ -210,12 +259,25 @@ arrayOf (at, m) = do
       <> ["a sharp corner" | Part.corners m == Part.Sharp]
       <> ["a compensation by the control" | Just _ <- [Part.byControl m]]
   case NonEmpty.nonEmpty (Part.legs contour) of
-    _ | Part.ends contour == Part.Closed -> refused (NoPiece name "a closed contour" "A sheet joins its pieces to open contours.")
-    Nothing -> refused (NoPiece name "a contour that is moved, turned, or made of others" "Write its pieces down where they are walked.")
+    _
+      | Part.ends contour == Part.Closed ->
+        refused (NoPiece name "a closed contour" "A sheet joins its pieces to open contours.")
+    Nothing ->
+      refused
+        ( NoPiece
+            name
+            "a contour that is moved, turned, or made of others"
+            "Write its pieces down where they are walked."
+        )
     Just legs -> do
       pieces' <- traverse (pieceOf m) legs
       links <- traverse linkOf (NonEmpty.init legs)
-      pure Array {joined = zipWith LinkedPiece (NonEmpty.init pieces') links, final = NonEmpty.last pieces', onward = nowhere :| []}
+      pure
+        Array
+          { joined = zipWith LinkedPiece (NonEmpty.init pieces') links,
+            final = NonEmpty.last pieces',
+            onward = nowhere :| []
+          }
   where
     contour = Part.contour m
     name = region (Part.contourName contour)
@@ -223,30 +285,73 @@ arrayOf (at, m) = do
 
 pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
 pieceOf m leg = case Part.source leg of
-  Nothing -> refused (NoPiece at "this element" "Elements of a sheet are curves: write a line as polyline([p, q]), a curve as spline(table), and those of another contour once more.")
+  Nothing ->
+    refused
+      ( NoPiece
+          at
+          "this element"
+          "Elements of a sheet are curves: write a line as polyline([p, q]), a curve as \
+          \spline(table), and those of another contour once more."
+      )
   Just curve -> do
-    mapM_ (\f -> refused (NoFeed (region f) "an element with a feed of its own" "On a sheet all pieces of an array have one feed.")) (Part.ownFeed (Part.asked leg))
+    mapM_
+      ( \f ->
+          refused
+            ( NoFeed
+                (region f)
+                "an element with a feed of its own"
+                "On a sheet all pieces of an array have one feed."
+            )
+      )
+      (Part.ownFeed (Part.asked leg))
     made <- FromCurve.piece at (Curve.exact curve) (Part.asked leg)
     mapM_ (const (swivelling at curve made leans)) (Part.gear m)
     pure made
   where
     at = Part.spot leg
-    leans = [(Part.segment e, b) | e <- toList (Part.elements (Part.contour m)), Part.origin e == at, Just b <- [Part.bevel e]]
+    leans =
+      [ (Part.segment e, b)
+        | e <- toList (Part.elements (Part.contour m)),
+          Part.origin e == at,
+          Just b <- [Part.bevel e]
+      ]
 
--- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all: on each element by what the bevels of
--- the rows come to at its ends.
-swivelling :: Region -> Curve.PartCurve -> Piece -> [(Segment, (Double, Double))] -> Result w Unfit ()
+-- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all: on
+-- each element by what the bevels of the rows come to at its ends.
+swivelling ::
+  Region ->
+  Curve.PartCurve ->
+  Piece ->
+  [(Segment, (Double, Double))] ->
+  Result w Unfit ()
 swivelling at curve made leans
-  | surfaced made && null leans = refused (NoCipher at "the blade does not swivel by the bevel of its cipher" "Behind an element with a 4 write: bevel mu")
-  | any differs (concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- leans]) = refused (NoCipher at "the blade swivels by another bevel than that of its cipher" "Behind an element with a 4 write: bevel mu; behind another one: bevel 0")
+  | surfaced made && null leans =
+    refused
+      ( NoCipher
+          at
+          "the blade does not swivel by the bevel of its cipher"
+          "Behind an element with a 4 write: bevel mu"
+      )
+  | any differs (concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- leans]) =
+    refused
+      ( NoCipher
+          at
+          "the blade swivels by another bevel than that of its cipher"
+          "Behind an element with a 4 write: bevel mu; behind another one: bevel 0"
+      )
   | otherwise = pure ()
   where
     bevels = [maybe 0 (\w -> value (mu w) * pi / 180) (surface r) | r <- toList (rows made)]
     marks = Curve.along curve (Vector.fromList bevels)
-    differs (p, b) = let Mm s = MeasuredPolyarc.station (Curve.laid curve) p; Rad slack = Tolerance.bevel in abs (b - between s marks) > 2 * slack
+    differs (p, b) =
+      let Mm s =
+            MeasuredPolyarc.station (Curve.laid curve) p
+          Rad slack = Tolerance.bevel
+       in abs (b - between s marks) > 2 * slack
     between s known = case known of
       (a, x) : more@((b, y) : _)
-        | s <= b || null (drop 1 more) -> if b > a then x + (y - x) * max 0 (min 1 ((s - a) / (b - a))) else y
+        | s <= b || null (drop 1 more) ->
+          if b > a then x + (y - x) * max 0 (min 1 ((s - a) / (b - a))) else y
         | otherwise -> between s more
       [(_, x)] -> x
       [] -> 0
@@ -256,9 +361,12 @@ linkOf leg = case Part.link leg of
   Nothing -> pure (here Intersection)
   Just (LinkCandidate.Meet Nothing) -> pure (here Intersection)
   Just LinkCandidate.Smooth -> pure (here Joint)
-  Just (LinkCandidate.Fillet turn (Mm r)) -> pure (here (Rounding (case turn of Carrier.Clockwise -> r; Carrier.CounterClockwise -> negate r)))
+  Just (LinkCandidate.Fillet turn (Mm r)) ->
+    pure
+      (here (Rounding (case turn of Carrier.Clockwise -> r; Carrier.CounterClockwise -> negate r)))
   Just (LinkCandidate.Meet (Just _)) -> refused (NoLink at "an intersection with a choice")
-  Just (LinkCandidate.Fixed _) -> refused (NoPiece at "a contour in a contour" "Write its pieces down where they are walked.")
+  Just (LinkCandidate.Fixed _) ->
+    refused (NoPiece at "a contour in a contour" "Write its pieces down where they are walked.")
   Just LinkCandidate.Tangent -> refused (NoLink at "a tangent")
   Just (LinkCandidate.Chamfer _) -> refused (NoLink at "a chamfer")
   where

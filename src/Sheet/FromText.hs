@@ -1,5 +1,5 @@
--- | A text of numbers into a sheet. Words that are no numbers are all reported; of what the numbers mean, the
--- first mistake, since everything behind it is shifted.
+-- | A text of numbers into a sheet. Words that are no numbers are all reported; of what the numbers
+-- mean, the first mistake, since everything behind it is shifted.
 module Sheet.FromText
   ( read,
   )
@@ -26,7 +26,11 @@ import Prelude hiding (read)
 read :: Text -> Result w Error Sheet
 read text
   | not (null (lefts found)) = Result [] (lefts found) Nothing
-  | otherwise = either (\e -> Result [] [e] Nothing) (Result [] [] . Just) (evalStateT sheet (Before {left = rights found, final' = NumberPosition (Region 0 0) 1}))
+  | otherwise =
+    either
+      (\e -> Result [] [e] Nothing)
+      (Result [] [] . Just)
+      (evalStateT sheet (Before {left = rights found, final' = NumberPosition (Region 0 0) 1}))
   where
     found = Word.entries text
 
@@ -89,37 +93,86 @@ generalData :: Reader General
 generalData = do
   given <- traverse generalWord [1 .. generalWords]
   case given of
-    productCipher : partCipher : program : diameter : gear : bevel : height : tolerance : sideWord : reserve -> do
-      mapM_ (uncurry wholeNumber) [("the cipher of the product", productCipher), ("the cipher of the part", partCipher), ("the number of the program", program)]
-      mapM_ (\n -> wrong n "a word that is not used" "The addresses 0101 to 0107 are not used and hold 0.") [n | n <- reserve, value (snd n) /= 0]
-      when (value (snd diameter) <= 0) (wrong diameter "the diameter of the tool" "It is above 0.")
-      when (value (snd tolerance) <= 0) (wrong tolerance "the tolerance" "It is above 0.")
-      mapM_ (\(what, n) -> when (value (snd n) < 0) (wrong n what "It is 0 or above.")) [("the diameter of the wheel", gear), ("the height of the cone", height)]
-      when (value (snd gear) /= 0) (mapM_ (\n -> when (value (snd n) /= 0) (wrong n "a cone's dimension" "A tool is a swivelling blade or a cone, not both.")) [bevel, height])
-      when (value (snd bevel) == 0 && value (snd height) /= 0) (wrong height "the height of the cone" "A tool without a bevel is no cone.")
-      side <- sideOf sideWord
-      pure
-        General
-          { productCipher = snd productCipher,
-            partCipher = snd partCipher,
-            program = snd program,
-            diameter = snd diameter,
-            gear = snd gear,
-            bevel = snd bevel,
-            height = snd height,
-            tolerance = snd tolerance,
-            side
-          }
+    productCipher
+      : partCipher
+      : program
+      : diameter
+      : gear
+      : bevel
+      : height
+      : tolerance
+      : sideWord
+      : reserve ->
+        do
+          mapM_
+            (uncurry wholeNumber)
+            [ ("the cipher of the product", productCipher),
+              ("the cipher of the part", partCipher),
+              ("the number of the program", program)
+            ]
+          mapM_
+            ( \n ->
+                wrong
+                  n
+                  "a word that is not used"
+                  "The addresses 0101 to 0107 are not used and hold 0."
+            )
+            [n | n <- reserve, value (snd n) /= 0]
+          when
+            (value (snd diameter) <= 0)
+            (wrong diameter "the diameter of the tool" "It is above 0.")
+          when (value (snd tolerance) <= 0) (wrong tolerance "the tolerance" "It is above 0.")
+          mapM_
+            (\(what, n) -> when (value (snd n) < 0) (wrong n what "It is 0 or above."))
+            [("the diameter of the wheel", gear), ("the height of the cone", height)]
+          when
+            (value (snd gear) /= 0)
+            ( mapM_
+                ( \n ->
+                    when
+                      (value (snd n) /= 0)
+                      ( wrong
+                          n
+                          "a cone's dimension"
+                          "A tool is a swivelling blade or a cone, not both."
+                      )
+                )
+                [bevel, height]
+            )
+          when
+            (value (snd bevel) == 0 && value (snd height) /= 0)
+            (wrong height "the height of the cone" "A tool without a bevel is no cone.")
+          side <- sideOf sideWord
+          pure
+            General
+              { productCipher = snd productCipher,
+                partCipher = snd partCipher,
+                program = snd program,
+                diameter = snd diameter,
+                gear = snd gear,
+                bevel = snd bevel,
+                height = snd height,
+                tolerance = snd tolerance,
+                side
+              }
     _ -> latest >>= \s -> refuse (GeneralShort s (length given))
   where
     wholeNumber what n =
-      unless (value (snd n) >= 0 && value (snd n) < 1e9 && value (snd n) == fromInteger (round (value (snd n)))) $
-        wrong n what "It is a whole number of at most nine digits."
+      unless
+        ( value (snd n) >= 0
+            && value (snd n) < 1e9
+            && value (snd n) == fromInteger (round (value (snd n)))
+        )
+        $ wrong n what "It is a whole number of at most nine digits."
     sideOf n = case value (snd n) of
       1 -> pure (Located (region (snd n)) (Just LeftSide))
       -1 -> pure (Located (region (snd n)) (Just RightSide))
       0 -> pure (Located (region (snd n)) Nothing)
-      _ -> wrong n "the side of the tool" "It is 1, left of the walk, -1, right of it, or 0, on the pieces themselves."
+      _ ->
+        wrong
+          n
+          "the side of the tool"
+          "It is 1, left of the walk, -1, right of it, or 0, on the pieces themselves."
 
 wrong :: (NumberPosition, Number) -> Text -> Text -> Reader a
 wrong (s, _) what must = refuse (GeneralWrong s what must)
@@ -135,14 +188,30 @@ generalWord count = do
 approachPoints :: Reader (NonEmpty Waypoint)
 approachPoints = do
   (inside, mark) <- upToMark "the -0 behind the points of the approach"
-  mapM_ (\e -> refuse (ApproachShifted (spot e) "A sign without a number is no coordinate and no feed.")) (filter Word.isSign inside)
+  mapM_
+    ( \e ->
+        refuse (ApproachShifted (spot e) "A sign without a number is no coordinate and no feed.")
+    )
+    (filter Word.isSign inside)
   case fours [(spot e, n) | e <- inside, Just n <- [figure e]] of
     Just (p : ps) -> do
-      mapM_ (\(s, w) -> when (value (feed w) <= 0) (refuse (ApproachShifted s "This feed is not above 0."))) (p : ps)
+      mapM_
+        ( \(s, w) ->
+            when (value (feed w) <= 0) (refuse (ApproachShifted s "This feed is not above 0."))
+        )
+        (p : ps)
       working (NonEmpty.last (p :| ps))
       pure (fmap snd (p :| ps))
     Just [] -> refuse (ApproachShifted (spot mark) "There is no point at all.")
-    Nothing -> refuse (ApproachShifted (spot mark) ("Before this -0 stand " <> Decimal.whole (length inside) <> " numbers, which is no whole number of points."))
+    Nothing ->
+      refuse
+        ( ApproachShifted
+            (spot mark)
+            ( "Before this -0 stand "
+                <> Decimal.whole (length inside)
+                <> " numbers, which is no whole number of points."
+            )
+        )
 
 -- | The last point before an array: the spot of its feed.
 working :: (NumberPosition, Waypoint) -> Reader ()
@@ -204,7 +273,11 @@ onwardPoint = do
       s <- latest
       case e of
         Nothing -> refuse (OnwardShifted s "The sheet ends here, and no feed was 0.")
-        Just found -> maybe (refuse (OnwardShifted s "Here no coordinate and no feed stands.")) pure (figure found)
+        Just found ->
+          maybe
+            (refuse (OnwardShifted s "Here no coordinate and no feed stands."))
+            pure
+            (figure found)
 
 -- Pieces
 

@@ -18,7 +18,9 @@ import Sheet.Word (SheetWord (..), WordValue (..), figure, isSign)
 cipherOf :: SheetWord -> Either Error (Bool, [Digit])
 cipherOf e = case symbol e of
   Figure 0 -> pure (False, [])
-  Figure c | abs c == fromInteger (round c') && c' < 1e9 -> (c < 0,) <$> traverse digit (show (round c' :: Int))
+  Figure c
+    | abs c == fromInteger (round c') && c' < 1e9 ->
+      (c < 0,) <$> traverse digit (show (round c' :: Int))
     where
       c' = abs c
   Figure _ -> unknown "A cipher is a whole number of at most nine digits."
@@ -34,7 +36,8 @@ cipherOf e = case symbol e of
       '6' -> pure Six
       _ -> unknown ("It has the digit " <> Text.singleton c <> ".")
 
--- | The data of a piece: its cipher, the words up to the end mark, the mark. It has no allowance yet.
+-- | The data of a piece: its cipher, the words up to the end mark, the mark. It has no allowance
+-- yet.
 pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
 pieceOf opening negative digits inside mark = do
   mapM_ (\e -> Left (PieceMisfit (spot e) (spot opening) LoneSign)) (filter isSign inside)
@@ -49,14 +52,24 @@ pieceOf opening negative digits inside mark = do
       (given, flag) = splitAt (points * again) afterTails
       right = negative || any ((< 0) . value) (take 1 heads)
   when (negative && any ((/= 0) . value) (take 1 heads)) $
-    Left (CipherUnknown (spot opening) "The sign before the first distance says the side; a cipher has a minus sign only where there is no such distance.")
-  slow <- maybe (Left (misfitAt (maybe (spot mark) spot (listToMaybe (reverse inside))) FlagOff)) Right (listToMaybe flag >>= flagOf)
+    Left
+      ( CipherUnknown
+          (spot opening)
+          "The sign before the first distance says the side; a cipher has a minus sign only where \
+          \there is no such distance."
+      )
+  slow <-
+    maybe
+      (Left (misfitAt (maybe (spot mark) spot (listToMaybe (reverse inside))) FlagOff))
+      Right
+      (listToMaybe flag >>= flagOf)
   rows <- maybe (misfit PointsFew) Right (NonEmpty.nonEmpty (map row (groups each body)))
   let heads' = zipWith (\k h -> if k == (0 :: Int) then fmap abs h else h) [0 ..] heads
   pure
     Piece
       { towards = Located (site (spot opening)) (if right then RightSide else LeftSide),
-        cipher = Located (site (spot opening)) (recalculations digits heads' tails (groups points given)),
+        cipher =
+          Located (site (spot opening)) (recalculations digits heads' tails (groups points given)),
         rows,
         slow,
         allowance = Located (site (spot mark)) 0
@@ -89,12 +102,14 @@ groups size list = case splitAt size list of
   ([], _) -> []
   (one, rest) -> one : groups size rest
 
--- | The recalculations of a cipher: its digits, the distances before the points, those behind them, those for
--- each point.
+-- | The recalculations of a cipher: its digits, the distances before the points, those behind them,
+-- those for each point.
 recalculations :: [Digit] -> [Number] -> [Number] -> [[Number]] -> [Recalculation]
 recalculations digits heads tails given = case (digits, heads, tails, given) of
   (One : ds, h : hs, t : ts, _) -> Growing h t : recalculations ds hs ts given
   (Two : ds, h : hs, _, _) -> Constant h : recalculations ds hs tails given
   (Four : ds, _, _, _) -> Bevelled : recalculations ds heads tails given
-  (Six : ds, _, _, g : gs) | Just g' <- NonEmpty.nonEmpty g -> Pointwise g' : recalculations ds heads tails gs
+  (Six : ds, _, _, g : gs)
+    | Just g' <- NonEmpty.nonEmpty g ->
+      Pointwise g' : recalculations ds heads tails gs
   _ -> []

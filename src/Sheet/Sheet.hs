@@ -1,4 +1,5 @@
--- | The input sheet of the Minsk-22 system as data: what each number of it means (docs/input-sheet.md).
+-- | The input sheet of the Minsk-22 system as data: what each number of it means
+-- (docs/input-sheet.md).
 module Sheet.Sheet
   ( Sheet (..),
     General (..),
@@ -33,9 +34,14 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Numeric (showOct)
 
--- | A whole sheet. The points of the way to the first piece begin with the place at which the cutter stands.
--- The feed of a point holds from there on, so that of the last point of all is 0.
-data Sheet = Sheet {general :: General, approach :: NonEmpty Waypoint, first :: Array, others :: [Array]}
+-- | A whole sheet. The points of the way to the first piece begin with the place at which the
+-- cutter stands. The feed of a point holds from there on, so that of the last point of all is 0.
+data Sheet = Sheet
+  { general :: General,
+    approach :: NonEmpty Waypoint,
+    first :: Array,
+    others :: [Array]
+  }
   deriving stock (Eq, Show)
 
 -- | A number and where it stands.
@@ -74,8 +80,9 @@ data Array = Array {joined :: [LinkedPiece], final :: Piece, onward :: NonEmpty 
 data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
--- | A curve by points of the theoretical contour, and what is made of it. When a recalculation looks at the
--- bevel, every row tells it; otherwise none does. A distance for each point is one for each row.
+-- | A curve by points of the theoretical contour, and what is made of it. When a recalculation
+-- looks at the bevel, every row tells it; otherwise none does. A distance for each point is one for
+-- each row.
 data Piece = Piece
   { -- | towards which the distances count
     towards :: Located Side,

@@ -1,5 +1,5 @@
--- | A sheet as text: a line for each kind of number, an empty line before each piece. Reading the text gives
--- the same numbers.
+-- | A sheet as text: a line for each kind of number, an empty line before each piece. Reading the
+-- text gives the same numbers.
 module Sheet.ToText
   ( write,
   )
@@ -67,7 +67,11 @@ piece p link =
       | null recalculations = "0"
       | rightwards && not signedFirst = "-" <> digits
       | otherwise = digits
-    signed = zipWith (\k h -> if rightwards && signedFirst && k == (0 :: Int) then negate (value h) else value h) [0 ..] heads
+    signed =
+      zipWith
+        (\k h -> if rightwards && signedFirst && k == (0 :: Int) then negate (value h) else value h)
+        [0 ..]
+        heads
     line' = Text.unwords . map number
 
 -- | The distance before the points that a recalculation asks for.

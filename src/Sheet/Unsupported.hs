@@ -24,7 +24,8 @@ data Unfit
     NoFeed Region Text Text
   | -- | what a sheet says once and this contour says otherwise than the first one
     TwoOfOne Region Text
-  | -- | the way does not begin or end as that of a sheet: where if there is a place, what is missing
+  | -- | the way does not begin or end as that of a sheet: where if there is a place, what is
+    -- missing
     NoWay (Maybe Region) Text
   | -- | one contour more than there may be arrays
     ManyArrays Region
@@ -35,7 +36,10 @@ toReport :: Unfit -> Report
 toReport unfit = case unfit of
   NoNumbers region what ->
     (at region "E0921" (what <> " has no numbers on a sheet"))
-      { hints = ["A sheet has one tool that mills open contours at the height to which it is brought. Leave this out, or keep the program as it is."]
+      { hints =
+          [ "A sheet has one tool that mills open contours at the height to which it is \
+            \brought. Leave this out, or keep the program as it is."
+          ]
       }
   NoPiece region what advice ->
     (at region "E0922" (what <> " is no piece of a sheet"))
@@ -43,7 +47,10 @@ toReport unfit = case unfit of
       }
   NoLink region what ->
     (at region "E0923" (what <> " is no link of a sheet"))
-      { hints = ["A sheet has three links: the intersection (meet), the joint (smooth) and the arc (fillet)."]
+      { hints =
+          [ "A sheet has three links: the intersection (meet), the joint (smooth) and the arc \
+            \(fillet)."
+          ]
       }
   NoCipher region what advice ->
     (at region "E0924" ("a sheet has no cipher for this piece: " <> what))
@@ -54,12 +61,19 @@ toReport unfit = case unfit of
       { hints = [advice]
       }
   TwoOfOne region what ->
-    (at region "E0926" ("a sheet has one " <> what <> ", and this contour has another than the first one"))
+    ( at
+        region
+        "E0926"
+        ("a sheet has one " <> what <> ", and this contour has another than the first one")
+    )
       { hints = ["Make a program of its own for it."]
       }
   NoWay place what ->
     (report Error "E0927" (maybe InFile InSource place) what)
-      { hints = ["A sheet begins with the place of the tool, mills an array at least, and ends with a point: from, mill … { retract … }."]
+      { hints =
+          [ "A sheet begins with the place of the tool, mills an array at least, and ends \
+            \with a point: from, mill … { retract … }."
+          ]
       }
   ManyArrays region ->
     (at region "E0908" ("more than " <> Decimal.whole mostArrays <> " contours"))

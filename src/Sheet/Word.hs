@@ -38,18 +38,21 @@ wordsOf = go 0
   where
     go at rest = case Text.break isSpace here of
       ("", _) -> []
-      (word, after) -> Located (Region from (from + Text.length word)) word : go (from + Text.length word) after
+      (word, after) ->
+        Located (Region from (from + Text.length word)) word : go (from + Text.length word) after
       where
         here = Text.dropWhile isSpace rest
         from = at + Text.length rest - Text.length here
 
 entry :: Int -> Located Text -> Either Error SheetWord
-entry number (Located at word) = maybe (Left (NotANumber here word)) (Right . SheetWord here) $ case Text.uncons word of
-  Just ('+', "") -> Just Plus
-  Just ('-', "") -> Just Minus
-  Just ('+', digits) -> Figure <$> Decimal.amount digits
-  Just ('-', digits) -> (\x -> if x == 0 then Mark else Figure (negate x)) <$> Decimal.amount digits
-  _ -> Figure <$> Decimal.amount word
+entry number (Located at word) =
+  maybe (Left (NotANumber here word)) (Right . SheetWord here) $ case Text.uncons word of
+    Just ('+', "") -> Just Plus
+    Just ('-', "") -> Just Minus
+    Just ('+', digits) -> Figure <$> Decimal.amount digits
+    Just ('-', digits) ->
+      (\x -> if x == 0 then Mark else Figure (negate x)) <$> Decimal.amount digits
+    _ -> Figure <$> Decimal.amount word
   where
     here = NumberPosition at number
 

@@ -54,8 +54,8 @@ gap column = case column of
   Links -> "   "
   SettingValues -> " "
 
--- | The texts of rows that follow one another, their second cells lined up wherever rows of one kind and
--- indentation stand together. A row of one cell among them does no harm.
+-- | The texts of rows that follow one another, their second cells lined up wherever rows of one
+-- kind and indentation stand together. A row of one cell among them does no harm.
 aligned :: [AlignedLine] -> [Text]
 aligned rows = case rows of
   [] -> []
@@ -88,7 +88,8 @@ lineUp run = if any tooLong padded then map written run else padded
     width = maximum [Text.length first | AlignedLine {cells = LineText _ first _} <- run]
     pad row = case cells row of
       Whole _ -> written row
-      LineText column first second -> spaces (indent row) <> Text.justifyLeft width ' ' first <> gap column <> second
+      LineText column first second ->
+        spaces (indent row) <> Text.justifyLeft width ' ' first <> gap column <> second
 
 written :: AlignedLine -> Text
 written row = spaces (indent row) <> plain row

@@ -3,10 +3,11 @@
 {-# LANGUAGE FlexibleInstances #-}
 {-# LANGUAGE RankNTypes #-}
 
--- | What the grammar is built from: tokens, names, brackets, blocks, and the way on after a mistake.
+-- | What the grammar is built from: tokens, names, brackets, blocks, and the way on after a
+-- mistake.
 --
--- There is one grammar and two readers of it: this module has the one that tells what is wrong and goes on behind
--- it; "Surface.Combinator.Fast" has the one that gives up.
+-- There is one grammar and two readers of it: this module has the one that tells what is wrong and
+-- goes on behind it; "Surface.Combinator.Fast" has the one that gives up.
 module Surface.Combinator
   ( Parser,
     Grammar (..),
@@ -89,12 +90,19 @@ data Problem
   | TooDeep
   deriving stock (Eq, Ord, Show)
 
--- | What the parser remembers: the failures that it recovered from, where the last token ended, and how
--- many brackets are open; how many blocks of statements the statement at hand stands in; whether the
--- rest is not read.
-data Memory = Memory {failures :: [Failure], lastEnd :: Int, depth :: Int, within :: Int, gaveUp :: Bool}
+-- | What the parser remembers: the failures that it recovered from, where the last token ended, and
+-- how many brackets are open; how many blocks of statements the statement at hand stands in;
+-- whether the rest is not read.
+data Memory = Memory
+  { failures :: [Failure],
+    lastEnd :: Int,
+    depth :: Int,
+    within :: Int,
+    gaveUp :: Bool
+  }
 
--- | What is made of some tokens, no more than two brackets deep; how many they are, and those behind them.
+-- | What is made of some tokens, no more than two brackets deep; how many they are, and those
+-- behind them.
 data Taken a = Taken a Int [Token]
 
 -- | What the grammar is written in.
@@ -111,12 +119,12 @@ class MonadParsec Problem Input p => Grammar p where
   -- | What is left to read.
   upcoming :: p [Token]
 
-  -- | What a function makes of the next tokens, if it knows them all, or else the other way, which would make the same of
-  -- them. The reader that tells what is wrong goes this way always.
+  -- | What a function makes of the next tokens, if it knows them all, or else the other way, which
+  -- would make the same of them. The reader that tells what is wrong goes this way always.
   atOnce :: ([Token] -> Maybe (Taken Expr)) -> p Expr -> p Expr
 
-  -- | Whether the next token is a word, so that what begins with a keyword may follow. The reader that tells what is wrong says
-  -- so in any case: it names the keywords that were expected.
+  -- | Whether the next token is a word, so that what begins with a keyword may follow. The reader
+  -- that tells what is wrong says so in any case: it names the keywords that were expected.
   wordAhead :: p Bool
 
   memory :: p Memory
@@ -141,12 +149,17 @@ instance Grammar (ParsecT Problem Input (State Memory)) where
   memory = lift get
   remember f = lift (modify' f)
 
--- | Run a parser over the tokens of a text that ends at an offset: the errors in order, and the output if there is one.
+-- | Run a parser over the tokens of a text that ends at an offset: the errors in order, and the
+-- output if there is one.
 run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
-    (result, remembered) = runState (Parsec.runParserT parser "" (Input tokens)) Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
-    inOrder = sortOn Parsec.errorOffset ([f | not (gaveUp remembered), f <- final] <> failures remembered)
+    (result, remembered) =
+      runState
+        (Parsec.runParserT parser "" (Input tokens))
+        Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
+    inOrder =
+      sortOn Parsec.errorOffset ([f | not (gaveUp remembered), f <- final] <> failures remembered)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
@@ -176,7 +189,9 @@ name :: Grammar p => p (Located Name)
 name = do
   next <- upcoming
   case next of
-    Token {shape = Word word, newLine} : _ | Keyword.isReserved word && not newLine -> Parsec.customFailure (NoName word)
+    Token {shape = Word word, newLine} : _
+      | Keyword.isReserved word && not newLine ->
+        Parsec.customFailure (NoName word)
     _ -> usedName
 {-# INLINEABLE name #-}
 
@@ -204,7 +219,9 @@ endOfLine = do
   next <- upcoming
   inBlock <- (> 0) . within <$> memory
   case next of
-    t : _ | not (newLine t) && not (inBlock && shape t == Symbol "}") -> Parsec.customFailure (Trailing (shape t))
+    t : _
+      | not (newLine t) && not (inBlock && shape t == Symbol "}") ->
+        Parsec.customFailure (Trailing (shape t))
     _ -> pure ()
 {-# INLINEABLE endOfLine #-}
 
@@ -255,7 +272,8 @@ enclosed open close inside = do
 block :: Grammar p => Text -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
-  items <- several (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+  items <-
+    several (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
   closing opened what "}"
   pure items
   where
@@ -305,7 +323,8 @@ closesBlock = go (0 :: Int)
         Symbol "}" -> open == 0 || go (open - 1) rest
         _ -> go open rest
 
--- | The closing bracket. When the program or the statement ends before it, the opening one is blamed.
+-- | The closing bracket. When the program or the statement ends before it, the opening one is
+-- blamed.
 closing :: Grammar p => Region -> Text -> Text -> p ()
 closing opened what close = do
   ended <- atEnd
@@ -348,8 +367,8 @@ deepest = 500
 
 -- Recovery
 
--- | Run a parser. If it fails, keep the failure and let the other make something of the tokens that were
--- read up to there; at least one token is consumed either way.
+-- | Run a parser. If it fails, keep the failure and let the other make something of the tokens that
+-- were read up to there; at least one token is consumed either way.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
@@ -358,7 +377,18 @@ recovering repair p = do
   Parsec.withRecovery (again before begin input) p
   where
     again before begin input failure = do
-      remember (\m -> if gaveUp m then m else m {failures = failure : failures m, depth = depth before, within = within before, gaveUp = isTooDeep failure})
+      remember
+        ( \m ->
+            if gaveUp m
+              then m
+              else
+                m
+                  { failures = failure : failures m,
+                    depth = depth before,
+                    within = within before,
+                    gaveUp = isTooDeep failure
+                  }
+        )
       -- What is nested too deep says nothing of what follows.
       enough <- gaveUp <$> memory
       when enough (void (Parsec.takeWhileP Nothing (const True)))
@@ -373,13 +403,17 @@ isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
--- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt like one,
--- and the name that was to be defined.
+-- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt
+-- like one, and the name that was to be defined.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
   inBlock <- (> 0) . within <$> memory
   more <- skipped inBlock (sum (map braces taken))
-  pure (Located (foldr (Region.merge . Token.place) (place' taken) taken) (uncurry Broken (meaning (taken <> more))))
+  pure
+    ( Located
+        (foldr (Region.merge . Token.place) (place' taken) taken)
+        (uncurry Broken (meaning (taken <> more)))
+    )
   where
     -- What is skipped; the brace that closes the block in which the statement stands is not.
     skipped :: Bool -> Int -> Parser [Token]
@@ -387,11 +421,16 @@ brokenStatement taken = do
       rest <- upcoming
       case rest of
         t : others
-          | not (beginsStatement t && not (inItsBlock open rest) || opensBlock open t || misspelt open t others || inBlock && open <= 0 && shape t == Symbol "}") ->
+          | not
+              ( beginsStatement t && not (inItsBlock open rest)
+                  || opensBlock open t
+                  || misspelt open t others
+                  || inBlock && open <= 0 && shape t == Symbol "}"
+              ) ->
             Parsec.anySingle *> ((t :) <$> skipped inBlock (open + braces t))
         _ -> pure []
-    -- The block that belongs to the mistake, if it is closed further down: its statements make no sense alone,
-    -- nor does its closing brace.
+    -- The block that belongs to the mistake, if it is closed further down: its statements make no
+    -- sense alone, nor does its closing brace.
     inItsBlock open rest = open > 0 && withBlock && closesBlock rest
     withBlock = case map shape (take 1 taken) of
       [Word word] -> word `elem` "with" : Keyword.blocks
@@ -400,17 +439,24 @@ brokenStatement taken = do
     opensBlock open t = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- Two words in a row on a new line are a misspelt statement rather than the rest of this one, but not in braces
-    -- that belong to the mistake.
+    -- Two words in a row on a new line are a misspelt statement rather than the rest of this one,
+    -- but not in braces that belong to the mistake.
     misspelt open t others = case (shape t, others) of
-      (Word word, next : _) | Word _ <- shape next -> open <= 0 && newLine t && not (newLine next) && not (Keyword.isReserved word || Keyword.beginsItem word)
+      (Word word, next : _)
+        | Word _ <- shape next ->
+          open <= 0
+            && newLine t
+            && not (newLine next)
+            && not (Keyword.isReserved word || Keyword.beginsItem word)
       _ -> False
     braces t = case shape t of
       Symbol "{" -> 1 :: Int
       Symbol "}" -> -1
       _ -> 0
     meaning ts = case map shape (take 2 ts) of
-      [Word word, Word what] | not (Keyword.isReserved what) -> (spelt word, Just (Located (place' (drop 1 ts)) (Name what)))
+      [Word word, Word what]
+        | not (Keyword.isReserved what) ->
+          (spelt word, Just (Located (place' (drop 1 ts)) (Name what)))
       Word word : _ -> (spelt word, Nothing)
       _ -> (Nothing, Nothing)
     spelt word = case filter (== word) known <> Name.nearest word known of
@@ -422,9 +468,9 @@ brokenStatement taken = do
       [] -> Region 0 0
 {-# INLINEABLE brokenStatement #-}
 
--- | Skip to the next line of the block that is in no braces of this item, or to the block's end. A line that ends
--- with a comma or an operator goes on.
--- Tell the name that a definition in the wrong place was to define.
+-- | Skip to the next line of the block that is in no braces of this item, or to the block's end. A
+-- line that ends with a comma or an operator goes on. Tell the name that a definition in the wrong
+-- place was to define.
 brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -444,7 +490,11 @@ brokenItem broken taken = do
           | beginsStatement t -> pure ()
           | shape t == Symbol "}" && open <= 0 -> pure ()
           | newLine t && open <= 0 && not goesOn -> pure ()
-          | otherwise -> Parsec.anySingle *> skip (open + opens t) (shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"])
+          | otherwise ->
+            Parsec.anySingle
+              *> skip
+                (open + opens t)
+                (shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"])
     opens t = case shape t of
       Symbol "{" -> 1
       Symbol "}" -> -1
@@ -462,7 +512,11 @@ fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
 fromFailure ts finish failure = case failure of
   FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of
     UnclosedBlock opened what -> Error.Unclosed region opened what
-    NoStatement word -> Error.UnknownStatement region word (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
+    NoStatement word ->
+      Error.UnknownStatement
+        region
+        word
+        (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
     NoName word -> Error.Reserved region word
     Trailing shape' -> Error.Trailing region shape' neighbours
     NotInRow shape' -> Error.NotInRow region shape' neighbours
@@ -472,7 +526,8 @@ fromFailure ts finish failure = case failure of
     ManyCoordinates place -> Error.ManyCoordinates place
     TooDeep -> Error.TooDeep region deepest
   FancyError _ _ -> Error.Unexpected region found [] neighbours
-  TrivialError _ _ expected -> Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours
+  TrivialError _ _ expected ->
+    Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours
   where
     neighbours = (shape <$> ts Vector.!? (Parsec.errorOffset failure - 1), shape <$> touchingNext)
     touchingNext = case ts Vector.!? (Parsec.errorOffset failure + 1) of

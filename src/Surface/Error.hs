@@ -12,7 +12,15 @@ import Base.Region (Region)
 import Data.Char (isLetter)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), Severity (..), quote, report)
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode,
+    ReportPlace (..),
+    Severity (..),
+    quote,
+    report,
+  )
 import Surface.Keyword qualified as Keyword
 import Surface.Token (Token_ (..), columnUnits, describe, unitName)
 
@@ -54,8 +62,10 @@ data Error
     BadHeading Region Text
   | -- | what should be a number of a table, as it is written
     BadCell Region Text
-  | -- | a row in a file: its number from 1, how many columns there are, how many cells it has, and whether its commas may
-    -- be those of decimals
+  | -- be those of decimals
+
+    -- | a row in a file: its number from 1, how many columns there are, how many cells it has, and
+    -- whether its commas may
     CellCount Region Int Int Int Bool
   | -- | a value from outside for a name that is no parameter; the parameters
     NoSuchParam Text [Text]
@@ -74,7 +84,11 @@ data FoundText = FoundToken Token_ | FoundEnd
 toReport :: Error -> Report
 toReport err = case err of
   Unexpected region (FoundToken (Stray c)) _ _ ->
-    (at region "E0102" ("the character " <> quote (Text.singleton c) <> " has no place in a program"))
+    ( at
+        region
+        "E0102"
+        ("the character " <> quote (Text.singleton c) <> " has no place in a program")
+    )
       { hints = strayHint c
       }
   Unexpected region (FoundToken OpenText) _ _ ->
@@ -89,8 +103,12 @@ toReport err = case err of
     (at region "E0101" ("found " <> shown found <> expectation expected))
       { label = "here",
         hints = case found of
-          FoundToken (Symbol "=") | "‘closed’" `elem` expected -> ["A contour has no such sign: contour name closed { … }"]
-          FoundToken token | not (isWord expected) -> meant token expected <> advice token neighbours
+          FoundToken (Symbol "=")
+            | "‘closed’" `elem` expected ->
+              ["A contour has no such sign: contour name closed { … }"]
+          FoundToken token
+            | not (isWord expected) ->
+              meant token expected <> advice token neighbours
           FoundToken token -> meant token expected
           FoundEnd -> []
       }
@@ -103,7 +121,11 @@ toReport err = case err of
     (at region "E0106" (quote word <> " begins no statement"))
       { message = ["A statement begins with one of: " <> Text.intercalate ", " known <> "."],
         hints = case (Name.lookAlike word known, Name.nearest word known) of
-          (w : _, _) -> ["It looks like " <> quote w <> ", but has a letter of the other alphabet, Cyrillic or Latin."]
+          (w : _, _) ->
+            [ "It looks like "
+                <> quote w
+                <> ", but has a letter of the other alphabet, Cyrillic or Latin."
+            ]
           ([], w : _) -> ["Did you mean " <> quote w <> "?"]
           ([], []) -> ["To give a name to a value, write: let " <> word <> " = …"]
       }
@@ -111,18 +133,24 @@ toReport err = case err of
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
       { hints = ["Choose another name, for example " <> word <> "1."]
       }
-  Trailing region token neighbours | isBroken token -> toReport (Unexpected region (FoundToken token) [] neighbours)
+  Trailing region token neighbours
+    | isBroken token ->
+      toReport (Unexpected region (FoundToken token) [] neighbours)
   Trailing region token neighbours ->
     (at region "E0108" ("the statement ends before " <> describe token))
       { message = ["Every statement begins on a line of its own."],
         hints = advice token neighbours
       }
-  NotInRow region token _ | isBroken token && token `notElem` map Stray [';', '|'] -> toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
+  NotInRow region token _
+    | isBroken token && token `notElem` map Stray [';', '|'] ->
+      toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
   NotInRow region token neighbours ->
     (at region "E0120" (describe token <> " does not belong in a row of a table"))
       { hints = rowAdvice token neighbours
       }
-  NotInHeadings region token _ | isBroken token -> toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
+  NotInHeadings region token _
+    | isBroken token ->
+      toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
   NotInHeadings region token _ ->
     (at region "E0120" (describe token <> " does not belong among the names of columns"))
       { hints = headingAdvice token
@@ -130,7 +158,10 @@ toReport err = case err of
   NoSide region found ->
     (at region "E0101" ("found " <> shown found <> expectation ["‘left’", "‘right’"]))
       { label = "here",
-        hints = ["Say on which side of its curve the piece lies, to the left or to the right of the walk: piece q = c left"]
+        hints =
+          [ "Say on which side of its curve the piece lies, to the left or to the right of the \
+            \walk: piece q = c left"
+          ]
       }
   Misplaced region word ->
     (at region "E0109" (quote word <> " is a statement and does not belong in these braces"))
@@ -145,7 +176,10 @@ toReport err = case err of
       }
   ManyCoordinates region ->
     (at region "E0111" "a point has two or three coordinates")
-      { hints = ["A decimal point is a point: 59.3. A comma separates values.", "A list stands in square brackets: [1, 2, 3, 4]."]
+      { hints =
+          [ "A decimal point is a point: 59.3. A comma separates values.",
+            "A list stands in square brackets: [1, 2, 3, 4]."
+          ]
       }
   LinesMissing region name why ->
     (at region "E0112" ("the table " <> quote name <> " cannot be read: " <> why))
@@ -162,32 +196,70 @@ toReport err = case err of
       }
   EmptyTable region ->
     (at region "E0117" "the file of a table is empty")
-      { hints = ["Its first line names the columns, its others have a number for each: x,y and below it 0,40"]
+      { hints =
+          [ "Its first line names the columns, its others have a number for each: x,y and \
+            \below it 0,40"
+          ]
       }
   BadHeading region text ->
-    (at region "E0118" (if Text.null text then "a column without a name" else quote text <> " cannot name a column"))
-      { hints = ["The first line of the file names the columns, with a unit if there is one: x,y,mu deg"]
+    ( at
+        region
+        "E0118"
+        ( if Text.null text
+            then "a column without a name"
+            else quote text <> " cannot name a column"
+        )
+    )
+      { hints =
+          [ "The first line of the file names the columns, with a unit if there is one: \
+            \x,y,mu deg"
+          ]
       }
   BadCell region text ->
-    (at region "E0119" (if Text.null text then "a cell of the table is empty" else quote text <> " is not a number"))
+    ( at
+        region
+        "E0119"
+        ( if Text.null text
+            then "a cell of the table is empty"
+            else quote text <> " is not a number"
+        )
+    )
       { hints = ["Every line has a number for each column; the unit stands in the first line."]
       }
   CellCount region number columns cells decimal ->
-    (at region "E0226" ("row " <> Decimal.whole number <> " has " <> counted cells "cell" <> ", but the table has " <> counted columns "column"))
+    ( at
+        region
+        "E0226"
+        ( "row "
+            <> Decimal.whole number
+            <> " has "
+            <> counted cells "cell"
+            <> ", but the table has "
+            <> counted columns "column"
+        )
+    )
       { hints =
           ["A row is one line of the file, with a number for each column that the first line names."]
-            <> ["If these are decimal commas, put semicolons between the columns: x;y and below it 0,5;40" | decimal]
+            <> [ "If these are decimal commas, put semicolons between the columns: x;y and below \
+                 \it 0,5;40"
+                 | decimal
+               ]
       }
   NoSuchParam name known ->
     (report Error "E0114" InFile ("the program has no parameter " <> quote name))
       { hints =
           ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.nearest name known)]
-            <> [if null known then "A parameter is defined by: param " <> name <> " = 25 mm" else "Its parameters are: " <> Text.intercalate ", " known <> "."]
+            <> [ if null known
+                   then "A parameter is defined by: param " <> name <> " = 25 mm"
+                   else "Its parameters are: " <> Text.intercalate ", " known <> "."
+               ]
       }
   BadAssignment region name text _ ->
     (at region "E0115" (quote text <> " is no value for " <> quote name))
       { label = "the parameter",
-        hints = ["A decimal point is a point: 59.3." | Text.isInfixOf "," text] <> ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
+        hints =
+          ["A decimal point is a point: 59.3." | Text.isInfixOf "," text]
+            <> ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
       }
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
@@ -195,7 +267,10 @@ toReport err = case err of
 -- | A keyword that is nearly what stands there, if one was expected.
 meant :: Token_ -> [Text] -> [Text]
 meant token expected = case token of
-  Word word -> ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.lookAlike word words' <> Name.nearest word words')]
+  Word word ->
+    [ "Did you mean " <> quote w <> "?"
+      | w <- take 1 (Name.lookAlike word words' <> Name.nearest word words')
+    ]
   _ -> []
   where
     words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
@@ -203,28 +278,41 @@ meant token expected = case token of
 -- | What is probably meant by a token in the wrong place, from what stands beside it.
 advice :: Token_ -> Neighbours -> [Text]
 advice token neighbours = case (token, neighbours) of
-  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) -> ["A decimal point is a point: 59.3. A comma separates values."]
-  (Symbol ",", _) -> ["No comma belongs here: the elements of a contour stand one after another, and a point in brackets: (0, 0)."]
-  (Symbol "(", (Just (Word _), _)) -> ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
+  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
+    ["A decimal point is a point: 59.3. A comma separates values."]
+  (Symbol ",", _) ->
+    [ "No comma belongs here: the elements of a contour stand one after another, and a point in \
+      \brackets: (0, 0)."
+    ]
+  (Symbol "(", (Just (Word _), _)) ->
+    ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
   (Symbol "(", _) -> ["Is a comma missing before it?"]
   (Symbol "+", _) -> ["A positive number needs no sign."]
   (Symbol "/", (Just (Symbol "/"), _)) -> ["A comment begins with --."]
   (Symbol "*", (Just (Symbol "*"), _)) -> ["There are no powers: write x * x."]
   (Symbol "=", (Just (Symbol "="), _)) -> ["Equality is one sign: a = b."]
   (Symbol "=", _) -> ["To give a name to a value, write: let name = value"]
-  (Word word, (Just (Number _ _), _)) | word `notElem` Keyword.reservedWords -> ["If this was meant as a unit: the units are " <> Text.intercalate ", " (map unitName [minBound .. maxBound]) <> "."]
+  (Word word, (Just (Number _ _), _))
+    | word `notElem` Keyword.reservedWords ->
+      [ "If this was meant as a unit: the units are "
+          <> Text.intercalate ", " (map unitName [minBound .. maxBound])
+          <> "."
+      ]
   _ -> []
 
 -- | What is probably meant by a token that is no cell of a row.
 rowAdvice :: Token_ -> Neighbours -> [Text]
 rowAdvice token neighbours = case (token, neighbours) of
-  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) -> ["A decimal point is a point: 59.3.", spaces]
+  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
+    ["A decimal point is a point: 59.3.", spaces]
   (Symbol ",", _) -> [spaces]
   (Stray _, _) -> [spaces]
   (Symbol "(", (Just (Symbol "-"), _)) -> ["The sign stands in the brackets too: (-h)."]
   (Symbol "+", (_, Just (Number _ _))) -> ["A positive number needs no sign.", computed "2 + 6"]
   (Symbol s, _) | s `elem` ["*", "/", "-", "+"] -> [computed ("2 " <> s <> " 6")]
-  (Word word, (_, touching)) | not (Keyword.isReserved word) -> [computed (if touching == Just (Symbol "(") then word <> "(…)" else word)]
+  (Word word, (_, touching))
+    | not (Keyword.isReserved word) ->
+      [computed (if touching == Just (Symbol "(") then word <> "(…)" else word)]
   (_, _) -> [spaces, computed "2 * h"]
   where
     spaces = "The values of a row stand one after another with spaces between them: 0 40"
@@ -238,11 +326,15 @@ headingAdvice token = case token of
   Symbol _ -> [names, units]
   Word word
     | word `elem` map unitName [minBound .. maxBound] -> [units]
-    | otherwise -> ["It is a word of the language: choose another name, for example " <> word <> "1."]
+    | otherwise ->
+      ["It is a word of the language: choose another name, for example " <> word <> "1."]
   _ -> [names, "In a row below them, what is no plain number stands in brackets: (h)."]
   where
     names = "The line with the names of the columns has nothing else: x y mu deg H"
-    units = "A column has one of the units " <> Text.intercalate ", " (map unitName columnUnits) <> ", or none."
+    units =
+      "A column has one of the units "
+        <> Text.intercalate ", " (map unitName columnUnits)
+        <> ", or none."
 
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")

@@ -1,7 +1,7 @@
 -- | The canonical layout of a program text, its comments included.
 --
--- The tree is printed anew. Comments stay where they stood: on a line of their own above what follows,
--- or behind what they follow. A comment within something that now stands on one line goes
+-- The tree is printed anew. Comments stay where they stood: on a line of their own above what
+-- follows, or behind what they follow. A comment within something that now stands on one line goes
 -- behind that line, or above it when the place is taken.
 module Surface.Formatter
   ( format,
@@ -31,14 +31,17 @@ import Surface.Token (Token, Token_ (Symbol))
 import Surface.Token qualified as Token
 import Surface.Unlocated qualified as Unlocated
 
--- | The text in the canonical layout; nothing when it has mistakes. The meaning and the comments stay: should
--- the layout ever fail in that, which would be a bug, the text stays as it is.
+-- | The text in the canonical layout; nothing when it has mistakes. The meaning and the comments
+-- stay: should the layout ever fail in that, which would be a bug, the text stays as it is.
 format :: Text -> Maybe Text
 format text = fmap checked (layout text)
   where
     checked new = if (same `on` program) (normal text) new then new else text
     same a b = Maybe.isJust a && a == b
-    program t = fmap (\p -> (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p))) (parsed t)
+    program t =
+      fmap
+        (\p -> (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p)))
+        (parsed t)
 
 -- | The layout as it comes, without the check that nothing is lost.
 layout :: Text -> Maybe Text
@@ -51,7 +54,11 @@ parsed text = case Parser.parse 0 text :: Result () Error Program of
 
 -- | Lines end with LF, and no mark of the byte order is there.
 normal :: Text -> Text
-normal text = Text.replace "\r" "\n" (Text.replace "\r\n" "\n" (Maybe.fromMaybe text (Text.stripPrefix "\xFEFF" text)))
+normal text =
+  Text.replace
+    "\r"
+    "\n"
+    (Text.replace "\r\n" "\n" (Maybe.fromMaybe text (Text.stripPrefix "\xFEFF" text)))
 
 laidOut :: Text -> Program -> Text
 laidOut text program = Text.unlines (written (tidy (entries source remarks rows)))
@@ -61,8 +68,15 @@ laidOut text program = Text.unlines (written (tidy (entries source remarks rows)
     tokens = fst (Lexer.tokens 0 text)
     places = map offset remarks
     between set from to = maybe False (< to) (Set.lookupGE from set)
-    marks = Commented {anywhere = between (Set.fromList places), atComma = between (Set.fromList (besideCommas tokens places))}
-    rows = concatMap (parted marks) (SourceLine.anchored tokens (PrintProgram.rows marks (statements program)))
+    marks =
+      Commented
+        { anywhere = between (Set.fromList places),
+          atComma = between (Set.fromList (besideCommas tokens places))
+        }
+    rows =
+      concatMap
+        (parted marks)
+        (SourceLine.anchored tokens (PrintProgram.rows marks (statements program)))
 
 -- | Those of some places, in order, that have a comma directly before or behind them.
 besideCommas :: [Token] -> [Int] -> [Int]
@@ -80,20 +94,28 @@ besideCommas = go False
 
 -- Comments
 
--- | A comment, where it stands, whether something stands before it on its line, and whether the line above is blank.
+-- | A comment, where it stands, whether something stands before it on its line, and whether the
+-- line above is blank.
 data Remark = Remark {offset :: Int, text :: Text, trailing :: Bool, apart :: Bool}
   deriving stock (Eq, Show)
 
 remark :: Source -> Located Text -> Remark
 remark source (Located region text) =
-  Remark {offset = start region, text = Text.stripEnd text, trailing, apart = not trailing && blankAbove source (start region)}
+  Remark
+    { offset = start region,
+      text = Text.stripEnd text,
+      trailing,
+      apart = not trailing && blankAbove source (start region)
+    }
   where
     Region.Position {Region.column} = Region.position source (start region)
-    trailing = not (Text.null (Text.strip (Text.take (column - 1) (Region.lineText source (start region)))))
+    trailing =
+      not (Text.null (Text.strip (Text.take (column - 1) (Region.lineText source (start region)))))
 
 -- | Whether the line above that of an offset is blank.
 blankAbove :: Source -> Int -> Bool
-blankAbove source at = line > 1 && Text.null (Text.strip (Region.lineText source (Region.offset source (line - 1) 1)))
+blankAbove source at =
+  line > 1 && Text.null (Text.strip (Region.lineText source (Region.offset source (line - 1) 1)))
   where
     Region.Position {Region.line} = Region.position source at
 
@@ -102,8 +124,16 @@ parted :: Commented -> Anchored -> [Anchored]
 parted marks anchor = case (reverse (shapes anchor), reverse (places anchor)) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
     | anywhere marks (start (Token.place open)) (start (Token.place close)) ->
-      [ anchor {row = (row anchor) {cells = Whole (Text.dropEnd 2 (Alignment.plain (row anchor)))}, shapes = init (shapes anchor), places = init (places anchor)},
-        Anchored {row = AlignedLine {indent = indent (row anchor), cells = Whole "}", continues = False}, shapes = [Symbol "}"], places = [Just close]}
+      [ anchor
+          { row = (row anchor) {cells = Whole (Text.dropEnd 2 (Alignment.plain (row anchor)))},
+            shapes = init (shapes anchor),
+            places = init (places anchor)
+          },
+        Anchored
+          { row = AlignedLine {indent = indent (row anchor), cells = Whole "}", continues = False},
+            shapes = [Symbol "}"],
+            places = [Just close]
+          }
       ]
   _ -> [anchor]
 
@@ -140,16 +170,29 @@ entries source remarks rows = go (zip rows (starts rows)) remarks []
               ([r], Nothing) | trailing r -> ([], Just r)
               _ -> (within, tail')
             deep = indent (row anchor) + (if SourceLine.closes anchor then 2 else 0)
-            leading = [(own deep r) {gap = apart r && not (continues (row anchor))} | r <- above <> early]
-            wanted = not (SourceLine.closes anchor) && not (continues (row anchor)) && firstOnLine anchor && blankAbove source from
-            shifted = [Entry {gap = wanted && first, line = Own deep (text r)} | (r, first) <- zip moved (True : repeat False)]
-         in leading <> shifted <> (Entry {gap = wanted && null moved, line = Printed anchor (fmap text tail'')} : go more later below)
+            leading =
+              [(own deep r) {gap = apart r && not (continues (row anchor))} | r <- above <> early]
+            wanted =
+              not (SourceLine.closes anchor)
+                && not (continues (row anchor))
+                && firstOnLine anchor
+                && blankAbove source from
+            shifted =
+              [ Entry {gap = wanted && first, line = Own deep (text r)}
+                | (r, first) <- zip moved (True : repeat False)
+              ]
+         in leading
+              <> shifted
+              <> ( Entry {gap = wanted && null moved, line = Printed anchor (fmap text tail'')} :
+                   go more later below
+                 )
     own deep r = Entry {gap = apart r, line = Own deep (text r)}
     firstOnLine anchor = maybe False Token.newLine (found anchor)
     found anchor = Maybe.listToMaybe (Maybe.catMaybes (take 1 (places anchor)))
 
--- | Where each row begins and ends in the source; a row that is not there stands where the one before it ends.
--- The comma at the end of a row does not count: a comment before it is one behind the row.
+-- | Where each row begins and ends in the source; a row that is not there stands where the one
+-- before it ends. The comma at the end of a row does not count: a comment before it is one behind
+-- the row.
 starts :: [Anchored] -> [(Int, Int)]
 starts = go 0
   where
@@ -160,7 +203,10 @@ starts = go 0
         first : more ->
           let finish = end (last (first : beforeComma anchor more))
            in (start first, finish) : go (end (last (first : more))) rest
-    beforeComma anchor regions = if drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol ","] then take (length regions - 1) regions else regions
+    beforeComma anchor regions =
+      if drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol ","]
+        then take (length regions - 1) regions
+        else regions
 
 -- | No blank line at the beginning of the text or of a block.
 tidy :: [Entry] -> [Entry]
@@ -177,11 +223,14 @@ written list = commented (go list)
   where
     go es = case es of
       [] -> []
-      Entry {gap, line = Own deep text} : rest -> blank gap <> [(Text.replicate deep " " <> text, Nothing)] <> go rest
+      Entry {gap, line = Own deep text} : rest ->
+        blank gap <> [(Text.replicate deep " " <> text, Nothing)] <> go rest
       Entry {gap, line = Printed anchor tail'} : rest ->
         let (run, others) = span joins rest
             together = (anchor, tail') : [(a, t) | Entry {line = Printed a t} <- run]
-         in blank gap <> zip (Alignment.aligned (map (row . fst) together)) (map snd together) <> go others
+         in blank gap
+              <> zip (Alignment.aligned (map (row . fst) together)) (map snd together)
+              <> go others
     joins entry = not (gap entry) && isRow (line entry)
     isRow content = case content of
       Own _ _ -> False
@@ -196,7 +245,8 @@ commented list = case list of
   _ ->
     let (run, others) = span (Maybe.isJust . snd) list
         column = maximum (commentColumn : [Text.length line + 2 | (line, _) <- run])
-     in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run] <> commented others
+     in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run]
+          <> commented others
 
 -- | Comments stand so far from the margin, unless the lines before them are longer.
 commentColumn :: Int

@@ -24,7 +24,8 @@ statements =
     <> ["let", "param", "table", "curve", "piece", "contour", "assert"]
     <> ["mill", "turn", "drill", "rapid", "move", "change", "spindle", "coolant", "aux", "with"]
 
--- | The words that begin a statement where one can begin, and are names elsewhere: @contour pocket closed@.
+-- | The words that begin a statement where one can begin, and are names elsewhere: @contour pocket
+-- closed@.
 softStatements :: [Text]
 softStatements = ["pocket"]
 
@@ -36,13 +37,40 @@ blocks = ["for", "if"]
 beginsItem :: Text -> Bool
 beginsItem word = word `elem` (["for", "if", "cw", "ccw", "approach", "retract"] <> settings)
   where
-    settings = ["depth", "lead", "allowance", "corners", "climb", "conventional", "compensation", "start", "plunge", "peck", "islands", "rest"]
+    settings =
+      [ "depth",
+        "lead",
+        "allowance",
+        "corners",
+        "climb",
+        "conventional",
+        "compensation",
+        "start",
+        "plunge",
+        "peck",
+        "islands",
+        "rest"
+      ]
 
 -- | How the settings begin that may stand in the block of a statement.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
-  "mill" -> ways <> ["start near", "climb", "conventional"] <> passes <> ["depth", "plunge", "compensation", "rest"]
-  "pocket" -> ["islands", "approach", "retract", "climb", "conventional", "allowance", "depth", "plunge", "rest"]
+  "mill" ->
+    ways
+      <> ["start near", "climb", "conventional"]
+      <> passes
+      <> ["depth", "plunge", "compensation", "rest"]
+  "pocket" ->
+    [ "islands",
+      "approach",
+      "retract",
+      "climb",
+      "conventional",
+      "allowance",
+      "depth",
+      "plunge",
+      "rest"
+    ]
   "turn" -> ways <> passes
   _ -> ["peck", "plunge"]
   where
@@ -60,7 +88,17 @@ reservedWords =
     <> blocks
     <> ["open", "closed", "in", "cw", "ccw", "else", "then", "and", "or", "not"]
     <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer", "slow", "allowance", "bevel"]
-    <> ["outside", "inside", "left", "right", "on", "within", "first", "last", "approach", "retract"]
+    <> [ "outside",
+         "inside",
+         "left",
+         "right",
+         "on",
+         "within",
+         "first",
+         "last",
+         "approach",
+         "retract"
+       ]
     <> filter (/= "in") (map unitName [minBound .. maxBound])
 
 reserved :: Set Text

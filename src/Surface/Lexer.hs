@@ -29,17 +29,19 @@ data Before = Before
     machine :: Bool
   }
 
--- | All tokens of a text and all its comments, in order; the first character has the offset given. Each of the two is
--- read for itself, so that none of them waits in memory for the other.
+-- | All tokens of a text and all its comments, in order; the first character has the offset given.
+-- Each of the two is read for itself, so that none of them waits in memory for the other.
 tokens :: Int -> Text -> ([Token], [Located Text])
-tokens begin text = (tokensFrom before text, if "--" `Text.isInfixOf` text then remarks [] before text else [])
+tokens begin text =
+  (tokensFrom before text, if "--" `Text.isInfixOf` text then remarks [] before text else [])
   where
     before = Before {at = begin, fresh = True, touching = False, machine = False}
 
 -- | The tokens, piece by piece: what nobody asks for is not read.
 tokensFrom :: Before -> Text -> [Token]
 tokensFrom before rest = case piece pieceSize [] [] before rest of
-  Piece {ts, stopped, left} -> foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
+  Piece {ts, stopped, left} ->
+    foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
 
 -- | The comments behind some others, of which the last one comes first.
 remarks :: [Located Text] -> Before -> Text -> [Located Text]
@@ -58,7 +60,13 @@ piece :: Int -> [Token] -> [Located Text] -> Before -> Text -> Piece
 piece !count ts cs before rest = case Text.uncons rest of
   Just (c, after)
     | count <= 0 -> Piece {ts, cs, stopped = before, left = rest}
-    | isLineEnd c -> piece count ts cs Before {at = at before + 1, fresh = True, touching = False, machine = False} after
+    | isLineEnd c ->
+      piece
+        count
+        ts
+        cs
+        Before {at = at before + 1, fresh = True, touching = False, machine = False}
+        after
     | isBlank c -> piece count ts cs before {at = at before + 1, touching = False} after
     | c == '-' && begins (== '-') after ->
       let (comment, more) = Text.break isLineEnd rest
@@ -69,8 +77,15 @@ piece !count ts cs before rest = case Text.uncons rest of
       case if machine before then machineName rest else token c after rest of
         First shape size more ->
           let region = Region (at before) (at before + size)
-              next = Before {at = end region, fresh = False, touching = True, machine = fresh before && shape == Word "machine"}
-              found = Token {place = region, shape, newLine = fresh before, attached = touching before}
+              next =
+                Before
+                  { at = end region,
+                    fresh = False,
+                    touching = True,
+                    machine = fresh before && shape == Word "machine"
+                  }
+              found =
+                Token {place = region, shape, newLine = fresh before, attached = touching before}
            in found `seq` piece (count - 1) (found : ts) cs next more
   Nothing -> Piece {ts, cs, stopped = before, left = rest}
 
@@ -86,7 +101,8 @@ data First = First Token_ Int {-# UNPACK #-} Text
 token :: Char -> Text -> Text -> First
 token c !after !rest
   | isDigit c = numeral rest
-  | isWordStart c = let (word, more) = Text.span isWordPart rest in First (Word word) (Text.length word) more
+  | isWordStart c =
+    let (word, more) = Text.span isWordPart rest in First (Word word) (Text.length word) more
   | otherwise = case c of
     '(' -> sign "("
     ')' -> sign ")"
@@ -94,21 +110,26 @@ token c !after !rest
     '-' -> sign "-"
     '"' -> quoted rest
     _
-      | c `elem` (".<>!" :: String), two `elem` ["..", "<=", ">=", "!="] -> First (Symbol two) 2 (Text.drop 1 after)
+      | c `elem` (".<>!" :: String),
+        two `elem` ["..", "<=", ">=", "!="] ->
+        First (Symbol two) 2 (Text.drop 1 after)
       | c `elem` ("{}[]=+*/<>" :: String) -> sign (Text.singleton c)
       | otherwise -> First (Stray c) 1 after
   where
     sign s = First (Symbol s) 1 after
     two = Text.take 2 rest
 
--- | The name of a machine: letters, digits, @.@ and @-@; a quoted text is the name of a description file.
+-- | The name of a machine: letters, digits, @.@ and @-@; a quoted text is the name of a description
+-- file.
 machineName :: Text -> First
 machineName rest
   | "\"" `Text.isPrefixOf` rest = quoted rest
-  | Text.null name = maybe (First (Stray ' ') 1 rest) (\(c, after) -> token c after rest) (Text.uncons rest)
+  | Text.null name =
+    maybe (First (Stray ' ') 1 rest) (\(c, after) -> token c after rest) (Text.uncons rest)
   | otherwise = First (Word name) (Text.length name) (Text.drop (Text.length name) rest)
   where
-    name = fst (Text.breakOn "--" (Text.takeWhile (\c -> isAlphaNum c || c == '.' || c == '-') rest))
+    name =
+      fst (Text.breakOn "--" (Text.takeWhile (\c -> isAlphaNum c || c == '.' || c == '-') rest))
 
 -- | A text in quotation marks, on one line.
 quoted :: Text -> First
@@ -123,9 +144,16 @@ numeral :: Text -> First
 numeral rest = case Decimal.leading rest of
   Leading {size, worth, behind} -> case (worth, unitBehind behind) of
     (Just x, unit) | not (junk (Text.take size rest) behind unit) -> case unit of
-      Just (Behind u before length') -> First (Number (Numeral (Text.take size rest) x) (Just u)) (size + before + length') (Text.drop (before + length') behind)
+      Just (Behind u before length') ->
+        First
+          (Number (Numeral (Text.take size rest) x) (Just u))
+          (size + before + length')
+          (Text.drop (before + length') behind)
       Nothing -> First (Number (Numeral (Text.take size rest) x) Nothing) size behind
-    _ -> let (written, more) = Text.span (\c -> isWordPart c || c == '.') rest in First (BadNumber written) (Text.length written) more
+    _ ->
+      let (written, more) =
+            Text.span (\c -> isWordPart c || c == '.') rest
+       in First (BadNumber written) (Text.length written) more
   where
     -- Letters or a further decimal point that touch the number and are no unit.
     junk digits behind unit = case Text.uncons behind of
@@ -143,13 +171,17 @@ unitBehind = go 0
     go gap text = case Text.uncons text of
       Just (c, more)
         | isBlankInLine c -> go (gap + 1) more
-        | isWordStart c -> (\(unit, _, size) -> Behind unit gap size) <$> find (fits text) longestFirst
+        | isWordStart c ->
+          (\(unit, _, size) -> Behind unit gap size) <$> find (fits text) longestFirst
       _ -> Nothing
     fits word (_, name, _) = maybe False (not . begins isWordPart) (Text.stripPrefix name word)
 
 -- | The units with their names and the lengths of these.
 longestFirst :: [(Unit, Text, Int)]
-longestFirst = sortOn (\(_, _, size) -> Down size) [(unit, unitName unit, Text.length (unitName unit)) | unit <- [minBound .. maxBound]]
+longestFirst =
+  sortOn
+    (\(_, _, size) -> Down size)
+    [(unit, unitName unit, Text.length (unitName unit)) | unit <- [minBound .. maxBound]]
 
 isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'

@@ -19,11 +19,16 @@ import Surface.Syntax
 assign :: [(Text, Text)] -> Program -> Result w Error Program
 assign values program = foldl' (\before v -> before >>= one v) (pure program) values
   where
-    one (name, text) before = case [at | Located _ (Param (Located at (Name n)) _) <- statements before, n == name] of
-      [] -> Result.failing [NoSuchParam name [n | Located _ (Param (Located _ (Name n)) _) <- statements program]] before
-      at : _ -> case Parser.parseExpr text of
-        Result {errors = [], output = Just e} -> pure before {statements = map (replaced name (placed at e)) (statements before)}
-        Result {errors} -> Result.failing [BadAssignment at name text (length errors)] before
+    one (name, text) before =
+      case [at | Located _ (Param (Located at (Name n)) _) <- statements before, n == name] of
+        [] ->
+          Result.failing
+            [NoSuchParam name [n | Located _ (Param (Located _ (Name n)) _) <- statements program]]
+            before
+        at : _ -> case Parser.parseExpr text of
+          Result {errors = [], output = Just e} ->
+            pure before {statements = map (replaced name (placed at e)) (statements before)}
+          Result {errors} -> Result.failing [BadAssignment at name text (length errors)] before
     replaced name e s = case s of
       Located at (Param n@(Located _ (Name n')) _) | n' == name -> Located at (Param n e)
       _ -> s

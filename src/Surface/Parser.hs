@@ -34,22 +34,29 @@ import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
 
--- | Read a program whose text begins at an offset. The output holds all that could be read; there is none when the
--- text is too long.
+-- | Read a program whose text begins at an offset. The output holds all that could be read; there
+-- is none when the text is too long.
 parse :: Int -> Text -> Result w Error Program
 parse begin text = maybe (explained begin text) (Result [] [] . Just) (sound begin text)
 
 -- | A program without mistakes. Its tokens are read as they are needed and kept nowhere.
 sound :: Int -> Text -> Maybe Program
 sound begin text = case Lexer.tokens begin text of
-  (tokens, comments) -> (\statements -> Program {statements, comments}) <$> FastCombinator.run mostTokens program tokens
+  (tokens, comments) ->
+    (\statements -> Program {statements, comments}) <$> FastCombinator.run mostTokens program tokens
 {-# NOINLINE sound #-}
 
 -- | The same by the reader that tells what is wrong, whether anything is or not.
 explained :: Int -> Text -> Result w Error Program
 explained begin text = case drop mostTokens tokens of
-  t : _ -> Result {warnings = [], errors = [Error.TooLong (Token.place t) mostTokens], output = Nothing}
-  [] -> Result {warnings = [], errors, output = Just Program {statements = Maybe.fromMaybe [] read', comments}}
+  t : _ ->
+    Result {warnings = [], errors = [Error.TooLong (Token.place t) mostTokens], output = Nothing}
+  [] ->
+    Result
+      { warnings = [],
+        errors,
+        output = Just Program {statements = Maybe.fromMaybe [] read', comments}
+      }
   where
     (tokens, comments) = Lexer.tokens begin text
     (errors, read') = run program (begin + Text.length text) tokens
@@ -103,20 +110,39 @@ forms =
     ("mill", machining "mill" Mill),
     ("pocket", Pocket <$> expr <* keyword "step" <*> expr <*> settings "pocket"),
     ("turn", machining "turn" Turn),
-    ("drill", keyword "at" *> (Drill <$> expr <* keyword "depth" <*> expr <*> Parsec.option [] (onThisLine (settings "drill")))),
+    ( "drill",
+      keyword "at"
+        *> ( Drill
+               <$> expr
+                 <* keyword "depth" <*> expr <*> Parsec.option [] (onThisLine (settings "drill"))
+           )
+    ),
     ("rapid", Travel RapidMotion <$> stops),
     ("move", Travel FeedMotion <$> stops),
     ("change", Change <$> expr <*> cutter),
     ("spindle", Spindle <$> spin),
     ("coolant", Coolant <$> ((SwitchOn <$ keyword "on") <|> (SwitchOff <$ keyword "off"))),
     ("aux", Auxiliary <$> expr),
-    ("for", forEach >>= \(variable, from) -> Repeat variable from <$> statementBlock "the repetition" statement),
-    ("if", When <$> expr <*> statementBlock "the block of ‘if’" statement <*> Parsec.option [] otherwise'),
+    ( "for",
+      forEach >>= \(variable, from) ->
+        Repeat variable from <$> statementBlock "the repetition" statement
+    ),
+    ( "if",
+      When <$> expr <*> statementBlock "the block of ‘if’" statement <*> Parsec.option [] otherwise'
+    ),
     ("with", With <$> expr <*> statementBlock "the block of ‘with’" statement)
   ]
   where
-    otherwise' = keyword "else" *> ((: []) <$> located elseIf <|> statementBlock "the block of ‘else’" statement)
-    elseIf = keyword "if" *> (When <$> expr <*> statementBlock "the block of ‘if’" statement <*> Parsec.option [] otherwise')
+    otherwise' =
+      keyword "else"
+        *> ((: []) <$> located elseIf <|> statementBlock "the block of ‘else’" statement)
+    elseIf =
+      keyword "if"
+        *> ( When
+               <$> expr
+                 <*> statementBlock "the block of ‘if’" statement
+                 <*> Parsec.option [] otherwise'
+           )
 
 text' :: Parser (Located Text)
 text' = located (token "a text" textOf)
@@ -140,8 +166,17 @@ cutter =
     one "mill" "diameter" MillCutter
       <|> one "drill" "diameter" DrillCutter
       <|> one "turn" "nose" TurningCutter
-      <|> (keyword "cone" *> parens (ConeCutter <$> measured "diameter" <*> further "bevel" coneForm <*> further "height" coneForm))
-      <|> (keyword "blade" *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm))
+      <|> ( keyword "cone"
+              *> parens
+                ( ConeCutter
+                    <$> measured "diameter"
+                      <*> further "bevel" coneForm
+                      <*> further "height" coneForm
+                )
+          )
+      <|> ( keyword "blade"
+              *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
+          )
   where
     one kind measure make = keyword kind *> parens (make <$> measured measure)
     measured measure = keyword measure *> expr
@@ -150,7 +185,8 @@ cutter =
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
 accuracy :: Parser Accuracy
-accuracy = (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
+accuracy =
+  (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
 
 spin :: Parser Spin
 spin = (Still <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
@@ -174,20 +210,29 @@ contour = do
 
 -- | The lines of a table, in braces or in a file.
 lines' :: Parser Lines
-lines' = (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks"))) <|> (WrittenLines <$> block "the table" (const BrokenLine) line)
+lines' =
+  (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
+    <|> (WrittenLines <$> block "the table" (const BrokenLine) line)
 
 -- | The columns of a table, or a value for each of them, and nothing else on the line.
 line :: Parser TableLine_
-line = (Header <$> onLine NotInHeadings column) <|> (Entries <$> onLine NotInRow cell) <|> misfit NotInRow
+line =
+  (Header <$> onLine NotInHeadings column)
+    <|> (Entries <$> onLine NotInRow cell)
+    <|> misfit NotInRow
   where
     onLine problem p = (:|) <$> p <*> several (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
-    cell = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow)))) <|> parens expr
+    cell =
+      number
+        <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
+        <|> parens expr
 
 -- | What stands here does not belong in the line of a table.
 misfit :: (Token_ -> Problem) -> Parser a
-misfit problem = Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
+misfit problem =
+  Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
 
 -- | Nothing more stands on the line of a table, but for the end of it.
 lineDone :: (Token_ -> Problem) -> Parser ()
@@ -202,7 +247,8 @@ piece :: Parser Statement_
 piece = do
   what <- name <* symbol "="
   base <- expr
-  ciphers <- Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
+  ciphers <-
+    Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> sideless)
   Piece what base ciphers side <$> several (located joggle)
   where
@@ -210,13 +256,25 @@ piece = do
     sideless = do
       next <- upcoming
       case next of
-        t : _ | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] -> Parsec.empty
+        t : _
+          | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] ->
+            Parsec.empty
         _ -> Parsec.customFailure NoSide
-    cipher = Cipher <$> located (token "the digit of a cipher" digit) <*> ((touching *> parens (expr `sepBy1` ",")) <?> "the values of the cipher in brackets that touch its digit")
+    cipher =
+      Cipher
+        <$> located (token "the digit of a cipher" digit)
+          <*> ( (touching *> parens (expr `sepBy1` ","))
+                  <?> "the values of the cipher in brackets that touch its digit"
+              )
     digit t = case shape t of
       Number x Nothing -> Just x
       _ -> Nothing
-    joggle = Joggle <$> (keyword "joggle" *> keyword "from" *> expr) <*> (keyword "to" *> expr) <*> (keyword "depth" *> expr) <*> (keyword "radius" *> expr)
+    joggle =
+      Joggle
+        <$> (keyword "joggle" *> keyword "from" *> expr)
+          <*> (keyword "to" *> expr)
+          <*> (keyword "depth" *> expr)
+          <*> (keyword "radius" *> expr)
 
 item :: Parser Item_
 item = wordAhead >>= \ahead -> if ahead then repetition <|> choice <|> element else element
@@ -236,10 +294,14 @@ choice = do
   Located region (condition, then') <- located (keyword "if" *> ((,) <$> expr <*> branch))
   case then' of
     Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
-    Left (a, b) -> Element Nothing (Located region (If condition a b)) <$> several (located modifier) <*> Parsec.optional (located link)
+    Left (a, b) ->
+      Element Nothing (Located region (If condition a b))
+        <$> several (located modifier) <*> Parsec.optional (located link)
   where
-    branch = (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
-    otherwise' = ((: []) <$> located choice) <|> nested (block "the block of ‘else’" BrokenItem item)
+    branch =
+      (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
+    otherwise' =
+      ((: []) <$> located choice) <|> nested (block "the block of ‘else’" BrokenItem item)
 
 element :: Parser Item_
 element = do
@@ -267,20 +329,37 @@ link =
 
 -- | A contour, a side, and settings.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
-machining word make = make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
+machining word make =
+  make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
   where
-    sides = [("outside", Outside), ("inside", Inside), ("left", LeftSide), ("right", RightSide), ("on", On)]
+    sides =
+      [ ("outside", Outside),
+        ("inside", Inside),
+        ("left", LeftSide),
+        ("right", RightSide),
+        ("on", On)
+      ]
 
 settings :: Text -> Parser [Setting]
-settings word = block ("the block of " <> quoted (Name word)) (const BrokenSetting) (setting (concatMap (take 1 . Text.words) (Keyword.settingsOf word)))
+settings word =
+  block
+    ("the block of " <> quoted (Name word))
+    (const BrokenSetting)
+    (setting (concatMap (take 1 . Text.words) (Keyword.settingsOf word)))
 
--- | A setting. Those of a statement are offered; what another one has is read, too, and refused with its name.
+-- | A setting. Those of a statement are offered; what another one has is read, too, and refused
+-- with its name.
 setting :: [Text] -> Parser Setting_
 setting offered = do
   begin <- Parsec.lookAhead Parsec.anySingle
   case shape begin of
     Word word | Just rest <- lookup word settingForms -> keyword word *> rest
-    _ -> Parsec.choice [(Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest | (word, rest) <- settingForms, word `elem` offered]
+    _ ->
+      Parsec.choice
+        [ (Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest
+          | (word, rest) <- settingForms,
+            word `elem` offered
+        ]
 
 -- | The rest of a setting by its first word.
 settingForms :: Grammar p => [(Text, p Setting_)]
@@ -288,12 +367,20 @@ settingForms =
   [ ("approach", Approach <$> stops),
     ("retract", Retract <$> stops),
     ("depth", Depth <$> expr <*> Parsec.optional (keyword "step" *> expr)),
-    ("lead", LeadBy <$> ((LeadIn <$ keyword "in") <|> (LeadOut <$ keyword "out")) <*> ((LeadLine <$ keyword "line") <|> (LeadArc <$ keyword "arc")) <*> expr),
+    ( "lead",
+      LeadBy
+        <$> ((LeadIn <$ keyword "in") <|> (LeadOut <$ keyword "out"))
+          <*> ((LeadLine <$ keyword "line") <|> (LeadArc <$ keyword "arc"))
+          <*> expr
+    ),
     ("allowance", Allowances <$> (expr `sepBy1` ",")),
     ("corners", CornerStyle <$> ((Round <$ keyword "round") <|> (Sharp <$ keyword "sharp"))),
     ("climb", pure (CutBy Climb)),
     ("conventional", pure (CutBy Conventional)),
-    ("compensation", CompensationBy <$> ((ByCompiler <$ keyword "compiler") <|> (ByController <$ keyword "controller"))),
+    ( "compensation",
+      CompensationBy
+        <$> ((ByCompiler <$ keyword "compiler") <|> (ByController <$ keyword "controller"))
+    ),
     ("start", keyword "near" *> (StartNear <$> expr)),
     ("plunge", Plunge <$> expr),
     ("peck", Peck <$> expr),
@@ -332,7 +419,14 @@ operated :: Grammar p => Expr -> p Expr
 operated first = do
   next <- upcoming
   case next of
-    t : _ | mayOperate t -> moreFactors first >>= moreSummands >>= moreOfRange >>= compared >>= moreConjuncts >>= moreDisjuncts
+    t : _
+      | mayOperate t ->
+        moreFactors first
+          >>= moreSummands
+          >>= moreOfRange
+          >>= compared
+          >>= moreConjuncts
+          >>= moreDisjuncts
     _ -> pure first
   where
     mayOperate t = case shape t of
@@ -374,16 +468,24 @@ comparison = range >>= compared
 compared :: Grammar p => Expr -> p Expr
 compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
   where
-    table = [("<=", AtMost), (">=", AtLeast), ("!=", Unequal), ("<", Less), (">", Greater), ("=", Equal)]
+    table =
+      [("<=", AtMost), (">=", AtLeast), ("!=", Unequal), ("<", Less), (">", Greater), ("=", Equal)]
 
 range :: Parser Expr
 range = sum' >>= moreOfRange
 
 -- | @a..b by s@
 moreOfRange :: Grammar p => Expr -> p Expr
-moreOfRange low = (Parsec.hidden (symbol "..") *> (to <$> sum' <*> Parsec.optional (Parsec.hidden (keyword "by") *> sum'))) <|> pure low
+moreOfRange low =
+  ( Parsec.hidden (symbol "..")
+      *> (to <$> sum' <*> Parsec.optional (Parsec.hidden (keyword "by") *> sum'))
+  )
+    <|> pure low
   where
-    to high step = Located (span (Region.region low) (Region.region (Maybe.fromMaybe high step))) (Range low high step)
+    to high step =
+      Located
+        (span (Region.region low) (Region.region (Maybe.fromMaybe high step)))
+        (Range low high step)
 
 sum' :: Parser Expr
 sum' = product' >>= moreSummands
@@ -411,7 +513,8 @@ chain operator next = more
     more left = (operator >>= \op -> next >>= \right -> more (joined op left right)) <|> pure left
 
 joined :: Operator -> Expr -> Expr -> Expr
-joined op left right = Located (span (Region.region left) (Region.region right)) (Binary op left right)
+joined op left right =
+  Located (span (Region.region left) (Region.region right)) (Binary op left right)
 
 factor :: Parser Expr
 factor = do
@@ -437,7 +540,9 @@ number = token "a number" numberOf
 list :: Parser Expr
 list = located (brackets (Parsec.option (List []) (expr >>= more)))
   where
-    more e = (each e <$> (Parsec.hidden (keyword "for") *> forEach)) <|> (List . (e :) <$> several (symbol "," *> expr))
+    more e =
+      (each e <$> (Parsec.hidden (keyword "for") *> forEach))
+        <|> (List . (e :) <$> several (symbol "," *> expr))
     each e (variable, from) = Each e variable from
 
 variableOrCall :: Parser Expr
@@ -456,7 +561,14 @@ argument = do
     _ -> Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
   where
     chosen = Chosen <$> located (Parsec.choice [c <$ keyword k | (k, c) <- choices]) <*> expr
-    choices = [("near", Near), ("left", ToLeft), ("right", ToRight), ("inside", Within'), ("outside", Beyond), ("within", UpTo)]
+    choices =
+      [ ("near", Near),
+        ("left", ToLeft),
+        ("right", ToRight),
+        ("inside", Within'),
+        ("outside", Beyond),
+        ("within", UpTo)
+      ]
     ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
     isWord' t = case shape t of
       Word _ -> True
@@ -484,8 +596,11 @@ plainPair tokens = case tokens of
 -- | A number, or a number behind a minus.
 plainNumber :: [Token] -> Maybe (Taken Expr)
 plainNumber tokens = case tokens of
-  Token {shape = Number x unit, place} : rest -> Just (Taken (Located place (Literal x unit)) 1 rest)
-  minus : Token {shape = Number x unit, place = at} : rest | isSymbol "-" minus -> Just (Taken (Located (span (place minus) at) (Negate (Located at (Literal x unit)))) 2 rest)
+  Token {shape = Number x unit, place} : rest ->
+    Just (Taken (Located place (Literal x unit)) 1 rest)
+  minus : Token {shape = Number x unit, place = at} : rest
+    | isSymbol "-" minus ->
+      Just (Taken (Located (span (place minus) at) (Negate (Located at (Literal x unit)))) 2 rest)
   _ -> Nothing
 
 -- | @(a)@ is a, @(a, b)@ a point or a vector, @(a, b, c)@ a point in space.

@@ -22,7 +22,8 @@ data Document
     Beside [Document]
   | -- | pieces with a space or a line break between them; broken, its lines hang four spaces in
     Series [Member]
-  | -- | brackets; broken, they stand apart from what they hold. The flag says that they are broken in any case
+  | -- | brackets; broken, they stand apart from what they hold. The flag says that they are broken
+    -- in any case
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
 
@@ -55,16 +56,19 @@ lay from doc = map line (reverse (now pen : done pen))
     pen = write from 0 doc Pen {done = [], now = (from, []), column = from}
     line (indent, texts) = PrintedLine {indent, text = Text.concat (reverse texts)}
 
--- | The lines that are complete and the one that is not, both backwards, and where the next character goes.
+-- | The lines that are complete and the one that is not, both backwards, and where the next
+-- character goes.
 data Pen = Pen {done :: [(Int, [Text])], now :: (Int, [Text]), column :: Int}
 
 put :: Text -> Pen -> Pen
-put t pen = let (indent, ts) = now pen in pen {now = (indent, t : ts), column = column pen + Text.length t}
+put t pen =
+  let (indent, ts) = now pen in pen {now = (indent, t : ts), column = column pen + Text.length t}
 
 newLine :: Int -> Pen -> Pen
 newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column = indent}
 
--- | Write a document. Lines that it begins are indented so far, and so many characters stand behind its last one.
+-- | Write a document. Lines that it begins are indented so far, and so many characters stand behind
+-- its last one.
 write :: Int -> Int -> Document -> Pen -> Pen
 write indent behind doc pen
   | fits (widest - column pen - behind) doc = foldl (flip put) pen (flat doc)
@@ -72,7 +76,8 @@ write indent behind doc pen
     Text t -> put t pen
     Beside ds -> foldl (\p (d, b) -> write indent b d p) pen (zip ds (followers behind ds))
     Series pieces -> fill (indent + 4) behind pieces pen
-    Brackets _ open pieces close -> put close (newLine indent (fill (indent + 2) 0 pieces (newLine (indent + 2) (put open pen))))
+    Brackets _ open pieces close ->
+      put close (newLine indent (fill (indent + 2) 0 pieces (newLine (indent + 2) (put open pen))))
 
 -- | How many characters follow each document before the line can be broken.
 followers :: Int -> [Document] -> [Int]
@@ -93,7 +98,9 @@ fill indent behind pieces = case pieces of
       Member {fresh, content} : rest ->
         let after = if null rest then behind else 0
             enough = not fresh && fits (widest - column pen - 1 - after) content
-         in go rest (write indent after content (if enough then put " " pen else newLine indent pen))
+         in go
+              rest
+              (write indent after content (if enough then put " " pen else newLine indent pen))
 
 -- | Whether a document fits unbroken into so many characters.
 fits :: Int -> Document -> Bool

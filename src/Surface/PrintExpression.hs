@@ -1,4 +1,5 @@
--- | Expressions as documents, with brackets only where the tree would be read differently without them.
+-- | Expressions as documents, with brackets only where the tree would be read differently without
+-- them.
 module Surface.PrintExpression
   ( Commented (..),
     uncommented,
@@ -24,16 +25,27 @@ import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
--- | Where the text that is laid out has comments: whether there is any between two offsets, and whether there is
--- one beside a comma.
+-- | Where the text that is laid out has comments: whether there is any between two offsets, and
+-- whether there is one beside a comma.
 data Commented = Commented {anywhere :: Int -> Int -> Bool, atComma :: Int -> Int -> Bool}
 
 -- | No comments.
 uncommented :: Commented
 uncommented = Commented {anywhere = \_ _ -> False, atComma = \_ _ -> False}
 
--- | How tightly an expression holds together. An operand is bracketed when it is looser than its place asks.
-data Tightness = Loose | Disjunction | Conjunction | Negation | Comparison | Ranged | Sum | Product | Factor | Primary
+-- | How tightly an expression holds together. An operand is bracketed when it is looser than its
+-- place asks.
+data Tightness
+  = Loose
+  | Disjunction
+  | Conjunction
+  | Negation
+  | Comparison
+  | Ranged
+  | Sum
+  | Product
+  | Factor
+  | Primary
   deriving stock (Eq, Ord)
 
 -- | An expression where any may stand.
@@ -45,7 +57,8 @@ element :: Commented -> Expr -> Document
 element commented e = if misleading (PrettyPrinter.firstText doc) then bracketed doc else doc
   where
     doc = value commented e
-    misleading text = "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
+    misleading text =
+      "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
 -- | Things with commas between them, each with its region; broken where a comment stands.
 list :: Commented -> NonEmpty (Region, Document) -> NonEmpty Member
@@ -54,7 +67,10 @@ list commented things = NonEmpty.zipWith piece (NonEmpty.zip before things) comm
     before = Nothing :| map (Just . fst) (NonEmpty.toList things)
     commas = NonEmpty.fromList (replicate (length things - 1) "," <> [""])
     piece (previous, (region, doc)) comma =
-      Member {fresh = maybe False (\p -> atComma commented (end p) (start region)) previous, content = Beside [doc, Text comma]}
+      Member
+        { fresh = maybe False (\p -> atComma commented (end p) (start region)) previous,
+          content = Beside [doc, Text comma]
+        }
 
 -- | A piece that begins no line of itself.
 one :: Document -> Member
@@ -122,20 +138,26 @@ bare :: Commented -> Expr -> Document
 bare commented (Located region e) = case e of
   Literal number unit -> Text (digits number <> maybe "" ((" " <>) . unitName) unit)
   Variable (Name name) -> Text name
-  Call (Located _ (Name name)) arguments -> group (name <> "(") (NonEmpty.toList (list commented (fmap (argument commented) arguments))) ")"
+  Call (Located _ (Name name)) arguments ->
+    group (name <> "(") (NonEmpty.toList (list commented (fmap (argument commented) arguments))) ")"
   Negate inner ->
     let doc = operand commented Factor inner
      in Beside [Text (if "-" `Text.isPrefixOf` PrettyPrinter.firstText doc then "- " else "-"), doc]
   Not inner -> words' [Text "not", operand commented Negation inner]
   Binary operator left right -> case ofOperator operator of
-    Comparison -> Series [one (operand commented Ranged left), signed operator (operand commented Ranged right)]
+    Comparison ->
+      Series [one (operand commented Ranged left), signed operator (operand commented Ranged right)]
     looser -> Series (chain commented looser (Located region e))
   Range low high step ->
     Beside $
       [operand commented Sum low, Text "..", operand commented Sum high]
         <> maybe [] (\s -> [Text " by ", operand commented Sum s]) step
   If condition yes no ->
-    Series [one (words' [Text "if", sub condition]), one (words' [Text "then", sub yes]), one (words' [Text "else", sub no])]
+    Series
+      [ one (words' [Text "if", sub condition]),
+        one (words' [Text "then", sub yes]),
+        one (words' [Text "else", sub no])
+      ]
   Pair x y -> group "(" (coordinates (x :| [y])) ")"
   Triple x y z -> group "(" (coordinates (x :| [y, z])) ")"
   List items -> case NonEmpty.nonEmpty items of
@@ -151,7 +173,11 @@ bare commented (Located region e) = case e of
 -- | Values with commas between them behind an opening bracket, with the region of the whole.
 group' :: Commented -> Region -> Text -> NonEmpty Expr -> Document
 group' commented region open es =
-  Brackets (anywhere commented (start region) (end region)) open (NonEmpty.toList (list commented (fmap (\x -> (Region.region x, value commented x)) es))) ")"
+  Brackets
+    (anywhere commented (start region) (end region))
+    open
+    (NonEmpty.toList (list commented (fmap (\x -> (Region.region x, value commented x)) es)))
+    ")"
 
 -- | A chain of operators of one rank: @a@, @+ b@, @- c@.
 chain :: Commented -> Tightness -> Expr -> [Member]
@@ -159,7 +185,8 @@ chain commented looser = reverse . go
   where
     go (Located region e) = case e of
       Binary operator left right
-        | ofOperator operator == looser -> signed operator (operand commented (tighter looser) right) : go left
+        | ofOperator operator == looser ->
+          signed operator (operand commented (tighter looser) right) : go left
       _ -> [one (operand commented looser (Located region e))]
 
 signed :: Operator -> Document -> Member
@@ -182,7 +209,10 @@ tighter looser = case looser of
 argument :: Commented -> Argument -> (Region, Document)
 argument commented a = case a of
   Given e -> (Region.region e, value commented e)
-  Chosen (Located region choice) e -> (Region (start region) (end (Region.region e)), words' [Text (choiceName choice), value commented e])
+  Chosen (Located region choice) e ->
+    ( Region (start region) (end (Region.region e)),
+      words' [Text (choiceName choice), value commented e]
+    )
   Ranked (Located region which) -> (region, Text (rankName which))
 
 choiceName :: Selector -> Text

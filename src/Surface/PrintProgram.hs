@@ -42,18 +42,36 @@ rows commented = concatMap (statement commented 0)
 whole :: Int -> Document -> [AlignedLine]
 whole indent doc = case PrettyPrinter.lay indent doc of
   [] -> []
-  first : more -> AlignedLine {indent = PrettyPrinter.indent first, cells = Whole (PrettyPrinter.text first), continues = False} : map continued more
+  first : more ->
+    AlignedLine
+      { indent = PrettyPrinter.indent first,
+        cells = Whole (PrettyPrinter.text first),
+        continues = False
+      } :
+    map continued more
 
 -- | Two cells, if the whole stands on one line.
 cells' :: AlignmentColumn -> Int -> Document -> Document -> [AlignedLine]
-cells' column indent first second = case (PrettyPrinter.lay indent first, PrettyPrinter.lay indent second, alone) of
-  ([a], [b], [_]) -> [AlignedLine {indent, cells = LineText column (PrettyPrinter.text a) (PrettyPrinter.text b), continues = False}]
-  _ -> alone
+cells' column indent first second =
+  case (PrettyPrinter.lay indent first, PrettyPrinter.lay indent second, alone) of
+    ([a], [b], [_]) ->
+      [ AlignedLine
+          { indent,
+            cells = LineText column (PrettyPrinter.text a) (PrettyPrinter.text b),
+            continues = False
+          }
+      ]
+    _ -> alone
   where
     alone = whole indent (Beside [first, Text (Alignment.gap column), second])
 
 continued :: PrettyPrinter.PrintedLine -> AlignedLine
-continued line = AlignedLine {indent = PrettyPrinter.indent line, cells = Whole (PrettyPrinter.text line), continues = True}
+continued line =
+  AlignedLine
+    { indent = PrettyPrinter.indent line,
+      cells = Whole (PrettyPrinter.text line),
+      continues = True
+    }
 
 -- | What stands before a brace, the rows in it, and the closing brace.
 braces :: Int -> Document -> [AlignedLine] -> [AlignedLine]
@@ -68,7 +86,8 @@ opened indent before = whole indent (words' [before, Text "{"])
 
 statement :: Commented -> Int -> Statement -> [AlignedLine]
 statement commented indent (Located _ s) = case s of
-  Part (Located _ (Name name)) title -> plain (words' (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
+  Part (Located _ (Name name)) title ->
+    plain (words' (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
   Machine (Located _ ref) -> worded "machine" (Text (machineRef ref))
   Import (Located _ file) -> worded "import" (Text (quoted file))
   Tool c -> worded "tool" (cutter commented c)
@@ -77,20 +96,39 @@ statement commented indent (Located _ s) = case s of
   Clearance e -> worded "clearance" (value e)
   From e -> worded "from" (value e)
   LetValue (Located _ (Name name)) e -> defined ("let " <> name) e
-  LetFunction (Located _ (Name name)) parameters e -> defined ("let " <> name <> "(" <> names parameters <> ")") e
+  LetFunction (Located _ (Name name)) parameters e ->
+    defined ("let " <> name <> "(" <> names parameters <> ")") e
   Param (Located _ (Name name)) e -> defined ("param " <> name) e
-  Contour (Located _ (Name name)) closure items -> braces indent (Text ("contour " <> name <> " " <> closureName closure)) (concatMap (item commented (indent + 2)) items)
-  Table (Located _ (Name name)) (LinesOf (Located _ file)) -> plain (Text ("table " <> name <> " from " <> quoted file))
-  Table (Located _ (Name name)) (WrittenLines ls) -> braces indent (Text ("table " <> name)) (table commented (indent + 2) ls)
+  Contour (Located _ (Name name)) closure items ->
+    braces
+      indent
+      (Text ("contour " <> name <> " " <> closureName closure))
+      (concatMap (item commented (indent + 2)) items)
+  Table (Located _ (Name name)) (LinesOf (Located _ file)) ->
+    plain (Text ("table " <> name <> " from " <> quoted file))
+  Table (Located _ (Name name)) (WrittenLines ls) ->
+    braces indent (Text ("table " <> name)) (table commented (indent + 2) ls)
   Curve (Located _ (Name name)) e -> defined ("curve " <> name) e
-  Piece (Located _ (Name name)) e ciphers (Located _ side) joggles -> cells' Definitions indent (Text ("piece " <> name)) (words' [Text "=", piece commented e ciphers side joggles])
-  Assert e within -> plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
+  Piece (Located _ (Name name)) e ciphers (Located _ side) joggles ->
+    cells'
+      Definitions
+      indent
+      (Text ("piece " <> name))
+      (words' [Text "=", piece commented e ciphers side joggles])
+  Assert e within ->
+    plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
   Mill e side settings -> machining "mill" e side settings
-  Pocket e step settings -> braces indent (words' [Text "pocket", value e, Text "step", value step]) (concatMap (setting commented (indent + 2)) settings)
+  Pocket e step settings ->
+    braces
+      indent
+      (words' [Text "pocket", value e, Text "step", value step])
+      (concatMap (setting commented (indent + 2)) settings)
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = words' [Text "drill at", value at, Text "depth", value depth]
-     in if null settings then plain before else braces indent before (concatMap (setting commented (indent + 2)) settings)
+     in if null settings
+          then plain before
+          else braces indent before (concatMap (setting commented (indent + 2)) settings)
   Travel RapidMotion to -> worded "rapid" (stops commented to)
   Travel FeedMotion to -> worded "move" (stops commented to)
   Change place c -> worded "change" (words' [value place, cutter commented c])
@@ -98,7 +136,8 @@ statement commented indent (Located _ s) = case s of
   Coolant SwitchOn -> worded "coolant" (Text "on")
   Coolant SwitchOff -> worded "coolant" (Text "off")
   Auxiliary e -> worded "aux" (value e)
-  Repeat (Located _ (Name name)) from inside -> braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
+  Repeat (Located _ (Name name)) from inside ->
+    braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
   When condition yes no -> alternatives indent (Text "if") value block whenOnly condition yes no
   With e inside -> braces indent (words' [Text "with", value e]) (block inside)
   Broken _ _ -> []
@@ -109,7 +148,10 @@ statement commented indent (Located _ s) = case s of
     defined what e = cells' Definitions indent (Text what) (words' [Text "=", value e])
     block = concatMap (statement commented (indent + 2))
     machining word e (Located _ side) settings =
-      braces indent (words' [Text word, value e, Text (sideName side)]) (concatMap (setting commented (indent + 2)) settings)
+      braces
+        indent
+        (words' [Text word, value e, Text (sideName side)])
+        (concatMap (setting commented (indent + 2)) settings)
     spinning spin = case spin of
       Still -> Text "off"
       Spinning sense speed -> words' (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
@@ -122,18 +164,34 @@ table :: Commented -> Int -> [TableLine] -> [AlignedLine]
 table commented indent ls = map row written
   where
     written = concat [cellsOf l | Located _ l <- ls]
-    row texts = AlignedLine {indent, cells = Whole (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))), continues = False}
+    row texts =
+      AlignedLine
+        { indent,
+          cells =
+            Whole (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))),
+          continues = False
+        }
     place front width text' = Text.justifyLeft width ' ' (pointed front text')
     -- Decimal points stand below one another.
-    pointed front text' = if isNumber text' then Text.replicate (front - frontOf text') " " <> text' else text'
+    pointed front text' =
+      if isNumber text' then Text.replicate (front - frontOf text') " " <> text' else text'
     frontOf = Text.length . Text.takeWhile (\c -> isDigit c || c == '-')
     isNumber text' = Text.any (\c -> isDigit c || c == '-') (Text.take 1 text')
     fronts = map (maximum . (0 :) . map frontOf . filter isNumber) (transpose written) <> repeat 0
-    widths = zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose written) <> repeat 0
+    widths =
+      zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose written)
+        <> repeat 0
     cellsOf l = case l of
-      Header columns -> [[name <> maybe "" ((" " <>) . unitName) unit | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns]]
+      Header columns ->
+        [ [ name <> maybe "" ((" " <>) . unitName) unit
+            | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns
+          ]
+        ]
       Entries es -> [map cell (NonEmpty.toList es)]
-      Numbers numbers -> [map Decimal.exact (NumberTable.cells numbers k) | k <- [0 .. NumberTable.count numbers - 1]]
+      Numbers numbers ->
+        [ map Decimal.exact (NumberTable.cells numbers k)
+          | k <- [0 .. NumberTable.count numbers - 1]
+        ]
       BrokenLine -> []
     cell e = case Region.value e of
       Literal _ _ -> text (PrintExpression.value commented e)
@@ -143,22 +201,50 @@ table commented indent ls = map row written
 
 piece :: Commented -> Expr -> [Cipher] -> Side -> [Joggle] -> Document
 piece commented e ciphers side joggles =
-  Series (map PrintExpression.one ([value e] <> recalculations <> [Text (sideName side)] <> concatMap joggle joggles))
+  Series
+    ( map
+        PrintExpression.one
+        ([value e] <> recalculations <> [Text (sideName side)] <> concatMap joggle joggles)
+    )
   where
     value = PrintExpression.value commented
     recalculations = case zip ciphers (replicate (length ciphers - 1) "," <> [""]) of
       [] -> []
-      (first, comma) : rest -> words' [Text "cipher", cipher first comma] : map (uncurry cipher) rest
-    cipher (Located region (Cipher (Located _ digit) es)) comma = Beside [PrintExpression.group' commented region (digits digit <> "(") es, Text comma]
+      (first, comma) : rest ->
+        words' [Text "cipher", cipher first comma] : map (uncurry cipher) rest
+    cipher (Located region (Cipher (Located _ digit) es)) comma =
+      Beside [PrintExpression.group' commented region (digits digit <> "(") es, Text comma]
     joggle (Located _ (Joggle from to depth radius)) =
-      [words' [Text "joggle from", value from, Text "to", value to, Text "depth", value depth, Text "radius", value radius]]
+      [ words'
+          [ Text "joggle from",
+            value from,
+            Text "to",
+            value to,
+            Text "depth",
+            value depth,
+            Text "radius",
+            value radius
+          ]
+      ]
 
--- | @if c { … } else if d { … } else { … }@: what stands before the condition, how conditions and blocks are
--- laid out, and whether a block is nothing but another choice.
-alternatives :: Int -> Document -> (Expr -> Document) -> ([a] -> [AlignedLine]) -> ([a] -> Maybe (Expr, [a], [a])) -> Expr -> [a] -> [a] -> [AlignedLine]
+-- | @if c { … } else if d { … } else { … }@: what stands before the condition, how conditions and
+-- blocks are laid out, and whether a block is nothing but another choice.
+alternatives ::
+  Int ->
+  Document ->
+  (Expr -> Document) ->
+  ([a] -> [AlignedLine]) ->
+  ([a] -> Maybe (Expr, [a], [a])) ->
+  Expr ->
+  [a] ->
+  [a] ->
+  [AlignedLine]
 alternatives indent before value block only condition yes no = case (no, only no) of
   ([], _) -> braces indent begin (block yes)
-  (_, Just (c, yes', no')) -> opened indent begin <> block yes <> alternatives indent (Text "} else if") value block only c yes' no'
+  (_, Just (c, yes', no')) ->
+    opened indent begin
+      <> block yes
+      <> alternatives indent (Text "} else if") value block only c yes' no'
   (_, Nothing) -> opened indent begin <> block yes <> braces indent (Text "} else") (block no)
   where
     begin = words' [before, value condition]
@@ -179,7 +265,16 @@ cutter commented (Located _ c) = case c of
   MillCutter e -> made "mill(diameter " e
   DrillCutter e -> made "drill(diameter " e
   TurningCutter e -> made "turn(nose " e
-  ConeCutter d a h -> Beside [Text "cone(diameter ", value d, Text ", bevel ", value a, Text ", height ", value h, Text ")"]
+  ConeCutter d a h ->
+    Beside
+      [ Text "cone(diameter ",
+        value d,
+        Text ", bevel ",
+        value a,
+        Text ", height ",
+        value h,
+        Text ")"
+      ]
   BladeCutter d g -> Beside [Text "blade(diameter ", value d, Text ", gear ", value g, Text ")"]
   where
     made before e = Beside [Text before, value e, Text ")"]
@@ -188,7 +283,13 @@ cutter commented (Located _ c) = case c of
 accuracy :: Commented -> Accuracy -> Document
 accuracy commented a = case a of
   Within e -> PrintExpression.value commented e
-  Between inside outside -> words' [Text "inside", PrintExpression.value commented inside, Text "outside", PrintExpression.value commented outside]
+  Between inside outside ->
+    words'
+      [ Text "inside",
+        PrintExpression.value commented inside,
+        Text "outside",
+        PrintExpression.value commented outside
+      ]
 
 -- | Points with commas between them; the pace stays on the line of its point.
 stops :: Commented -> NonEmpty Stop -> Document
@@ -197,7 +298,10 @@ stops commented = Series . NonEmpty.toList . PrintExpression.list commented . fm
     stop Stop {point, pace} = case pace of
       Cutting -> (Region.region point, value point)
       Rapid -> (Region.region point, words' [value point, Text "rapid"])
-      AtFeed e -> (Region.span (Region.region point) (Region.region e), words' [value point, Text "feed", value e])
+      AtFeed e ->
+        ( Region.span (Region.region point) (Region.region e),
+          words' [value point, Text "feed", value e]
+        )
     value = PrintExpression.value commented
 
 closureName :: Closure -> Text
@@ -228,7 +332,8 @@ item commented indent (Located _ i) = case i of
           Just (Located _ s) -> words' [Text (senseName s), value e]
         first = words' (walked : map (modifier commented) modifiers)
      in maybe (whole indent first) (cells' Links indent first . linked commented) link
-  For (Located _ (Name name)) from inside -> braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
+  For (Located _ (Name name)) from inside ->
+    braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
   Choose condition yes no -> alternatives indent (Text "if") value block chooseOnly condition yes no
   BrokenItem _ -> []
   where
@@ -280,7 +385,8 @@ setting commented indent (Located _ s) = case s of
     value = PrintExpression.value commented
     worded word = cells' SettingValues indent (Text word)
     pieces :: NonEmpty Expr -> [Member]
-    pieces = NonEmpty.toList . PrintExpression.list commented . fmap (\e -> (Region.region e, value e))
+    pieces =
+      NonEmpty.toList . PrintExpression.list commented . fmap (\e -> (Region.region e, value e))
 
 leadName :: Lead -> Text
 leadName lead = case lead of

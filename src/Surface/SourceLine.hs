@@ -1,7 +1,8 @@
 -- | Where the rows of a printed program come from in the text that was read.
 --
--- The printed program has the tokens of the text but for brackets and words that may be there or not,
--- so its rows find their places by their tokens. Comments and blank lines follow by these places.
+-- The printed program has the tokens of the text but for brackets and words that may be there or
+-- not, so its rows find their places by their tokens. Comments and blank lines follow by these
+-- places.
 module Surface.SourceLine
   ( Anchored (..),
     anchored,
@@ -31,7 +32,8 @@ dealt :: [AlignedLine] -> [(Token, Maybe Token)] -> [Anchored]
 dealt rows tokens = case (rows, tokens) of
   (row : more, first : rest) ->
     let (own, others) = break (newLine . fst) rest
-     in Anchored {row, shapes = map (shape . fst) (first : own), places = map snd (first : own)} : dealt more others
+     in Anchored {row, shapes = map (shape . fst) (first : own), places = map snd (first : own)} :
+        dealt more others
   _ -> []
 
 -- | For each printed token the one that it comes from.

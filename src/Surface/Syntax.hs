@@ -116,7 +116,8 @@ data Statement_
     When Expr [Statement] [Statement]
   | -- | @with rotated(60 deg) { … }@
     With Expr [Statement]
-  | -- | A statement that could not be read: its first word, and the name that it would have defined.
+  | -- | A statement that could not be read: its first word, and the name that it would have
+    -- defined.
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
 
@@ -181,7 +182,19 @@ data Expr_
     Each Expr (Located Name) Expr
   deriving stock (Eq, Show)
 
-data Operator = Add | Subtract | Multiply | Divide | Less | AtMost | Greater | AtLeast | Equal | Unequal | And | Or
+data Operator
+  = Add
+  | Subtract
+  | Multiply
+  | Divide
+  | Less
+  | AtMost
+  | Greater
+  | AtLeast
+  | Equal
+  | Unequal
+  | And
+  | Or
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | An argument of a call. The words choose among the answers that geometry has.

@@ -46,7 +46,17 @@ data Numeral = Numeral {digits :: {-# UNPACK #-} Text, amount :: Double}
   deriving stock (Eq, Ord, Show)
 
 -- | The units of a drawing.
-data Unit = Millimetre | Centimetre | Metre | Inch | Degree | Radian | MmPerMin | MPerMin | InPerMin | Rpm
+data Unit
+  = Millimetre
+  | Centimetre
+  | Metre
+  | Inch
+  | Degree
+  | Radian
+  | MmPerMin
+  | MPerMin
+  | InPerMin
+  | Rpm
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 -- | A unit as it is written.

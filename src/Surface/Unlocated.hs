@@ -42,7 +42,8 @@ statement s = case s of
   Table name (LinesOf file) -> Table (here name) (LinesOf (here file))
   Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
   Curve name e -> Curve (here name) (expr e)
-  Piece name e ciphers side joggles -> Piece (here name) (expr e) (map (moved cipher) ciphers) (here side) (map (moved joggle) joggles)
+  Piece name e ciphers side joggles ->
+    Piece (here name) (expr e) (map (moved cipher) ciphers) (here side) (map (moved joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
   Mill e side settings -> Mill (expr e) (here side) (map (moved setting) settings)
   Pocket e step settings -> Pocket (expr e) (expr step) (map (moved setting) settings)
@@ -63,7 +64,10 @@ line :: TableLine -> [TableLine]
 line (Located _ l) = map (Located nowhere) $ case l of
   Header columns -> [Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)]
   Entries es -> [Entries (fmap expr es)]
-  Numbers rows -> [maybe BrokenLine Entries (NonEmpty.nonEmpty (map bare (NumberTable.cells rows k))) | k <- [0 .. NumberTable.count rows - 1]]
+  Numbers rows ->
+    [ maybe BrokenLine Entries (NonEmpty.nonEmpty (map bare (NumberTable.cells rows k)))
+      | k <- [0 .. NumberTable.count rows - 1]
+    ]
   BrokenLine -> [BrokenLine]
 
 -- | A number as it is written in a program.
@@ -112,7 +116,8 @@ argument a = case a of
 
 item :: Item_ -> Item_
 item i = case i of
-  Element sense e modifiers link -> Element (fmap here sense) (expr e) (map (moved modifier) modifiers) (fmap (moved linked) link)
+  Element sense e modifiers link ->
+    Element (fmap here sense) (expr e) (map (moved modifier) modifiers) (fmap (moved linked) link)
   For name from inside -> For (here name) (expr from) (map (moved item) inside)
   Choose condition yes no -> Choose (expr condition) (map (moved item) yes) (map (moved item) no)
   BrokenItem name -> BrokenItem (fmap here name)

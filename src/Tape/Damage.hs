@@ -91,7 +91,12 @@ data Reason
 -- | The words for a damaged tape.
 toReport :: Damage -> Report
 toReport (Damage at n c why) =
-  (report Report.Error "E0601" (InTape at) ("row " <> Decimal.whole at <> place <> ": " <> reasonWord why))
+  ( report
+      Report.Error
+      "E0601"
+      (InTape at)
+      ("row " <> Decimal.whole at <> place <> ": " <> reasonWord why)
+  )
     { message = explanation why
     }
   where
@@ -105,11 +110,17 @@ explanation why = case why of
   NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows." | wanted > 0]
   LeaderNotBlank wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
   TrailerLength found wanted ->
-    [ "Behind the last frame stand " <> Decimal.whole found <> " blank rows, and it should be " <> Decimal.whole wanted
+    [ "Behind the last frame stand "
+        <> Decimal.whole found
+        <> " blank rows, and it should be "
+        <> Decimal.whole wanted
         <> ": frames are missing, or the tape is torn."
     ]
   NoClosing _ -> ["Frames are missing, or the tape is torn."]
-  Misread -> ["The machine's description lets frames be read in two ways. Look at what stands between words, and at words that may be left out."]
+  Misread ->
+    [ "The machine's description lets frames be read in two ways. Look at what stands between \
+      \words, and at words that may be left out."
+    ]
   _ -> []
 
 reasonWord :: Reason -> Text
@@ -126,18 +137,31 @@ reasonWord why = case why of
   NoDigit tracks holes -> "the holes " <> binary tracks holes <> " are no digit"
   NotADigit c -> RowMeaning.shown c <> " stands where a digit belongs"
   NoSymbol tracks holes -> "the holes " <> binary tracks holes <> " are no symbol"
-  Unexpected found wanted -> RowMeaning.shown found <> " stands where " <> RowMeaning.shown wanted <> " belongs"
+  Unexpected found wanted ->
+    RowMeaning.shown found <> " stands where " <> RowMeaning.shown wanted <> " belongs"
   NotBlank -> "a hole in a row that has to be blank"
   Missing wanted -> RowMeaning.shown wanted <> " is missing"
-  WordOutOfPlace c -> "a word " <> RowMeaning.shown c <> " can not stand here: it is out of order, there already, or none of this machine"
+  WordOutOfPlace c ->
+    "a word "
+      <> RowMeaning.shown c
+      <> " can not stand here: it is out of order, there already, or none of this machine"
   MarkerMissing -> "the frame marker is missing"
   ServiceHole -> "a hole in the service track where there must be none"
   NoSign -> "the number has no sign"
   MinusZero -> "a minus on zero"
   NoPriority d -> "the digit " <> Decimal.whole d <> " says no direction"
-  WrongPriority found wanted -> "the digit for direction and leading axis is " <> Decimal.whole found <> " and should be " <> Decimal.whole wanted
-  AddsTo total modulus -> "the frame adds to " <> Decimal.whole total <> ", which is no multiple of " <> Decimal.whole modulus
-  WrongNumber found wanted -> "the frame is numbered " <> Decimal.whole found <> " and should be " <> Decimal.whole wanted
+  WrongPriority found wanted ->
+    "the digit for direction and leading axis is "
+      <> Decimal.whole found
+      <> " and should be "
+      <> Decimal.whole wanted
+  AddsTo total modulus ->
+    "the frame adds to "
+      <> Decimal.whole total
+      <> ", which is no multiple of "
+      <> Decimal.whole modulus
+  WrongNumber found wanted ->
+    "the frame is numbered " <> Decimal.whole found <> " and should be " <> Decimal.whole wanted
   UnknownMotion n -> "the machine has no motion " <> Decimal.whole n
   MotionWithoutMove -> "a motion that moves nothing"
   MoveWithoutMotion -> "the frame moves and does not say how"
@@ -155,10 +179,13 @@ brokenWord broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"
   BadCentre _ -> "the centre of the arc is none, or too far"
   NoSuchSpeed _ (FeedCode s) -> "the machine has no speed " <> Decimal.whole s <> " for this motion"
-  NoSuchMotion _ -> "the machine has no such motion: an arc that it can not go, or one that its distances contradict"
+  NoSuchMotion _ ->
+    "the machine has no such motion: an arc that it can not go, or one that its distances \
+    \contradict"
   NoSuchOrder _ (CommandName o) -> "the machine has no such command " <> o
   Idle _ -> "the frame moves nothing and commands nothing"
 
 -- | Holes from the highest track to the lowest.
 binary :: Int -> Word8 -> Text
-binary tracks w = Text.pack [if w `div` (2 ^ k) `mod` 2 == 1 then '1' else '0' | k <- [tracks - 1, tracks - 2 .. 0]]
+binary tracks w =
+  Text.pack [if w `div` (2 ^ k) `mod` 2 == 1 then '1' else '0' | k <- [tracks - 1, tracks - 2 .. 0]]

@@ -3,8 +3,8 @@
 
 -- | The rows of one frame read back, by the steps that wrote them.
 --
--- What is read becomes a frame, and the frame is written again: rows that the layout would not have written are
--- faults, whatever they are.
+-- What is read becomes a frame, and the frame is written again: rows that the layout would not have
+-- written are faults, whatever they are.
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -24,11 +24,27 @@ import Data.Word (Word8)
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
-import Machine.Machine (Axis (..), AxisMeasure (..), Content (..), FeedCode (..), MotionCodes (..), NumberForm (..), Presence (..), Word' (..))
+import Machine.Machine
+  ( Axis (..),
+    AxisMeasure (..),
+    Content (..),
+    FeedCode (..),
+    MotionCodes (..),
+    NumberForm (..),
+    Presence (..),
+    Word' (..),
+  )
 import Machine.Machine qualified as Machine
 import Tape.Damage (Reason (..))
 import Tape.FrameReader.Fast qualified as FastFrameReader
-import Tape.Layout (Address (..), Layout, LayoutStep (..), MarkedRow (..), RowContent (..), RowMeaning (..))
+import Tape.Layout
+  ( Address (..),
+    Layout,
+    LayoutStep (..),
+    MarkedRow (..),
+    RowContent (..),
+    RowMeaning (..),
+  )
 import Tape.Layout qualified as Layout
 import Tape.ModalState (State (..))
 import Tape.ModalState qualified as ModalState
@@ -79,11 +95,15 @@ wordByWord :: Layout -> State -> ShortByteString -> Int -> Either RowFault (Fram
 wordByWord plan state rows begin = do
   (reading, end) <- readSteps plan rows begin
   case check reading of
-    Just (k, modulus) | total reading `mod` max 1 modulus /= 0 -> Left (RowFault k Nothing (AddsTo (total reading) modulus))
+    Just (k, modulus)
+      | total reading `mod` max 1 modulus /= 0 ->
+        Left (RowFault k Nothing (AddsTo (total reading) modulus))
     _ -> Right ()
   f <- frameOf plan state begin reading
   lawful plan begin reading f
-  if not (isSpelled plan state reading f || isWritten plan state rows begin end f) then written plan rows begin end (Layout.frameMarks plan state f) else Right ()
+  if not (isSpelled plan state reading f || isWritten plan state rows begin end f)
+    then written plan rows begin end (Layout.frameMarks plan state f)
+    else Right ()
   Right (f, end)
 
 -- | The words of a frame in order.
@@ -100,36 +120,67 @@ readSteps plan rows = go False (Layout.steps plan) [] (Reading [] [] False 0 Not
           next = Symbol.behind rows k cs
       Checked modulus : more -> do
         d <- NumberReader.digit plan Nothing rows k
-        go False more done (now {total = total now + Symbol.digitWeight (Layout.symbols plan) d, check = Just (k, modulus)}) (k + 1)
+        go
+          False
+          more
+          done
+          ( now
+              { total = total now + Symbol.digitWeight (Layout.symbols plan) d,
+                check = Just (k, modulus)
+              }
+          )
+          (k + 1)
       Worded w cs joined : more
         | stands -> do
           n <- NumberReader.numeral plan (content w) (form w) rows begin
-          let s = Said {word = w, at = NumberReader.start n, number = NumberReader.value n, places = NumberReader.places n}
+          let s =
+                Said
+                  { word = w,
+                    at = NumberReader.start n,
+                    number = NumberReader.value n,
+                    places = NumberReader.places n
+                  }
           go True more (s : done) (beside w n (counting (spelled prefix) now)) (NumberReader.next n)
         | otherwise -> Left (mismatch plan (Just (content w)) rows k (spelled prefix))
         where
           prefix = if behindWord then joined else cs
           begin = Layout.behindAddress rows k prefix
           stands = isThere w cs begin
-    isThere w cs begin = begin >= 0 && (extent cs > 0 || presence w == Always || NumberReader.begins plan (form w) rows begin)
+    isThere w cs begin =
+      begin >= 0
+        && (extent cs > 0 || presence w == Always || NumberReader.begins plan (form w) rows begin)
     -- Behind the words that a frame can do without, as far as they do not stand here.
     lacking behindWord todo k = case todo of
-      Worded w cs joined : more | presence w /= Always && not (isThere w cs (Layout.behindAddress rows k (if behindWord then joined else cs))) -> lacking behindWord more k
+      Worded w cs joined : more
+        | presence w /= Always
+            && not
+              (isThere w cs (Layout.behindAddress rows k (if behindWord then joined else cs))) ->
+          lacking behindWord more k
       _ -> todo
     counting cs now
       | Layout.isChecked plan = now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
       | otherwise = now
-    -- What a command is given; what the service track says beside a number, and what its digits add.
+    -- What a command is given; what the service track says beside a number, and what its digits
+    -- add.
     beside w n now = case content w of
       Command o -> (counted n now) {commands = (o, NumberReader.value n) : commands (counted n now)}
       _ -> counted n now
     counted n now
-      | null (NumberReader.bits n) && not (NumberReader.brakes n) && not (Layout.isChecked plan) = now
-      | otherwise = now {commands = NumberReader.bits n <> commands now, braked = braked now || NumberReader.brakes n, total = total now + NumberReader.total n}
+      | null (NumberReader.bits n) && not (NumberReader.brakes n) && not (Layout.isChecked plan) =
+        now
+      | otherwise =
+        now
+          { commands = NumberReader.bits n <> commands now,
+            braked = braked now || NumberReader.brakes n,
+            total = total now + NumberReader.total n
+          }
 
 -- | The row behind symbols that have to stand here.
 expect :: Layout -> ShortByteString -> Int -> [Symbol] -> Either RowFault Int
-expect plan rows k cs = let next = Symbol.behind rows k cs in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
+expect plan rows k cs =
+  let next =
+        Symbol.behind rows k cs
+   in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
 
 -- | The first of some symbols that does not stand where it should.
 mismatch :: Layout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
@@ -146,9 +197,13 @@ insteadOf plan w s = case NumberReader.blemish plan w of
   Just why -> why
   Nothing -> case Symbol.symbolAt (Layout.symbols plan) w of
     _ | w == 0 -> Missing (Symbol.name s)
-    Nothing -> if Symbol.holes s == 0 then NotBlank else NoSymbol (Machine.tracks (Machine.medium (Layout.machine plan))) w
+    Nothing ->
+      if Symbol.holes s == 0
+        then NotBlank
+        else NoSymbol (Machine.tracks (Machine.medium (Layout.machine plan))) w
     Just c
-      | or [Symbol.name a == c | Worded _ Spelled {spelled = a : _} _ <- Layout.steps plan] -> WordOutOfPlace c
+      | or [Symbol.name a == c | Worded _ Spelled {spelled = a : _} _ <- Layout.steps plan] ->
+        WordOutOfPlace c
       | otherwise -> Unexpected c (Symbol.name s)
 
 -- The frame ---------------------------------------------------------------------------------------
@@ -174,7 +229,17 @@ frameOf plan state begin reading = do
         centre = Pulses2 i j,
         speed = FeedCode code,
         braking = braked reading,
-        orders = if null (commands reading) then [] else [(o, v) | (o, zero) <- Layout.commands plan, let vs = [v' | (o', v') <- commands reading, o' == o], not (null vs), let v = sum vs, v /= 0 || zero]
+        orders =
+          if null (commands reading)
+            then []
+            else
+              [ (o, v)
+                | (o, zero) <- Layout.commands plan,
+                  let vs = [v' | (o', v') <- commands reading, o' == o],
+                  not (null vs),
+                  let v = sum vs,
+                  v /= 0 || zero
+              ]
       }
   where
     axes = Layout.axes plan
@@ -203,10 +268,12 @@ motionOf plan begin reading moved = case Layout.motions plan of
       | moved == 0 -> Right Still
       | otherwise -> Left (RowFault begin Nothing MoveWithoutMotion)
     Just s
-      | number s == straight codes -> if presence w == Always && moved == 0 then Right Still else moving s Straightway
+      | number s == straight codes ->
+        if presence w == Always && moved == 0 then Right Still else moving s Straightway
       | Just (number s) == rapid codes -> moving s Rapid
       | Just (number s) == clockwise codes -> Right (Round (turned Clockwise CounterClockwise))
-      | Just (number s) == counterClockwise codes -> Right (Round (turned CounterClockwise Clockwise))
+      | Just (number s) == counterClockwise codes ->
+        Right (Round (turned CounterClockwise Clockwise))
       | otherwise -> wrong s (UnknownMotion (number s))
     where
       wrong s why = Left (RowFault (at s) (Just (content w)) why)
@@ -248,8 +315,9 @@ lawful plan begin reading f
       Frame.NoSuchOrder _ o -> faultOf begin reading (== Command o)
       Frame.Idle _ -> faultOf begin reading isFeed
 
--- | Whether each word stands where it would be written for a frame, with its number in as many digits: then the rows are those that
--- would be written, where a word has nothing else that could differ.
+-- | Whether each word stands where it would be written for a frame, with its number in as many
+-- digits: then the rows are those that would be written, where a word has nothing else that could
+-- differ.
 isSpelled :: Layout -> State -> Reading -> Frame -> Bool
 isSpelled plan state reading f = Layout.isPlain plan && go (Layout.wordsFor plan f) (saids reading)
   where
@@ -259,7 +327,11 @@ isSpelled plan state reading f = Layout.isPlain plan && go (Layout.wordsFor plan
       w : more -> case ModalState.number (Layout.axes plan) state f w of
         Nothing -> go more read'
         Just n -> case read' of
-          s : others -> content (word s) == content w && n == number s && Layout.isCount (form w) (places s) (abs n) && go more others
+          s : others ->
+            content (word s) == content w
+              && n == number s
+              && Layout.isCount (form w) (places s) (abs n)
+              && go more others
           [] -> False
 
 -- | Whether the rows of a frame are those that would be written for it.
@@ -269,15 +341,24 @@ isWritten plan state rows begin end f = runIdentity (Layout.foldRows same plan s
     -- Behind a row that is another one there is none.
     same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
--- | The rows of a frame are those that its marks are. A check digit that would be another one follows from the other rows:
--- they are blamed first.
+-- | The rows of a frame are those that its marks are. A check digit that would be another one
+-- follows from the other rows: they are blamed first.
 written :: Layout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
 written plan rows begin end = go begin (Right ())
   where
     go k before marks = case marks of
-      [] -> if k == end then before else Left (RowFault (min k (end - 1)) Nothing (Otherwise "the end of the frame"))
+      [] ->
+        if k == end
+          then before
+          else Left (RowFault (min k (end - 1)) Nothing (Otherwise "the end of the frame"))
       m : more
-        | k >= end -> Left (RowFault (max begin (end - 1)) (wordOf m) (Otherwise (RowMeaning.meaning (RowMeaning.row plan Nothing m))))
+        | k >= end ->
+          Left
+            ( RowFault
+                (max begin (end - 1))
+                (wordOf m)
+                (Otherwise (RowMeaning.meaning (RowMeaning.row plan Nothing m)))
+            )
         | Short.index rows k == holes m -> go (k + 1) before more
         | CheckSymbol _ <- sense m -> go (k + 1) (Left (fault k m)) more
         | otherwise -> Left (fault k m)

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | One interpretation of a machine's layout. Here it writes: a frame becomes marks, rows with what they mean, and both
--- the tape and its picture are made of them. Reading follows the same steps.
+-- | One interpretation of a machine's layout. Here it writes: a frame becomes marks, rows with what
+-- they mean, and both the tape and its picture are made of them. Reading follows the same steps.
 module Tape.Layout
   ( -- * The layout, made ready
     Layout (..),
@@ -39,7 +39,19 @@ import Data.Primitive.PrimArray qualified as Primitive
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Frame.Frame (Frame (..))
-import Machine.Machine (Axis (..), CommandName (..), Content (..), LayoutItem (..), Machine, MotionCodes, NumberForm (..), Presence (..), Service (..), Sign (..), Word' (..))
+import Machine.Machine
+  ( Axis (..),
+    CommandName (..),
+    Content (..),
+    LayoutItem (..),
+    Machine,
+    MotionCodes,
+    NumberForm (..),
+    Presence (..),
+    Service (..),
+    Sign (..),
+    Word' (..),
+  )
 import Machine.Machine qualified as Machine
 import Tape.ModalState (Axes, State (..))
 import Tape.ModalState qualified as ModalState
@@ -52,7 +64,8 @@ data Layout = Layout
     symbols :: Symbols,
     axes :: Axes,
     steps :: [LayoutStep],
-    -- | those of a frame that walks no arc and commands nothing: most frames are of this kind, and most words do not stand there
+    -- | those of a frame that walks no arc and commands nothing: most frames are of this kind, and
+    -- most words do not stand there
     bareSteps :: [LayoutStep],
     -- | between two words
     between :: [Symbol],
@@ -64,7 +77,8 @@ data Layout = Layout
     bareWords :: [Word'],
     -- | the axes in the order of their words
     leaders :: [Axis],
-    -- | the commands in the order of their words and bits, and whether 0 is a command of its own rather than none
+    -- | the commands in the order of their words and bits, and whether 0 is a command of its own
+    -- rather than none
     commands :: [(CommandName, Bool)],
     -- | the word of motions, if there is one
     motions :: Maybe (Word', MotionCodes),
@@ -72,7 +86,8 @@ data Layout = Layout
     keepsFeed :: Bool,
     -- | whether frames have a check digit
     isChecked :: Bool,
-    -- | whether a number and how many digits it has are all that can differ in a word, and a word of another kind of frame is not the last thing in it
+    -- | whether a number and how many digits it has are all that can differ in a word, and a word
+    -- of another kind of frame is not the last thing in it
     isPlain :: Bool
   }
 
@@ -82,14 +97,17 @@ data LayoutStep
     Worded Word' Address Address
   | Checked Int
 
--- | The symbols before a number; how many they are, and the row of the last one, by which most addresses are told apart.
+-- | The symbols before a number; how many they are, and the row of the last one, by which most
+-- addresses are told apart.
 data Address = Spelled {spelled :: [Symbol], extent :: Int, final :: Word8}
 
--- | The row behind an address that stands at a row; below 0 where it does not. Its last symbol is looked at first.
+-- | The row behind an address that stands at a row; below 0 where it does not. Its last symbol is
+-- looked at first.
 behindAddress :: ShortByteString -> Int -> Address -> Int
 behindAddress rows k Spelled {spelled, extent, final}
   | extent == 0 = k
-  | k + extent <= Short.length rows && Short.index rows (k + extent - 1) == final = Symbol.behind rows k spelled
+  | k + extent <= Short.length rows && Short.index rows (k + extent - 1) == final =
+    Symbol.behind rows k spelled
   | otherwise = -1
 {-# INLINE behindAddress #-}
 
@@ -134,8 +152,11 @@ fromMachine machine =
       Fixed _ -> True
       Worded w _ _ -> ModalState.standsBare w
       Checked _ -> True
-    addressOf cs = Spelled {spelled = cs, extent = length cs, final = foldl' (\_ c -> Symbol.holes c) 0 cs}
-    commandsOf w = [(o, ModalState.zeroCommands w) | Command o <- [content w]] <> [(o, False) | OrderBit o _ <- service (form w)]
+    addressOf cs =
+      Spelled {spelled = cs, extent = length cs, final = foldl' (\_ c -> Symbol.holes c) 0 cs}
+    commandsOf w =
+      [(o, ModalState.zeroCommands w) | Command o <- [content w]]
+        <> [(o, False) | OrderBit o _ <- service (form w)]
 
 -- | Whether a number of this form says nothing but itself.
 plainForm :: NumberForm -> Bool
@@ -186,11 +207,21 @@ blanks stretch n = replicate n (MarkedRow 0 0 (Blank stretch))
 
 -- | The marks of a frame without the gap behind it.
 frameMarks :: Layout -> State -> Frame -> [MarkedRow]
-frameMarks p state frame = reverse (runIdentity (foldRows (\marks h n s -> pure (MarkedRow h n s : marks)) p state frame []))
+frameMarks p state frame =
+  reverse (runIdentity (foldRows (\marks h n s -> pure (MarkedRow h n s : marks)) p state frame []))
 
--- | The rows of a frame in order, each with what it counts and what it is for, onto what came before them.
-foldRows :: Monad m => (r -> Word8 -> Int -> RowMeaning -> m r) -> Layout -> State -> Frame -> r -> m r
-foldRows mark p state frame = foldBare mark (if isChecked p then counted p state frame else 0) p state frame
+-- | The rows of a frame in order, each with what it counts and what it is for, onto what came
+-- before them.
+foldRows ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Layout ->
+  State ->
+  Frame ->
+  r ->
+  m r
+foldRows mark p state frame =
+  foldBare mark (if isChecked p then counted p state frame else 0) p state frame
 {-# INLINE foldRows #-}
 
 -- | What the symbols of a frame add to, but for its check digit.
@@ -203,13 +234,25 @@ counted p state frame = runIdentity (foldBare count 0 p state frame 0)
         _ -> total + n
 
 -- | The same, given what the symbols of the frame add to.
-foldBare :: Monad m => (r -> Word8 -> Int -> RowMeaning -> m r) -> Int -> Layout -> State -> Frame -> r -> m r
-foldBare mark total p state frame = go False (if ModalState.isBare frame then bareSteps p else steps p)
+foldBare ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Int ->
+  Layout ->
+  State ->
+  Frame ->
+  r ->
+  m r
+foldBare mark total p state frame =
+  go False (if ModalState.isBare frame then bareSteps p else steps p)
   where
     go behindWord todo before = case todo of
       [] -> pure before
       Fixed cs : more -> constants Constant cs before >>= go False more
-      Checked m : more -> let d = checkDigit p m total in figure (CheckSymbol d) d before >>= go False more
+      Checked m : more ->
+        let d =
+              checkDigit p m total
+         in figure (CheckSymbol d) d before >>= go False more
       Worded w Spelled {spelled = cs} _ : more -> case ModalState.number (axes p) state frame w of
         Nothing -> go behindWord more before
         Just n -> do
@@ -221,16 +264,28 @@ foldBare mark total p state frame = go False (if ModalState.isBare frame then ba
     constants use cs !before = case cs of
       [] -> pure before
       Symbol.Symbol c h k : more -> mark before h k (use c) >>= constants use more
-    figure use d before = mark before (Symbol.digit (symbols p) d) (Symbol.digitWeight (symbols p) d) use
+    figure use d before =
+      mark before (Symbol.digit (symbols p) d) (Symbol.digitWeight (symbols p) d) use
     single use (Symbol.Symbol _ h k) before = mark before h k use
     signOf w n before = case sign (form w) of
       Unsigned -> pure before
       ServiceSign -> pure before
-      MinusSign -> if n < 0 then single (InWord (content w) n (SignSymbol '-')) (minus p) before else pure before
+      MinusSign ->
+        if n < 0
+          then single (InWord (content w) n (SignSymbol '-')) (minus p) before
+          else pure before
       EitherSign
         | n < 0 -> single (InWord (content w) n (SignSymbol '-')) (minus p) before
         | otherwise -> single (InWord (content w) n (SignSymbol '+')) (plus p) before
-      Priority leadForth leadBack forth back -> lead w n (if leads p frame (content w) then (if n < 0 then leadBack else leadForth) else (if n < 0 then back else forth)) before
+      Priority leadForth leadBack forth back ->
+        lead
+          w
+          n
+          ( if leads p frame (content w)
+              then (if n < 0 then leadBack else leadForth)
+              else (if n < 0 then back else forth)
+          )
+          before
     lead w n d = figure (InWord (content w) n (Lead d)) (d `mod` 10)
     numeral w n = case service f of
       [] -> plainFigures use (decimals f) (places - 1) left
@@ -240,7 +295,8 @@ foldBare mark total p state frame = go False (if ModalState.isBare frame then ba
         use = InWord (content w) n
         places = digitCount f (abs n)
         left = lowest places (abs n)
-    pointAt use pointed k before = if k == pointed - 1 then single (use Point) (point p) before else pure before
+    pointAt use pointed k before =
+      if k == pointed - 1 then single (use Point) (point p) before else pure before
     -- The digits of what is left from a place on.
     plainFigures use pointed k !left !before
       | k < 0 = pure before
@@ -315,9 +371,10 @@ constant use (Symbol.Symbol c h n) = MarkedRow h n (use c)
 
 -- | The smallest digit that makes the sum a multiple.
 checkDigit :: Layout -> Int -> Int -> Int
-checkDigit p modulus total = case [d | d <- [0 .. 9], (total + Symbol.digitWeight (symbols p) d) `mod` max 1 modulus == 0] of
-  d : _ -> d
-  [] -> 0
+checkDigit p modulus total =
+  case [d | d <- [0 .. 9], (total + Symbol.digitWeight (symbols p) d) `mod` max 1 modulus == 0] of
+    d : _ -> d
+    [] -> 0
 
 -- | Whether a word is that of the axis with most pulses; of several of the first.
 leads :: Layout -> Frame -> Content -> Bool

@@ -23,7 +23,19 @@ import Data.Maybe (fromMaybe, isJust)
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
-import Machine.Machine (Axis (..), AxisForm (..), AxisMeasure (..), CommandName, Content (..), FeedCode (..), Machine, MotionCodes (..), NumberForm (..), Presence (..), Word' (..))
+import Machine.Machine
+  ( Axis (..),
+    AxisForm (..),
+    AxisMeasure (..),
+    CommandName,
+    Content (..),
+    FeedCode (..),
+    Machine,
+    MotionCodes (..),
+    NumberForm (..),
+    Presence (..),
+    Word' (..),
+  )
 import Machine.Machine qualified as Machine
 
 data State = State
@@ -38,10 +50,12 @@ data State = State
   }
   deriving stock (Eq, Show)
 
--- | Before the first frame: whether the tape has to do with heights, and where the cutter stands. The first frame that
--- moves says where it goes; its height only if that ever changes, since else it is set by hand.
+-- | Before the first frame: whether the tape has to do with heights, and where the cutter stands.
+-- The first frame that moves says where it goes; its height only if that ever changes, since else
+-- it is set by hand.
 first :: Bool -> Pulses3 -> State
-first rises start = State {ordinal = 1, place = start, unsaid = [X, Y] <> [Z | rises], feed = Nothing}
+first rises start =
+  State {ordinal = 1, place = start, unsaid = [X, Y] <> [Z | rises], feed = Nothing}
 
 -- | Whether frames change the height.
 rising :: [Frame] -> Bool
@@ -57,9 +71,15 @@ data Axes = Axes
   }
 
 axes :: Machine -> Axes
-axes machine = Axes {measure = Machine.measure (Machine.layout machine), signs = Pulses3 (sign X) (sign Y) (sign Z), mirrored = Machine.isMirrored machine}
+axes machine =
+  Axes
+    { measure = Machine.measure (Machine.layout machine),
+      signs = Pulses3 (sign X) (sign Y) (sign Z),
+      mirrored = Machine.isMirrored machine
+    }
   where
-    sign a = if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
+    sign a =
+      if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
 
 -- | The component along an axis.
 along :: Axis -> Pulses3 -> Pulses
@@ -71,9 +91,14 @@ along a (Pulses3 x y z) = case a of
 -- | The number that a word of a frame holds; nothing where the frame has no such word.
 number :: Axes -> State -> Frame -> Word' -> Maybe Int
 number system state frame word = case content word of
-  FrameNumber -> standing (presence word /= InMotion || moving) (ordinal state `mod` 10 ^ digits (form word))
-  Motion codes -> standing (presence word == Always || moving) (motionNumber (mirrored system) codes (motion frame))
-  Along a -> standing (axisStands system state frame (presence word) a) (axisNumber system state frame a)
+  FrameNumber ->
+    standing (presence word /= InMotion || moving) (ordinal state `mod` 10 ^ digits (form word))
+  Motion codes ->
+    standing
+      (presence word == Always || moving)
+      (motionNumber (mirrored system) codes (motion frame))
+  Along a ->
+    standing (axisStands system state frame (presence word) a) (axisNumber system state frame a)
   Centre a -> standing (centreStands (presence word)) (centreNumber a)
   FeedWord -> standing (feedStands (presence word)) code
   Command o -> commandNumber (presence word) o
@@ -81,7 +106,8 @@ number system state frame word = case content word of
     standing yes n = if yes then Just $! n else Nothing
     moving = Frame.isMoving frame
     FeedCode code = speed frame
-    centreNumber a = let Pulses2 i j = centre frame; Pulses n = along a (signs system * Pulses3 i j 0) in n
+    centreNumber a =
+      let Pulses2 i j = centre frame; Pulses n = along a (signs system * Pulses3 i j 0) in n
     centreStands p = case p of
       Always -> True
       InMotion -> moving
@@ -104,7 +130,8 @@ number system state frame word = case content word of
 isBare :: Frame -> Bool
 isBare frame = null (orders frame) && not (isArc frame)
 
--- | Whether a word can stand in a frame that walks no arc and commands nothing. Another word has no 'number' there.
+-- | Whether a word can stand in a frame that walks no arc and commands nothing. Another word has no
+-- 'number' there.
 standsBare :: Word' -> Bool
 standsBare word = case content word of
   Centre _ -> standsAnyway
@@ -120,7 +147,8 @@ standsBare word = case content word of
       WhenNeeded -> False
       WhenChanged -> False
 
--- | Whether 0 in the word of a command is a command: where the word stands without one, 0 says that there is none.
+-- | Whether 0 in the word of a command is a command: where the word stands without one, 0 says that
+-- there is none.
 zeroCommands :: Word' -> Bool
 zeroCommands word = case presence word of
   Always -> False
@@ -160,7 +188,9 @@ axisStands system state frame p a = case p of
   WhenNeeded -> needed
   WhenChanged -> needed
   where
-    needed = Frame.isMoving frame && (along a (increment frame) /= 0 || measure system == Positions && a `elem` unsaid state)
+    needed =
+      Frame.isMoving frame
+        && (along a (increment frame) /= 0 || measure system == Positions && a `elem` unsaid state)
 
 axisNumber :: Axes -> State -> Frame -> Axis -> Int
 axisNumber system state frame a = n
@@ -179,7 +209,8 @@ after system ws state frame =
       unsaid = case measure system of
         Increments -> unsaid state
         Positions -> filter (not . isSaid) (unsaid state),
-      feed = if hasFeed frame && feed state /= Just (speed frame) then Just (speed frame) else feed state
+      feed =
+        if hasFeed frame && feed state /= Just (speed frame) then Just (speed frame) else feed state
     }
   where
     isSaid a = or [isJust (number system state frame w) | w <- ws, content w == Along a]

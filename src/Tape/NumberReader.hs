@@ -50,9 +50,21 @@ numeral :: Layout -> Content -> NumberForm -> ShortByteString -> Int -> Either R
 numeral plan c f rows begin = do
   Signed behind minus weight <- readSign plan c f rows begin
   let whole = digits f - decimals f
-      zero = Digits {at = behind, amount = 0, negative = minus, told = [], slow = False, count = weight, services = service f}
+      zero =
+        Digits
+          { at = behind,
+            amount = 0,
+            negative = minus,
+            told = [],
+            slow = False,
+            count = weight,
+            services = service f
+          }
   front <- figures plan c rows (if padded f then whole else min 1 whole) whole zero
-  ds <- if decimals f > 0 then point plan c rows front >>= figures plan c rows (decimals f) (decimals f) else Right front
+  ds <-
+    if decimals f > 0
+      then point plan c rows front >>= figures plan c rows (decimals f) (decimals f)
+      else Right front
   if negative ds && amount ds == 0 && isPlain
     then Left (RowFault behind (Just c) MinusZero)
     else
@@ -77,7 +89,9 @@ numeral plan c f rows begin = do
 
 -- | Whether a number may begin at a row.
 begins :: Layout -> NumberForm -> ShortByteString -> Int -> Bool
-begins plan f rows k = digits f == 0 || k < Short.length rows && (isJust (Symbol.digitAt (Layout.symbols plan) w) || isSign)
+begins plan f rows k =
+  digits f == 0
+    || k < Short.length rows && (isJust (Symbol.digitAt (Layout.symbols plan) w) || isSign)
   where
     w = Short.index rows k
     is c = w == Symbol.holes (Symbol.symbol (Layout.symbols plan) c)
@@ -106,7 +120,10 @@ readSign plan c f rows k = case sign f of
     let after isMinus = Right (Signed (k + 1) isMinus (Symbol.digitWeight (Layout.symbols plan) d))
     if d == leadBack || d == back
       then after True
-      else if d == leadForth || d == forth then after False else Left (RowFault k (Just c) (NoPriority d))
+      else
+        if d == leadForth || d == forth
+          then after False
+          else Left (RowFault k (Just c) (NoPriority d))
   where
     minus = Layout.minus plan
     plus = Layout.plus plan
@@ -133,45 +150,74 @@ figures plan c rows least most ds
   | otherwise = Right now
   where
     now = sound plan rows (at ds + most) ds
-    isDigit = at now < Short.length rows && isJust (Symbol.digitAt (Layout.symbols plan) (Short.index rows (at now)))
+    isDigit =
+      at now < Short.length rows
+        && isJust (Symbol.digitAt (Layout.symbols plan) (Short.index rows (at now)))
 {-# INLINE figures #-}
 
 -- | The digits up to a row, as far as the service track says what it may beside them.
 sound :: Layout -> ShortByteString -> Int -> Digits -> Digits
 sound plan rows end ds
-  | null (services ds), Figures k n <- plainFigures plan rows end (at ds) (amount ds) = ds {at = k, amount = n, count = if Layout.isChecked plan then count ds + weights (at ds) k else count ds}
+  | null (services ds),
+    Figures k n <- plainFigures plan rows end (at ds) (amount ds) =
+    ds
+      { at = k,
+        amount = n,
+        count = if Layout.isChecked plan then count ds + weights (at ds) k else count ds
+      }
   | otherwise = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
   where
-    weights from to = sum [Symbol.digitWeight table d | k <- [from .. to - 1], Just d <- [Symbol.digitAt table (Short.index rows k)]]
+    weights from to =
+      sum
+        [ Symbol.digitWeight table d
+          | k <- [from .. to - 1],
+            Just d <- [Symbol.digitAt table (Short.index rows k)]
+        ]
     table = Layout.symbols plan
     limit = min end (Short.length rows)
     go k n minus bits brakes weight track
       | k < limit,
         Just d <- Symbol.digitAt table (Short.index rows k) =
         let hole = Symbol.holeAt table (Short.index rows k)
-            next minus' bits' brakes' = go (k + 1) (10 * n + d) minus' bits' brakes' (weight + Symbol.digitWeight table d)
+            next minus' bits' brakes' =
+              go (k + 1) (10 * n + d) minus' bits' brakes' (weight + Symbol.digitWeight table d)
          in case track of
               [] -> if hole then reached else next minus bits brakes []
               NoHole : more -> if hole then reached else next minus bits brakes more
               Marker : more -> if hole then next minus bits brakes more else reached
               MinusHole : more -> next (minus || hole) bits brakes more
-              OrderBit o b : more -> next minus (if hole then (o, 1 `shiftL` b) : bits else bits) brakes more
+              OrderBit o b : more ->
+                next minus (if hole then (o, 1 `shiftL` b) : bits else bits) brakes more
               BrakingHole : more -> next minus bits (brakes || hole) more
       | otherwise = reached
       where
-        reached = Digits {at = k, amount = n, negative = minus, told = bits, slow = brakes, count = weight, services = track}
+        reached =
+          Digits
+            { at = k,
+              amount = n,
+              negative = minus,
+              told = bits,
+              slow = brakes,
+              count = weight,
+              services = track
+            }
 
 -- | The row behind some digits, and their number.
 data Figures = Figures Int Int
 
--- | The digits up to a row without a hole in the service track, from a row on and behind those of a number.
+-- | The digits up to a row without a hole in the service track, from a row on and behind those of a
+-- number.
 plainFigures :: Layout -> ShortByteString -> Int -> Int -> Int -> Figures
 plainFigures plan rows end = go
   where
     table = Layout.symbols plan
     limit = min end (Short.length rows)
     go !k !n
-      | k < limit, w <- Short.index rows k, Just d <- Symbol.digitAt table w, not (Symbol.holeAt table w) = go (k + 1) (10 * n + d)
+      | k < limit,
+        w <- Short.index rows k,
+        Just d <- Symbol.digitAt table w,
+        not (Symbol.holeAt table w) =
+        go (k + 1) (10 * n + d)
       | otherwise = Figures k n
 
 -- | Why the digits end.

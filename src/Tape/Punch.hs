@@ -1,7 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Frames onto tape and tape into frames: the leader, the frames with what stands between them, the end.
+-- | Frames onto tape and tape into frames: the leader, the frames with what stands between them,
+-- the end.
 module Tape.Punch
   ( write,
     rows,
@@ -44,14 +45,23 @@ import Prelude hiding (read)
 
 -- Writing -----------------------------------------------------------------------------------------
 
--- | Punch frames that keep the invariants of the machine, from where the cutter stands before the first.
+-- | Punch frames that keep the invariants of the machine, from where the cutter stands before the
+-- first.
 write :: Machine -> Pulses3 -> [Frame] -> Tape
-write machine start frames = Tape (ByteString.concat (holesOf (opened plan) : punched plan (ModalState.first (ModalState.rising frames) start) frames <> [holesOf (closed plan)]))
+write machine start frames =
+  Tape
+    ( ByteString.concat
+        ( holesOf (opened plan) :
+          punched plan (ModalState.first (ModalState.rising frames) start) frames
+            <> [holesOf (closed plan)]
+        )
+    )
   where
     plan = Layout.fromMachine machine
     holesOf = ByteString.pack . map holes
 
--- | The rows of frames with what stands between them, in pieces: they are put into one buffer, which is copied when it is full.
+-- | The rows of frames with what stands between them, in pieces: they are put into one buffer,
+-- which is copied when it is full.
 punched :: Layout -> State -> [Frame] -> [ByteString]
 punched plan state frames = runST (Primitive.newPrimArray (piece + most) >>= go 0 state frames)
   where
@@ -81,28 +91,40 @@ piece = 32768
 
 -- | The rows of the same tape, each with what it means.
 rows :: Machine -> Pulses3 -> [Frame] -> [Row]
-rows machine start frames = [RowMeaning.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
+rows machine start frames =
+  [RowMeaning.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
   where
     plan = Layout.fromMachine machine
 
 -- | The marks of a tape, those of each frame with its number.
 stretches :: Layout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
-stretches plan start frames = (Nothing, opened plan) : go (ModalState.first (ModalState.rising frames) start) frames
+stretches plan start frames =
+  (Nothing, opened plan) : go (ModalState.first (ModalState.rising frames) start) frames
   where
     medium = Machine.medium (Layout.machine plan)
     go state todo = case todo of
       [] -> [(Nothing, closed plan)]
-      f : more -> (Just (ModalState.ordinal state), shift plan (ModalState.ordinal state) <> Layout.frameMarks plan state f <> Layout.blanks Gap (gap medium)) : go (Layout.after plan state f) more
+      f : more ->
+        ( Just (ModalState.ordinal state),
+          shift plan (ModalState.ordinal state)
+            <> Layout.frameMarks plan state f
+            <> Layout.blanks Gap (gap medium)
+        ) :
+        go (Layout.after plan state f) more
 
 -- | What stands before the first frame.
 opened :: Layout -> [MarkedRow]
-opened plan = Layout.blanks Leader (leader medium) <> map (Layout.constant Opening) (symbolsOf plan (opening medium))
+opened plan =
+  Layout.blanks Leader (leader medium)
+    <> map (Layout.constant Opening) (symbolsOf plan (opening medium))
   where
     medium = Machine.medium (Layout.machine plan)
 
 -- | What stands behind the last frame.
 closed :: Layout -> [MarkedRow]
-closed plan = map (Layout.constant Closing) (symbolsOf plan (closing medium)) <> Layout.blanks Trailer (leader medium)
+closed plan =
+  map (Layout.constant Closing) (symbolsOf plan (closing medium))
+    <> Layout.blanks Trailer (leader medium)
   where
     medium = Machine.medium (Layout.machine plan)
 
@@ -121,8 +143,8 @@ symbolsOf plan = map (Symbol.symbol (Layout.symbols plan)) . Text.unpack
 
 -- | Read a tape that begins where the cutter stands.
 --
--- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows that the code passes
--- over are left out first, and blank rows are passed over between frames.
+-- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows
+-- that the code passes over are left out first, and blank rows are passed over between frames.
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case beginning source of
   Left fault -> Left (damage source Nothing fault)
@@ -138,7 +160,8 @@ read machine start (Tape raw) = case beginning source of
   where
     source = sourceOf (Layout.fromMachine machine) raw
 
--- | Read a tape on which some frames should stand. Where it has just these they are what is read: they are not made a second time.
+-- | Read a tape on which some frames should stand. Where it has just these they are what is read:
+-- they are not made a second time.
 readBack :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readBack machine start wanted tape
   | holds machine start wanted tape = Right wanted
@@ -148,13 +171,24 @@ readBack machine start wanted tape
 readOwn :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readOwn machine start wanted tape
   | holds machine start wanted tape = Right wanted
-  | otherwise = read machine start tape >>= \frames -> Left (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) wanted frames)))) Nothing Misread)
+  | otherwise =
+    read machine start tape >>= \frames ->
+      Left
+        (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) wanted frames)))) Nothing Misread)
 
--- | Whether these frames are read from a tape. If it says where the cutter is, they tell whether it says heights.
+-- | Whether these frames are read from a tape. If it says where the cutter is, they tell whether it
+-- says heights.
 holds :: Machine -> Pulses3 -> [Frame] -> Tape -> Bool
 holds machine start wanted (Tape raw) = case beginning source of
   Left _ -> False
-  Right behind -> are wanted (framesFrom source behind (ModalState.first (saysPlaces source && ModalState.rising wanted) start))
+  Right behind ->
+    are
+      wanted
+      ( framesFrom
+          source
+          behind
+          (ModalState.first (saysPlaces source && ModalState.rising wanted) start)
+      )
   where
     source = sourceOf (Layout.fromMachine machine) raw
     are frames series = case (frames, series) of
@@ -164,7 +198,13 @@ holds machine start wanted (Tape raw) = case beginning source of
 
 -- | The row of the first frame.
 beginning :: Source -> Either RowFault Int
-beginning source = frontOf source >>= \at -> FrameReader.expect (plan source) (line source) at (symbolsOf (plan source) (opening (grid source)))
+beginning source =
+  frontOf source >>= \at ->
+    FrameReader.expect
+      (plan source)
+      (line source)
+      at
+      (symbolsOf (plan source) (opening (grid source)))
 
 -- | Whether frames say where the cutter is, rather than how far it goes.
 saysPlaces :: Source -> Bool
@@ -199,13 +239,25 @@ data Source = Source
   }
 
 sourceOf :: Layout -> ByteString -> Source
-sourceOf plan raw = Source {plan, raw, kept, line = Short.toShort kept, skipped, grid, ending = symbolsOf plan (closing medium)}
+sourceOf plan raw =
+  Source
+    { plan,
+      raw,
+      kept,
+      line = Short.toShort kept,
+      skipped,
+      grid,
+      ending = symbolsOf plan (closing medium)
+    }
   where
     medium = Machine.medium (Layout.machine plan)
     skipped = case spare medium of
       Counted -> ByteString.empty
       Skipped -> ByteString.pack (Machine.skips (Machine.code (Layout.machine plan)))
-    kept = if ByteString.any (`ByteString.elem` raw) skipped then ByteString.filter (`ByteString.notElem` skipped) raw else raw
+    kept =
+      if ByteString.any (`ByteString.elem` raw) skipped
+        then ByteString.filter (`ByteString.notElem` skipped) raw
+        else raw
     grid = if ByteString.elem 0 skipped then medium {leader = 0, gap = 0, evenShift = 0} else medium
 
 -- | The row of the tape for a row that is kept.
@@ -214,26 +266,37 @@ origin source at
   | ByteString.null (skipped source) = at
   | otherwise = go at 0
   where
-    go k from = case ByteString.findIndex (`ByteString.notElem` skipped source) (ByteString.drop from (raw source)) of
-      Nothing -> max 0 (ByteString.length (raw source) - 1)
-      Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
+    go k from =
+      case ByteString.findIndex
+        (`ByteString.notElem` skipped source)
+        (ByteString.drop from (raw source)) of
+        Nothing -> max 0 (ByteString.length (raw source) - 1)
+        Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
 
--- | The row behind the leader. Further blank rows are passed over before the symbols at the beginning; where there are none
--- they may be the trailer.
+-- | The row behind the leader. Further blank rows are passed over before the symbols at the
+-- beginning; where there are none they may be the trailer.
 frontOf :: Source -> Either RowFault Int
 frontOf source
-  | ByteString.null (kept source) && (passed < asked || not (Text.null (opening (grid source)))) = Left (RowFault 0 Nothing (NoFrames asked))
+  | ByteString.null (kept source) && (passed < asked || not (Text.null (opening (grid source)))) =
+    Left (RowFault 0 Nothing (NoFrames asked))
   | blankRun < ByteString.length front = Left (RowFault blankRun Nothing (LeaderNotBlank asked))
   | blankRun < wanted = Left (RowFault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
   | passed < asked = Left (RowFault 0 Nothing (LeaderNotBlank asked))
-  | spare (grid source) == Skipped && not (Text.null (opening (grid source))) = Right (blankFrom source wanted)
+  | spare (grid source) == Skipped && not (Text.null (opening (grid source))) =
+    Right (blankFrom source wanted)
   | otherwise = Right wanted
   where
     wanted = leader (grid source)
     asked = leaderAsked source
     front = ByteString.take wanted (kept source)
     blankRun = ByteString.length (ByteString.takeWhile (== 0) front)
-    passed = if skipsBlanks source then ByteString.count 0 (ByteString.takeWhile (`ByteString.elem` skipped source) (raw source)) else asked
+    passed =
+      if skipsBlanks source
+        then
+          ByteString.count
+            0
+            (ByteString.takeWhile (`ByteString.elem` skipped source) (raw source))
+        else asked
 
 -- | The blank rows before the first frame and behind the last.
 leaderAsked :: Source -> Int
@@ -245,9 +308,11 @@ skipsBlanks source = ByteString.elem 0 (skipped source)
 
 -- | The first row from one on that is not blank.
 blankFrom :: Source -> Int -> Int
-blankFrom source at = at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
+blankFrom source at =
+  at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | The frames from a row on, and behind them what is wrong with the tape, and in which frame, if anything is.
+-- | The frames from a row on, and behind them what is wrong with the tape, and in which frame, if
+-- anything is.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
 framesFrom source = go
   where
@@ -261,7 +326,10 @@ framesFrom source = go
           Left fault -> maybe (wrong (Just n) fault) (wrong Nothing) (tornAt source at)
           Right (f, next) -> case blankRows source GapNotBlank (gap (grid source)) next of
             Left fault -> wrong (Just n) fault
-            Right behind -> let !state' = Layout.after p state f in LazyList.Next f (go behind state')
+            Right behind ->
+              let !state' =
+                    Layout.after p state f
+               in LazyList.Next f (go behind state')
       where
         n = ModalState.ordinal state
     wrong n fault = LazyList.End (Just (n, fault))
@@ -276,7 +344,8 @@ blankRows source why n at
   | otherwise = case ByteString.findIndex (/= 0) stretch of
     Just k -> Left (RowFault (at + k) Nothing why)
     Nothing
-      | ByteString.length stretch < n -> Left (RowFault (ByteString.length (kept source) - 1) Nothing CutOff)
+      | ByteString.length stretch < n ->
+        Left (RowFault (ByteString.length (kept source) - 1) Nothing CutOff)
       | otherwise -> Right (at + n)
   where
     stretch = ByteString.take n (ByteString.drop at (kept source))
@@ -287,7 +356,9 @@ data End = Ended | Torn RowFault | Onward
 endAt :: Source -> Int -> End
 endAt source at = case spare (grid source) of
   Counted
-    | ByteString.length (kept source) - at == Text.length closer + leader (grid source), Just _ <- tailAt source at -> Ended
+    | ByteString.length (kept source) - at == Text.length closer + leader (grid source),
+      Just _ <- tailAt source at ->
+      Ended
     | at >= ByteString.length (kept source) -> torn
     | otherwise -> Onward
   Skipped -> case tailAt source at of
@@ -302,13 +373,16 @@ endAt source at = case spare (grid source) of
 -- | The blank rows at the end of the tape, by those that are kept there.
 blanksBehind :: Source -> Int -> Int
 blanksBehind source found
-  | skipsBlanks source = ByteString.count 0 (ByteString.takeWhileEnd (`ByteString.elem` skipped source) (raw source))
+  | skipsBlanks source =
+    ByteString.count 0 (ByteString.takeWhileEnd (`ByteString.elem` skipped source) (raw source))
   | otherwise = found
 
 -- | The blank rows behind the closing symbols, where these and nothing else stand at a row.
 tailAt :: Source -> Int -> Maybe Int
 tailAt source at = case FrameReader.expect (plan source) (line source) first cs of
-  Right behind | ByteString.all (== 0) (ByteString.drop behind (kept source)) -> Just (ByteString.length (kept source) - behind)
+  Right behind
+    | ByteString.all (== 0) (ByteString.drop behind (kept source)) ->
+      Just (ByteString.length (kept source) - behind)
   _ -> Nothing
   where
     cs = ending source
@@ -319,9 +393,11 @@ tailAt source at = case FrameReader.expect (plan source) (line source) first cs 
 -- | Why a tape ends other than it should, if it ends at a row.
 tornAt :: Source -> Int -> Maybe RowFault
 tornAt source at = case tailAt source at of
-  Just found -> Just (RowFault final Nothing (TrailerLength (blanksBehind source found) (leaderAsked source)))
+  Just found ->
+    Just (RowFault final Nothing (TrailerLength (blanksBehind source found) (leaderAsked source)))
   Nothing
-    | blankFrom source at >= ByteString.length (kept source) -> Just (RowFault final Nothing (NoClosing (closing (grid source))))
+    | blankFrom source at >= ByteString.length (kept source) ->
+      Just (RowFault final Nothing (NoClosing (closing (grid source))))
     | otherwise -> Nothing
   where
     final = max 0 (ByteString.length (kept source) - 1)

@@ -11,7 +11,16 @@ import Base.Decimal qualified as Decimal
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
-import Machine.Machine (CommandName (..), Content (..), Machine, MotionCodes (..), NumberForm (..), Service (..), Sign (..), Word' (..))
+import Machine.Machine
+  ( CommandName (..),
+    Content (..),
+    Machine,
+    MotionCodes (..),
+    NumberForm (..),
+    Service (..),
+    Sign (..),
+    Word' (..),
+  )
 import Machine.Machine qualified as Machine
 import Tape.Layout (BlankRows (..), Layout, MarkedRow (MarkedRow), RowContent (..), RowMeaning (..))
 import Tape.Layout qualified as Layout
@@ -30,7 +39,14 @@ data Row = Row
   deriving stock (Eq, Show)
 
 row :: Layout -> Maybe Int -> MarkedRow -> Row
-row p n (MarkedRow h _ s) = Row {holes = h, frame = n, symbol = Symbol.symbolAt (Layout.symbols p) h, sense = s, meaning = meaningOf p s}
+row p n (MarkedRow h _ s) =
+  Row
+    { holes = h,
+      frame = n,
+      symbol = Symbol.symbolAt (Layout.symbols p) h,
+      sense = s,
+      meaning = meaningOf p s
+    }
 
 -- | What a row is for, in words.
 meaningOf :: Layout -> RowMeaning -> Text
@@ -50,12 +66,19 @@ meaningOf p s = case s of
   InWord c _ (SignSymbol _) -> Machine.contentWord c <> ", plus"
   InWord c _ Point -> Machine.contentWord c <> ", point"
   InWord c n (Digit d k sv hole) ->
-    Machine.contentWord c <> placeWord (formOf c) k <> " " <> Decimal.whole d <> kindWord c n k <> (if hole then holeWord sv else "")
+    Machine.contentWord c
+      <> placeWord (formOf c) k
+      <> " "
+      <> Decimal.whole d
+      <> kindWord c n k
+      <> (if hole then holeWord sv else "")
   where
     formOf c = case [form w | w <- Layout.ws p, content w == c] of
       f : _ -> Just f
       [] -> Nothing
-    leadWord c n d = (if isLeading c d then "leading " else "following ") <> (if n < 0 then "backwards" else "forwards")
+    leadWord c n d =
+      (if isLeading c d then "leading " else "following ")
+        <> (if n < 0 then "backwards" else "forwards")
     isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
 -- | The name of a digit's place, with a blank before it; none where there is but one digit.
@@ -118,5 +141,7 @@ wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, conte
   (Motion codes, _) -> motionWord codes n
   (FrameNumber, _) -> "number " <> Decimal.whole n
   (_, NumberForm {digits = 0} : _) -> Machine.contentWord c
-  (_, NumberForm {decimals} : _) | decimals > 0 -> Machine.contentWord c <> " " <> Decimal.fixed decimals (fromIntegral n / 10 ^ decimals)
+  (_, NumberForm {decimals} : _)
+    | decimals > 0 ->
+      Machine.contentWord c <> " " <> Decimal.fixed decimals (fromIntegral n / 10 ^ decimals)
   _ -> Machine.contentWord c <> " " <> Decimal.whole n

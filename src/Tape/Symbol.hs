@@ -40,7 +40,8 @@ data Symbols = Symbols
     serviceRows :: ShortByteString,
     -- | what the ten digits count
     digitWeights :: ShortByteString,
-    -- | the digit of every row, the service track left out of account; 'noDigit' for a row that is none
+    -- | the digit of every row, the service track left out of account; 'noDigit' for a row that is
+    -- none
     digitOf :: ShortByteString,
     -- | the bit of the service track, or none
     service :: Word8,
@@ -61,7 +62,8 @@ fromMachine machine =
       nameOf = Map.fromList [(w, c) | (c, w) <- Map.toList rows],
       digitRows = Short.pack (map plain ciphers),
       serviceRows = Short.pack (map withHole ciphers),
-      digitWeights = Short.pack [fromIntegral (Map.findWithDefault 0 c (Machine.weights code)) | c <- ciphers],
+      digitWeights =
+        Short.pack [fromIntegral (Map.findWithDefault 0 c (Machine.weights code)) | c <- ciphers],
       digitOf = Short.pack [Map.findWithDefault noDigit w digits | w <- [minBound .. maxBound]],
       service = mask,
       beside = besideOf (Machine.medium machine),
@@ -75,7 +77,9 @@ fromMachine machine =
     plain c = completed code (bare c .&. complement mask)
     withHole c = completed code (bare c .|. mask)
     ciphers = map intToDigit [0 .. 9]
-    digits = Map.fromList [(w, d) | (d, c) <- zip [0 ..] ciphers, Map.member c rows, w <- [plain c, withHole c]]
+    digits =
+      Map.fromList
+        [(w, d) | (d, c) <- zip [0 ..] ciphers, Map.member c rows, w <- [plain c, withHole c]]
 
 -- | The bits of a row that are no tracks of the tape.
 besideOf :: Medium -> Word8
@@ -91,9 +95,15 @@ completed code w = case Machine.evenTrack code of
 noDigit :: Word8
 noDigit = 10
 
--- | A symbol of a layout. A machine has rows for all symbols of its layout; one without is a blank row.
+-- | A symbol of a layout. A machine has rows for all symbols of its layout; one without is a blank
+-- row.
 symbol :: Symbols -> Char -> Symbol
-symbol table c = Symbol {name = c, holes = Map.findWithDefault 0 c (rowOf table), weight = Map.findWithDefault 0 c (weightOf table)}
+symbol table c =
+  Symbol
+    { name = c,
+      holes = Map.findWithDefault 0 c (rowOf table),
+      weight = Map.findWithDefault 0 c (weightOf table)
+    }
 
 -- | The row of a digit, 0 to 9.
 digit :: Symbols -> Int -> Word8
@@ -109,7 +119,10 @@ digitWeight table = fromIntegral . Short.index (digitWeights table)
 
 -- | The digit of a row, whatever the service track holds.
 digitAt :: Symbols -> Word8 -> Maybe Int
-digitAt table w = let d = Short.index (digitOf table) (fromIntegral w) in if d == noDigit then Nothing else Just (fromIntegral d)
+digitAt table w =
+  let d =
+        Short.index (digitOf table) (fromIntegral w)
+   in if d == noDigit then Nothing else Just (fromIntegral d)
 {-# INLINE digitAt #-}
 
 -- | Whether there is a hole in the service track.
@@ -134,4 +147,5 @@ symbolAt table w = case Map.lookup w (nameOf table) of
 behind :: ShortByteString -> Int -> [Symbol] -> Int
 behind rows k cs = case cs of
   [] -> k
-  c : more -> if k < Short.length rows && Short.index rows k == holes c then behind rows (k + 1) more else -1
+  c : more ->
+    if k < Short.length rows && Short.index rows k == holes c then behind rows (k + 1) more else -1

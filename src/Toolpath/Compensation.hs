@@ -1,12 +1,16 @@
 -- | What a control is sent that keeps the cutter beside the contour by itself (@G41@, @G42@).
 --
--- It gets the edge of the part and makes the equidistant of it: the same moves as those of the path, if it is sent
--- the right thing and nothing that it refuses. What controls do was measured on LinuxCNC 2.9:
+-- It gets the edge of the part and makes the equidistant of it: the same moves as those of the
+-- path, if it is sent the right thing and nothing that it refuses. What controls do was measured on
+-- LinuxCNC 2.9:
 --
--- * The first move under compensation goes straight from where the centre stands to where the offset of the programmed line and that
---   of the next element meet. So the programmed line has to be the tangent from there to the cutter as it
+-- * The first move under compensation goes straight from where the centre stands to where the
+--   offset of the programmed line and that
+--   of the next element meet. So the programmed line has to be the tangent from there to the cutter
+--   as it
 --   stands at its first place on the path, and the next element begins where it meets that line.
--- * Round outer corners the control goes on arcs; the last corner of a closed contour it does only when something follows.
+-- * Round outer corners the control goes on arcs; the last corner of a closed contour it does only
+--   when something follows.
 -- * After the end it goes straight from the end of the offset to where it is sent.
 module Toolpath.Compensation
   ( Ways (..),
@@ -34,12 +38,18 @@ import Toolpath.Error (Error (..), Unsent (..))
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), unbraked)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the centre in one pass: the way to the beginning, the lead in, those along the contour, the lead out, the way
--- on.
-data Ways = Ways {before :: [Move], inwards :: [Move], cut :: NonEmpty Move, outwards :: [Move], behind :: [Move]}
+-- | The moves of the centre in one pass: the way to the beginning, the lead in, those along the
+-- contour, the lead out, the way on.
+data Ways = Ways
+  { before :: [Move],
+    inwards :: [Move],
+    cut :: NonEmpty Move,
+    outwards :: [Move],
+    behind :: [Move]
+  }
 
--- | What the control is sent for a pass, if it is to keep the cutter beside the contour; or why it can not. The place is that of
--- the statement's first word.
+-- | What the control is sent for a pass, if it is to keep the cutter beside the contour; or why it
+-- can not. The place is that of the statement's first word.
 sent :: Region -> Milling -> Maybe Side -> Ways -> Either Error (Maybe Sent)
 sent keyword milling side ways = case Part.byControl milling of
   Nothing -> Right Nothing
@@ -50,50 +60,89 @@ sent keyword milling side ways = case Part.byControl milling of
     let edge = programmed milling s ways
     (before', entry, edge') <- entering keyword asked milling s (before ways) edge
     (exit, behind') <- leaving keyword asked milling (NonEmpty.last edge') (behind ways)
-    Right (Just Sent {Toolpath.before = before', Toolpath.side = s, Toolpath.entry = entry, Toolpath.edge = edge', Toolpath.exit = exit, Toolpath.behind = behind'})
+    Right
+      ( Just
+          Sent
+            { Toolpath.before = before',
+              Toolpath.side = s,
+              Toolpath.entry = entry,
+              Toolpath.edge = edge',
+              Toolpath.exit = exit,
+              Toolpath.behind = behind'
+            }
+      )
 
 -- | Nothing is asked that the edge of the part does not tell.
 possible :: Region -> Milling -> Either Error ()
 possible asked milling
   | Just _ <- Part.gear milling = refused Swivelling
   | Part.corners milling == Part.Sharp = refused SharpCorners
-  | any (> Mm 0) (Part.allowances milling) || any ((> Mm 0) . Part.allowance . Part.finish) (Part.elements (Part.contour milling)) = refused LeavingMaterial
+  | any (> Mm 0) (Part.allowances milling)
+      || any ((> Mm 0) . Part.allowance . Part.finish) (Part.elements (Part.contour milling)) =
+    refused LeavingMaterial
   | otherwise = Right ()
   where
     refused = Left . NotForControl asked
 
 -- | Every element and lead is one that a control can follow.
 followable :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
-followable keyword asked milling side ways = mapM_ long elements >> mapM_ wide edge >> mapM_ bent (Polyarc.joints (Part.outline (Part.contour milling))) >> zipWithM_ rolled edge (drop 1 edge)
+followable keyword asked milling side ways =
+  mapM_ long elements
+    >> mapM_ wide edge
+    >> mapM_ bent (Polyarc.joints (Part.outline (Part.contour milling)))
+    >> zipWithM_ rolled edge (drop 1 edge)
   where
     elements = NonEmpty.toList (Part.elements (Part.contour milling))
     radius@(Mm r) = Part.radius milling
-    edge = map lead (inwards ways) <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements] <> map lead (outwards ways)
+    edge =
+      map lead (inwards ways)
+        <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements]
+        <> map lead (outwards ways)
     lead m = (Nothing, uncovered radius side (segment m))
-    long e = let l = Segment.length (Part.segment e) in when (l < Tolerance.controlLength) (Left (TinyForControl keyword asked (Just e) l Tolerance.controlLength))
-    wide (i, s) = mapM_ (\old -> Left (TightForControl keyword asked (fmap element i) old radius)) (tooTight radius side s)
+    long e =
+      let l =
+            Segment.length (Part.segment e)
+       in when
+            (l < Tolerance.controlLength)
+            (Left (TinyForControl keyword asked (Just e) l Tolerance.controlLength))
+    wide (i, s) =
+      mapM_
+        (\old -> Left (TightForControl keyword asked (fmap element i) old radius))
+        (tooTight radius side s)
     bent (i, a, b) =
       let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
           deep = Mm (r * (1 - cos turned))
-       in when (isNone turned && deep > Tolerance.controlCut) (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
-            >> when (isNone (pi - abs turned)) (Left (BackForControl asked (element i) (element (i + 1)) (Rad turned)))
-    -- Behind a corner that turns away from the cutter, and that a control takes for none, the centre sets out too early on an arc, and so it does where
-    -- the end of what is before the arc is rounded.
+       in when
+            (isNone turned && deep > Tolerance.controlCut)
+            (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+            >> when
+              (isNone (pi - abs turned))
+              (Left (BackForControl asked (element i) (element (i + 1)) (Rad turned)))
+    -- Behind a corner that turns away from the cutter, and that a control takes for none, the
+    -- centre sets out too early on an arc, and so it does where the end of what is before the arc
+    -- is rounded.
     rolled (i, a) (_, b) =
       let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(turned * leftward side)))) b
        in if not (isNone turned) || needed <= lasting a
             then Right ()
             else Left $ case i of
-              Just n | abs turned > smooth -> SlightForControl asked (element n) (element (n + 1)) (Rad turned) (Mm (r * (1 - cos turned)))
+              Just n
+                | abs turned > smooth ->
+                  SlightForControl
+                    asked
+                    (element n)
+                    (element (n + 1))
+                    (Rad turned)
+                    (Mm (r * (1 - cos turned)))
               _ -> TinyForControl keyword asked (fmap element i) (lasting a) needed
     Rad smooth = Tolerance.smoothAngle
     isNone turned = let Rad least = Tolerance.controlBend in abs turned < least
     element :: Int -> Element
     element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
 
--- | How long a line has to be, or how large the radius of an arc, before an arc that turns away from it by an angle, so that the centre goes no further round that than LinuxCNC
--- puts up with.
+-- | How long a line has to be, or how large the radius of an arc, before an arc that turns away
+-- from it by an angle, so that the centre goes no further round that than LinuxCNC puts up with.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -107,7 +156,8 @@ neededBefore (Mm r) side (Rad away) s = case s of
       Mm rounding = Tolerance.controlRounding
       Rad most = Tolerance.controlTurn
 
--- | What tells how well the direction at the end of a segment is kept when its points are rounded: the length of a line, the radius of an arc.
+-- | What tells how well the direction at the end of a segment is kept when its points are rounded:
+-- the length of a line, the radius of an arc.
 lasting :: Segment -> Mm
 lasting s = case s of
   Straight a b -> Vec.distance a b
@@ -118,7 +168,10 @@ tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == leftward side, old <- Segment.radius centre start, old < plus radius Tolerance.controlArc -> Just old
+    | signum angle == leftward side,
+      old <- Segment.radius centre start,
+      old < plus radius Tolerance.controlArc ->
+      Just old
     | otherwise -> Nothing
 
 -- | +1 when the cutter is on the left.
@@ -136,14 +189,28 @@ programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
   l : more -> l :| more <> NonEmpty.toList elements <> map lead outwards
   where
     lead m = m {segment = uncovered (Part.radius milling) side (segment m)}
-    elements = NonEmpty.zipWith element (False :| repeat True) (Part.elements (Part.contour milling))
-    element isLater e = Move {segment = Part.segment e, manner = Manner (Toolpath.heights (NonEmpty.head cut)) (maybe (Part.At (Part.feed milling)) Part.At (Part.ownFeed (Part.finish e))) (Part.slow (Part.finish e)), origin = Part.origin e, continues = isLater && Part.continues e}
+    elements =
+      NonEmpty.zipWith element (False :| repeat True) (Part.elements (Part.contour milling))
+    element isLater e =
+      Move
+        { segment = Part.segment e,
+          manner =
+            Manner
+              (Toolpath.heights (NonEmpty.head cut))
+              (maybe (Part.At (Part.feed milling)) Part.At (Part.ownFeed (Part.finish e)))
+              (Part.slow (Part.finish e)),
+          origin = Part.origin e,
+          continues = isLater && Part.continues e
+        }
     followedBy (e :| es) more = e :| es <> more
 
 -- | What a cutter touches whose centre moves along a segment.
 uncovered :: Mm -> Side -> Segment -> Segment
 uncovered (Mm r) side s = case s of
-  Straight a b -> let n = Vec.scale (-leftward side * r) (Vec.left (Vec.unit (Vec.to a b))) in Straight (Vec.shift n a) (Vec.shift n b)
+  Straight a b ->
+    let n =
+          Vec.scale (-leftward side * r) (Vec.left (Vec.unit (Vec.to a b)))
+     in Straight (Vec.shift n a) (Vec.shift n b)
   Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
     let Mm old = Segment.radius centre start
         new = if signum angle == leftward side then old + r else old - r
@@ -158,19 +225,34 @@ endsAround milling pieces = case Part.byControl milling of
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
--- | Behind such a contour, a little further along its first element: a control goes round a corner only when something
--- follows.
+-- | Behind such a contour, a little further along its first element: a control goes round a corner
+-- only when something follows.
 onward :: Region -> Milling -> Segment -> [Move]
-onward keyword milling first = [Move (fst (Segment.cutAt share first)) (Manner (Mm 0, Mm 0) (Part.At (Part.feed milling)) False) keyword False | l > 0]
+onward keyword milling first =
+  [ Move
+      (fst (Segment.cutAt share first))
+      (Manner (Mm 0, Mm 0) (Part.At (Part.feed milling)) False)
+      keyword
+      False
+    | l > 0
+  ]
   where
     Mm l = Segment.length first
     share = min 1 (l / 2) / l
 
 -- The ways in and out
 
--- | The moves up to where compensation is switched on, the straight on which that happens, and the edge from where that
--- arrives. A long way in is divided: near the contour its direction is surely another than that of the edge.
-entering :: Region -> Region -> Milling -> Side -> [Move] -> NonEmpty Move -> Either Error ([Move], Move, NonEmpty Move)
+-- | The moves up to where compensation is switched on, the straight on which that happens, and the
+-- edge from where that arrives. A long way in is divided: near the contour its direction is surely
+-- another than that of the edge.
+entering ::
+  Region ->
+  Region ->
+  Milling ->
+  Side ->
+  [Move] ->
+  NonEmpty Move ->
+  Either Error ([Move], Move, NonEmpty Move)
 entering keyword asked milling side ways edge = case reverse ways of
   m@Move {segment = Straight from to', manner = Manner {between = (z, z')}} : earlier
     | z == z',
@@ -184,29 +266,40 @@ entering keyword asked milling side ways edge = case reverse ways of
   where
     radius@(Mm r) = Part.radius milling
     first = NonEmpty.head edge
-    -- Where the tangent from a point to the cutter at its first place meets the line of the first element.
+    -- Where the tangent from a point to the cutter at its first place meets the line of the first
+    -- element.
     meeting m on to' = do
       let Mm d = Vec.distance on to'
           ahead = Segment.startDirection (segment first)
-          tangent = Vec.rotate (Rad (-leftward side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
+          tangent =
+            Vec.rotate (Rad (-leftward side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
           Rad turned = Vec.turn tangent ahead
           bend = leftward side * turned
           begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
           Rad least = Tolerance.controlBend
       when (d <= r) (Left (ShortForControl (origin m) asked True (Mm d) radius))
-      when (bend < max (2 * least) leastOntoArc || bend > furthestTurn) (Left (WrongWayForControl (origin m) asked to'))
+      when
+        (bend < max (2 * least) leastOntoArc || bend > furthestTurn)
+        (Left (WrongWayForControl (origin m) asked to'))
       let l = Vec.distance on begin
-      when (l <= plus radius Tolerance.byControl) (Left (ShortForControl (origin m) asked True l radius))
+      when
+        (l <= plus radius Tolerance.byControl)
+        (Left (ShortForControl (origin m) asked True l radius))
       Right begin
     -- Before an arc the line is an element of its own, which must not be too short for a control.
     leastOntoArc = case segment first of
       Straight _ _ -> 0
-      arc@Arc {} -> let Mm l = max Tolerance.controlLength (neededBefore radius side (Rad 0) arc) in 2 * atan2 l r
+      arc@Arc {} ->
+        let Mm l =
+              max Tolerance.controlLength (neededBefore radius side (Rad 0) arc)
+         in 2 * atan2 l r
     beginningAt begin = case segment first of
       Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
-      Arc {start} -> (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge
+      Arc {start} ->
+        (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge
 
--- | A way in turns by no more onto the first element: 175°. There that is lengthened backwards by 23 radii.
+-- | A way in turns by no more onto the first element: 175°. There that is lengthened backwards by
+-- 23 radii.
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
@@ -215,7 +308,9 @@ leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, 
 leaving keyword asked milling final ways = case ways of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do
     let l = Vec.distance from to'
-    when (l <= plus radius Tolerance.byControl) (Left (ShortForControl (origin m) asked False l radius))
+    when
+      (l <= plus radius Tolerance.byControl)
+      (Left (ShortForControl (origin m) asked False l radius))
     Right (m {segment = Straight from to'}, later)
   _ -> Left (ShortForControl keyword asked False (Mm 0) radius)
   where

@@ -44,7 +44,8 @@ data Error
     CutsPart Region Segment Element Mm Intrusion Point
   | -- | a hole that cuts into a contour: where it is, the element, how deep
     HoleCuts Region Point Element Mm
-  | -- | milling one contour cuts into another: the statement, the element being milled, the element cut, how deep
+  | -- | milling one contour cuts into another: the statement, the element being milled, the element
+    -- cut, how deep
     MillsAnother Region Region Element Mm Point
   | -- | milling without a depth while the cutter stands so high above the part
     CutsAir Region Mm
@@ -56,7 +57,8 @@ data Error
     SenseAgainstSide Region Region
   | -- | a turned profile that goes below the axis of the spindle: the statement, the element
     BelowAxis Region Element
-  | -- | an allowance where the cutter has no side: the statement, the contour's element if it asks it
+  | -- | an allowance where the cutter has no side: the statement, the contour's element if it asks
+    -- it
     AllowanceOnContour Region
   | -- | a blade along a contour of which no element says how far it leans
     NoBevel Region
@@ -64,29 +66,38 @@ data Error
     BladeOnContour Region
   | -- | two elements without a corner between them that lean differently: the angles in radians
     BevelJumps Region Element Element Double Double
-  | -- | the control is to keep the cutter beside the contour, but what it is sent cannot say something that is asked
+  | -- | the control is to keep the cutter beside the contour, but what it is sent cannot say
+    -- something that is asked
     NotForControl Region Unsent
-  | -- | the way onto a contour or away from it is too short for a control: the move, the place that asks for the control,
-    -- whether it is the way in, its length, the cutter's radius
+  | -- whether it is the way in, its length, the cutter's radius
+
+    -- | the way onto a contour or away from it is too short for a control: the move, the place that
+    -- asks for the control,
     ShortForControl Region Region Bool Mm Mm
-  | -- | the way onto a contour comes from where a control cannot take it: the move, the place that asks for the control, where
-    -- it ends
+  | -- it ends
+
+    -- | the way onto a contour comes from where a control cannot take it: the move, the place that
+    -- asks for the control, where
     WrongWayForControl Region Region Point
   | -- | a control cannot follow a concave arc of this radius; a lead has no element
     TightForControl Region Region (Maybe Element) Mm Mm
-  | -- | a line of this length, or an arc of this radius, too short for a control, and how much it has to be; a lead has no element
+  | -- | a line of this length, or an arc of this radius, too short for a control, and how much it
+    -- has to be; a lead has no element
     TinyForControl Region Region (Maybe Element) Mm Mm
   | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
     SlightForControl Region Element Element Rad Mm
   | -- | a corner at which the contour almost turns back, which a control refuses: how far it turns
     BackForControl Region Element Element Rad
-  | -- | there is no path that clears a pocket: the statement's first word, the outline, what the pass leaves at the walls
+  | -- | there is no path that clears a pocket: the statement's first word, the outline, what the
+    -- pass leaves at the walls
     NoPathInPocket Region Contour Mm
   | -- | nor one along a contour of which not all has to be reached
     NoPathAlong Region Contour Mm
-  | -- | a pocket in which the cutter has to be lifted, without a depth: the statement's first word, from where, to where
+  | -- | a pocket in which the cutter has to be lifted, without a depth: the statement's first word,
+    -- from where, to where
     HasToRise Region Point Point
-  | -- | more is to be left on an element of a pocket's walls than the pocket leaves: the statement's first word
+  | -- | more is to be left on an element of a pocket's walls than the pocket leaves: the
+    -- statement's first word
     KeepsMore Region Element
   deriving stock (Eq, Show)
 
@@ -103,13 +114,15 @@ data Intrusion
 data Warning
   = -- | the statement, the cutter, the places where it leaves material on the contour
     Leaves Region Tool [Stay]
-  | -- | a rapid move through the part, below its top: the stop, the way, the contour that encloses it
+  | -- | a rapid move through the part, below its top: the stop, the way, the contour that encloses
+    -- it
     Through Region Segment (Located Name)
   | -- | a change of the tool behind which the spindle is not said to turn
     Standing Region
   deriving stock (Eq, Show)
 
--- | A place where material stays because the cutter does not get there; and the largest cutter that would, which is looked for when it is told.
+-- | A place where material stays because the cutter does not get there; and the largest cutter that
+-- would, which is looked for when it is told.
 data Stay
   = -- | in a corner between two elements
     InCorner Element Element Point
@@ -123,20 +136,44 @@ data Stay
 warningReport :: Warning -> Report
 warningReport warning = case warning of
   Leaves region tool stays ->
-    (report Report.Warning "W0401" (InSource region) (cutter tool <> " leaves material at " <> places (length stays)))
+    ( report
+        Report.Warning
+        "W0401"
+        (InSource region)
+        (cutter tool <> " leaves material at " <> places (length stays))
+    )
       { others = take 6 (distinct (concatMap labels stays)),
-        message = map (stayWords tool) (take shown stays) <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
-        hints = ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
+        message =
+          map (stayWords tool) (take shown stays)
+            <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
+        hints =
+          ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
       }
   Through region way (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
       { others = [Label named "inside this contour"],
-        message = ["It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> " inside " <> text contour <> ", not above the top of the part. That it was cleared there is not known."],
+        message =
+          [ "It goes from "
+              <> Vec.written 3 (Segment.start way)
+              <> " to "
+              <> Vec.written 3 (Segment.end way)
+              <> " inside "
+              <> text contour
+              <> ", not above the top of the part. That it was cleared there is not known."
+          ],
         hints = ["Lift the cutter first: a third coordinate is a height."]
       }
   Standing region ->
-    (report Report.Warning "W0403" (InSource region) "behind this change nothing lets the spindle turn again")
-      { message = ["A spindle stands while its tool is changed; what turned it before holds no longer."],
+    ( report
+        Report.Warning
+        "W0403"
+        (InSource region)
+        "behind this change nothing lets the spindle turn again"
+    )
+      { message =
+          [ "A spindle stands while its tool is changed; what turned it before holds no \
+            \longer."
+          ],
         hints = ["Say it again behind the change, for example: spindle cw 800 rpm"]
       }
   where
@@ -154,8 +191,17 @@ warningReport warning = case warning of
 stayWords :: Tool -> Stay -> Text
 stayWords tool s = case s of
   InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
-  InHollow a old largest -> "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
-  Between a b p largest -> "Between " <> shape a <> " and " <> shape b <> ", with the centre at " <> Vec.written 3 p <> ". " <> fits tool largest
+  InHollow a old largest ->
+    "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
+  Between a b p largest ->
+    "Between "
+      <> shape a
+      <> " and "
+      <> shape b
+      <> ", with the centre at "
+      <> Vec.written 3 p
+      <> ". "
+      <> fits tool largest
 
 -- | What a control that is sent the edge of the part does not do.
 data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
@@ -170,48 +216,113 @@ toReport err = case err of
         hints = ["Say left or right of the walk, or on."]
       }
   ConcaveRadius region tool element old largest ->
-    (at (origin element) "E0402" (cutter tool <> " does not fit into a concave radius of " <> Decimal.unlike (plus (radius tool) (leaves tool)) old))
+    ( at
+        (origin element)
+        "E0402"
+        ( cutter tool
+            <> " does not fit into a concave radius of "
+            <> Decimal.unlike (plus (radius tool) (leaves tool)) old
+        )
+    )
       { label = shape element,
         others = [Label region (worked tool <> " here") | region /= origin element],
         hints = [fits tool largest]
       }
   InnerCorner region tool first second p largest ->
-    (at (origin first) "E0403" ((if any (>= Tolerance.smallestCutter) largest then cutter tool <> " does not reach" else "no round cutter reaches") <> " into this inner corner"))
+    ( at
+        (origin first)
+        "E0403"
+        ( ( if any (>= Tolerance.smallestCutter) largest
+              then cutter tool <> " does not reach"
+              else "no round cutter reaches"
+          )
+            <> " into this inner corner"
+        )
+    )
       { label = shape first,
-        others = second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
+        others =
+          second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
-        hints = ("Round the corner with a fillet of at least " <> Decimal.mm (plus (radius tool) (leaves tool)) <> ".") : [fits tool largest | any (>= Tolerance.smallestCutter) largest]
+        hints =
+          ( "Round the corner with a fillet of at least "
+              <> Decimal.mm (plus (radius tool) (leaves tool))
+              <> "."
+          ) :
+            [fits tool largest | any (>= Tolerance.smallestCutter) largest]
       }
   Collision region tool first second p largest ->
-    (at (origin first) "E0404" (cutter tool <> " cannot follow this element without cutting another one"))
+    ( at
+        (origin first)
+        "E0404"
+        (cutter tool <> " cannot follow this element without cutting another one")
+    )
       { label = shape first,
-        others = second' first second <> [Label region (worked tool <> " here") | region /= origin first],
-        message = ["With its centre at " <> Vec.written 3 p <> " on the way along " <> shape first <> " it would cut " <> shape second <> "."],
+        others =
+          second' first second <> [Label region (worked tool <> " here") | region /= origin first],
+        message =
+          [ "With its centre at "
+              <> Vec.written 3 p
+              <> " on the way along "
+              <> shape first
+              <> " it would cut "
+              <> shape second
+              <> "."
+          ],
         hints = [fits tool largest]
       }
   CutsPart region way element depth intrusion p ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
-        message = [if Vec.near (Segment.start way) (Segment.end way) then "It goes up or down at " <> Vec.written 3 p <> "." else "It goes from " <> Vec.written 3 (Segment.start way) <> " to " <> Vec.written 3 (Segment.end way) <> "; the trouble is worst with the cutter's centre at " <> Vec.written 3 p <> "."],
-        hints = ["Choose points and leads whose ways stay clear of the part, or go over it: a third coordinate is a height."]
+        message =
+          [ if Vec.near (Segment.start way) (Segment.end way)
+              then "It goes up or down at " <> Vec.written 3 p <> "."
+              else
+                "It goes from "
+                  <> Vec.written 3 (Segment.start way)
+                  <> " to "
+                  <> Vec.written 3 (Segment.end way)
+                  <> "; the trouble is worst with the cutter's centre at "
+                  <> Vec.written 3 p
+                  <> "."
+          ],
+        hints =
+          [ "Choose points and leads whose ways stay clear of the part, or go over it: a third \
+            \coordinate is a height."
+          ]
       }
   HoleCuts region p element deep ->
-    (at region "E0413" ("the hole at " <> Vec.written 3 p <> " cuts into a contour by " <> Decimal.mm deep))
+    ( at
+        region
+        "E0413"
+        ("the hole at " <> Vec.written 3 p <> " cuts into a contour by " <> Decimal.mm deep)
+    )
       { others = [Label (origin element) ("it cuts " <> shape element) | origin element /= region],
         message = ["Of several such holes this is the worst."],
-        hints = ["Check the place of the hole, the diameter of the drill, and that the tool was changed before drilling."]
+        hints =
+          [ "Check the place of the hole, the diameter of the drill, and that the tool was changed \
+            \before drilling."
+          ]
       }
   MillsAnother region milled element depth p ->
     (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
       { label = "milled here",
-        others = [Label milled "along this element" | milled /= region] <> [Label (origin element) ("it cuts " <> shape element)],
+        others =
+          [Label milled "along this element" | milled /= region]
+            <> [Label (origin element) ("it cuts " <> shape element)],
         message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
         hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
       }
   CutsAir region z ->
-    (at region "E0407" ("the cutter stands " <> Decimal.mm z <> " above the part here and cuts nothing"))
-      { hints = ["Say how deep to go: depth 5 mm. Or begin at height 0, if the height is set by hand."]
+    ( at
+        region
+        "E0407"
+        ("the cutter stands " <> Decimal.mm z <> " above the part here and cuts nothing")
+    )
+      { hints =
+          [ "Say how deep to go: depth 5 mm. Or begin at height 0, if the height is set by \
+            \hand."
+          ]
       }
   TurnsClosed region (Name name) contour ->
     (at region "E0410" ("the contour ‘" <> name <> "’ is closed and cannot be turned"))
@@ -219,15 +330,26 @@ toReport err = case err of
         hints = ["A profile is an open contour: its edge as seen from the side, without the axis."]
       }
   SenseOnContour region statement ->
-    (at region "E0408" "the cutter runs on the contour itself: it cuts on both sides, climb on one and conventional on the other")
+    ( at
+        region
+        "E0408"
+        "the cutter runs on the contour itself: it cuts on both sides, climb on one and \
+        \conventional on the other"
+    )
       { others = [Label statement "milled here"],
         hints = ["Leave the word out, or mill the contour on one of its sides."]
       }
   SenseAgainstSide region side ->
     (at region "E0409" "the cutter does not cut like this on this side of the walk")
       { others = [Label side "the side is given here"],
-        message = ["With the spindle clockwise the cutter climbs on the left of the walk; with the spindle counter-clockwise, on the right."],
-        hints = ["Leave the word out, take the other side, or mill reversed(…). In a mirrored block left becomes right; outside and inside stay what they are."]
+        message =
+          [ "With the spindle clockwise the cutter climbs on the left of the walk; with the spindle \
+            \counter-clockwise, on the right."
+          ],
+        hints =
+          [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block left \
+            \becomes right; outside and inside stay what they are."
+          ]
       }
   BelowAxis region element ->
     (at (origin element) "E0412" "a turned profile cannot go below the axis of the spindle, y = 0")
@@ -241,14 +363,21 @@ toReport err = case err of
       }
   NoBevel region ->
     (at region "E0414" "the blade does not know how far this contour leans")
-      { hints = ["Say it behind the elements of the contour: flange bevel mu, or: edge bevel 2 deg.", "For a surface that does not lean take a mill: tool mill(diameter 20)."]
+      { hints =
+          [ "Say it behind the elements of the contour: flange bevel mu, or: edge bevel 2 deg.",
+            "For a surface that does not lean take a mill: tool mill(diameter 20)."
+          ]
       }
   BladeOnContour region ->
     (at region "E0414" "a blade has the contour on one side")
       { hints = ["Say left, right, outside or inside instead of on."]
       }
   BevelJumps region first second a b ->
-    (at (origin first) "E0415" ("the bevel jumps from " <> inDegrees a <> " to " <> inDegrees b <> " behind this element"))
+    ( at
+        (origin first)
+        "E0415"
+        ("the bevel jumps from " <> inDegrees a <> " to " <> inDegrees b <> " behind this element")
+    )
       { label = shape first,
         others = second' first second <> [Label region "milled here with a blade"],
         message = ["A blade swivels while it moves; it cannot jump."],
@@ -260,64 +389,167 @@ toReport err = case err of
         hints = [unsentHint what]
       }
   ShortForControl region asked isIn length' radius' ->
-    (at region "E0417" (if length' > Mm 0 then "the straight way " <> word <> " the contour is " <> Decimal.mm length' <> " long, but a control needs one longer than the cutter's radius, " <> Decimal.mm radius' else "there is no straight way " <> word <> " the contour on which a control could " <> act))
+    ( at
+        region
+        "E0417"
+        ( if length' > Mm 0
+            then
+              "the straight way "
+                <> word
+                <> " the contour is "
+                <> Decimal.mm length'
+                <> " long, but a control needs one longer than the cutter's radius, "
+                <> Decimal.mm radius'
+            else
+              "there is no straight way "
+                <> word
+                <> " the contour on which a control could "
+                <> act
+        )
+    )
       { others = [Label asked "asked here"],
-        message = ["On it the control goes over " <> (if isIn then "from the centre of the cutter to the edge of the part." else "from the edge of the part to the centre of the cutter.")],
-        hints = [if isIn then "Let the last approach point lie further away, at the height of the pass." else "Put a retract point beside the end of the contour, further away; without a height of its own."]
+        message =
+          [ "On it the control goes over "
+              <> ( if isIn
+                     then "from the centre of the cutter to the edge of the part."
+                     else "from the edge of the part to the centre of the cutter."
+                 )
+          ],
+        hints =
+          [ if isIn
+              then "Let the last approach point lie further away, at the height of the pass."
+              else
+                "Put a retract point beside the end of the contour, further away; without a \
+                \height of its own."
+          ]
       }
     where
       word = if isIn then "onto" else "away from"
-      act = if isIn then "begin to keep the cutter beside it" else "stop keeping the cutter beside it"
+      act =
+        if isIn then "begin to keep the cutter beside it" else "stop keeping the cutter beside it"
   WrongWayForControl region asked p ->
     (at region "E0418" "a control cannot take this way onto the contour")
       { others = [Label asked "asked here"],
-        message = ["It ends at " <> Vec.written 3 p <> ", and comes there out of the part, against the direction of the walk, or nearly along an arc with a thin cutter."],
-        hints = ["Let the last approach point lie beside the beginning of the contour or behind it, or lead in along an arc."]
+        message =
+          [ "It ends at "
+              <> Vec.written 3 p
+              <> ", and comes there out of the part, against the direction of the walk, or nearly \
+                 \along an arc with a thin cutter."
+          ],
+        hints =
+          [ "Let the last approach point lie beside the beginning of the contour or behind it, or \
+            \lead in along an arc."
+          ]
       }
   TightForControl region asked element old radius' ->
-    (at (maybe region origin element) "E0419" ("a control cannot keep a cutter of diameter " <> Decimal.mm (times 2 radius') <> " in a concave radius of " <> Decimal.mm old))
+    ( at
+        (maybe region origin element)
+        "E0419"
+        ( "a control cannot keep a cutter of diameter "
+            <> Decimal.mm (times 2 radius')
+            <> " in a concave radius of "
+            <> Decimal.mm old
+        )
+    )
       { label = maybe "the lead" shape element,
         others = [Label asked "asked here"],
-        message = ["The radius has to be larger than the cutter's by " <> Decimal.mm Tolerance.controlArc <> "."],
+        message =
+          [ "The radius has to be larger than the cutter's by "
+              <> Decimal.mm Tolerance.controlArc
+              <> "."
+          ],
         hints = ["Take a smaller cutter" <> maybe ", or a larger lead." (const ".") element]
       }
   TinyForControl region asked element length' needed ->
-    (at (maybe region origin element) "E0419" ("an element of " <> Decimal.mm length' <> " is too short for a control to follow"))
+    ( at
+        (maybe region origin element)
+        "E0419"
+        ("an element of " <> Decimal.mm length' <> " is too short for a control to follow")
+    )
       { label = maybe "the lead" shape element,
         others = [Label asked "asked here"],
         message =
           [ if needed > Tolerance.controlLength
-              then "Rounded to pulses it could seem to turn aside, and about the arc behind it the cutter has little room. Before that arc a line has to be " <> Decimal.mm needed <> " long, an arc as large in radius."
-              else "Rounded to pulses it could seem to turn into the part. Elements have to be " <> Decimal.mm Tolerance.controlLength <> " long."
+              then
+                "Rounded to pulses it could seem to turn aside, and about the arc behind it the \
+                \cutter has little room. Before that arc a line has to be "
+                  <> Decimal.mm needed
+                  <> " long, an arc as large in radius."
+              else
+                "Rounded to pulses it could seem to turn into the part. Elements have to be "
+                  <> Decimal.mm Tolerance.controlLength
+                  <> " long."
           ],
-        hints = [if maybe False ofCurve element then "A curve is cut where the cutter begins on it, which leaves such a piece here. Begin elsewhere: start near …" else "Leave it out, or let a neighbour take its place."]
+        hints =
+          [ if maybe False ofCurve element
+              then
+                "A curve is cut where the cutter begins on it, which leaves such a piece here. \
+                \Begin elsewhere: start near …"
+              else "Leave it out, or let a neighbour take its place."
+          ]
       }
   SlightForControl asked first second (Rad turned) deep ->
-    (at (origin first) "E0419" ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element"))
+    ( at
+        (origin first)
+        "E0419"
+        ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element")
+    )
       { label = shape first,
         others = second' first second <> [Label asked "asked here"],
-        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of less than " <> inDegrees (let Rad b = Tolerance.controlBend in b) <> " for none; an arc behind it may then be refused."],
-        hints = ["Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near …"]
+        message =
+          [ "It turns by "
+              <> inDegrees (abs turned)
+              <> ", and a control takes a corner of less than "
+              <> inDegrees (let Rad b = Tolerance.controlBend in b)
+              <> " for none; an arc behind it may then be refused."
+          ],
+        hints =
+          [ "Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near \
+            \…"
+          ]
       }
   BackForControl asked first second (Rad turned) ->
     (at (origin first) "E0419" "a control cannot follow the corner behind this element")
       { label = shape first,
         others = second' first second <> [Label asked "asked here"],
-        message = ["It turns by " <> inDegrees (abs turned) <> ", and a control takes a corner of more than " <> inDegrees (let Rad b = Tolerance.controlBend in pi - b) <> " for one in which it cannot move."],
+        message =
+          [ "It turns by "
+              <> inDegrees (abs turned)
+              <> ", and a control takes a corner of more than "
+              <> inDegrees (let Rad b = Tolerance.controlBend in pi - b)
+              <> " for one in which it cannot move."
+          ],
         hints = ["Round the tip, for instance with a fillet."]
       }
-  NoPathInPocket region outline left -> noRoom region "no path clears this pocket" "its outline is" "in" outline left
-  NoPathAlong region along left -> noRoom region "no path goes along this contour" "it is" "beside" along left
+  NoPathInPocket region outline left ->
+    noRoom region "no path clears this pocket" "its outline is" "in" outline left
+  NoPathAlong region along left ->
+    noRoom region "no path goes along this contour" "it is" "beside" along left
   HasToRise region p q ->
     (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")
-      { message = ["On the straight way from " <> Vec.written 3 p <> " to " <> Vec.written 3 q <> " a wall is in the way."],
-        hints = ["Say how deep the pocket is: depth 5 mm. The cutter then rises to the clearance height where it has to.", "Or begin within the pocket, and clear parts of it in statements of their own."]
+      { message =
+          [ "On the straight way from "
+              <> Vec.written 3 p
+              <> " to "
+              <> Vec.written 3 q
+              <> " a wall is in the way."
+          ],
+        hints =
+          [ "Say how deep the pocket is: depth 5 mm. The cutter then rises to the clearance height \
+            \where it has to.",
+            "Or begin within the pocket, and clear parts of it in statements of their own."
+          ]
       }
   KeepsMore region element ->
-    (at (origin element) "E0422" "a pocket would cut away what is to be left on this element of its walls")
+    ( at
+        (origin element)
+        "E0422"
+        "a pocket would cut away what is to be left on this element of its walls"
+    )
       { label = shape element,
         others = [Label region "cleared here" | region /= origin element],
-        hints = ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
+        hints =
+          ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
       }
 
 unsent :: Unsent -> Text
@@ -326,14 +558,18 @@ unsent what = case what of
   Swivelling -> "A blade swivels while it cuts, and the control would not know how far."
   SharpCorners -> "The control goes round corners on arcs."
   LeavingMaterial -> "The control is told the diameter of the cutter, and leaves nothing standing."
-  Unreached -> "The control goes along all of the edge, also where the cutter does not reach it: there it would cut into the part."
+  Unreached ->
+    "The control goes along all of the edge, also where the cutter does not reach it: there it \
+    \would cut into the part."
 
 unsentHint :: Unsent -> Text
 unsentHint what = case what of
   OnContour -> "Take a side, or leave out compensation controller."
   Swivelling -> "Leave out compensation controller, or take a mill."
   SharpCorners -> "Leave out corners sharp."
-  LeavingMaterial -> "Mill the passes that leave something in a statement of their own, without compensation controller."
+  LeavingMaterial ->
+    "Mill the passes that leave something in a statement of their own, without compensation \
+    \controller."
   Unreached -> "Leave out compensation controller, or take a smaller cutter."
 
 inDegrees :: Double -> Text
@@ -347,7 +583,13 @@ noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
 noRoom region title called side contour left =
   (at region "E0420" title)
     { others = [Label there (called <> " ‘" <> name <> "’")],
-      message = ["Nowhere " <> side <> " it the cutter has room" <> (if left > Mm 0 then " for a pass that leaves " <> Decimal.mm left else "") <> "."],
+      message =
+        [ "Nowhere "
+            <> side
+            <> " it the cutter has room"
+            <> (if left > Mm 0 then " for a pass that leaves " <> Decimal.mm left else "")
+            <> "."
+        ],
       hints = ["Take a smaller cutter" <> (if left > Mm 0 then ", or leave less." else ".")]
     }
   where
@@ -371,7 +613,8 @@ fits tool largest = case (work tool, largest) of
   (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fitting tool r <> "."
   (Turned, Just r) -> "The largest nose that fits has a radius of " <> fitting tool r <> "."
 
--- | The diameter of a cutter, or the radius of a nose, that fits with this radius: down to a thousandth of a millimetre.
+-- | The diameter of a cutter, or the radius of a nose, that fits with this radius: down to a
+-- thousandth of a millimetre.
 fitting :: Tool -> Mm -> Text
 fitting tool r = case work tool of
   Milled -> down (times 2 r)
@@ -381,7 +624,8 @@ fitting tool r = case work tool of
 
 -- | A cutter in words.
 cutter :: Tool -> Text
-cutter Tool {work, radius, leaves} = size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
+cutter Tool {work, radius, leaves} =
+  size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
   where
     size = case work of
       Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
@@ -402,7 +646,14 @@ intruding intrusion depth = case intrusion of
 shape :: Element -> Text
 shape element = case segment element of
   Straight _ _ | ofCurve element -> "the curve"
-  Arc {start, centre} | ofCurve element -> "the curve, here of radius " <> Decimal.mm (Segment.radius centre start)
+  Arc {start, centre}
+    | ofCurve element ->
+      "the curve, here of radius " <> Decimal.mm (Segment.radius centre start)
   Straight a b -> "the line from " <> Vec.written 3 a <> " to " <> Vec.written 3 b
   Arc {start, centre, sweep = Rad s} ->
-    "the " <> (if s > 0 then "counter-clockwise" else "clockwise") <> " arc of radius " <> Decimal.mm (Segment.radius centre start) <> " about " <> Vec.written 3 centre
+    "the "
+      <> (if s > 0 then "counter-clockwise" else "clockwise")
+      <> " arc of radius "
+      <> Decimal.mm (Segment.radius centre start)
+      <> " about "
+      <> Vec.written 3 centre

@@ -31,15 +31,17 @@ oriented outline islands = turned (> 0) outline :| map (turned (< 0)) islands
   where
     turned wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
 
--- | The loops at a distance to the left of an outline and islands, which are oriented, simple and apart. They are made
--- ready once for all distances. None where contours meet that have to be apart.
+-- | The loops at a distance to the left of an outline and islands, which are oriented, simple and
+-- apart. They are made ready once for all distances. None where contours meet that have to be
+-- apart.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outline :| _) = within
   where
     walls = map (fst . FlatPolyarc.fromContour) (NonEmpty.toList contours)
     BoundingBox l b r t = about (Polyarc.segments outline)
     within distance@(Mm d)
-      -- No circle in the outline is larger; the kernel would have to tell a cutter that covers all of it from one that fits.
+      -- No circle in the outline is larger; the kernel would have to tell a cutter that covers all
+      -- of it from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.plain Carrier.LeftOf distance) walls of
         Right reach -> loopsOf reach
@@ -47,8 +49,9 @@ inset contours@(outline :| _) = within
         Left (Kernel.Crossed _ _) -> []
         Left Kernel.Misplaced -> []
 
--- | The loops at a distance, and down slots of just twice that width: no area is there in which the centre could stand, but a line, which is
--- the loop at a distance that is less by 'Tolerance.clearance'.
+-- | The loops at a distance, and down slots of just twice that width: no area is there in which the
+-- centre could stand, but a line, which is the loop at a distance that is less by
+-- 'Tolerance.clearance'.
 fitting :: (Mm -> [Loop]) -> Mm -> [Loop]
 fitting within distance
   | minus (longAll smaller) (longAll own) > Tolerance.slot = smaller
@@ -58,21 +61,27 @@ fitting within distance
     smaller = within (minus distance Tolerance.clearance)
     longAll loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
--- | The loops further in by a distance, of loops. From loop to loop the kernel has less to do than from the walls to each. Nothing where
--- it cannot tell, as when loops touch.
+-- | The loops further in by a distance, of loops. From loop to loop the kernel has less to do than
+-- from the walls to each. Nothing where it cannot tell, as when loops touch.
 further :: [Loop] -> Mm -> Maybe [Loop]
 further loops distance@(Mm d)
   | 2 * d >= min (r - l) (t - b) = Just []
-  | otherwise = case Kernel.offset (Kernel.plain Carrier.LeftOf distance) (map (fst . FlatPolyarc.fromContour . Polyarc Closed) loops) of
-    Right reach -> Just (loopsOf reach)
-    Left _ -> Nothing
+  | otherwise =
+    case Kernel.offset
+      (Kernel.plain Carrier.LeftOf distance)
+      (map (fst . FlatPolyarc.fromContour . Polyarc Closed) loops) of
+      Right reach -> Just (loopsOf reach)
+      Left _ -> Nothing
   where
     -- No circle in any of them is larger.
-    BoundingBox l b r t = maybe (BoundingBox 0 0 0 0) (foldr1 BoundingBox.union) (NonEmpty.nonEmpty (map about loops))
+    BoundingBox l b r t =
+      maybe (BoundingBox 0 0 0 0) (foldr1 BoundingBox.union) (NonEmpty.nonEmpty (map about loops))
 
 -- | The box about segments.
 about :: NonEmpty Segment -> BoundingBox
-about (s :| more) = foldl (\box s' -> BoundingBox.union box (BoundingBox.ofSegment s')) (BoundingBox.ofSegment s) more
+about (s :| more) =
+  foldl (\box s' -> BoundingBox.union box (BoundingBox.ofSegment s')) (BoundingBox.ofSegment s) more
 
 loopsOf :: Kernel.ReachableRegion -> [Loop]
-loopsOf reach = mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops reach))
+loopsOf reach =
+  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops reach))

@@ -22,47 +22,96 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One pass of a statement: the statement's first word, what it asks, whether the pass is the first one and the last one,
--- where the cutter stands before it.
-data Visit = Visit {word :: Region, milling :: Milling, isFirst :: Bool, isLast :: Bool, from :: SpacePoint}
+-- | One pass of a statement: the statement's first word, what it asks, whether the pass is the
+-- first one and the last one, where the cutter stands before it.
+data Visit = Visit
+  { word :: Region,
+    milling :: Milling,
+    isFirst :: Bool,
+    isLast :: Bool,
+    from :: SpacePoint
+  }
 
--- | The ways before and behind a pass without depth, which keep the height at which the cutter stands: where the pass begins, where it
--- ends, the heights at both and that of the pass.
+-- | The ways before and behind a pass without depth, which keep the height at which the cutter
+-- stands: where the pass begins, where it ends, the heights at both and that of the pass.
 flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish = (before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace], behind <> if null behind then [Move (Straight finish finish) (Manner (outZ, z) pace False) word False | outZ /= z] else [])
+flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
+  ( before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace],
+    behind
+      <> if null behind
+        then [Move (Straight finish finish) (Manner (outZ, z) pace False) word False | outZ /= z]
+        else []
+  )
   where
     pace = Part.At (feed milling)
     before = if isFirst || isOpen then ways from (Part.approach milling) else []
-    behind = if isLast || isOpen then ways (SpacePoint finish outZ) (upright (Part.retract milling)) else []
+    behind =
+      if isLast || isOpen
+        then ways (SpacePoint finish outZ) (upright (Part.retract milling))
+        else []
     isOpen = Part.ends (Part.contour milling) == Part.Open
     -- A blade is turned upright on the way away.
     upright stops = case stops of
-      s : more | Nothing <- Part.level s, Just _ <- Part.gear milling -> s {Part.level = Just z} : more
+      s : more
+        | Nothing <- Part.level s,
+          Just _ <- Part.gear milling ->
+          s {Part.level = Just z} : more
       _ -> stops
 
--- | The same with depth. The cutter goes over to the last approach point (or to the beginning) at the clearance
--- height, down there, and up again from the first retract point, unless that has a height of its own.
+-- | The same with depth. The cutter goes over to the last approach point (or to the beginning) at
+-- the clearance height, down there, and up again from the first retract point, unless that has a
+-- height of its own.
 deep :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish = (up <> over <> down <> ways (SpacePoint (plane above) inZ) [Part.Stop (Located word begin) (Just inZ) pace], leave <> lift <> rest)
+deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
+  ( up
+      <> over
+      <> down
+      <> ways (SpacePoint (plane above) inZ) [Part.Stop (Located word begin) (Just inZ) pace],
+    leave <> lift <> rest
+  )
   where
     pace = Part.At (feed milling)
     up = rise from clear word
-    stops = [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- (if isFirst then id else lastOf) (Part.approach milling)]
-    over = ways (arriving from up) (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
+    stops =
+      [ s {Part.level = Just (fromMaybe clear (Part.level s))}
+        | s <- (if isFirst then id else lastOf) (Part.approach milling)
+      ]
+    over =
+      ways
+        (arriving from up)
+        (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
     above = arriving (arriving from up) over
-    down = [Move (Straight (plane above) (plane above)) (Manner (height above, inZ) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False) word False | height above /= inZ]
+    down =
+      [ Move
+          (Straight (plane above) (plane above))
+          ( Manner
+              (height above, inZ)
+              (Part.At (fromMaybe (feed milling) (Part.plunge milling)))
+              False
+          )
+          word
+          False
+        | height above /= inZ
+      ]
     (beside, further) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
     leave = ways (SpacePoint finish outZ) beside
     out = arriving (SpacePoint finish outZ) leave
     lift = rise out clear word
-    rest = if isLast then ways (arriving out lift) [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further] else []
+    rest =
+      if isLast
+        then
+          ways
+            (arriving out lift)
+            [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further]
+        else []
     lastOf xs = take 1 (reverse xs)
 
 -- | Straight up to a height, if the cutter stands below it.
 rise :: SpacePoint -> Mm -> Region -> [Move]
-rise (SpacePoint p z) clear word = [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
+rise (SpacePoint p z) clear word =
+  [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
 
 -- | Straight moves from stop to stop; a stop where the cutter already stands needs none.
 ways :: SpacePoint -> [Stop] -> [Move]
@@ -70,7 +119,9 @@ ways at stops = case stops of
   [] -> []
   Part.Stop (Located region p) level pace : rest
     | Vec.near (plane at) p && z == height at -> ways at rest
-    | otherwise -> Move (Straight (plane at) p) (Manner (height at, z) pace False) region False : ways (SpacePoint p z) rest
+    | otherwise ->
+      Move (Straight (plane at) p) (Manner (height at, z) pace False) region False :
+      ways (SpacePoint p z) rest
     where
       z = fromMaybe (height at) level
 

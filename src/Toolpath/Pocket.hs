@@ -1,13 +1,15 @@
--- | The way of the cutter's centre in a pocket: loops at rising distances from the walls, cut from the innermost outwards, and what leads
--- from each to the next.
+-- | The way of the cutter's centre in a pocket: loops at rising distances from the walls, cut from
+-- the innermost outwards, and what leads from each to the next.
 --
--- Every place of the floor that the cutter can reach is swept. A place at a distance between two loops comes to the outer one straight
--- towards its nearest wall, on a way no longer than the step; so a step of no more than the radius leaves
--- nothing, the middle included, where the last loop shrinks to nothing. What a wider step leaves is cleared aside ("Toolpath.StepoverResidue"). A
--- place nearer to the wall than any centre comes to an admissible centre within the radius, across the outermost loop.
+-- Every place of the floor that the cutter can reach is swept. A place at a distance between two
+-- loops comes to the outer one straight towards its nearest wall, on a way no longer than the step;
+-- so a step of no more than the radius leaves nothing, the middle included, where the last loop
+-- shrinks to nothing. What a wider step leaves is cleared aside ("Toolpath.StepoverResidue"). A
+-- place nearer to the wall than any centre comes to an admissible centre within the radius, across
+-- the outermost loop.
 --
--- Inside out, because the cutter then goes down where there is room about it, and what is still to be cut lies on one side of
--- every later pass, with the walls last.
+-- Inside out, because the cutter then goes down where there is room about it, and what is still to
+-- be cut lies on one side of every later pass, with the walls last.
 module Toolpath.Pocket
   ( PocketRoom (..),
     Loop,
@@ -42,8 +44,8 @@ import Toolpath.PocketTree qualified as PocketTree
 data PocketRoom = PocketRoom
   { -- | the outline and the islands
     walls :: NonEmpty Segment,
-    -- | the loops that bound what lies inside the outline, outside the islands, and no nearer to both than a distance; the free
-    -- space is on their left
+    -- | the loops that bound what lies inside the outline, outside the islands, and no nearer to
+    -- both than a distance; the free space is on their left
     offsetBy :: Mm -> [Loop],
     -- | the same of such loops, so much further in, if it is easier
     further :: [Loop] -> Mm -> Maybe [Loop],
@@ -67,19 +69,44 @@ data PocketMove
     Over Point Point
   deriving stock (Eq, Show)
 
--- | Clear a pocket with a step from pass to pass, from the place where the cutter goes down, if that is known; nowhere when the
--- cutter fits nowhere. The step is above zero and at most the diameter.
+-- | Clear a pocket with a step from pass to pass, from the place where the cutter goes down, if
+-- that is known; nowhere when the cutter fits nowhere. The step is above zero and at most the
+-- diameter.
 clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
-clear room step from = along room from (PocketTree.nests (offsetBy room) (further room) (radius room) (takeWhile (<= deepest) [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]))
+clear room step from =
+  along
+    room
+    from
+    ( PocketTree.nests
+        (offsetBy room)
+        (further room)
+        (radius room)
+        ( takeWhile
+            (<= deepest)
+            [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]
+        )
+    )
   where
     -- No place of the pocket lies further from the walls.
-    deepest = plus step (halfOf (foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls room))))
+    deepest =
+      plus step (halfOf (foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls room))))
     halfOf (BoundingBox l b r t) = Mm (min (r - l) (t - b) / 2)
 
--- | Go along the walls once more, in a pocket that was cleared but for more at the walls: so much was left then. Passes
--- lie no more than the step and the radius apart.
+-- | Go along the walls once more, in a pocket that was cleared but for more at the walls: so much
+-- was left then. Passes lie no more than the step and the radius apart.
 skim :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
-skim room step before from = along room from (PocketTree.nests (offsetBy room) (further room) (radius room) [plus (nearest' room) (times (fromIntegral k / fromIntegral count) more) | k <- [0 .. count - 1]])
+skim room step before from =
+  along
+    room
+    from
+    ( PocketTree.nests
+        (offsetBy room)
+        (further room)
+        (radius room)
+        [ plus (nearest' room) (times (fromIntegral k / fromIntegral count) more)
+          | k <- [0 .. count - 1]
+        ]
+    )
   where
     more = minus before (leaves room)
     count = max 1 (ceiling (over more (min step (radius room)) - Tolerance.equal)) :: Int
@@ -99,7 +126,10 @@ linked room = link
       | Vec.near p q = []
       | free (Straight p q) = [Across (Straight p q)]
       | otherwise = [Over p q]
-    free s = all (\w -> plus (distanceTo s w) Tolerance.clearance >= nearest' room) (BoundingBox.within (BoundingBox.inflate (nearest' room) (BoundingBox.ofSegment s)) index)
+    free s =
+      all
+        (\w -> plus (distanceTo s w) Tolerance.clearance >= nearest' room)
+        (BoundingBox.within (BoundingBox.inflate (nearest' room) (BoundingBox.ofSegment s)) index)
     distanceTo s w = let ClosestPoint d _ = Distance.segments s w in d
 
 -- The walk
@@ -107,7 +137,8 @@ linked room = link
 -- | Where the cutter stands, and the legs up to there, the last one first.
 data Walk = Walk {at :: Maybe Point, legs :: [PocketMove]}
 
--- | All loops of nests and what leads from each to the next. The cutter stands at a place, or anywhere.
+-- | All loops of nests and what leads from each to the next. The cutter stands at a place, or
+-- anywhere.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
 along room from nests = reverse (legs (visitAll Walk {at = from, legs = []} nests))
   where
@@ -115,22 +146,31 @@ along room from nests = reverse (legs (visitAll Walk {at = from, legs = []} nest
     visitAll walk ns = inTurn visit (entrance . innermost) walk ns
     visit walk n = case (at inside, rings n) of
       -- From a part within this one its nearest loop is the one that no wall can hide.
-      (Just p, rs) -> let (r, others) = takeOut (apart p) rs in inTurn enter entrance (enter inside r) others
+      (Just p, rs) ->
+        let (r, others) =
+              takeOut (apart p) rs
+         in inTurn enter entrance (enter inside r) others
       (Nothing, rs) -> inTurn enter entrance inside (NonEmpty.toList rs)
       where
         inside = visitAll walk (inner n)
     enter walk r =
       let r' = maybe r (enteredNear r) (at walk)
           way = maybe [] (`link` entrance r') (at walk)
-       in Walk {at = Just (entrance r'), legs = reverse (way <> roundOf (turned room) r') <> legs walk}
+       in Walk
+            { at = Just (entrance r'),
+              legs = reverse (way <> roundOf (turned room) r') <> legs walk
+            }
 
--- | One after the other, next the one whose place is nearest to where the cutter stands. Of very many the next one in order, which is
--- that of the walls.
+-- | One after the other, next the one whose place is nearest to where the cutter stands. Of very
+-- many the next one in order, which is that of the walls.
 inTurn :: (Walk -> a -> Walk) -> (a -> Point) -> Walk -> [a] -> Walk
 inTurn visit place walk things = case (things, at walk) of
   ([], _) -> walk
   (first : others, Just p)
-    | null (drop many things) -> let (next, rest) = takeOut (Vec.distance p . place) (first :| others) in inTurn visit place (visit walk next) rest
+    | null (drop many things) ->
+      let (next, rest) =
+            takeOut (Vec.distance p . place) (first :| others)
+       in inTurn visit place (visit walk next) rest
   (first : others, _) -> inTurn visit place (visit walk first) others
   where
     many = 100
@@ -140,7 +180,10 @@ takeOut :: (a -> Mm) -> NonEmpty a -> (a, [a])
 takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
   where
     numbered = zip [0 :: Int ..] (NonEmpty.toList things)
-    (number, _, chosen) = minimumBy (comparing (\(_, m, _) -> m)) (NonEmpty.zipWith (\i a -> (i, measure a, a)) (0 :| [1 ..]) things)
+    (number, _, chosen) =
+      minimumBy
+        (comparing (\(_, m, _) -> m))
+        (NonEmpty.zipWith (\i a -> (i, measure a, a)) (0 :| [1 ..]) things)
 
 -- Loops
 
@@ -165,12 +208,18 @@ enteredNear r p = case NonEmpty.nonEmpty begun of
   Nothing -> r
   where
     list = NonEmpty.toList (stretches r)
-    (number, _) = minimumBy (comparing snd) (NonEmpty.zip (0 :| [1 ..]) (fmap (Distance.toPoint p . segment) (stretches r)))
+    (number, _) =
+      minimumBy
+        (comparing snd)
+        (NonEmpty.zip (0 :| [1 ..]) (fmap (Distance.toPoint p . segment) (stretches r)))
     begun = case splitAt number list of
       (before, s : behind)
         | Vec.near foot (Segment.end (segment s)) -> behind <> before <> [s]
         | Vec.near foot (Segment.start (segment s)) -> s : behind <> before
-        | otherwise -> let (a, b) = Segment.cutAt (Segment.fraction (segment s) foot) (segment s) in s {segment = b} : behind <> before <> [RingSegment {segment = a, aside = []}]
+        | otherwise ->
+          let (a, b) =
+                Segment.cutAt (Segment.fraction (segment s) foot) (segment s)
+           in s {segment = b} : behind <> before <> [RingSegment {segment = a, aside = []}]
         where
           foot = snd (Distance.nearest p (segment s))
       (_, []) -> list
@@ -185,7 +234,8 @@ roundOf isTurned r
     go before ss = case ss of
       [] -> whole before
       RingSegment {segment = s, aside = []} : more -> go (s : before) more
-      RingSegment {segment = s, aside = trips} : more -> whole (s : before) <> map Aside trips <> go [] more
+      RingSegment {segment = s, aside = trips} : more ->
+        whole (s : before) <> map Aside trips <> go [] more
     whole before = maybe [] (\some -> [Round (away r) some]) (NonEmpty.nonEmpty (reverse before))
     turnedRound leg = case leg of
       Round c ss -> Round c (NonEmpty.reverse (fmap Segment.reverse ss))

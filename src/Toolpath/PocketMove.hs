@@ -25,7 +25,12 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
-import Part.Part (Element, Milling (contour, feed), Pocketing (apart, islands, wall), SpacePoint (..))
+import Part.Part
+  ( Element,
+    Milling (contour, feed),
+    Pocketing (apart, islands, wall),
+    SpacePoint (..),
+  )
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..), Tool (Tool))
 import Toolpath.Error qualified
@@ -38,11 +43,13 @@ import Toolpath.Pocket qualified as Pocket
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The passes of a pocket, by the number of its statement, from where the cutter stands: all depths for the first allowance, then for
--- the next.
+-- | The passes of a pocket, by the number of its statement, from where the cutter stands: all
+-- depths for the first allowance, then for the next.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
-  for_ (find ((> NonEmpty.last allowances) . Part.allowance . Part.finish) elements) (Left . KeepsMore word)
+  for_
+    (find ((> NonEmpty.last allowances) . Part.allowance . Part.finish) elements)
+    (Left . KeepsMore word)
   when (isNothing depth && standing > Mm 0) (Left (CutsAir word standing))
   rests <- resting word pocket
   reverse . snd <$> foldl (pass rests) (Right (at, [])) (zip [1 ..] passes)
@@ -52,35 +59,84 @@ blocks number at (Located region given) = do
     milling = wall pocket
     elements = elementsOf pocket
     allowances = Part.allowances milling
-    standing = fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
+    standing =
+      fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     depth = case (Part.levels milling, Part.clearance milling) of
       (first : more, Just clear) -> Just (clear, first :| more)
       _ -> Nothing
     -- With depth all passes of an allowance are the same at every depth.
-    passes = [(a, case depth of Just _ -> const down; Nothing -> legs, z) | (a, legs) <- NonEmpty.toList (NonEmpty.zip allowances (laid pocket)), let down = legs (lastApproach milling), z <- maybe [standing] (NonEmpty.toList . snd) depth]
+    passes =
+      [ (a, case depth of Just _ -> const down; Nothing -> legs, z)
+        | (a, legs) <- NonEmpty.toList (NonEmpty.zip allowances (laid pocket)),
+          let down = legs (lastApproach milling),
+          z <- maybe [standing] (NonEmpty.toList . snd) depth
+      ]
     pass rests before (k, (left, legs, z)) = do
       (spot, done) <- before
-      let visit = Visit {LinkingMove.word, LinkingMove.milling, LinkingMove.isFirst = k == 1, LinkingMove.isLast = k == length passes, LinkingMove.from = spot}
+      let visit =
+            Visit
+              { LinkingMove.word,
+                LinkingMove.milling,
+                LinkingMove.isFirst = k == 1,
+                LinkingMove.isLast = k == length passes,
+                LinkingMove.from = spot
+              }
           numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
       (approach, cleared, retract) <- passOf visit (fst <$> depth) (left, z) legs
-      let b = Clearing {pocket = Located region pocket, pass = numbered, approach, cleared, retract, rests = if left == NonEmpty.last allowances then rests else []}
+      let b =
+            Clearing
+              { pocket = Located region pocket,
+                pass = numbered,
+                approach,
+                cleared,
+                retract,
+                rests = if left == NonEmpty.last allowances then rests else []
+              }
       Right (LinkingMove.arriving spot (Toolpath.moves b), b : done)
 
 -- | Where the cutter is when it goes down, if that is said.
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
--- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the cutter may be lifted; what it leaves at the walls and its own height; the legs
--- from where the cutter goes down.
-passOf :: Visit -> Maybe Mm -> (Mm, Mm) -> (Maybe Point -> [PocketMove]) -> Either Error ([Move], NonEmpty Move, [Move])
+-- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the
+-- cutter may be lifted; what it leaves at the walls and its own height; the legs from where the
+-- cutter goes down.
+passOf ::
+  Visit ->
+  Maybe Mm ->
+  (Mm, Mm) ->
+  (Maybe Point -> [PocketMove]) ->
+  Either Error ([Move], NonEmpty Move, [Move])
 passOf visit clear (left, z) legsFrom = do
   legs <- fitting (NonEmpty.nonEmpty (legsFrom from))
   (visit', legs') <- case (legs, clear) of
     -- Something is in the way from where the cutter would go down: it goes on above.
-    (Over _ q :| next : more, Just c) -> Right (visit {LinkingMove.milling = milling {Part.approach = Part.approach milling <> [Part.Stop (Located word q) (Just c) Part.Rapid]}}, next :| more)
+    (Over _ q :| next : more, Just c) ->
+      Right
+        ( visit
+            { LinkingMove.milling =
+                milling
+                  { Part.approach =
+                      Part.approach milling
+                        <> [Part.Stop (Located word q) (Just c) Part.Rapid]
+                  }
+            },
+          next :| more
+        )
     (_, Just _) -> Right (visit, legs)
-    (_, Nothing) -> maybe (Right (visit, legs)) (\(p, q) -> Left (HasToRise word p q)) (listToMaybe [(p, q) | Over p q <- toList legs])
-  let (before, behind) = maybe (LinkingMove.flat visit' z) (LinkingMove.deep visit') clear (z, z) (Pocket.begins (NonEmpty.head legs')) (Pocket.finishes (NonEmpty.last legs'))
+    (_, Nothing) ->
+      maybe
+        (Right (visit, legs))
+        (\(p, q) -> Left (HasToRise word p q))
+        (listToMaybe [(p, q) | Over p q <- toList legs])
+  let (before, behind) =
+        maybe
+          (LinkingMove.flat visit' z)
+          (LinkingMove.deep visit')
+          clear
+          (z, z)
+          (Pocket.begins (NonEmpty.head legs'))
+          (Pocket.finishes (NonEmpty.last legs'))
   cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z clear) legs'))
   Right (before, cleared, behind)
   where
@@ -95,22 +151,44 @@ passOf visit clear (left, z) legsFrom = do
 -- | The moves of a leg at a height; over what is in the way, at another one.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
 moves word milling z clear leg = case leg of
-  Over p q | Just c <- clear -> [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z] <> [Move (Straight p q) (Manner (c, c) Part.Rapid False) word False] <> [Move (Straight q q) (Manner (c, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False) word False | c /= z]
+  Over p q
+    | Just c <- clear ->
+      [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z]
+        <> [Move (Straight p q) (Manner (c, c) Part.Rapid False) word False]
+        <> [ Move
+               (Straight q q)
+               (Manner (c, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False)
+               word
+               False
+             | c /= z
+           ]
   _ -> [Move s (Manner (z, z) (Part.At (feed milling)) False) word False | s <- Pocket.segments leg]
 
 -- | For each allowance the legs from where the cutter goes down.
 laid :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
-laid pocket = (\from -> Pocket.clear (room first) step from) :| zipWith (\before a -> Pocket.skim (room a) step before) (first : more) more
+laid pocket =
+  (\from -> Pocket.clear (room first) step from)
+    :| zipWith (\before a -> Pocket.skim (room a) step before) (first : more) more
   where
     first :| more = Part.allowances (wall pocket)
     step = apart pocket
-    contours = Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
+    contours =
+      Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
     inset = Inset.inset contours
     -- Along the walls it goes down slots of just its width, too.
     insetFrom nearest d = if d == nearest then Inset.fitting inset d else inset d
-    room leaves = PocketRoom {walls = foldr1 (<>) (fmap Polyarc.segments contours), offsetBy = insetFrom (plus (Part.radius (wall pocket)) leaves), further = Inset.further, radius = Part.radius (wall pocket), leaves, turned = isTurned pocket}
+    room leaves =
+      PocketRoom
+        { walls = foldr1 (<>) (fmap Polyarc.segments contours),
+          offsetBy = insetFrom (plus (Part.radius (wall pocket)) leaves),
+          further = Inset.further,
+          radius = Part.radius (wall pocket),
+          leaves,
+          turned = isTurned pocket
+        }
 
--- | Whether the free space lies on the right of the walk: a spindle that turns clockwise climbs with the material there.
+-- | Whether the free space lies on the right of the walk: a spindle that turns clockwise climbs
+-- with the material there.
 isTurned :: Pocketing -> Bool
 isTurned pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
   where
@@ -118,52 +196,97 @@ isTurned pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
 
 -- | Outline and islands walked as the cutter walks along them.
 oriented :: Pocketing -> Pocketing
-oriented pocket = pocket {wall = (wall pocket) {contour = walked (not turned) (contour (wall pocket))}, islands = map (walked turned) (islands pocket)}
+oriented pocket =
+  pocket
+    { wall = (wall pocket) {contour = walked (not turned) (contour (wall pocket))},
+      islands = map (walked turned) (islands pocket)
+    }
   where
     turned = isTurned pocket
-    walked counterClockwise c = if (Polyarc.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
+    walked counterClockwise c =
+      if (Polyarc.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
 
 -- | The elements of the outline, and of the islands in order.
 elementsOf :: Pocketing -> Vector Element
-elementsOf pocket = Vector.fromList (concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket))
+elementsOf pocket =
+  Vector.fromList
+    (concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket))
 
 -- What stays
 
--- | What stays at the walls when all is done, by elements of the outline and the islands in order, if that is allowed.
+-- | What stays at the walls when all is done, by elements of the outline and the islands in order,
+-- if that is allowed.
 resting :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
 resting word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (OffsetRefusal.refusal word tool (elementsOf pocket) o)
   (Part.Refused, []) -> Right []
-  (Part.Allowed, _) -> Right (concat (zipWith rests starts contours) <> [Equidistant.UnreachedPart {Equidistant.stop = g, Equidistant.middle = p, Equidistant.standing = Equidistant.Unbounded} | g@Equidistant.Obstacle {Equidistant.cause = Equidistant.Collision _ _ p} <- gaps])
+  (Part.Allowed, _) ->
+    Right
+      ( concat (zipWith rests starts contours)
+          <> [ Equidistant.UnreachedPart
+                 { Equidistant.stop = g,
+                   Equidistant.middle = p,
+                   Equidistant.standing = Equidistant.Unbounded
+                 }
+               | g@Equidistant.Obstacle {Equidistant.cause = Equidistant.Collision _ _ p} <- gaps
+             ]
+      )
   where
     milling = wall pocket
     left = NonEmpty.last (Part.allowances milling)
     r = plus (Part.radius milling) left
-    tool = Tool {Toolpath.Error.work = Part.work milling, Toolpath.Error.radius = Part.radius milling, Toolpath.Error.leaves = left}
+    tool =
+      Tool
+        { Toolpath.Error.work = Part.work milling,
+          Toolpath.Error.radius = Part.radius milling,
+          Toolpath.Error.leaves = left
+        }
     contours = contour milling : islands pocket
     starts = scanl (+) 0 (map (length . Part.elements) contours)
     side = if isTurned pocket then Carrier.RightOf else Carrier.LeftOf
     style = Equidistant.CornerStyle {Equidistant.sharp = False, Equidistant.extra = const (Mm 0)}
-    found = [OffsetRefusal.shifted n o | (n, c) <- zip starts contours, Left o <- [Equidistant.styled style side r (Part.outline c)]] <> gaps
+    found =
+      [ OffsetRefusal.shifted n o
+        | (n, c) <- zip starts contours,
+          Left o <- [Equidistant.styled style side r (Part.outline c)]
+      ]
+        <> gaps
     rests n c = case Equidistant.styled style side r (Part.outline c) of
       Right _ -> []
-      Left _ -> [rest {Equidistant.stop = OffsetRefusal.shifted n (Equidistant.stop rest)} | rest <- snd (Equidistant.reachableFitting style side r (Part.outline c))]
+      Left _ ->
+        [ rest {Equidistant.stop = OffsetRefusal.shifted n (Equidistant.stop rest)}
+          | rest <- snd (Equidistant.reachableFitting style side r (Part.outline c))
+        ]
     gaps = gapsBetween r (map Part.outline contours)
 
 -- | Contours between which a circle does not pass: of each two the narrowest place.
 gapsBetween :: Mm -> [Polyarc.Polyarc] -> [Equidistant.Obstacle]
-gapsBetween r contours = [Equidistant.Obstacle {Equidistant.cause = Equidistant.Collision i j p, Equidistant.largest = Just (times 0.5 d)} | (d, (i, j, p)) <- Map.elems (Map.fromListWith narrower found)]
+gapsBetween r contours =
+  [ Equidistant.Obstacle
+      { Equidistant.cause = Equidistant.Collision i j p,
+        Equidistant.largest = Just (times 0.5 d)
+      }
+    | (d, (i, j, p)) <- Map.elems (Map.fromListWith narrower found)
+  ]
   where
-    numbered = zip [0 :: Int ..] [(k, s) | (k, c) <- zip [0 :: Int ..] contours, s <- NonEmpty.toList (Polyarc.segments c)]
+    numbered =
+      zip
+        [0 :: Int ..]
+        [(k, s) | (k, c) <- zip [0 :: Int ..] contours, s <- NonEmpty.toList (Polyarc.segments c)]
     index = BoundingBox.index (BoundingBox.ofSegment . snd . snd) numbered
     widest = minus (times 2 r) (times 2 Tolerance.clearance)
     found =
       [ ((k, l), (d, (i, j, centre p s')))
         | (i, (k, s)) <- numbered,
-          (j, (l, s')) <- BoundingBox.within (BoundingBox.inflate widest (BoundingBox.ofSegment s)) index,
+          (j, (l, s')) <-
+            BoundingBox.within (BoundingBox.inflate widest (BoundingBox.ofSegment s)) index,
           k < l,
           let ClosestPoint d p = Distance.segments s s',
           d < widest
       ]
     narrower a b = if fst a <= fst b then a else b
-    centre p s' = let q = snd (Distance.nearest p s'); Mm r' = r in if Vec.near p q then p else Vec.shift (Vec.scale r' (Vec.unit (Vec.to p q))) p
+    centre p s' =
+      let q =
+            snd (Distance.nearest p s')
+          Mm r' = r
+       in if Vec.near p q then p else Vec.shift (Vec.scale r' (Vec.unit (Vec.to p q))) p

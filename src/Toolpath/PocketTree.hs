@@ -1,5 +1,5 @@
--- | The passes in a pocket as a tree: each connected part of what the cutter's centre can reach at one distance from the walls,
--- and in it those at the next distance.
+-- | The passes in a pocket as a tree: each connected part of what the cutter's centre can reach at
+-- one distance from the walls, and in it those at the next distance.
 module Toolpath.PocketTree
   ( Loop,
     PocketTree (..),
@@ -32,8 +32,8 @@ import Toolpath.StepoverResidue qualified as StepoverResidue
 -- | Segments in a closed chain, with the free space on their left.
 type Loop = NonEmpty Segment
 
--- | What bounds one connected part at its distance, the outer loop and those round islands; the parts in it at
--- the next distance.
+-- | What bounds one connected part at its distance, the outer loop and those round islands; the
+-- parts in it at the next distance.
 data PocketTree = PocketTree {rings :: NonEmpty Ring, inner :: [PocketTree]}
 
 -- | A loop at a distance from the walls.
@@ -42,9 +42,10 @@ data Ring = Ring {away :: Mm, stretches :: NonEmpty RingSegment}
 -- | A segment of a loop, and trips aside from its end and back to it.
 data RingSegment = RingSegment {segment :: Segment, aside :: [NonEmpty Segment]}
 
--- | The passes at rising distances from the walls, up to the first at which there is nothing; by the loops that bound what can
--- be reached at a distance, and those of loops so much further in, if they are known. Where they lie further apart than the radius of the cutter, what they leave between them is cleared
--- aside. The last of finitely many distances looks no further inwards.
+-- | The passes at rising distances from the walls, up to the first at which there is nothing; by
+-- the loops that bound what can be reached at a distance, and those of loops so much further in, if
+-- they are known. Where they lie further apart than the radius of the cutter, what they leave
+-- between them is cleared aside. The last of finitely many distances looks no further inwards.
 nests :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
 nests offsetBy further radius distances = case distances of
   [] -> []
@@ -56,39 +57,74 @@ nests offsetBy further radius distances = case distances of
       (_, next : others) ->
         let loops' = inwards c loops (minus next c)
             nooks = left c loops next loops'
-         in grouped c loops trips (from next loops' (StepoverResidue.trips nooks) others <> map (leaf (plus c radius)) (StepoverResidue.lone nooks))
+         in grouped
+              c
+              loops
+              trips
+              ( from next loops' (StepoverResidue.trips nooks) others
+                  <> map (leaf (plus c radius)) (StepoverResidue.lone nooks)
+              )
     inwards c loops d = fromMaybe (offsetBy (plus c d)) (further loops d)
     left c loops next loops'
       | minus next c <= plus radius Tolerance.coincident = StepoverResidue.none
-      | otherwise = StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
+      | otherwise =
+        StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = PocketTree {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
-ring away trips (n, loop) = Ring {away, stretches = NonEmpty.zipWith (\i s -> RingSegment s (Map.findWithDefault [] (n, i) trips)) (0 :| [1 ..]) loop}
+ring away trips (n, loop) =
+  Ring
+    { away,
+      stretches =
+        NonEmpty.zipWith
+          (\i s -> RingSegment s (Map.findWithDefault [] (n, i) trips))
+          (0 :| [1 ..])
+          loop
+    }
 
 -- | The loops of one distance by the parts that they bound, and in each part what lies in it.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
     numbered = zip [0 ..] loops
-    index = BoundingBox.index (BoundingBox.ofSegment . snd) [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
+    index =
+      BoundingBox.index
+        (BoundingBox.ofSegment . snd)
+        [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- The outer loop of the part that each loop bounds. To the right of the rightmost point of a loop round an island lies the part that it
-    -- bounds, and then another loop that bounds it, which ends no further left.
-    outer = foldl around (Map.fromList [(n, n) | (n, _) <- outers]) (sortOn (Down . Vec.x . rightmost . snd) holes)
-    around known (n, loop) = Map.insert n (maybe n (`among` known) (firstHit index (Just n) (rightmost loop))) known
+    -- The outer loop of the part that each loop bounds. To the right of the rightmost point of a
+    -- loop round an island lies the part that it bounds, and then another loop that bounds it,
+    -- which ends no further left.
+    outer =
+      foldl
+        around
+        (Map.fromList [(n, n) | (n, _) <- outers])
+        (sortOn (Down . Vec.x . rightmost . snd) holes)
+    around known (n, loop) =
+      Map.insert n (maybe n (`among` known) (firstHit index (Just n) (rightmost loop))) known
     among n = fromMaybe n . Map.lookup n
     outerOf n = among n outer
     isOuter loop = Polyarc.signedArea (Polyarc Closed loop) > 0
     members = Map.fromListWith (flip (<>)) [(outerOf n, [(n, loop)]) | (n, loop) <- numbered]
-    held = Map.fromListWith (flip (<>)) [(maybe 0 outerOf (firstHit index Nothing (beginning nest)), [nest]) | nest <- inside]
-    part (n, found) = (\some -> PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n held}) <$> NonEmpty.nonEmpty found
+    held =
+      Map.fromListWith
+        (flip (<>))
+        [(maybe 0 outerOf (firstHit index Nothing (beginning nest)), [nest]) | nest <- inside]
+    part (n, found) =
+      ( \some ->
+          PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n held}
+      )
+        <$> NonEmpty.nonEmpty found
 
 beginning :: PocketTree -> Point
 beginning nest = Segment.start (segment (NonEmpty.head (stretches (NonEmpty.head (rings nest)))))
 
 rightmost :: Loop -> Point
-rightmost loop = foldl (\p q -> if Vec.x q > Vec.x p then q else p) (start (NonEmpty.head loop)) (concatMap points loop)
+rightmost loop =
+  foldl
+    (\p q -> if Vec.x q > Vec.x p then q else p)
+    (start (NonEmpty.head loop))
+    (concatMap points loop)
   where
     points s = case s of
       Straight a _ -> [a]
@@ -105,7 +141,8 @@ firstHit index own p = snd <$> foldl nearer Nothing hits
       Just (x', _) | x' <= x -> best
       _ -> Just (x, n)
     hits = [(x, n) | (n, s) <- BoundingBox.select onTheWay index, Just n /= own, x <- crossings p s]
-    onTheWay box = right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
+    onTheWay box =
+      right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
     Mm slack = Tolerance.coincident
 
 -- | Where the way from a point to the right meets a segment, its ends included.
@@ -113,10 +150,14 @@ crossings :: Point -> Segment -> [Double]
 crossings p s = filter (>= Vec.x p) $ case s of
   Straight a b
     | Vec.y a == Vec.y b -> if Vec.y a == Vec.y p then [Vec.x a, Vec.x b] else []
-    | min (Vec.y a) (Vec.y b) <= Vec.y p && Vec.y p <= max (Vec.y a) (Vec.y b) -> [Vec.x a + (Vec.x b - Vec.x a) * (Vec.y p - Vec.y a) / (Vec.y b - Vec.y a)]
+    | min (Vec.y a) (Vec.y b) <= Vec.y p && Vec.y p <= max (Vec.y a) (Vec.y b) ->
+      [Vec.x a + (Vec.x b - Vec.x a) * (Vec.y p - Vec.y a) / (Vec.y b - Vec.y a)]
     | otherwise -> []
   Arc {start = a, centre} ->
     let Mm r = Segment.radius centre a
         h = Vec.y p - Vec.y centre
         w = sqrt (max 0 (r * r - h * h))
-     in [x | x <- [Vec.x centre - w, Vec.x centre + w], Distance.toPoint (Vec.point x (Vec.y p)) s <= Tolerance.coincident]
+     in [ x
+          | x <- [Vec.x centre - w, Vec.x centre + w],
+            Distance.toPoint (Vec.point x (Vec.y p)) s <= Tolerance.coincident
+        ]

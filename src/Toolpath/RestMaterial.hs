@@ -22,9 +22,15 @@ import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Toolpath (Block (..), Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Beside the contours of one statement after its last pass: the first word, the cutter, the contours in order, the places, and
--- how far from the contour the cutter's centre goes.
-data Remaining = Remaining {word :: Region, tool :: Tool, walls :: NonEmpty Contour, places :: NonEmpty (Stay, UnreachedPart), beside :: Mm}
+-- | Beside the contours of one statement after its last pass: the first word, the cutter, the
+-- contours in order, the places, and how far from the contour the cutter's centre goes.
+data Remaining = Remaining
+  { word :: Region,
+    tool :: Tool,
+    walls :: NonEmpty Contour,
+    places :: NonEmpty (Stay, UnreachedPart),
+    beside :: Mm
+  }
 
 -- | Once for each statement that leaves something, in their order.
 ofPath :: Toolpath -> [Remaining]
@@ -32,15 +38,27 @@ ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
 
 ofBlock :: Block -> Maybe (Int, Remaining)
 ofBlock block = case block of
-  Cutting {job = Located region m, pass, rests} -> stayed (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
-  Clearing {pocket = Located region p, pass, rests} -> stayed (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass <$> NonEmpty.nonEmpty rests
+  Cutting {job = Located region m, pass, rests} ->
+    stayed (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
+  Clearing {pocket = Located region p, pass, rests} ->
+    stayed (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
+      <$> NonEmpty.nonEmpty rests
   Travelling _ _ -> Nothing
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 
 -- | What a pass leaves beside a contour and islands in it.
 stayed :: Region -> Milling -> [Contour] -> Pass -> NonEmpty UnreachedPart -> (Int, Remaining)
-stayed word milling islands pass rests = (number pass, Remaining {word, tool, walls, places = NonEmpty.zip (OffsetRefusal.stays tool elements rests) rests, beside = reach pass})
+stayed word milling islands pass rests =
+  ( number pass,
+    Remaining
+      { word,
+        tool,
+        walls,
+        places = NonEmpty.zip (OffsetRefusal.stays tool elements rests) rests,
+        beside = reach pass
+      }
+  )
   where
     tool = toolOf milling (Toolpath.left pass)
     walls = Part.contour milling :| islands
@@ -48,4 +66,5 @@ stayed word milling islands pass rests = (number pass, Remaining {word, tool, wa
 
 -- | The cutter that leaves so much.
 toolOf :: Milling -> Mm -> Tool
-toolOf milling allowance = Tool {work = Part.work milling, radius = Part.radius milling, leaves = allowance}
+toolOf milling allowance =
+  Tool {work = Part.work milling, radius = Part.radius milling, leaves = allowance}

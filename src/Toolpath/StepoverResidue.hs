@@ -1,9 +1,11 @@
--- | What passes that lie further apart than the cutter's radius leave between them, and the trips aside that clear it.
+-- | What passes that lie further apart than the cutter's radius leave between them, and the trips
+-- aside that clear it.
 --
--- Let passes run at the distances @c@ and @c + s@ from the walls, with @r < s ≤ 2·r@. Halfway, at @c + r@, runs the edge of
--- what the outer pass has swept. A place further in lies at most @s − r ≤ r@ from its foot on that edge. Where the
--- inner pass runs beside the edge, @s − r@ away from it, it sweeps all places between the two. Where it does not, because the
--- edge has a corner or a nook into which the inner pass does not come, the cutter follows the edge itself.
+-- Let passes run at the distances @c@ and @c + s@ from the walls, with @r < s ≤ 2·r@. Halfway, at
+-- @c + r@, runs the edge of what the outer pass has swept. A place further in lies at most @s − r ≤
+-- r@ from its foot on that edge. Where the inner pass runs beside the edge, @s − r@ away from it,
+-- it sweeps all places between the two. Where it does not, because the edge has a corner or a nook
+-- into which the inner pass does not come, the cutter follows the edge itself.
 module Toolpath.StepoverResidue
   ( Nooks (..),
     none,
@@ -25,16 +27,17 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | Trips by the loop of the inner pass and the number of the segment, both from 0, from whose end they go and where they
--- come back; loops of the edge into which no inner pass leads.
+-- | Trips by the loop of the inner pass and the number of the segment, both from 0, from whose end
+-- they go and where they come back; loops of the edge into which no inner pass leads.
 data Nooks = Nooks {trips :: Map (Int, Int) [NonEmpty Segment], lone :: [NonEmpty Segment]}
 
 -- | Nothing is left.
 none :: Nooks
 none = Nooks Map.empty []
 
--- | The nooks between the edge of what is swept and the inner pass, so far from it. All loops have the free space on their
--- left. The first length is the radius of the cutter, and the second is no larger.
+-- | The nooks between the edge of what is swept and the inner pass, so far from it. All loops have
+-- the free space on their left. The first length is the radius of the cutter, and the second is no
+-- larger.
 between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Nooks
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
@@ -43,8 +46,19 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
       Just (Left loop) -> Nooks ts (loop : ls)
       Just (Right gaps) -> Nooks (foldr add ts gaps) ls
     add gap ts = maybe ts (\(at, way) -> Map.insertWith (<>) at [way] ts) (trip radius ends gap)
-    ends = Map.fromList [(n, Ends (length loop) (Map.fromList (zip [0 ..] (map end (NonEmpty.toList loop))))) | (n, loop) <- zip [0 ..] passes]
-    index = BoundingBox.index (BoundingBox.inflate Tolerance.clearance . BoundingBox.ofSegment . snd) [((n, i), s') | (n, loop) <- zip [0 ..] passes, (i, s) <- zip [0 ..] (NonEmpty.toList loop), Just s' <- [outwards apart s]]
+    ends =
+      Map.fromList
+        [ (n, Ends (length loop) (Map.fromList (zip [0 ..] (map end (NonEmpty.toList loop)))))
+          | (n, loop) <- zip [0 ..] passes
+        ]
+    index =
+      BoundingBox.index
+        (BoundingBox.inflate Tolerance.clearance . BoundingBox.ofSegment . snd)
+        [ ((n, i), s')
+          | (n, loop) <- zip [0 ..] passes,
+            (i, s) <- zip [0 ..] (NonEmpty.toList loop),
+            Just s' <- [outwards apart s]
+        ]
     gapsOf edge = gapsIn edge (concatMap (marked index) (NonEmpty.toList edge))
 
 -- | How many segments a loop has, and the ends of these by their numbers.
@@ -53,10 +67,12 @@ data Ends = Ends Int (Map Int Point)
 -- | A stretch of the edge: one beside which a segment of an inner pass runs, or a free one.
 data Mark = Beside (Int, Int) | Free Segment
 
--- | Free stretches in a row, the segment of an inner pass behind which they begin, and that before which they end.
+-- | Free stretches in a row, the segment of an inner pass behind which they begin, and that before
+-- which they end.
 data Gap = Gap (Int, Int) (NonEmpty Segment) (Int, Int)
 
--- | The gaps of a loop of the edge; nothing when there are none; the whole loop when no inner pass runs beside it.
+-- | The gaps of a loop of the edge; nothing when there are none; the whole loop when no inner pass
+-- runs beside it.
 gapsIn :: NonEmpty Segment -> [Mark] -> Maybe (Either (NonEmpty Segment) [Gap])
 gapsIn edge marks = case break isBeside marks of
   (_, []) -> Just (Left edge)
@@ -69,14 +85,16 @@ gapsIn edge marks = case break isBeside marks of
       Beside _ -> True
       Free _ -> False
     walk owner ms = case break isBeside ms of
-      (free, Beside next : more) -> [Gap owner gap next | Just gap <- [worth [s | Free s <- free]]] <> walk next more
+      (free, Beside next : more) ->
+        [Gap owner gap next | Just gap <- [worth [s | Free s <- free]]] <> walk next more
       (_, _) -> []
     worth ss
       | total (map Segment.length ss) <= Tolerance.clearance = Nothing
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
--- | The trip along a gap, from the end of a segment of an inner pass and back to there. A gap that both begins and ends at
--- one corner of the inner pass is swept from that corner if it lies within the cutter's radius all along.
+-- | The trip along a gap, from the end of a segment of an inner pass and back to there. A gap that
+-- both begins and ends at one corner of the inner pass is swept from that corner if it lies within
+-- the cutter's radius all along.
 trip :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
 trip radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
@@ -88,14 +106,20 @@ trip radius ends (Gap owner@(loop, i) free next) = do
         | otherwise = reverse (map Segment.reverse out)
   if isCorner && all ((<= radius) . furthest corner) free
     then Nothing
-    else (owner,) <$> NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (out <> back))
+    else
+      (owner,)
+        <$> NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (out <> back))
 
 -- | The largest distance of a point from a segment.
 furthest :: Point -> Segment -> Mm
 furthest p s = case s of
   Straight a b -> max (Vec.distance p a) (Vec.distance p b)
   Arc {start = a, end = b, centre}
-    | opposite /= centre && Segment.spans s opposite -> let Mm d = Vec.distance p centre; Mm r = Segment.radius centre a in Mm (d + r)
+    | opposite /= centre && Segment.spans s opposite ->
+      let Mm d =
+            Vec.distance p centre
+          Mm r = Segment.radius centre a
+       in Mm (d + r)
     | otherwise -> max (Vec.distance p a) (Vec.distance p b)
     where
       opposite = Vec.shift (Vec.to p centre) centre
@@ -105,16 +129,30 @@ outwards :: Mm -> Segment -> Maybe Segment
 outwards (Mm d) s = case s of
   Straight a b
     | a == b -> Nothing
-    | otherwise -> let n = Vec.scale (-d) (Vec.left (Vec.unit (Vec.to a b))) in Just (Straight (Vec.shift n a) (Vec.shift n b))
+    | otherwise ->
+      let n =
+            Vec.scale (-d) (Vec.left (Vec.unit (Vec.to a b)))
+       in Just (Straight (Vec.shift n a) (Vec.shift n b))
   Arc {start = a, end = b, centre, sweep = sweep@(Rad w)} ->
     let Mm r = Segment.radius centre a
         r' = r + signum w * d
         moved p = Vec.shift (Vec.scale (r' / r) (Vec.to centre p)) centre
-     in if r > 0 && r' > 0 then Just Arc {start = moved a, end = moved b, centre, sweep} else Nothing
+     in if r > 0 && r' > 0
+          then Just Arc {start = moved a, end = moved b, centre, sweep}
+          else Nothing
 
 -- | A segment of the edge in stretches.
 marked :: BoundingBox.Index ((Int, Int), Segment) -> Segment -> [Mark]
-marked index s = stretches 0 (sortOn (fst . fst) [(range, owner) | (owner, other) <- BoundingBox.within (BoundingBox.ofSegment s) index, range <- covered s other])
+marked index s =
+  stretches
+    0
+    ( sortOn
+        (fst . fst)
+        [ (range, owner)
+          | (owner, other) <- BoundingBox.within (BoundingBox.ofSegment s) index,
+            range <- covered s other
+        ]
+    )
   where
     stretches from ranges = case ranges of
       [] -> [Free (part from 1) | from < 1]
@@ -124,19 +162,26 @@ marked index s = stretches 0 (sortOn (fst . fst) [(range, owner) | (owner, other
     part a b
       | a <= 0 && b >= 1 = s
       | b >= 1 = snd (Segment.cutAt a s)
-      | otherwise = let front = fst (Segment.cutAt b s) in if a <= 0 then front else snd (Segment.cutAt (a / b) front)
+      | otherwise =
+        let front =
+              fst (Segment.cutAt b s)
+         in if a <= 0 then front else snd (Segment.cutAt (a / b) front)
 
--- | The stretches of a segment, as fractions of its length, on which another one that runs in its direction lies on it.
+-- | The stretches of a segment, as fractions of its length, on which another one that runs in its
+-- direction lies on it.
 covered :: Segment -> Segment -> [(Double, Double)]
 covered s other = filter upon (filter (uncurry (<)) (map clip ranges))
   where
     clip (a, b) = (max 0 a, min 1 b)
-    upon (a, b) = all (\t -> Distance.toPoint (Segment.at t s) other <= Tolerance.clearance) [a, (a + b) / 2, b]
+    upon (a, b) =
+      all (\t -> Distance.toPoint (Segment.at t s) other <= Tolerance.clearance) [a, (a + b) / 2, b]
     ranges = case (s, other) of
       (Straight a b, Straight c d) | a /= b -> [(Segment.fraction s c, Segment.fraction s d)]
       (Arc {start = a, centre, sweep = Rad w}, Arc {start = c, sweep = Rad v})
         | w * v > 0 ->
           let Rad turned = Vec.turn (Vec.to centre a) (Vec.to centre c)
               ahead = signum w * turned
-           in [((ahead + k * 2 * pi) / abs w, (ahead + k * 2 * pi + abs v) / abs w) | k <- [-1, 0, 1]]
+           in [ ((ahead + k * 2 * pi) / abs w, (ahead + k * 2 * pi + abs v) / abs w)
+                | k <- [-1, 0, 1]
+              ]
       _ -> []

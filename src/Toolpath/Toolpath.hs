@@ -68,28 +68,31 @@ data Block
         -- | along loops, and from each to the next
         cleared :: NonEmpty Move,
         retract :: [Move],
-        -- | what stays at the walls in the end, by the elements of the outline and of the islands in order
+        -- | what stays at the walls in the end, by the elements of the outline and of the islands
+        -- in order
         rests :: [Equidistant.UnreachedPart]
       }
   | Holing (Located Drilling) [Move]
   | Commanding (Located Command)
   deriving stock (Eq, Show)
 
--- | One pass along a contour, or in a pocket: the number of the milling statement as it is carried out, from 0; the distance of
--- the cutter's centre from the contour; what of it is left to be cut; the height.
+-- | One pass along a contour, or in a pocket: the number of the milling statement as it is carried
+-- out, from 0; the distance of the cutter's centre from the contour; what of it is left to be cut;
+-- the height.
 data Pass = Pass {number :: Int, reach :: Mm, left :: Mm, atHeight :: Mm}
   deriving stock (Eq, Show)
 
--- | What a control is sent instead of the moves of a pass when it keeps the cutter beside the contour by itself: the edge
--- of the part. What it makes of that are the moves of the pass, with the same ends but for where compensation begins.
+-- | What a control is sent instead of the moves of a pass when it keeps the cutter beside the
+-- contour by itself: the edge of the part. What it makes of that are the moves of the pass, with
+-- the same ends but for where compensation begins.
 data Sent = Sent
   { -- | moves of the cutter's centre up to where compensation is switched on
     before :: [Move],
     side :: Side,
     -- | straight, from where the centre stands to where the edge begins
     entry :: Move,
-    -- | in the order of the walk: the lead in, the elements of the contour, the lead out. The control goes round outer
-    -- corners on arcs
+    -- | in the order of the walk: the lead in, the elements of the contour, the lead out. The
+    -- control goes round outer corners on arcs
     edge :: NonEmpty Move,
     -- | straight, from the end of the edge to where the centre arrives when compensation is off
     exit :: Move,
@@ -98,8 +101,8 @@ data Sent = Sent
   }
   deriving stock (Eq, Show)
 
--- | One move, in the plane and in height, and the place in the program that asks for it. A move straight up or
--- down has a segment without length.
+-- | One move, in the plane and in height, and the place in the program that asks for it. A move
+-- straight up or down has a segment without length.
 data Move = Move
   { segment :: Segment,
     manner :: Manner,
@@ -163,7 +166,8 @@ passNumbers = go 0
       Holing _ _ -> False
       Commanding _ -> False
 
--- | Moves in order, those together that go along one curve: each but the first continues the one before.
+-- | Moves in order, those together that go along one curve: each but the first continues the one
+-- before.
 runs :: [Move] -> [NonEmpty Move]
 runs ms = case ms of
   [] -> []
@@ -186,16 +190,25 @@ isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
 
 -- | Where the cutter stands at the end.
 end :: Toolpath -> SpacePoint
-end path = foldl (\_ m -> SpacePoint (Segment.end (segment m)) (snd (heights m))) (value (start path)) (concatMap moves (blocks path))
+end path =
+  foldl
+    (\_ m -> SpacePoint (Segment.end (segment m)) (snd (heights m)))
+    (value (start path))
+    (concatMap moves (blocks path))
 
--- | With no more of each way along a contour or in a pocket than its first and its last move: the rest of a large path need not be held by
--- those who do not ask for it. Such a cut keeps its height; that of a blade stays whole.
+-- | With no more of each way along a contour or in a pocket than its first and its last move: the
+-- rest of a large path need not be held by those who do not ask for it. Such a cut keeps its
+-- height; that of a blade stays whole.
 withoutCuts :: Toolpath -> Toolpath
 withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
   where
     brief = map shortened (blocks path)
     shortened block = case block of
-      Cutting {job = Located _ milling, cut} | isNothing (Part.gear milling) -> let !ends = endsOf cut in block {cut = ends}
+      Cutting {job = Located _ milling, cut}
+        | isNothing (Part.gear milling) ->
+          let !ends =
+                endsOf cut
+           in block {cut = ends}
       Cutting {} -> block
       Clearing {cleared} -> let !ends = endsOf cleared in block {cleared = ends}
       Travelling _ _ -> block

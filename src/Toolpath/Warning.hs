@@ -1,4 +1,5 @@
--- | What a path asks of the machine that hardly can be meant: a rapid move through the part, a tool that cuts and does not turn.
+-- | What a path asks of the machine that hardly can be meant: a rapid move through the part, a tool
+-- that cuts and does not turn.
 module Toolpath.Warning
   ( warnings,
   )
@@ -30,12 +31,23 @@ warnings path = throughPart path <> standing path
 -- | A closed line, and whether there is material inside it, as far as the program says.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Rapid moves below the top of the part, sideways, through what the innermost contour about them says to be the part; one for each stop. Where all is at one
--- height, that is below the top. A move that meets no contour is on one side of each all along; others are errors.
+-- | Rapid moves below the top of the part, sideways, through what the innermost contour about them
+-- says to be the part; one for each stop. Where all is at one height, that is below the top. A move
+-- that meets no contour is on one side of each all along; others are errors.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ Through region (Toolpath.segment m) (Part.contourName (named body))
-    | (region, m) <- Map.toList (Map.fromListWith (\_ first -> first) [(Toolpath.origin m, m) | m <- concatMap ways (Toolpath.blocks path), Toolpath.pace m == Rapid, Segment.length (Toolpath.segment m) > Tolerance.coincident, isLow m]),
+    | (region, m) <-
+        Map.toList
+          ( Map.fromListWith
+              (\_ first -> first)
+              [ (Toolpath.origin m, m)
+                | m <- concatMap ways (Toolpath.blocks path),
+                  Toolpath.pace m == Rapid,
+                  Segment.length (Toolpath.segment m) > Tolerance.coincident,
+                  isLow m
+              ]
+          ),
       Just body <- [innermost (Segment.at 0.5 (Toolpath.segment m))],
       isMaterial body
   ]
@@ -47,12 +59,18 @@ throughPart path =
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
     index = BoundingBox.index boxOf (concatMap NonEmpty.toList (mapMaybe bodiesOf firsts))
-    boxOf body = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Polyarc.segments (outline body)))
+    boxOf body =
+      foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Polyarc.segments (outline body)))
     -- Passes of one statement tell the same.
-    firsts = Map.elems (Map.fromListWith (\_ first -> first) [(n, b) | b <- Toolpath.blocks path, n <- numberOf b])
-    innermost p = case filter ((`WindingNumber.encloses` p) . outline) (BoundingBox.within (BoundingBox.ofPoints p []) index) of
-      [] -> Nothing
-      found -> Just (minimumBy (comparing (abs . Polyarc.signedArea . outline)) found)
+    firsts =
+      Map.elems
+        (Map.fromListWith (\_ first -> first) [(n, b) | b <- Toolpath.blocks path, n <- numberOf b])
+    innermost p =
+      case filter
+        ((`WindingNumber.encloses` p) . outline)
+        (BoundingBox.within (BoundingBox.ofPoints p []) index) of
+        [] -> Nothing
+        found -> Just (minimumBy (comparing (abs . Polyarc.signedArea . outline)) found)
     numberOf b = case b of
       Cutting {pass} -> [Toolpath.number pass]
       Clearing {pass} -> [Toolpath.number pass]
@@ -62,7 +80,13 @@ throughPart path =
 bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)
-  Clearing {pocket = Located _ p} -> let room = Part.contour (Part.wall p) in Just (Body room (Part.outline room) False NonEmpty.:| [Body island (Part.outline island) True | island <- Part.islands p])
+  Clearing {pocket = Located _ p} ->
+    let room =
+          Part.contour (Part.wall p)
+     in Just
+          ( Body room (Part.outline room) False NonEmpty
+              .:| [Body island (Part.outline island) True | island <- Part.islands p]
+          )
   _ -> Nothing
 
 bodyOf :: Milling -> [Body]
@@ -72,7 +96,20 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, LeftSide) -> [whole (not isCounterClockwise)]
   (Part.Closed, RightSide) -> [whole isCounterClockwise]
   -- A turned part reaches to the axis of the spindle.
-  (Part.Open, Outside) | Part.work milling == Turned -> [Body contour (Polyarc.Polyarc Part.Closed (segments <> (Straight end onAxis NonEmpty.:| [Straight onAxis before, Straight before begin]))) True]
+  (Part.Open, Outside)
+    | Part.work milling == Turned ->
+      [ Body
+          contour
+          ( Polyarc.Polyarc
+              Part.Closed
+              ( segments
+                  <> ( Straight end onAxis NonEmpty
+                         .:| [Straight onAxis before, Straight before begin]
+                     )
+              )
+          )
+          True
+      ]
   _ -> []
   where
     contour = Part.contour milling
@@ -84,7 +121,8 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
     onAxis = Vec.point (Vec.x end) 0
     before = Vec.point (Vec.x begin) 0
 
--- | Tool changes behind which something is machined while nobody has let the spindle turn again. On a lathe the part turns, and goes on.
+-- | Tool changes behind which something is machined while nobody has let the spindle turn again. On
+-- a lathe the part turns, and goes on.
 standing :: Toolpath -> [Warning]
 standing path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
   where

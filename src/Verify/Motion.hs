@@ -1,7 +1,8 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What the cutter's centre does in a stroke, or in one of several parts of it, as a few bare numbers: there are as many as frames
--- on the tape. All else is made from them where it is looked at.
+-- | What the cutter's centre does in a stroke, or in one of several parts of it, as a few bare
+-- numbers: there are as many as frames on the tape. All else is made from them where it is looked
+-- at.
 module Verify.Motion
   ( CutterMotion (..),
     tracesOf,
@@ -41,7 +42,8 @@ data CutterMotion = CutterMotion
     toHeight :: Mm
   }
 
--- | What the cutter's centre does in a stroke on a machine, before what it does in those behind it. If there are several parts, it rises in the last one.
+-- | What the cutter's centre does in a stroke on a machine, before what it does in those behind it.
+-- If there are several parts, it rises in the last one.
 tracesOf :: Machine -> Moved -> [CutterMotion] -> [CutterMotion]
 tracesOf machine m behind = go 0 (Compensation.legs m)
   where
@@ -50,7 +52,14 @@ tracesOf machine m behind = go 0 (Compensation.legs m)
     go n (leg :| legs) = case legs of
       [] -> let t = trace n leg to in t `seq` (t : behind)
       next : more -> let t = trace n leg from in t `seq` (t : go (n + 1) (next :| more))
-    trace n leg end = CutterMotion {number = Control.number s, part = n, line = leg, fromHeight = from, toHeight = end}
+    trace n leg end =
+      CutterMotion
+        { number = Control.number s,
+          part = n,
+          line = leg,
+          fromHeight = from,
+          toHeight = end
+        }
 
 -- | At its beginning and at its end.
 heights :: CutterMotion -> (Mm, Mm)
@@ -93,8 +102,9 @@ isUpright t = case line t of
 places :: CutterMotion -> [Double]
 places t = let n = pieces t in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
 
--- | How many these are: two of a straight one, and so many of
--- an arc that a contour that is followed does not turn by more than an eighth of a half turn from one to the next, nor is a quarter of a closed one passed.
+-- | How many these are: two of a straight one, and so many of an arc that a contour that is
+-- followed does not turn by more than an eighth of a half turn from one to the next, nor is a
+-- quarter of a closed one passed.
 pieces :: CutterMotion -> Int
 pieces t = case line t of
   Straight _ _ -> 2

@@ -10,8 +10,10 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  it "suggests what is one edit away for every three letters, the nearest first (catches words that are given up too early)" $
-    property . forAll word $ \wanted -> forAll (listOf (oneof [word, edited wanted])) $ \known ->
+  it
+    "suggests what is one edit away for every three letters, the nearest first (catches words that \
+    \are given up too early)"
+    $ property . forAll word $ \wanted -> forAll (listOf (oneof [word, edited wanted])) $ \known ->
       let found = Name.nearest wanted known
           allowed = Text.length wanted `div` 3
        in cover 50 (not (null found)) "some" $

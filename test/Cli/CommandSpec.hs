@@ -9,7 +9,14 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Either (isRight)
 import Data.List (isInfixOf, isPrefixOf)
 import Flange qualified
-import System.Directory (createFileLink, doesFileExist, getPermissions, listDirectory, setPermissions, writable)
+import System.Directory
+  ( createFileLink,
+    doesFileExist,
+    getPermissions,
+    listDirectory,
+    setPermissions,
+    writable,
+  )
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
 import System.Process (readCreateProcessWithExitCode, shell)
@@ -34,7 +41,16 @@ spec = do
         _ <- partc ["compile", folder </> "flange.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
         a <- ByteString.readFile (folder </> "flange.lkp-01f.tape")
         b <- ByteString.readFile (folder </> "x.tape")
-        (code, _, _) <- readCreateProcessWithExitCode (shell ("partc compile - -o - < " <> (folder </> "flange.part") <> " > " <> (folder </> "y.tape"))) ""
+        (code, _, _) <-
+          readCreateProcessWithExitCode
+            ( shell
+                ( "partc compile - -o - < "
+                    <> (folder </> "flange.part")
+                    <> " > "
+                    <> (folder </> "y.tape")
+                )
+            )
+            ""
         c <- ByteString.readFile (folder </> "y.tape")
         code `shouldBe` ExitSuccess
         [b, c] `shouldBe` [a, a]
@@ -42,7 +58,8 @@ spec = do
       inFolder $ \folder -> do
         writeFile (folder </> "x.part") "part x\nlet a = (1,\n"
         writeFile (folder </> "x.tape") "keep"
-        (code, out, err) <- partc ["compile", folder </> "x.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
+        (code, out, err) <-
+          partc ["compile", folder </> "x.part", "-t", "lkp-01f", "-o", folder </> "x.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.tape") `shouldReturn` "keep"
@@ -57,22 +74,39 @@ spec = do
         if mayWrite
           then pendingWith "run by someone who may write into protected files"
           else do
-            (code, out, err) <- partc ["compile", folder </> "flange.part", "-o", folder </> "x.tape"]
+            (code, out, err) <-
+              partc ["compile", folder </> "flange.part", "-o", folder </> "x.tape"]
             (code, out) `shouldBe` (ExitFailure 1, "")
             err `shouldSatisfy` isInfixOf "error[E0802]"
             readFile (folder </> "x.tape") `shouldReturn` "keep"
     it "names the limit of imports that import imports, which is no circle" $
       inFolder $ \folder -> do
-        forM_ [0 .. 120 :: Int] $ \k -> writeFile (folder </> ("i" <> show k <> ".part")) (if k < 120 then "import \"i" <> show (k + 1) <> ".part\"\nlet a" <> show k <> " = 1\n" else "let a120 = 1\n")
+        forM_ [0 .. 120 :: Int] $ \k ->
+          writeFile
+            (folder </> ("i" <> show k <> ".part"))
+            ( if k < 120
+                then "import \"i" <> show (k + 1) <> ".part\"\nlet a" <> show k <> " = 1\n"
+                else "let a120 = 1\n"
+            )
         writeFile (folder </> "x.part") "part x\nimport \"i0.part\"\n"
         (code, _, err) <- partc ["check", folder </> "x.part"]
         code `shouldBe` ExitFailure 1
-        (err, isInfixOf "error[E0112]" err && isInfixOf "more than 100 deep" err) `shouldSatisfy` snd
+        (err, isInfixOf "error[E0112]" err && isInfixOf "more than 100 deep" err)
+          `shouldSatisfy` snd
     it "reads a file once, whatever the paths to it" $
       inFolder $ \folder -> do
         writeFile (folder </> "size.part") "let r = 5 mm\n"
         createFileLink "size.part" (folder </> "other.part")
-        writeFile (folder </> "x.part") (unlines ["part x", "import \"size.part\"", "import \"other.part\"", "import " <> show (folder </> "size.part"), "contour k closed { cw circle((0, 0), r) }"])
+        writeFile
+          (folder </> "x.part")
+          ( unlines
+              [ "part x",
+                "import \"size.part\"",
+                "import \"other.part\"",
+                "import " <> show (folder </> "size.part"),
+                "contour k closed { cw circle((0, 0), r) }"
+              ]
+          )
         partc ["check", folder </> "x.part"] `shouldReturn` (ExitSuccess, "", "")
         writeFile (folder </> "size.part") "import \"other.part\"\nlet r = 5 mm\n"
         (code, _, err) <- partc ["check", folder </> "x.part"]
@@ -80,11 +114,22 @@ spec = do
         err `shouldSatisfy` isInfixOf "error[E0113]"
     it "writes no file for every bad program" $
       inFolder $ \folder ->
-        forM_ ["fillet/bad/cannot-fit", "values/bad/nan-angle", "values/bad/zero-line", "tangent/bad/concentric", "tangent/bad/coincident", "mill/bad/concave-radius", "settings/bad/feed-not-there"] $ \name -> do
-          (code, out, err) <- partc ["compile", "test/programs/" <> name <> ".part", "-o", folder </> "out.tape"]
-          (code, out) `shouldBe` (ExitFailure 1, "")
-          err `shouldSatisfy` isInfixOf "error[E"
-          doesFileExist (folder </> "out.tape") `shouldReturn` False
+        forM_
+          [ "fillet/bad/cannot-fit",
+            "values/bad/nan-angle",
+            "values/bad/zero-line",
+            "tangent/bad/concentric",
+            "tangent/bad/coincident",
+            "mill/bad/concave-radius",
+            "settings/bad/feed-not-there"
+          ]
+          $ \name ->
+            do
+              (code, out, err) <-
+                partc ["compile", "test/programs/" <> name <> ".part", "-o", folder </> "out.tape"]
+              (code, out) `shouldBe` (ExitFailure 1, "")
+              err `shouldSatisfy` isInfixOf "error[E"
+              doesFileExist (folder </> "out.tape") `shouldReturn` False
     it "refuses to write over the program, and into a folder that is not there" $
       inFolder $ \folder -> do
         copyFlange folder
@@ -96,7 +141,21 @@ spec = do
     it "refuses to write over a file that the program reads, whatever it writes" $
       inFolder $ \folder -> do
         writeFile (folder </> "h.csv") "x,y\n0,20\n20,25\n60,30\n100,25\n"
-        writeFile (folder </> "x.part") (unlines ["part x", "machine lkp-01f", "tool mill(diameter 6)", "feed 60", "tolerance 0.02", "from (-30, 30)", "table H from \"h.csv\"", "curve skin = spline(H)", "contour c open { skin }", "mill c left { approach (-10, 30) feed 60  retract (110, 60), (-30, 60) feed 60 }"])
+        writeFile
+          (folder </> "x.part")
+          ( unlines
+              [ "part x",
+                "machine lkp-01f",
+                "tool mill(diameter 6)",
+                "feed 60",
+                "tolerance 0.02",
+                "from (-30, 30)",
+                "table H from \"h.csv\"",
+                "curve skin = spline(H)",
+                "contour c open { skin }",
+                "mill c left { approach (-10, 30) feed 60  retract (110, 60), (-30, 60) feed 60 }"
+              ]
+          )
         kept <- readFile (folder </> "h.csv")
         forM_ ["compile", "plot", "export-sheet"] $ \command -> do
           (code, out, err) <- partc [command, folder </> "x.part", "-o", folder </> "h.csv"]
@@ -108,12 +167,15 @@ spec = do
     it "refuses to write several tapes to one place" $
       inFolder $ \folder -> do
         copyFlange folder
-        (code, out, err) <- partc ["compile", folder </> "flange.part", "-t", "iso6983", "-t", "lkp-01f", "-o", "-"]
+        (code, out, err) <-
+          partc ["compile", folder </> "flange.part", "-t", "iso6983", "-t", "lkp-01f", "-o", "-"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0811]"
         (_, description, _) <- partc ["machines", "iso6983", "--text"]
         writeFile (folder </> "same.machine") description
-        (code', _, err') <- partc ["compile", folder </> "flange.part", "-t", "iso6983", "-t", folder </> "same.machine"]
+        (code', _, err') <-
+          partc
+            ["compile", folder </> "flange.part", "-t", "iso6983", "-t", folder </> "same.machine"]
         code' `shouldBe` ExitFailure 1
         err' `shouldSatisfy` isInfixOf "error[E0811]"
         listDirectory folder >>= (`shouldMatchList` ["flange.part", "same.machine"])
@@ -121,16 +183,36 @@ spec = do
       inFolder $ \folder -> do
         (_, description, _) <- partc ["machines", "iso6983", "--text"]
         writeFile (folder </> "shop.machine") description
-        forM_ [("\"shop.machine\"", ""), ("shop.machine", "E0805"), ("lkp-02f", "E0805"), ("\"store.machine\"", "E0806")] $ \(named, report) -> do
-          writeFile (folder </> "x.part") (unlines ["part x", "machine " <> named, "tool mill(diameter 6)", "feed 60", "tolerance 0.02", "from (0, 0)", "move (10, 0)"])
-          (code, _, err) <- partc ["check", folder </> "x.part"]
-          (named, code) `shouldBe` (named, if null report then ExitSuccess else ExitFailure 1)
-          (named, err) `shouldSatisfy` (isInfixOf report . snd)
-          isInfixOf "in quotation marks: machine \"shop.machine\"" err `shouldBe` (named == "shop.machine")
+        forM_
+          [ ("\"shop.machine\"", ""),
+            ("shop.machine", "E0805"),
+            ("lkp-02f", "E0805"),
+            ("\"store.machine\"", "E0806")
+          ]
+          $ \(named, report) ->
+            do
+              writeFile
+                (folder </> "x.part")
+                ( unlines
+                    [ "part x",
+                      "machine " <> named,
+                      "tool mill(diameter 6)",
+                      "feed 60",
+                      "tolerance 0.02",
+                      "from (0, 0)",
+                      "move (10, 0)"
+                    ]
+                )
+              (code, _, err) <- partc ["check", folder </> "x.part"]
+              (named, code) `shouldBe` (named, if null report then ExitSuccess else ExitFailure 1)
+              (named, err) `shouldSatisfy` (isInfixOf report . snd)
+              isInfixOf "in quotation marks: machine \"shop.machine\"" err
+                `shouldBe` (named == "shop.machine")
     it "says so when it does not prove the tape" $
       inFolder $ \folder -> do
         copyFlange folder
-        (code, _, err) <- partc ["compile", folder </> "flange.part", "--no-verify", "-o", folder </> "x.tape"]
+        (code, _, err) <-
+          partc ["compile", folder </> "flange.part", "--no-verify", "-o", folder </> "x.tape"]
         code `shouldBe` ExitSuccess
         err `shouldSatisfy` isInfixOf "warning[W0801]"
   describe "verify" $ do
@@ -141,11 +223,15 @@ spec = do
         table `shouldSatisfy` isInfixOf "proven"
         let Tape rows = Flange.tape
             (front, back) = ByteString.splitAt (25 + 15 * 49 + 2 * 25 + 3) rows
-        ByteString.writeFile (folder </> "bad.tape") (front <> ByteString.cons 0x0F (ByteString.drop 1 back))
+        ByteString.writeFile
+          (folder </> "bad.tape")
+          (front <> ByteString.cons 0x0F (ByteString.drop 1 back))
         (bad, table', err) <- partc ["verify", "examples/flange.part", folder </> "bad.tape"]
         bad `shouldBe` ExitFailure 3
         table' `shouldSatisfy` isInfixOf "WRONG"
-        err `shouldSatisfy` isInfixOf "The first frame that differs from this program's own is frame 50."
+        err
+          `shouldSatisfy` isInfixOf
+            "The first frame that differs from this program's own is frame 50."
     it "reports a damaged tape with its row" $
       inFolder $ \folder -> do
         let Tape rows = Flange.tape
@@ -162,13 +248,19 @@ spec = do
       inFolder $ \folder -> do
         text <- ByteString.readFile "examples/flange.part"
         ByteString.writeFile (folder </> "good.part") text
-        ByteString.writeFile (folder </> "bad.part") ("\xEF\xBB\xBF" <> ByteString.intercalate "\r\n  " (ByteString.split 10 text))
-        partc ["fmt", "--check", folder </> "good.part", folder </> "bad.part"] `shouldReturn` (ExitFailure 1, folder </> "bad.part\n", "")
-        partc ["fmt", folder </> "good.part", folder </> "bad.part"] `shouldReturn` (ExitSuccess, "", "")
+        ByteString.writeFile
+          (folder </> "bad.part")
+          ("\xEF\xBB\xBF" <> ByteString.intercalate "\r\n  " (ByteString.split 10 text))
+        partc ["fmt", "--check", folder </> "good.part", folder </> "bad.part"]
+          `shouldReturn` (ExitFailure 1, folder </> "bad.part\n", "")
+        partc ["fmt", folder </> "good.part", folder </> "bad.part"]
+          `shouldReturn` (ExitSuccess, "", "")
         ByteString.readFile (folder </> "bad.part") `shouldReturn` text
-        partc ["fmt", "--check", folder </> "good.part", folder </> "bad.part"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["fmt", "--check", folder </> "good.part", folder </> "bad.part"]
+          `shouldReturn` (ExitSuccess, "", "")
     it "works from standard input to standard output" $
-      readCreateProcessWithExitCode (shell "partc fmt -") "let  a=1\n" `shouldReturn` (ExitSuccess, "let a = 1\n", "")
+      readCreateProcessWithExitCode (shell "partc fmt -") "let  a=1\n"
+        `shouldReturn` (ExitSuccess, "let a = 1\n", "")
     it "leaves a program with mistakes as it is, and reports them" $
       inFolder $ \folder -> do
         writeFile (folder </> "x.part") "part  x\nlet a = (1,\n"
@@ -180,10 +272,13 @@ spec = do
     it "compile to the tape of the program that import makes, and come back from it" $
       inFolder $ \folder -> do
         let there = (folder </>)
-        partc ["compile", "examples/spar.sheet", "-o", there "a.tape"] `shouldReturn` (ExitSuccess, "", "")
-        partc ["import", "examples/spar.sheet", "-o", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["compile", "examples/spar.sheet", "-o", there "a.tape"]
+          `shouldReturn` (ExitSuccess, "", "")
+        partc ["import", "examples/spar.sheet", "-o", there "rib.part"]
+          `shouldReturn` (ExitSuccess, "", "")
         partc ["fmt", "--check", there "rib.part"] `shouldReturn` (ExitSuccess, "", "")
-        partc ["compile", there "rib.part", "-o", there "b.tape"] `shouldReturn` (ExitSuccess, "", "")
+        partc ["compile", there "rib.part", "-o", there "b.tape"]
+          `shouldReturn` (ExitSuccess, "", "")
         a <- ByteString.readFile (there "a.tape")
         ByteString.readFile (there "b.tape") `shouldReturn` a
         sheet <- readFile "examples/spar.sheet"
@@ -191,64 +286,106 @@ spec = do
     it "are no programs: no parameters, no layout, not over themselves" $
       inFolder $ \folder -> do
         ByteString.readFile "examples/spar.sheet" >>= ByteString.writeFile (folder </> "rib.sheet")
-        forM_ [(["check", "--set", "h=1"], "E0913"), (["fmt"], "E0914"), (["import", "-o", folder </> "rib.sheet"], "E0807"), (["export-sheet", "-o", folder </> "rib.sheet"], "E0807")] $ \(arguments, wanted) -> do
-          (code, out, err) <- partc (arguments <> [folder </> "rib.sheet"])
-          (code, out) `shouldBe` (ExitFailure 1, "")
-          err `shouldSatisfy` isInfixOf ("error[" <> wanted <> "]")
+        forM_
+          [ (["check", "--set", "h=1"], "E0913"),
+            (["fmt"], "E0914"),
+            (["import", "-o", folder </> "rib.sheet"], "E0807"),
+            (["export-sheet", "-o", folder </> "rib.sheet"], "E0807")
+          ]
+          $ \(arguments, wanted) ->
+            do
+              (code, out, err) <- partc (arguments <> [folder </> "rib.sheet"])
+              (code, out) `shouldBe` (ExitFailure 1, "")
+              err `shouldSatisfy` isInfixOf ("error[" <> wanted <> "]")
     it "that are wrong give no program" $
       inFolder $ \folder -> do
-        (code, out, err) <- partc ["import", "test/programs/sheet/bad/piece-short.sheet", "-o", folder </> "x.part"]
+        (code, out, err) <-
+          partc ["import", "test/programs/sheet/bad/piece-short.sheet", "-o", folder </> "x.part"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "14623"
         doesFileExist (folder </> "x.part") `shouldReturn` False
   describe "formats" $ do
     it "short: one line a report, and nothing else" $ do
-      (_, _, err) <- partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
+      (_, _, err) <-
+        partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
       lines err `shouldSatisfy` all ("test/programs/surface/bad/five-mistakes.part:" `isPrefixOf`)
     it "json: one object a line, and nothing else" $ do
-      (_, _, err) <- partc ["--format", "json", "check", "test/programs/surface/bad/five-mistakes.part"]
+      (_, _, err) <-
+        partc ["--format", "json", "check", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
-      [l | l <- lines err, not (isRight (Aeson.eitherDecodeStrict (LazyByteString.toStrict (Aeson.encode l)) :: Either String Aeson.Value))] `shouldBe` []
+      [l | l <- lines err, not (isRight (Aeson.eitherDecodeStrict (LazyByteString.toStrict (Aeson.encode l)) :: Either String Aeson.Value))]
+        `shouldBe` []
     it "colours only when asked, or on a terminal" $ do
       (_, _, plain) <- partc ["check", "test/programs/surface/bad/five-mistakes.part"]
-      (_, _, coloured) <- partc ["check", "--color", "always", "test/programs/surface/bad/five-mistakes.part"]
+      (_, _, coloured) <-
+        partc ["check", "--color", "always", "test/programs/surface/bad/five-mistakes.part"]
       plain `shouldNotSatisfy` isInfixOf "\ESC["
       coloured `shouldSatisfy` isInfixOf "\ESC["
   describe "the streams" $ do
     it "a closed pipe is no error, and does not hide one" $ do
-      (a, _, err) <- readCreateProcessWithExitCode (shell "partc frames examples/flange.part | head -1 > /dev/null") ""
+      (a, _, err) <-
+        readCreateProcessWithExitCode
+          (shell "partc frames examples/flange.part | head -1 > /dev/null")
+          ""
       (a, err) `shouldBe` (ExitSuccess, "")
-      (b, _, _) <- readCreateProcessWithExitCode (shell "bash -c 'set -o pipefail; partc check test/programs/surface/bad/five-mistakes.part 2>&1 | true'") ""
+      (b, _, _) <-
+        readCreateProcessWithExitCode
+          ( shell
+              "bash -c 'set -o pipefail; partc check test/programs/surface/bad/five-mistakes.part \
+              \2>&1 | true'"
+          )
+          ""
       b `shouldBe` ExitFailure 1
     it "a full disk is a report" $ do
-      (code, _, err) <- readCreateProcessWithExitCode (shell "partc report examples/flange.part > /dev/full") ""
+      (code, _, err) <-
+        readCreateProcessWithExitCode (shell "partc report examples/flange.part > /dev/full") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "the disk is full"
     it "what the command line says of itself is not lost on it either" $
       mapM_
         ( \command -> do
-            (code, _, err) <- readCreateProcessWithExitCode (shell ("partc " <> command <> " > /dev/full")) ""
+            (code, _, err) <-
+              readCreateProcessWithExitCode (shell ("partc " <> command <> " > /dev/full")) ""
             code `shouldBe` ExitFailure 1
             err `shouldSatisfy` isInfixOf "the disk is full"
         )
         ["--help", "--version", "compile --help"]
     it "standard output that is closed is a report" $ do
-      (code, _, err) <- readCreateProcessWithExitCode (shell "partc report examples/flange.part >&-") ""
+      (code, _, err) <-
+        readCreateProcessWithExitCode (shell "partc report examples/flange.part >&-") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "cannot write to standard output: it is closed"
     it "Cyrillic comes through under any locale" $ do
-      (code, out, _) <- readCreateProcessWithExitCode (shell "LC_ALL=C partc report examples/flange.part") ""
+      (code, out, _) <-
+        readCreateProcessWithExitCode (shell "LC_ALL=C partc report examples/flange.part") ""
       code `shouldBe` ExitSuccess
       out `shouldSatisfy` isInfixOf "Фланец"
     it "wrong usage is status 2" $ do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
   it "every command explains itself with an example" $
-    forM_ ["compile", "check", "verify", "frames", "report", "decode", "plot", "import", "export-sheet", "machines", "explain", "lsp", "fmt"] $ \command -> do
-      (code, out, _) <- partc [command, "--help"]
-      code `shouldBe` ExitSuccess
-      out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
+    forM_
+      [ "compile",
+        "check",
+        "verify",
+        "frames",
+        "report",
+        "decode",
+        "plot",
+        "import",
+        "export-sheet",
+        "machines",
+        "explain",
+        "lsp",
+        "fmt"
+      ]
+      $ \command ->
+        do
+          (code, out, _) <- partc [command, "--help"]
+          code `shouldBe` ExitSuccess
+          out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
 
 copyFlange :: FilePath -> IO ()
-copyFlange folder = ByteString.readFile "examples/flange.part" >>= ByteString.writeFile (folder </> "flange.part")
+copyFlange folder =
+  ByteString.readFile "examples/flange.part" >>= ByteString.writeFile (folder </> "flange.part")

@@ -25,7 +25,10 @@ spec = do
   it "refuses a code that there is not, and offers those near to it" $ do
     (code, out, err) <- partc ["explain", "E0250"]
     (code, out) `shouldBe` (ExitFailure 1, "")
-    take 2 (lines err) `shouldBe` ["error[E0809]: no report has the code ‘E0250’", "  = hint: Did you mean E0205 or E0229 or E0228?"]
+    take 2 (lines err)
+      `shouldBe` [ "error[E0809]: no report has the code ‘E0250’",
+                   "  = hint: Did you mean E0205 or E0229 or E0228?"
+                 ]
   it "refuses a word that is no code" $ do
     (code, out, err) <- partc ["explain", "--format", "short", "tangent"]
     (code, out) `shouldBe` (ExitFailure 1, "")

@@ -29,17 +29,35 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
-spec = case (Result.output (FromPart.lay winding), Result.output (Compile.analyse [] (Compile.alone "p.part" "part p\n"))) of
-  (Just path, Just analysis) -> do
-    it "a curve is one section, with its ends and its whole length (catches a row for each of its arcs)" $ do
-      let rows = [Text.words l | l <- Text.lines (NodeTable.nodes Nothing analysis {part = winding, path}), "–" `Text.isInfixOf` l]
-      map (take 2) rows `shouldBe` [["0–1", "line"], ["1–2", "curve"], ["2–3", "line"]]
-      map (take 1 . drop 5) rows `shouldBe` [["20.000"], [Decimal.fixed 3 (sum [l | s <- waves path, let Mm l = Segment.length s])], ["20.000"]]
-    it "a curve has one node, at its end (catches a node for each of its arcs)" $
-      Text.count "<circle" (layer "nodes" (Plot.plot winding path)) `shouldBe` 4
-  _ -> it "has a path" (expectationFailure "there is none")
+spec =
+  case ( Result.output (FromPart.lay winding),
+         Result.output (Compile.analyse [] (Compile.alone "p.part" "part p\n"))
+       ) of
+    (Just path, Just analysis) -> do
+      it
+        "a curve is one section, with its ends and its whole length (catches a row for each of its \
+        \arcs)"
+        $ do
+          let rows =
+                [ Text.words l
+                  | l <- Text.lines (NodeTable.nodes Nothing analysis {part = winding, path}),
+                    "–" `Text.isInfixOf` l
+                ]
+          map (take 2) rows `shouldBe` [["0–1", "line"], ["1–2", "curve"], ["2–3", "line"]]
+          map (take 1 . drop 5) rows
+            `shouldBe` [ ["20.000"],
+                         [Decimal.fixed 3 (sum [l | s <- waves path, let Mm l = Segment.length s])],
+                         ["20.000"]
+                       ]
+      it "a curve has one node, at its end (catches a node for each of its arcs)" $
+        Text.count "<circle" (layer "nodes" (Plot.plot winding path)) `shouldBe` 4
+    _ -> it "has a path" (expectationFailure "there is none")
   where
-    waves path = [Toolpath.segment m | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks path, m <- drop 1 (NonEmpty.init cut)]
+    waves path =
+      [ Toolpath.segment m
+        | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks path,
+          m <- drop 1 (NonEmpty.init cut)
+      ]
     layer name text = fst (Text.breakOn "</g>" (snd (Text.breakOn ("id=\"" <> name <> "\"") text)))
 
 -- | A line, a wave of a hundred arcs and a line, milled on the left.
@@ -52,7 +70,19 @@ winding = Generate.partOf (Vec.point (-40) 0) (Part.Mill (Located (Region 0 0) j
     ahead = Straight (out (-20) (Segment.startDirection (head along)) p) p
     behind = Straight q (out 20 (Segment.endDirection (last along)) q)
     job =
-      (Generate.job Case {contour = Polyarc Open (ahead :| along <> [behind]), side = LeftOf, radius = Mm 5, pieces = OffsetSegment (Along 0) ahead :| []})
-        { Part.contour = Part.Contour (Located (Region 0 0) (Name "c")) Open (NonEmpty.fromList (Curve.elements [[ahead], along, [behind]])) [],
+      ( Generate.job
+          Case
+            { contour = Polyarc Open (ahead :| along <> [behind]),
+              side = LeftOf,
+              radius = Mm 5,
+              pieces = OffsetSegment (Along 0) ahead :| []
+            }
+      )
+        { Part.contour =
+            Part.Contour
+              (Located (Region 0 0) (Name "c"))
+              Open
+              (NonEmpty.fromList (Curve.elements [[ahead], along, [behind]]))
+              [],
           Part.approach = []
         }

@@ -13,20 +13,52 @@ spec :: Spec
 spec = do
   it "a right corner keeps r²(1 − π/4) (catches an area on the wrong side of the cutter's edge)" $
     rows "mill window inside { approach (20, 3)  rest allowed  retract (20, 15) }"
-      `shouldBe` [[x, y, "1.931", "inner", "corner"] | (x, y) <- [("40.000", "0.000"), ("40.000", "30.000"), ("0.000", "30.000"), ("0.000", "0.000")]]
-  it "into a slot of 5 goes a cutter of 4 that leaves 0.5 (catches a diameter without what is left)" $
-    map (take 3 . drop 3) (rows "mill notched outside { approach (-20, 20) rapid  allowance 0.5  rest allowed  retract (-20, -20) rapid }") `shouldBe` [["3.999", "mm", "narrow"]]
-  it "no cutter comes into the corner before a curve (catches the cutter that touches the curve's first arc)" $
-    map (\r -> (take 2 r, drop 3 r)) (rows "mill wavy left { approach (-10, 20) rapid  rest allowed  retract (90, 40) rapid }") `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
-  it "nor into one at which the contour begins (catches a way round the end that is taken for one back to the beginning)" $
-    map (\r -> (take 2 r, drop 3 r)) (rows "mill ridge outside { approach (-10, 20) rapid  rest allowed  retract (-10, 20) rapid }") `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
-  it "into a hollow goes what is narrower than its mouth (catches an outer corner that is taken for an inner one)" $
-    map (drop 3) (rows "mill hollow left { approach (-10, 20) rapid  rest allowed  retract (60, 20) rapid }") `shouldBe` [["3.999", "mm", "narrow", "place,", "with", "the", "cutter's", "centre", "here"]]
+      `shouldBe` [ [x, y, "1.931", "inner", "corner"]
+                   | (x, y) <-
+                       [ ("40.000", "0.000"),
+                         ("40.000", "30.000"),
+                         ("0.000", "30.000"),
+                         ("0.000", "0.000")
+                       ]
+                 ]
+  it
+    "into a slot of 5 goes a cutter of 4 that leaves 0.5 (catches a diameter without what is left)"
+    $ map
+      (take 3 . drop 3)
+      ( rows
+          "mill notched outside { approach (-20, 20) rapid  allowance 0.5  rest allowed  retract \
+          \(-20, -20) rapid }"
+      )
+      `shouldBe` [["3.999", "mm", "narrow"]]
+  it
+    "no cutter comes into the corner before a curve (catches the cutter that touches the curve's \
+    \first arc)"
+    $ map
+      (\r -> (take 2 r, drop 3 r))
+      (rows "mill wavy left { approach (-10, 20) rapid  rest allowed  retract (90, 40) rapid }")
+      `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
+  it
+    "nor into one at which the contour begins (catches a way round the end that is taken for one \
+    \back to the beginning)"
+    $ map
+      (\r -> (take 2 r, drop 3 r))
+      ( rows
+          "mill ridge outside { approach (-10, 20) rapid  rest allowed  retract (-10, 20) rapid }"
+      )
+      `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
+  it
+    "into a hollow goes what is narrower than its mouth (catches an outer corner that is taken for \
+    \an inner one)"
+    $ map
+      (drop 3)
+      (rows "mill hollow left { approach (-10, 20) rapid  rest allowed  retract (60, 20) rapid }")
+      `shouldBe` [["3.999", "mm", "narrow", "place,", "with", "the", "cutter's", "centre", "here"]]
 
 -- | The words of the table's rows.
 rows :: Text -> [[Text]]
 rows milling = case Result.output (Compile.analyse [] (Compile.alone "p.part" text)) of
-  Just found -> [Text.words l | t <- RestMaterialTable.places (path found), l <- drop 3 (Text.lines t)]
+  Just found ->
+    [Text.words l | t <- RestMaterialTable.places (path found), l <- drop 3 (Text.lines t)]
   Nothing -> [["no path"]]
   where
     text =
@@ -37,7 +69,8 @@ rows milling = case Result.output (Compile.analyse [] (Compile.alone "p.part" te
           "tolerance 0.02 mm",
           "from " <> if "inside" `Text.isInfixOf` milling then "(20, 15)" else "(-20, -20)",
           "contour window closed { (0, 0) (40, 0) (40, 30) (0, 30) }",
-          "contour notched closed { (0, 0) (0, 40) (40, 40) (40, 0) (25, 0) (25, 20) (20, 20) (20, 0) }",
+          "contour notched closed { (0, 0) (0, 40) (40, 40) (40, 0) (25, 0) (25, 20) (20, 20) (20, \
+          \0) }",
           "table crests { x y",
           "20 0",
           "40 10",
@@ -46,7 +79,9 @@ rows milling = case Result.output (Compile.analyse [] (Compile.alone "p.part" te
           "}",
           "curve crest = spline(crests)",
           "contour wavy open { line((0, 0), (20, 0)) crest }",
-          "contour ridge closed { crest line((80, 12), (80, -20)) line((80, -20), (0, -20)) line((0, -20), (0, 0)) line((0, 0), (20, 0)) }",
-          "contour hollow open { line((0, 0), (20, 0)) ccw circle((22, 0), 2) line((24, 0), (40, 0)) }",
+          "contour ridge closed { crest line((80, 12), (80, -20)) line((80, -20), (0, -20)) \
+          \line((0, -20), (0, 0)) line((0, 0), (20, 0)) }",
+          "contour hollow open { line((0, 0), (20, 0)) ccw circle((22, 0), 2) line((24, 0), (40, \
+          \0)) }",
           milling
         ]

@@ -16,21 +16,35 @@ spec = do
   it "is one log without results when there is nothing to say" $ do
     (code, out, err) <- partc ["check", "--format", "sarif", "examples/flange.part"]
     (code, out) `shouldBe` (ExitSuccess, "")
-    err `shouldBe` "{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\"rules\":[]}},\"columnKind\":\"unicodeCodePoints\",\"results\":[]}]}\n"
+    err
+      `shouldBe` "\
+                 \{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\"rules\":[]}},\"columnKind\":\"unicodeCodePoints\",\"results\":[]}]}\n"
   it "holds the reports of all files, in the order of the command line" $ do
-    (code, out, err) <- partc ["--format", "sarif", "check", "test/programs/surface/bad/five-mistakes.part", "examples/flange.part", "no such.part", "test/programs/machine/good/feed-warning.part"]
+    (code, out, err) <-
+      partc
+        [ "--format",
+          "sarif",
+          "check",
+          "test/programs/surface/bad/five-mistakes.part",
+          "examples/flange.part",
+          "no such.part",
+          "test/programs/machine/good/feed-warning.part"
+        ]
     (code, out) `shouldBe` (ExitFailure 1, "")
     length (lines err) `shouldBe` 1
     isJson err `shouldBe` True
     codesOf err `shouldBe` ["E0105", "E0105", "E0101", "E0101", "E0108", "E0801", "W0501", "W0501"]
     err `shouldSatisfy` isInfixOf "\"uri\":\"no%20such.part\""
   it "leaves results on standard output, and warnings out with -q" $ do
-    (code, out, err) <- partc ["--format", "sarif", "-q", "report", "test/programs/machine/good/feed-warning.part"]
+    (code, out, err) <-
+      partc ["--format", "sarif", "-q", "report", "test/programs/machine/good/feed-warning.part"]
     code `shouldBe` ExitSuccess
     out `shouldSatisfy` isInfixOf "frames"
     (isJson err, codesOf err) `shouldBe` (True, [])
   it "keeps the warnings that stop the work with --werror" $ do
-    (code, _, err) <- partc ["--format", "sarif", "--werror", "check", "test/programs/machine/good/feed-warning.part"]
+    (code, _, err) <-
+      partc
+        ["--format", "sarif", "--werror", "check", "test/programs/machine/good/feed-warning.part"]
     (code, codesOf err) `shouldBe` (ExitFailure 1, ["W0501", "W0501"])
   it "holds what a damaged tape has to say, and what a command has" $
     inFolder $ \folder -> do
@@ -41,10 +55,12 @@ spec = do
       (code', codesOf err') `shouldBe` (ExitFailure 1, ["E0809"])
 
 isJson :: String -> Bool
-isJson text = case Aeson.decode (LazyByteString.fromStrict (Encoding.encodeUtf8 (Text.pack text))) of
-  Just (Aeson.Object _) -> True
-  _ -> False
+isJson text =
+  case Aeson.decode (LazyByteString.fromStrict (Encoding.encodeUtf8 (Text.pack text))) of
+    Just (Aeson.Object _) -> True
+    _ -> False
 
 -- | The codes of the results, in their order.
 codesOf :: String -> [String]
-codesOf text = [Text.unpack (Text.take 5 rest) | rest <- drop 1 (Text.splitOn "\"ruleId\":\"" (Text.pack text))]
+codesOf text =
+  [Text.unpack (Text.take 5 rest) | rest <- drop 1 (Text.splitOn "\"ruleId\":\"" (Text.pack text))]

@@ -1,5 +1,5 @@
--- | The law of the model of a control that keeps the cutter beside the contour: LinuxCNC makes the same of the same tape, be it
--- the compiler's own or a damaged one.
+-- | The law of the model of a control that keeps the cutter beside the contour: LinuxCNC makes the
+-- same of the same tape, be it the compiler's own or a damaged one.
 module Control.CompensationSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -39,16 +39,27 @@ spec = do
   describe "the model of a control" $ do
     if present
       then do
-        it "does what LinuxCNC does, with tapes of its own (catches a corner, a way in or a way out that goes otherwise)" $
-          compared (Mm 0.001) pure
-        it "does what LinuxCNC does, with damaged tapes, and refuses whatever LinuxCNC refuses (catches a damage that is judged by what was meant)" $
-          compared (Mm 0.03) damaged
-      else it "does what LinuxCNC does" (pendingWith "rs274 is not installed (scripts/setup.sh installs linuxcnc-uspace)")
+        it
+          "does what LinuxCNC does, with tapes of its own (catches a corner, a way in or a way out \
+          \that goes otherwise)"
+          $ compared (Mm 0.001) pure
+        it
+          "does what LinuxCNC does, with damaged tapes, and refuses whatever LinuxCNC refuses \
+          \(catches a damage that is judged by what was meant)"
+          $ compared (Mm 0.03) damaged
+      else
+        it
+          "does what LinuxCNC does"
+          (pendingWith "rs274 is not installed (scripts/setup.sh installs linuxcnc-uspace)")
     it "refuses what a control refuses, for that reason" $
-      [(what, expected, snd (Compensation.run iso6983 (const (Mm 0)) 0 fs)) | (what, expected, fs) <- refusals, snd (Compensation.run iso6983 (const (Mm 0)) 0 fs) /= expected] `shouldBe` []
+      [ (what, expected, snd (Compensation.run iso6983 (const (Mm 0)) 0 fs))
+        | (what, expected, fs) <- refusals,
+          snd (Compensation.run iso6983 (const (Mm 0)) 0 fs) /= expected
+      ]
+        `shouldBe` []
 
--- | So near to what LinuxCNC does; where shortened ways meet at a small angle, the radii of an arc, which rounding makes differ at its ends, tell
--- a little more or less.
+-- | So near to what LinuxCNC does; where shortened ways meet at a small angle, the radii of an arc,
+-- which rounding makes differ at its ends, tell a little more or less.
 compared :: Mm -> ([Frame] -> Gen [Frame]) -> Property
 compared close change =
   withMaxSuccess 150 $
@@ -59,17 +70,39 @@ compared close change =
         let (moved, unkept) = Compensation.run iso6983 (const (Mm 0)) begin fs
             broken = Frame.invariants iso6983 fs
         pure $ case made of
-          Left why -> classify True "refused" (counterexample (show (why, unkept)) (not (null unkept) || not (null broken) || Text.isInfixOf "Radius to end of arc" why))
+          Left why ->
+            classify
+              True
+              "refused"
+              ( counterexample
+                  (show (why, unkept))
+                  ( not (null unkept)
+                      || not (null broken)
+                      || Text.isInfixOf "Radius to end of arc" why
+                  )
+              )
           -- The model may be more narrow.
           Right walked
-            | not (null unkept) || not (null broken) || any flat fs || any spirals (Motion.run begin fs) -> classify True "refused by the model alone" (property True)
-            | otherwise -> let found = differences close (concatMap (NonEmpty.toList . legs) moved) (map LinuxCnc.segment walked) in counterexample (unlines found <> show fs) (null found)
+            | not (null unkept)
+                || not (null broken)
+                || any flat fs
+                || any spirals (Motion.run begin fs) ->
+              classify True "refused by the model alone" (property True)
+            | otherwise ->
+              let found =
+                    differences
+                      close
+                      (concatMap (NonEmpty.toList . legs) moved)
+                      (map LinuxCnc.segment walked)
+               in counterexample (unlines found <> show fs) (null found)
   where
     flat f = case motion f of
       Round _ -> not (Motion.isRound f)
       _ -> False
-    -- LinuxCNC takes now this radius of an arc and now that one; the proof refuses such an arc as it stands. No tape of the compiler's own has one.
-    spirals s = maybe False (\(a, b) -> max (minus a b) (minus b a) >= Mm 0.03) (Motion.radii iso6983 s)
+    -- LinuxCNC takes now this radius of an arc and now that one; the proof refuses such an arc as
+    -- it stands. No tape of the compiler's own has one.
+    spirals s =
+      maybe False (\(a, b) -> max (minus a b) (minus b a) >= Mm 0.03) (Motion.radii iso6983 s)
 
 -- | The frames of a milling, from where.
 programOf :: Part.Milling -> Maybe (Pulses3, [Frame])
@@ -79,7 +112,8 @@ programOf job = do
   program <- Result.output (FromToolpath.quantise iso6983 path)
   Just (Frame.start program, map Frame.frame (Frame.planned program))
 
--- | What LinuxCNC makes of frames. It stands at the zero of the part, and is moved to their beginning.
+-- | What LinuxCNC makes of frames. It stands at the zero of the part, and is moved to their
+-- beginning.
 interpreted :: Pulses3 -> [Frame] -> IO (Either Text [LinuxCnc.Way])
 interpreted begin fs = inFolder $ \folder -> do
   let file = folder </> "a.ngc"
@@ -88,7 +122,8 @@ interpreted begin fs = inFolder $ \folder -> do
   ByteString.writeFile file rows
   fmap (drop (length onto) . LinuxCnc.ways (LinuxCnc.Place 0 0 0)) <$> LinuxCnc.canonical file
 
--- | Where the moves are not the same, one by one. Those that are no longer than the rounding of what is printed may be left out.
+-- | Where the moves are not the same, one by one. Those that are no longer than the rounding of
+-- what is printed may be left out.
 differences :: Mm -> [Segment] -> [Segment] -> [String]
 differences close model real = case (model, real) of
   ([], []) -> []
@@ -100,10 +135,13 @@ differences close model real = case (model, real) of
     tiny s = Vec.distance (Segment.start s) (Segment.end s) < Mm 0.003
     near p q = Vec.distance p q < close
     same a b =
-      near (Segment.start a) (Segment.start b) && near (Segment.end a) (Segment.end b) && case (a, b) of
-        (Straight _ _, Straight _ _) -> True
-        (Arc {Segment.centre = c, sweep = Rad x}, Arc {Segment.centre = d, sweep = Rad y}) -> near c d && signum x == signum y
-        _ -> False
+      near (Segment.start a) (Segment.start b)
+        && near (Segment.end a) (Segment.end b)
+        && case (a, b) of
+          (Straight _ _, Straight _ _) -> True
+          (Arc {Segment.centre = c, sweep = Rad x}, Arc {Segment.centre = d, sweep = Rad y}) ->
+            near c d && signum x == signum y
+          _ -> False
 
 -- | One number changed.
 damaged :: [Frame] -> Gen [Frame]
@@ -113,13 +151,33 @@ damaged own = do
   let f = own !! n
       with f' = take n own <> [f'] <> drop (n + 1) own
       madeUp f' = case drop (n + 1) own of
-        g : rest | Frame.isMoving g -> take n own <> [f', g {increment = increment g + increment f - increment f'}] <> rest
+        g : rest
+          | Frame.isMoving g ->
+            take n own <> [f', g {increment = increment g + increment f - increment f'}] <> rest
         _ -> with f'
   frequency
     [ (2, pure (madeUp f {increment = increment f + Pulses3 d 0 0})),
       (2, pure (madeUp f {increment = increment f + Pulses3 0 d 0})),
       (1, pure (take n own <> drop (n + 1) own)),
-      (1, pure (with f {orders = [(o, if o `elem` [CommandName "left", CommandName "right"] then v + let Pulses k = abs d in k else v) | (o, v) <- orders f]})),
+      ( 1,
+        pure
+          ( with
+              f
+                { orders =
+                    [ ( o,
+                        if o `elem` [CommandName "left", CommandName "right"]
+                          then
+                            v
+                              + let Pulses k =
+                                      abs d
+                                 in k
+                          else v
+                      )
+                      | (o, v) <- orders f
+                    ]
+                }
+          )
+      ),
       (1, pure (map exchanged own)),
       (1, pure (with (if centre f == 0 then f else f {centre = centre f + Pulses2 d d})))
     ]
@@ -137,27 +195,78 @@ refusals :: [(String, [Unkept], [Frame])]
 refusals =
   [ ("a good one", [], good),
     ("a short way in", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
-    ("a way in straight up", [ShortEntry 1 (Mm 0) (Mm 10)], (begun 0) {increment = Pulses3 0 0 1000} : drop 1 good),
-    ("an arc to begin with", [RoundEntry 1], (begun 40) {motion = Round CounterClockwise, centre = Pulses2 20000 0} : drop 1 good),
-    ("an arc to end with", [RoundExit 4], take 3 good <> [(straight (-40) 0) {motion = Round Clockwise, centre = Pulses2 (-20000) 0, orders = [(CommandName "release", 0)]}]),
-    ("an arc as tight as the cutter", [TightArc 3 (Mm 10) (Mm 10)], take 2 good <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = Pulses2 (-10000) 0}] <> drop 3 good),
-    ("an arc behind a corner of 0.02 that is taken for none, which makes it longer by as much", [], take 2 good <> [onArc 400] <> drop 3 good),
-    ("by more than a control puts up with", [Unreached 3], take 2 good <> [onArc 600] <> drop 3 good),
-    ("a tip at which the way turns back by 176 degrees", [], take 2 good <> [straight (0.07 * 40) (-40)] <> drop 3 good),
+    ( "a way in straight up",
+      [ShortEntry 1 (Mm 0) (Mm 10)],
+      (begun 0) {increment = Pulses3 0 0 1000} : drop 1 good
+    ),
+    ( "an arc to begin with",
+      [RoundEntry 1],
+      (begun 40) {motion = Round CounterClockwise, centre = Pulses2 20000 0} : drop 1 good
+    ),
+    ( "an arc to end with",
+      [RoundExit 4],
+      take 3 good
+        <> [ (straight (-40) 0)
+               { motion = Round Clockwise,
+                 centre = Pulses2 (-20000) 0,
+                 orders = [(CommandName "release", 0)]
+               }
+           ]
+    ),
+    ( "an arc as tight as the cutter",
+      [TightArc 3 (Mm 10) (Mm 10)],
+      take 2 good
+        <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = Pulses2 (-10000) 0}]
+        <> drop 3 good
+    ),
+    ( "an arc behind a corner of 0.02 that is taken for none, which makes it longer by as much",
+      [],
+      take 2 good <> [onArc 400] <> drop 3 good
+    ),
+    ( "by more than a control puts up with",
+      [Unreached 3],
+      take 2 good <> [onArc 600] <> drop 3 good
+    ),
+    ( "a tip at which the way turns back by 176 degrees",
+      [],
+      take 2 good <> [straight (0.07 * 40) (-40)] <> drop 3 good
+    ),
     ("by 178 degrees", [Unreached 2], take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good),
     ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
-    ("on twice", [OnTwice 2], [begun 40, (straight 0 50) {orders = [(CommandName "left", 20000)]}] <> drop 2 good),
-    ("on twice at once", [OnTwice 1], (begun 40) {orders = [(CommandName "left", 20000), (CommandName "right", 20000)]} : map (\f -> f {orders = []}) (drop 1 good)),
-    ("a tool changed meanwhile", [ToolChanged 2], [begun 40, Frame.still [(CommandName "T", 2), (CommandName "M", 6)]] <> drop 1 good),
-    ("another command meanwhile", [], [begun 40, Frame.still [(CommandName "M", 8)]] <> drop 1 good),
+    ( "on twice",
+      [OnTwice 2],
+      [begun 40, (straight 0 50) {orders = [(CommandName "left", 20000)]}] <> drop 2 good
+    ),
+    ( "on twice at once",
+      [OnTwice 1],
+      (begun 40) {orders = [(CommandName "left", 20000), (CommandName "right", 20000)]} :
+      map (\f -> f {orders = []}) (drop 1 good)
+    ),
+    ( "a tool changed meanwhile",
+      [ToolChanged 2],
+      [begun 40, Frame.still [(CommandName "T", 2), (CommandName "M", 6)]] <> drop 1 good
+    ),
+    ( "another command meanwhile",
+      [],
+      [begun 40, Frame.still [(CommandName "M", 8)]] <> drop 1 good
+    ),
     ("never off", [NeverReleased 3], take 3 good)
   ]
   where
     good = [begun 40, straight 0 50, straight 50 0, off]
     begun x = (straight x 0) {orders = [(CommandName "left", 20000)]}
     -- A quarter of a circle behind a corner to the right.
-    onArc aside = (straight 0 0) {motion = Round CounterClockwise, increment = Pulses3 (-20000) (20000 + aside) 0, centre = Pulses2 (-20000) aside}
+    onArc aside =
+      (straight 0 0)
+        { motion = Round CounterClockwise,
+          increment = Pulses3 (-20000) (20000 + aside) 0,
+          centre = Pulses2 (-20000) aside
+        }
     off = (straight 0 40) {orders = [(CommandName "release", 0)]}
-    straight x y = (Frame.still []) {motion = Straightway, increment = Pulses3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0}
+    straight x y =
+      (Frame.still [])
+        { motion = Straightway,
+          increment = Pulses3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0
+        }
       where
         _ = x + y :: Double

@@ -22,11 +22,27 @@ spec =
       property $
         forAll labels $ \ls ->
           let placed = map covered (settled ls)
-           in cover 50 (length placed > 30) "many" (and [not (BoundingBox.meets (BoundingBox.inflate (Mm 0.599) a) b) | (k, a) <- zip [0 :: Int ..] placed, (l, b) <- zip [0 ..] placed, k < l])
+           in cover
+                50
+                (length placed > 30)
+                "many"
+                ( and
+                    [ not (BoundingBox.meets (BoundingBox.inflate (Mm 0.599) a) b)
+                      | (k, a) <- zip [0 :: Int ..] placed,
+                        (l, b) <- zip [0 ..] placed,
+                        k < l
+                    ]
+                )
     it "none is left out where there is room (catches places that are taken twice)" $
       property $
         forAll (choose (1, 8)) $ \n ->
-          length (settled [PointLabel "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2] | k <- [1 .. n :: Int]]) === n
+          length
+            ( settled
+                [ PointLabel "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2]
+                  | k <- [1 .. n :: Int]
+                ]
+            )
+            === n
 
 settled :: [PointLabel] -> [(Point, Text)]
 settled = Label.settle Page.field (BoundingBox.index id' [])
@@ -37,10 +53,15 @@ settled = Label.settle Page.field (BoundingBox.index id' [])
 labels :: Gen [PointLabel]
 labels = do
   n <- choose (20, 120)
-  vectorOf n (label <$> choose (0, 10 ^ (8 :: Int)) <*> choose (0, 6) <*> choose (30, 110) <*> choose (30, 90))
+  vectorOf
+    n
+    ( label
+        <$> choose (0, 10 ^ (8 :: Int)) <*> choose (0, 6) <*> choose (30, 110) <*> choose (30, 90)
+    )
   where
     label :: Int -> Double -> Double -> Double -> PointLabel
-    label number a x y = PointLabel (Decimal.whole number) (Vec.point x y) (Vec.polar (Mm 1) (Rad a)) [1.2, 2, 3, 4]
+    label number a x y =
+      PointLabel (Decimal.whole number) (Vec.point x y) (Vec.polar (Mm 1) (Rad a)) [1.2, 2, 3, 4]
 
 -- | What a text covers about its middle.
 covered :: (Point, Text) -> BoundingBox

@@ -14,8 +14,10 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "five tracks with the sprocket holes between the third and the second, a minus beside its digit (catches mirrored tracks)" $
-    take 5 (drawn lkp01f Everything)
+  it
+    "five tracks with the sprocket holes between the third and the second, a minus beside its \
+    \digit (catches mirrored tracks)"
+    $ take 5 (drawn lkp01f Everything)
       `shouldBe` [ "   row  5 4 3 ∘ 2 1",
                    "     1  ⋮ ⋮ ⋮ ∘ ⋮ ⋮  leader, 25 rows",
                    "    26  · · · ∘ · ·  frame 1: x thousands 0",
@@ -32,17 +34,30 @@ spec = do
   it "frames and rows may be chosen (catches a range that is off by one)" $ do
     let frames = drop 1 (drawn kontur3p (Frames 2 3))
     filter (not . Text.isInfixOf "frame ") frames `shouldBe` []
-    (any (Text.isInfixOf "frame 2:") frames, any (Text.isInfixOf "frame 3:") frames, any (Text.isInfixOf "frame 4:") frames) `shouldBe` (True, True, False)
+    ( any (Text.isInfixOf "frame 2:") frames,
+      any (Text.isInfixOf "frame 3:") frames,
+      any (Text.isInfixOf "frame 4:") frames
+      )
+      `shouldBe` (True, True, False)
     length (drawn kontur3p (Rows 26 29)) `shouldBe` 5
-  it "behind the end there is nothing, and it is told where that is (catches a picture of nothing)" $ do
-    let (frames, rows) = (length (journey kontur3p), rowsOf kontur3p)
-        beyond machine range = (TapeRows.picture machine range (rowsOf machine), TapeRows.extent machine range (rowsOf machine))
-    beyond kontur3p (Frames (frames + 1) 999) `shouldBe` (Nothing, ("frame", frames))
-    beyond kontur3p (Rows (length rows + 1) 9999) `shouldBe` (Nothing, ("row", length rows))
-    length (drawn kontur3p (Frames frames 999)) `shouldSatisfy` (> 1)
-    beyond iso6983 (Rows 999 999) `shouldBe` (Nothing, ("line", length (drawn iso6983 Everything)))
+  it
+    "behind the end there is nothing, and it is told where that is (catches a picture of nothing)"
+    $ do
+      let (frames, rows) = (length (journey kontur3p), rowsOf kontur3p)
+          beyond machine range =
+            ( TapeRows.picture machine range (rowsOf machine),
+              TapeRows.extent machine range (rowsOf machine)
+            )
+      beyond kontur3p (Frames (frames + 1) 999) `shouldBe` (Nothing, ("frame", frames))
+      beyond kontur3p (Rows (length rows + 1) 9999) `shouldBe` (Nothing, ("row", length rows))
+      length (drawn kontur3p (Frames frames 999)) `shouldSatisfy` (> 1)
+      beyond iso6983 (Rows 999 999)
+        `shouldBe` (Nothing, ("line", length (drawn iso6983 Everything)))
   it "a text line by line with its words" $
-    take 1 (drop 2 (drawn iso6983 Everything)) `shouldBe` ["     3  G41.1 D0.001                                  frame 1: command left 0.001"]
+    take 1 (drop 2 (drawn iso6983 Everything))
+      `shouldBe` [ "     3  G41.1 D0.001                                  frame 1: command left \
+                   \0.001"
+                 ]
 
 drawn :: Machine -> RowRange -> [Text]
 drawn machine range = maybe [] Text.lines (TapeRows.picture machine range (rowsOf machine))

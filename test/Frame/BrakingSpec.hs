@@ -25,58 +25,126 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec = do
   describe "a machine that is told when to slow down" $ do
-    it "is never faster than it can be (catches a stretch that does not reach back over a short move)" $
-      property $
+    it
+      "is never faster than it can be (catches a stretch that does not reach back over a short \
+      \move)"
+      $ property $
         forAll moving $ \ms -> onMachine ms $ \m fs ->
           let grain = let Mm g = Machine.pulse m in g
               ways = map fst fs
-              -- Lower feeds behind a frame with the way up to them; the last one is the end of the program.
-              ahead k = [(v, sum (take (j - k - 1) (drop (k + 1) ways)), j - k) | (j, (_, Just v)) <- drop (k + 1) (zip [0 ..] fs)] <> [(10 / 60, sum (drop (k + 1) ways), length fs - k)]
-              broken = [(k, v, v2, s) | (k, (_, Just v)) <- zip [0 ..] fs, (v2, s, n) <- ahead k, v * v > v2 * v2 + 2 * 5 * (s + grain * fromIntegral (n + 2))]
+              -- Lower feeds behind a frame with the way up to them; the last one is the end of the
+              -- program.
+              ahead k =
+                [ (v, sum (take (j - k - 1) (drop (k + 1) ways)), j - k)
+                  | (j, (_, Just v)) <- drop (k + 1) (zip [0 ..] fs)
+                ]
+                  <> [(10 / 60, sum (drop (k + 1) ways), length fs - k)]
+              broken =
+                [ (k, v, v2, s)
+                  | (k, (_, Just v)) <- zip [0 ..] fs,
+                    (v2, s, n) <- ahead k,
+                    v * v > v2 * v2 + 2 * 5 * (s + grain * fromIntegral (n + 2))
+                ]
            in counterexample (show fs) (broken === [])
-    it "slows down where it has to, and nowhere else (catches a stretch of the way v²/2a before every feed)" $
-      property $
+    it
+      "slows down where it has to, and nowhere else (catches a stretch of the way v²/2a before \
+      \every feed)"
+      $ property $
         forAll moving $ \ms -> onMachine ms $ \m fs ->
           let grain = let Mm g = Machine.pulse m in g
               slowing = sum [l | (l, Nothing) <- fs]
               needed = neededWay m ms
-           in counterexample (show (fs, slowing, needed)) (abs (slowing - needed) <= grain * fromIntegral (3 * length ms + length fs) + 0.02 * fromIntegral (length ms))
-    it "stands at the braking feed behind an element that asks it (catches a slow element that goes on)" $ do
-      let ms = [to 0 60 (At (here 1000)) True, to 60 120 (At (here 1000)) False]
-      fmap (map brief) (framesOn (Machines.named "lki-u") ms) `shouldBe` Just [(1611, 40, False), (1389, 0, True), (1611, 40, False), (1389, 0, True)]
+           in counterexample
+                (show (fs, slowing, needed))
+                ( abs (slowing - needed)
+                    <= grain * fromIntegral (3 * length ms + length fs)
+                      + 0.02 * fromIntegral (length ms)
+                )
+    it
+      "stands at the braking feed behind an element that asks it (catches a slow element that goes \
+      \on)"
+      $ do
+        let ms = [to 0 60 (At (here 1000)) True, to 60 120 (At (here 1000)) False]
+        fmap (map brief) (framesOn (Machines.named "lki-u") ms)
+          `shouldBe` Just [(1611, 40, False), (1389, 0, True), (1611, 40, False), (1389, 0, True)]
     it "leaves out what is shorter than a pulse" $ do
       let ms = [to 0 50 (At (here 25.2)) False]
       fmap (map brief) (framesOn (Machines.named "lki-u") ms) `shouldBe` Just [(2500, 8, False)]
   describe "a machine without a sign for it" $ do
-    it "goes the last stretch at the lowest code, where that is asked (catches a stretch before every feed)" $ do
-      let ms = [to 0 60 (At (here 240)) True, to 60 120 (At (here 240)) False]
-      fmap (map brief) (framesOn (Machines.named "lkp-01f") ms) `shouldBe` Just [(2920, 9, False), (80, 1, False), (3000, 9, False)]
+    it
+      "goes the last stretch at the lowest code, where that is asked (catches a stretch before \
+      \every feed)"
+      $ do
+        let ms = [to 0 60 (At (here 240)) True, to 60 120 (At (here 240)) False]
+        fmap (map brief) (framesOn (Machines.named "lkp-01f") ms)
+          `shouldBe` Just [(2920, 9, False), (80, 1, False), (3000, 9, False)]
     it "that slows down by itself has none" $
-      fmap (map brief) (framesOn (Machines.named "n55") [to 0 60 (At (here 240)) True, to 60 120 (At (here 24)) False]) `shouldBe` Just [(6000, 240, False), (6000, 24, False)]
+      fmap
+        (map brief)
+        ( framesOn
+            (Machines.named "n55")
+            [to 0 60 (At (here 240)) True, to 60 120 (At (here 24)) False]
+        )
+        `shouldBe` Just [(6000, 240, False), (6000, 24, False)]
   where
     brief f = (pulses f, code f, braking f)
     pulses f = let Pulses3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
     code f = let FeedCode n = speed f in n
-    to a b pace slow = Move (Straight (Vec.point a 0) (Vec.point b 0)) (Manner (Mm 0, Mm 0) pace slow) (Region 0 0) False
+    to a b pace slow =
+      Move
+        (Straight (Vec.point a 0) (Vec.point b 0))
+        (Manner (Mm 0, Mm 0) pace slow)
+        (Region 0 0)
+        False
 
 here :: Double -> Located Feed
 here = Located (Region 0 0) . Feed
 
 framesOn :: Machine -> [Move] -> Maybe [Frame]
-framesOn m ms = fmap (filter Frame.isMoving . map frame . Frame.planned) (Made.program m (Toolpath (Located (Region 0 0) (SpacePoint (Segment.start (Toolpath.segment (head ms))) (Mm 0))) [Travelling (Mm 0) ms] False))
+framesOn m ms =
+  fmap
+    (filter Frame.isMoving . map frame . Frame.planned)
+    ( Made.program
+        m
+        ( Toolpath
+            (Located (Region 0 0) (SpacePoint (Segment.start (Toolpath.segment (head ms))) (Mm 0)))
+            [Travelling (Mm 0) ms]
+            False
+        )
+    )
 
 -- | The ways of the frames in mm with their feeds in mm/s; none in those that slow down.
 onMachine :: Testable t => [Move] -> (Machine -> [(Double, Maybe Double)] -> t) -> Property
-onMachine ms law = forAllBlind (elements (map Machines.named ["lki-fm", "lki-u", "lki-un"])) $ \m -> counterexample (show (Machine.name m)) $ case framesOn m ms of
-  Nothing -> counterexample "no frames" False
-  Just fs ->
-    property (law m [(l, if braking f then Nothing else Just (v / 60)) | f <- fs, let Mm l = FeedCode.wayOf m f, let v = maybe 0 (\(Feed x) -> x) (FeedCode.given m f (Mm l))])
+onMachine ms law =
+  forAllBlind (elements (map Machines.named ["lki-fm", "lki-u", "lki-un"])) $ \m ->
+    counterexample (show (Machine.name m)) $ case framesOn m ms of
+      Nothing -> counterexample "no frames" False
+      Just fs ->
+        property
+          ( law
+              m
+              [ (l, if braking f then Nothing else Just (v / 60))
+                | f <- fs,
+                  let Mm l = FeedCode.wayOf m f,
+                  let v = maybe 0 (\(Feed x) -> x) (FeedCode.given m f (Mm l))
+              ]
+          )
 
--- | The way on which the feeds that the machine gets are too fast for what comes behind, step by step.
+-- | The way on which the feeds that the machine gets are too fast for what comes behind, step by
+-- step.
 neededWay :: Machine -> [Move] -> Double
-neededWay m ms = sum [d | (k, (l, v)) <- zip [0 ..] pieces, let n = max 1 (ceiling (l / 0.01)) :: Int, let d = l / fromIntegral n, j <- [0 .. n - 1], tooFast v (l - d * (fromIntegral j + 0.5)) (events !! k)]
+neededWay m ms =
+  sum
+    [ d
+      | (k, (l, v)) <- zip [0 ..] pieces,
+        let n = max 1 (ceiling (l / 0.01)) :: Int,
+        let d = l / fromIntegral n,
+        j <- [0 .. n - 1],
+        tooFast v (l - d * (fromIntegral j + 0.5)) (events !! k)
+    ]
   where
-    pieces = [(l, speedOf (Toolpath.pace x)) | x <- ms, let Mm l = Segment.length (Toolpath.segment x)]
+    pieces =
+      [(l, speedOf (Toolpath.pace x)) | x <- ms, let Mm l = Segment.length (Toolpath.segment x)]
     speedOf p = case p of
       Rapid -> snd (Machine.feedRange m) / 60
       At (Located _ (Feed v)) -> case Machine.choose m v of
@@ -84,9 +152,20 @@ neededWay m ms = sum [d | (k, (l, v)) <- zip [0 ..] pieces, let n = max 1 (ceili
         Machine.NoSuchFeed _ _ -> v / 60
     -- The lower feeds behind the end of each move, and how far behind.
     events = [[(s, v2) | (s, v2) <- limits k] | k <- [0 .. length ms - 1]]
-    limits k = concat (zipWith3 (\j x (s, (_, v)) -> [(s, v) | j > k] <> [(s + fst (pieces !! j), 10 / 60) | Toolpath.braked x || j == length ms - 1]) [k :: Int ..] (drop k ms) (zip (starts k) (drop k pieces)))
+    limits k =
+      concat
+        ( zipWith3
+            ( \j x (s, (_, v)) ->
+                [(s, v) | j > k]
+                  <> [(s + fst (pieces !! j), 10 / 60) | Toolpath.braked x || j == length ms - 1]
+            )
+            [k :: Int ..]
+            (drop k ms)
+            (zip (starts k) (drop k pieces))
+        )
     starts k = scanl (+) (-(fst (pieces !! k))) (map fst (drop k pieces))
-    tooFast v rest limitsBehind = or [v * v > v2 * v2 + 2 * 5 * (rest + s) | (s, v2) <- limitsBehind]
+    tooFast v rest limitsBehind =
+      or [v * v > v2 * v2 + 2 * 5 * (rest + s) | (s, v2) <- limitsBehind]
 
 -- | Lines and arcs one behind the other, at all feeds, now and then slow at their ends.
 moving :: Gen [Move]

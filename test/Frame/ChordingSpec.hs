@@ -34,73 +34,182 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec = do
   describe "chords of a curve" $ do
-    it "keep every point of it within what is allowed on its side, and end on it (catches the two sides exchanged)" $
-      property $
+    it
+      "keep every point of it within what is allowed on its side, and end on it (catches the two \
+      \sides exchanged)"
+      $ property $
         forAll ((,) <$> chain <*> bounds) $ \(ss, b) ->
           let ends = chordsOf b ss
               finish = Segment.end (last ss)
            in counterexample (show (length ends, worst b ss ends)) $
                 worst b ss ends <= 1e-7
-                  .&&. conjoin [counterexample (show p) (minimum [d | s <- ss, let { Mm d = Distance.toPoint p s }] <= beside b + 1e-7) | p <- ends]
+                  .&&. conjoin
+                    [ counterexample
+                        (show p)
+                        ( minimum [d | s <- ss, let Mm d = Distance.toPoint p s]
+                            <= beside b + 1e-7
+                        )
+                      | p <- ends
+                    ]
                   .&&. last ends === finish
-    it "are about as few as any on a fine grid (catches chords that stop where the curve changes its bending)" $
-      property $
-        forAll (chain >>= \ss -> (ss,) <$> roughly (sum [l | s <- ss, let Mm l = Segment.length s])) $ \(ss, b) ->
-          let n = length (chordsOf b ss)
-              fewest = fewestOn b (grid 150 ss)
-           in n <= 15
-                ==> counterexample (show (n, fewest))
-                $ classify (fewest >= 4) "four and more" $
-                  fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
-    it "pass over bends to both sides that are within what is allowed (catches chords that stop where the curve changes its bending)" $
-      length (chordsOf (evenly 0.1) (Curve.bent (take 40 (cycle [(5, 0.02), (5, -0.02)])))) `shouldBe` 1
-    it "end within an arc of which they reach neither end (catches a search at the ends of the arcs only)" $
-      length (chordsOf (evenly 0.038) (Curve.bent [(3.2041, -0.0001), (2.7333, -0.0125), (8.0266, 0.0057), (5.6682, -0.0206), (5.5173, -0.025)])) `shouldBe` 4
-    it "are looked for from the end as well (catches a first chord that takes what the second would need)" $
-      length (chordsOf (evenly 0.583) (Curve.bent [(7.3199, -0.0012), (14.8941, 0.0141), (4.135, -0.0058), (17.0171, -0.0102), (13.8977, 0.0066), (14.9307, 0.0049)])) `shouldBe` 2
-    it "of an arc cut into many are as many as those of the arc, one more or less (catches a chord for each)" $
-      property $
+    it
+      "are about as few as any on a fine grid (catches chords that stop where the curve changes \
+      \its bending)"
+      $ property $
+        forAll
+          (chain >>= \ss -> (ss,) <$> roughly (sum [l | s <- ss, let Mm l = Segment.length s]))
+          $ \(ss, b) ->
+            let n = length (chordsOf b ss)
+                fewest = fewestOn b (grid 150 ss)
+             in n <= 15
+                  ==> counterexample (show (n, fewest))
+                  $ classify (fewest >= 4) "four and more" $
+                    fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
+    it
+      "pass over bends to both sides that are within what is allowed (catches chords that stop \
+      \where the curve changes its bending)"
+      $ length (chordsOf (evenly 0.1) (Curve.bent (take 40 (cycle [(5, 0.02), (5, -0.02)]))))
+        `shouldBe` 1
+    it
+      "end within an arc of which they reach neither end (catches a search at the ends of the arcs \
+      \only)"
+      $ length
+        ( chordsOf
+            (evenly 0.038)
+            ( Curve.bent
+                [ (3.2041, -0.0001),
+                  (2.7333, -0.0125),
+                  (8.0266, 0.0057),
+                  (5.6682, -0.0206),
+                  (5.5173, -0.025)
+                ]
+            )
+        )
+        `shouldBe` 4
+    it
+      "are looked for from the end as well (catches a first chord that takes what the second would \
+      \need)"
+      $ length
+        ( chordsOf
+            (evenly 0.583)
+            ( Curve.bent
+                [ (7.3199, -0.0012),
+                  (14.8941, 0.0141),
+                  (4.135, -0.0058),
+                  (17.0171, -0.0102),
+                  (13.8977, 0.0066),
+                  (14.9307, 0.0049)
+                ]
+            )
+        )
+        `shouldBe` 2
+    it
+      "of an arc cut into many are as many as those of the arc, one more or less (catches a chord \
+      \for each)"
+      $ property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.005, 0.02, 0.1]) $ \(a, k, y) ->
-          let n = length (chordsOf Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.01} (Curve.parts k a))
+          let n =
+                length
+                  ( chordsOf
+                      Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.01}
+                      (Curve.parts k a)
+                  )
               alone = FromToolpath.chordCount lkp01f (Mm y) a
            in counterexample (show (n, alone)) (abs (n - alone) <= 1)
     it "are of about equal length on an arc (catches a last chord that is what was left over)" $
       property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.02, 0.0005]) $ \(a, k, y) ->
-          let ends = chordsOf Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.01} (Curve.parts k a)
+          let ends =
+                chordsOf
+                  Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.01}
+                  (Curve.parts k a)
               lengths = [d | (p, q) <- zip (start a : ends) ends, let Mm d = Vec.distance p q]
-           in length ends > 1 ==> classify (length ends > 256) "more than are evened" (counterexample (show lengths) (minimum lengths >= 0.8 * maximum lengths))
+           in length ends
+                > 1
+                  ==> classify
+                    (length ends > 256)
+                    "more than are evened"
+                    (counterexample (show lengths) (minimum lengths >= 0.8 * maximum lengths))
     it "keep to the heights as well (catches heights that are told at the ends of the run only)" $
       property $
-        forAll ((,,) <$> Curve.open <*> bounds <*> vectorOf 130 (choose (-0.2, 0.2))) $ \(ss, b, rises) ->
-          let zs = scanl (+) 0 rises
-              moves = NonEmpty.zipWith (\(z, z') -> Toolpath.atHeights (Mm z, Mm z')) (NonEmpty.fromList (zip zs (drop 1 zs))) (Curve.run ss)
-              ends = [(p, z) | (p, Mm z) <- Chording.chordEnds 100000 b moves]
-           in counterexample (show (length ends)) (worstHeight b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
-    it "slow down as far before the end of a curve as anywhere (catches a brake on the last of its arcs only)" $
-      property $
+        forAll ((,,) <$> Curve.open <*> bounds <*> vectorOf 130 (choose (-0.2, 0.2))) $
+          \(ss, b, rises) ->
+            let zs = scanl (+) 0 rises
+                moves =
+                  NonEmpty.zipWith
+                    (\(z, z') -> Toolpath.atHeights (Mm z, Mm z'))
+                    (NonEmpty.fromList (zip zs (drop 1 zs)))
+                    (Curve.run ss)
+                ends = [(p, z) | (p, Mm z) <- Chording.chordEnds 100000 b moves]
+             in counterexample
+                  (show (length ends))
+                  (worstHeight b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
+    it
+      "slow down as far before the end of a curve as anywhere (catches a brake on the last of its \
+      \arcs only)"
+      $ property $
         forAll Curve.curveCase $ \c ->
           let job = Curve.jobAlong c
               slowly e = e {Part.finish = Part.plainFinish {Part.slow = True}}
-              braked' = job {Part.feed = Feed 240 <$ Part.feed job, Part.contour = (Part.contour job) {Part.elements = fmap slowly (Part.elements (Part.contour job))}}
-           in case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) braked')))) >>= Result.output . FromToolpath.quantise lkp01f of
+              braked' =
+                job
+                  { Part.feed = Feed 240 <$ Part.feed job,
+                    Part.contour =
+                      (Part.contour job)
+                        { Part.elements =
+                            fmap slowly (Part.elements (Part.contour job))
+                        }
+                  }
+           in case Result.output
+                ( FromPart.lay
+                    (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) braked')))
+                )
+                >>= Result.output . FromToolpath.quantise lkp01f of
                 Nothing -> counterexample "no frames" False
                 Just program ->
                   let frames = map Frame.frame (Frame.planned program)
                       (quick, slow) = span ((== FeedCode 9) . speed) frames
-                      wayOf f = let Mm d = Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f)) in d
+                      wayOf f =
+                        let Mm d =
+                              Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f))
+                         in d
                    in counterexample (show (map speed frames)) $
-                        not (null quick) && all ((== FeedCode 1) . speed) slow && abs (sum (map wayOf slow) - 1.6) <= 0.05
-    it "are runs as well where a contour is walked the other way (catches arcs that continue the wrong neighbour)" $
-      property $
+                        not (null quick)
+                          && all ((== FeedCode 1) . speed) slow
+                          && abs (sum (map wayOf slow) - 1.6) <= 0.05
+    it
+      "are runs as well where a contour is walked the other way (catches arcs that continue the \
+      \wrong neighbour)"
+      $ property $
         forAll ((,) <$> Curve.curveCase <*> choose (2, 9)) $ \(c, k) ->
           let job = Curve.jobAlong c
-              halves = let (a, b) = splitAt k (NonEmpty.toList (segments (contour c))) in NonEmpty.fromList (Curve.elements [a, b])
-              sensed sense = job {Part.side = (if Generate.outside c then Part.Outside else Part.Inside) <$ Part.side job, Part.sense = Just (Located (Region 0 0) sense), Part.contour = (Part.contour job) {Part.elements = halves}}
-              runsOf sense = case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (sensed sense))))) of
-                Just path -> [map NonEmpty.length (Toolpath.runs (NonEmpty.toList cut)) | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks path]
-                Nothing -> []
-           in (runsOf Part.Climb === map reverse (runsOf Part.Conventional)) .&&. map length (runsOf Part.Climb) === [2]
+              halves =
+                let (a, b) =
+                      splitAt k (NonEmpty.toList (segments (contour c)))
+                 in NonEmpty.fromList (Curve.elements [a, b])
+              sensed sense =
+                job
+                  { Part.side =
+                      (if Generate.outside c then Part.Outside else Part.Inside)
+                        <$ Part.side job,
+                    Part.sense = Just (Located (Region 0 0) sense),
+                    Part.contour = (Part.contour job) {Part.elements = halves}
+                  }
+              runsOf sense =
+                case Result.output
+                  ( FromPart.lay
+                      ( Generate.partOf
+                          (Generate.begin c)
+                          (Part.Mill (Located (Region 0 0) (sensed sense)))
+                      )
+                  ) of
+                  Just path ->
+                    [ map NonEmpty.length (Toolpath.runs (NonEmpty.toList cut))
+                      | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks path
+                    ]
+                  Nothing -> []
+           in (runsOf Part.Climb === map reverse (runsOf Part.Conventional))
+                .&&. map length (runsOf Part.Climb) === [2]
   where
     chain = oneof [Curve.open, Curve.closed]
     evenly y = Bounds {left = Mm y, right = Mm y, rise = Mm 0.01, shortest = Mm 0.001}
@@ -132,8 +241,8 @@ roughly whole = do
 beside :: Bounds -> Double
 beside Bounds {left = Mm l, right = Mm r} = abs (l - r) / 2
 
--- | Of each chord, the stretches of the chain that it stands for: segments with the fractions from which and to which.
--- Each end is looked for behind the one before.
+-- | Of each chord, the stretches of the chain that it stands for: segments with the fractions from
+-- which and to which. Each end is looked for behind the one before.
 stretches :: Bounds -> [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
 stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
   where
@@ -143,7 +252,8 @@ stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
     upTo q rest = case rest of
       [] -> ([], [])
       (s, t) : more
-        | u >= t - 1e-9 && u <= 1 && off <= beside b + 1e-7 && (u < 1 || off <= 1e-12) -> ([(s, t, u)], (s, u) : more)
+        | u >= t - 1e-9 && u <= 1 && off <= beside b + 1e-7 && (u < 1 || off <= 1e-12) ->
+          ([(s, t, u)], (s, u) : more)
         | otherwise -> let (passed, behind) = upTo q more in ((s, t, 1) : passed, behind)
         where
           u
@@ -155,43 +265,66 @@ stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
 
 -- | By how much some point of a chain is further from its chord than it may be, at most.
 worst :: Bounds -> [Segment] -> [Point] -> Double
-worst b ss ends = maximum (-1 : concat [offs p q s t u | (p, q, passed) <- stretches b ss ends, (s, t, u) <- passed])
+worst b ss ends =
+  maximum
+    (-1 : concat [offs p q s t u | (p, q, passed) <- stretches b ss ends, (s, t, u) <- passed])
   where
     offs p q s t u = [offBy b p q (Segment.at (t + (u - t) * k / 8) s) | k <- [0 .. 8]]
 
 -- | By how much a point is further from a chord than it may be.
 offBy :: Bounds -> Point -> Point -> Point -> Double
-offBy b@Bounds {left = Mm l, right = Mm r} p q x = maximum [aside - l, -aside - r, -ahead - beside b, ahead - Vec.norm (Vec.to p q) - beside b]
+offBy b@Bounds {left = Mm l, right = Mm r} p q x =
+  maximum [aside - l, -aside - r, -ahead - beside b, ahead - Vec.norm (Vec.to p q) - beside b]
   where
     along = Vec.unit (Vec.to p q)
     aside = Vec.cross along (Vec.to p x)
     ahead = Vec.dot along (Vec.to p x)
 
--- | By how much the height of a run differs from that of its chords at the ends of its moves, at most.
+-- | By how much the height of a run differs from that of its chords at the ends of its moves, at
+-- most.
 worstHeight :: Bounds -> [Move] -> [(Point, Double)] -> Double
-worstHeight b moves ends = maximum (0 : concat (zipWith3 differences (0 : map snd ends) (map snd ends) (stretches b (map segment moves) (map fst ends))))
+worstHeight b moves ends =
+  maximum
+    ( 0 :
+      concat
+        ( zipWith3
+            differences
+            (0 : map snd ends)
+            (map snd ends)
+            (stretches b (map segment moves) (map fst ends))
+        )
+    )
   where
     levels = [(segment m, z) | m <- moves, let (_, Mm z) = heights m]
     differences z z' (_, _, passed) =
       let ways = scanl1 (+) [l * (u - t) | (s, t, u) <- passed, let Mm l = Segment.length s]
-       in [abs (z + (z' - z) * w / last ways - h) | (w, (s, _, u)) <- zip ways passed, u >= 1, Just h <- [lookup s levels]]
+       in [ abs (z + (z' - z) * w / last ways - h)
+            | (w, (s, _, u)) <- zip ways passed,
+              u >= 1,
+              Just h <- [lookup s levels]
+          ]
 
--- | Places along a chain about equally far apart, with the direction there, not reduced to one turn.
+-- | Places along a chain about equally far apart, with the direction there, not reduced to one
+-- turn.
 grid :: Int -> [Segment] -> Vector (Point, Double)
-grid n ss = Vector.fromList (concat (zipWith places headings ss) <> [(Segment.end (last ss), last headings)])
+grid n ss =
+  Vector.fromList (concat (zipWith places headings ss) <> [(Segment.end (last ss), last headings)])
   where
     headings = scanl (+) 0 [turned s | s <- ss]
     whole = sum [l | s <- ss, let Mm l = Segment.length s]
     places h s =
       let Mm l = Segment.length s
           k = max 1 (round (fromIntegral n * l / whole)) :: Int
-       in [(Segment.at t s, h + t * turned s) | j <- [0 .. k - 1], let t = fromIntegral j / fromIntegral k]
+       in [ (Segment.at t s, h + t * turned s)
+            | j <- [0 .. k - 1],
+              let t = fromIntegral j / fromIntegral k
+          ]
     turned s = case s of
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> a
 
--- | The fewest chords between places of a grid, each of which keeps the places between within the bounds and does not
--- turn by more than a quarter turn.
+-- | The fewest chords between places of a grid, each of which keeps the places between within the
+-- bounds and does not turn by more than a quarter turn.
 fewestOn :: Bounds -> Vector (Point, Double) -> Int
 fewestOn b places = go 0 [0] [1 .. final]
   where
@@ -200,10 +333,15 @@ fewestOn b places = go 0 [0] [1 .. final]
     go :: Int -> [Int] -> [Int] -> Int
     go n reached others
       | null reached || final `elem` reached = n
-      | otherwise = let (next, further) = partition (\j -> any (`chord` j) reached) others in go (n + 1) next further
+      | otherwise =
+        let (next, further) =
+              partition (\j -> any (`chord` j) reached) others
+         in go (n + 1) next further
     chord i j =
       j > i
-        && Vector.all (\(x, _) -> offBy b (fst (places Vector.! i)) (fst (places Vector.! j)) x <= 1e-9) between
+        && Vector.all
+          (\(x, _) -> offBy b (fst (places Vector.! i)) (fst (places Vector.! j)) x <= 1e-9)
+          between
         && Vector.maximum turns - Vector.minimum turns <= pi / 2 + 1e-9
       where
         between = Vector.slice i (j - i + 1) places

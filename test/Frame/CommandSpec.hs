@@ -22,46 +22,113 @@ import Toolpath.Toolpath (Block (..), Toolpath (blocks))
 spec :: Spec
 spec = do
   describe "commands" $ do
-    it "stand in the frame of the next move, behind the last in one of their own (catches a command that is lost or late)" $
-      given kontur [c (Auxiliary 7), go, go, c (Auxiliary 8)] `shouldBe` [(True, [("aux", 7)]), (True, []), (False, [("aux", 8)])]
+    it
+      "stand in the frame of the next move, behind the last in one of their own (catches a command \
+      \that is lost or late)"
+      $ given kontur [c (Auxiliary 7), go, go, c (Auxiliary 8)]
+        `shouldBe` [(True, [("aux", 7)]), (True, []), (False, [("aux", 8)])]
     it "wait for a move that moves something (catches a command in a frame that is dropped)" $
       given kontur [c (Auxiliary 7), stay, go] `shouldBe` [(True, [("aux", 7)])]
     it "are in the order of the layout's words (catches the order of the program in a frame)" $
-      given kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (Just 500)), go] `shouldBe` [(True, [("spindle", 10), ("tool", 3), ("aux", 51)])]
-    it "that need a word twice take frames in the order of the program (catches a number that is overwritten)" $
-      given kontur [c (Auxiliary 7), c (CoolantTo SwitchOn), c (tool 3), c (Auxiliary 9), go] `shouldBe` [(False, [("aux", 7)]), (False, [("tool", 3), ("aux", 51)]), (True, [("aux", 9)])]
+      given kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (Just 500)), go]
+        `shouldBe` [(True, [("spindle", 10), ("tool", 3), ("aux", 51)])]
+    it
+      "that need a word twice take frames in the order of the program (catches a number that is \
+      \overwritten)"
+      $ given kontur [c (Auxiliary 7), c (CoolantTo SwitchOn), c (tool 3), c (Auxiliary 9), go]
+        `shouldBe` [ (False, [("aux", 7)]),
+                     (False, [("tool", 3), ("aux", 51)]),
+                     (True, [("aux", 9)])
+                   ]
     it "keep the words of one command together (catches a speed a frame before its spindle)" $
       given iso [c (tool 2), c (SpindleOn CounterClockwise (Just 999.6)), go]
-        `shouldBe` [(False, [("T", 2), ("M", 6)]), (True, [("S", 1000), ("M", 4)]), (False, [("M", 5)]), (False, [("M", 30)])]
+        `shouldBe` [ (False, [("T", 2), ("M", 6)]),
+                     (True, [("S", 1000), ("M", 4)]),
+                     (False, [("M", 5)]),
+                     (False, [("M", 30)])
+                   ]
     it "without the turns a minute leave out the word for them" $
-      given iso [c (SpindleOn Clockwise Nothing), go] `shouldBe` [(True, [("M", 3)]), (False, [("M", 5)]), (False, [("M", 30)])]
-    it "are never lost, never twice in a frame, and keep their order word by word (catches a group that is dropped)" $
-      property $
-        forAll (listOf (frequency [(3, Auxiliary <$> choose (1, 99)), (1, tool <$> choose (1, 9)), (1, elements [CoolantTo SwitchOn, CoolantTo SwitchOff])] >>= \x -> elements [[c x], [c x, go], [c x, stay]])) $ \parts ->
-          let steps = concat parts
-              frames = given kontur steps
-              said word = [n | (_, os) <- frames, (w, n) <- os, w == word]
-              asked :: Text -> [Int]
-              asked word = concat [numbers word x | Left x <- steps]
-              numbers word x = case x of
-                Auxiliary n | word == "aux" -> [n]
-                CoolantTo SwitchOn | word == "aux" -> [51]
-                CoolantTo SwitchOff | word == "aux" -> [57]
-                ChangeTool n _ | word == "tool" -> [n]
-                _ -> []
-           in counterexample (show frames) $ (said "aux", said "tool") === (asked "aux", asked "tool") .&&. length (filter fst frames) === length [() | Right d <- steps, d > 0]
+      given iso [c (SpindleOn Clockwise Nothing), go]
+        `shouldBe` [(True, [("M", 3)]), (False, [("M", 5)]), (False, [("M", 30)])]
+    it
+      "are never lost, never twice in a frame, and keep their order word by word (catches a group \
+      \that is dropped)"
+      $ property $
+        forAll
+          ( listOf
+              ( frequency
+                  [ (3, Auxiliary <$> choose (1, 99)),
+                    (1, tool <$> choose (1, 9)),
+                    (1, elements [CoolantTo SwitchOn, CoolantTo SwitchOff])
+                  ]
+                  >>= \x ->
+                    elements [[c x], [c x, go], [c x, stay]]
+              )
+          )
+          $ \parts ->
+            let steps = concat parts
+                frames = given kontur steps
+                said word = [n | (_, os) <- frames, (w, n) <- os, w == word]
+                asked :: Text -> [Int]
+                asked word = concat [numbers word x | Left x <- steps]
+                numbers word x = case x of
+                  Auxiliary n | word == "aux" -> [n]
+                  CoolantTo SwitchOn | word == "aux" -> [51]
+                  CoolantTo SwitchOff | word == "aux" -> [57]
+                  ChangeTool n _ | word == "tool" -> [n]
+                  _ -> []
+             in counterexample (show frames) $
+                  (said "aux", said "tool")
+                    === (asked "aux", asked "tool") .&&. length (filter fst frames)
+                    === length [() | Right d <- steps, d > 0]
   describe "spindle steps" $ do
     it "are the nearest, of two the lower" $
-      [given kontur [c (SpindleOn Clockwise (Just v)), go] | v <- [499, 1, 1e5]] `shouldBe` [[(True, [("spindle", n)])] | n <- [10, 1, 15]]
-    it "that are worse than a tenth are warned of (catches a spindle at another speed without a word)" $
-      [length [() | SpeedDiffers {} <- Result.warnings (told kontur [c (SpindleOn Clockwise (Just v)), go])] | v <- [500, 560, 460, 1e5]] `shouldBe` [0, 1, 0, 1]
+      [given kontur [c (SpindleOn Clockwise (Just v)), go] | v <- [499, 1, 1e5]]
+        `shouldBe` [[(True, [("spindle", n)])] | n <- [10, 1, 15]]
+    it
+      "that are worse than a tenth are warned of (catches a spindle at another speed without a \
+      \word)"
+      $ [ length
+            [ ()
+              | SpeedDiffers {} <-
+                  Result.warnings (told kontur [c (SpindleOn Clockwise (Just v)), go])
+            ]
+          | v <- [500, 560, 460, 1e5]
+        ]
+        `shouldBe` [0, 1, 0, 1]
   describe "what a machine cannot be told" $ do
     it "is for the man at it" $
-      [Result.warnings (told (Machines.named m) [c x, go]) | (m, x) <- [("lki-u", CoolantTo SwitchOn), ("n55", SpindleOn CounterClockwise (Just 100)), ("kontur-3p", SpindleOn Clockwise Nothing)]]
-        `shouldBe` [[ByHand (Region 0 0) CoolantCommand], [ByHand (Region 0 0) SpindleCommand], [SpeedUnsaid (Region 0 0)]]
-    it "is refused where a number does not fit, or an auxiliary command has no place (catches a number cut off to its digits)" $
-      [[(k, n, most) | NoSuchCommand _ k n most <- Result.errors (told (Machines.named m) [c x, go])] | (m, x) <- [("lki-u", Auxiliary 1), ("lkp-01f", Auxiliary 8), ("lkp-01f", Auxiliary 7), ("kontur-3p", tool 100), ("iso6983", SpindleOn Clockwise (Just 1e6))]]
-        `shouldBe` [[(AuxiliaryCommand, 1, 0)], [(AuxiliaryCommand, 8, 7)], [], [(ToolCommand, 100, 99)], [(SpindleCommand, 1000000, 99999)]]
+      [ Result.warnings (told (Machines.named m) [c x, go])
+        | (m, x) <-
+            [ ("lki-u", CoolantTo SwitchOn),
+              ("n55", SpindleOn CounterClockwise (Just 100)),
+              ("kontur-3p", SpindleOn Clockwise Nothing)
+            ]
+      ]
+        `shouldBe` [ [ByHand (Region 0 0) CoolantCommand],
+                     [ByHand (Region 0 0) SpindleCommand],
+                     [SpeedUnsaid (Region 0 0)]
+                   ]
+    it
+      "is refused where a number does not fit, or an auxiliary command has no place (catches a \
+      \number cut off to its digits)"
+      $ [ [ (k, n, most)
+            | NoSuchCommand _ k n most <- Result.errors (told (Machines.named m) [c x, go])
+          ]
+          | (m, x) <-
+              [ ("lki-u", Auxiliary 1),
+                ("lkp-01f", Auxiliary 8),
+                ("lkp-01f", Auxiliary 7),
+                ("kontur-3p", tool 100),
+                ("iso6983", SpindleOn Clockwise (Just 1e6))
+              ]
+        ]
+        `shouldBe` [ [(AuxiliaryCommand, 1, 0)],
+                     [(AuxiliaryCommand, 8, 7)],
+                     [],
+                     [(ToolCommand, 100, 99)],
+                     [(SpindleCommand, 1000000, 99999)]
+                   ]
   where
     c = Left
     go = Right (1 :: Double)
@@ -78,8 +145,18 @@ told m parts = Made.made m (base {blocks = walk 0 parts})
     walk x ps = case ps of
       [] -> []
       Left command : more -> Commanding (Located (Region 0 0) command) : walk x more
-      Right d : more -> blocks (Made.along (At (Located (Region 0 0) (Feed 60))) [Straight (Vec.point x 0) (Vec.point (x + d) 0)]) <> walk (x + d) more
+      Right d : more ->
+        blocks
+          ( Made.along
+              (At (Located (Region 0 0) (Feed 60)))
+              [Straight (Vec.point x 0) (Vec.point (x + d) 0)]
+          )
+          <> walk (x + d) more
 
 -- | Whether each frame moves, and what it commands.
 given :: Machine -> [Either Command Double] -> [(Bool, [(Text, Int)])]
-given m parts = [(Frame.isMoving f, [(w, n) | (CommandName w, n) <- orders f]) | Just p <- [Result.settled (told m parts)], f <- map frame (Frame.planned p)]
+given m parts =
+  [ (Frame.isMoving f, [(w, n) | (CommandName w, n) <- orders f])
+    | Just p <- [Result.settled (told m parts)],
+      f <- map frame (Frame.planned p)
+  ]

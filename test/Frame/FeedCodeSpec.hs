@@ -26,41 +26,122 @@ import Toolpath.Toolpath (Block (..), Toolpath (blocks))
 spec :: Spec
 spec = do
   describe "a machine whose feeds are steps of the leading axis" $ do
-    it "begins the shaft of its book as printed (catches feeds along the path, and commands behind the move)" $
-      fmap (map brief . Frame.planned) (Made.program kontur shaft)
+    it
+      "begins the shaft of its book as printed (catches feeds along the path, and commands behind \
+      \the move)"
+      $ fmap (map brief . Frame.planned) (Made.program kontur shaft)
         `shouldBe` Just [((0, -6000), 27, [("spindle", 10)]), ((-4200, 0), 32, [])]
-    it "gets within a step of the feed asked, whatever the direction (catches the length and the leading axis exchanged)" $
-      property $
+    it
+      "gets within a step of the feed asked, whatever the direction (catches the length and the \
+      \leading axis exchanged)"
+      $ property $
         forAll ((,,) <$> choose (-80, 80) <*> choose (-80, 80) <*> choose (9, 500)) $ \(x, y, v) ->
-          abs x + abs y > 1 ==> case Made.program kontur (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point x y)]) of
-            Nothing -> counterexample "no frames" False
-            Just p -> conjoin [counterexample (show (f, g)) (g > v / 1.45 && g < v * 1.45) | f <- framesOf p, let g = obtained f]
-    it "changes its codes along an arc, and warns once, with all that it gets (catches a warning for each chord)" $ do
-      let made = Made.made kontur (Made.pathOf "part p\ntool mill(diameter 6 mm)\nfeed 53.6 mm/min\ntolerance 0.02 mm\nfrom (33, 0)\ncontour round closed { ccw circle((0, 0), 30) }\nmill round outside { }\n")
-          codesOf p = [c | f <- framesOf p, let FeedCode c = speed f]
-      length (foldr (\c cs -> if c `elem` cs then cs else c : cs) [] (maybe [] codesOf (Result.output made))) `shouldSatisfy` (> 1)
-      [(v, low < 0.9 * v, v < high) | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made] `shouldBe` [(53.6, True, True)]
-    it "refuses a feed that its steps do not reach, with both ranges (catches the nearest step for any feed)" $
-      [(needed, low, slow) | FrequencyMissing _ _ needed (low, Feed slow) _ <- Result.errors (Made.made kontur (Made.along (At (here 5)) [Straight (Vec.point 0 0) (Vec.point 10 0)]))] `shouldBe` [(5 / 60 / 0.01, 10, 6)]
+          abs x + abs y
+            > 1
+              ==> case Made.program
+                kontur
+                (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point x y)]) of
+                Nothing -> counterexample "no frames" False
+                Just p ->
+                  conjoin
+                    [ counterexample (show (f, g)) (g > v / 1.45 && g < v * 1.45)
+                      | f <- framesOf p,
+                        let g = obtained f
+                    ]
+    it
+      "changes its codes along an arc, and warns once, with all that it gets (catches a warning \
+      \for each chord)"
+      $ do
+        let made =
+              Made.made
+                kontur
+                ( Made.pathOf
+                    "part p\ntool mill(diameter 6 mm)\nfeed 53.6 mm/min\ntolerance 0.02 mm\nfrom \
+                    \(33, 0)\ncontour round closed { ccw circle((0, 0), 30) }\nmill round \
+                    \outside { }\n"
+                )
+            codesOf p = [c | f <- framesOf p, let FeedCode c = speed f]
+        length
+          ( foldr
+              (\c cs -> if c `elem` cs then cs else c : cs)
+              []
+              (maybe [] codesOf (Result.output made))
+          )
+          `shouldSatisfy` (> 1)
+        [(v, low < 0.9 * v, v < high) | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made]
+          `shouldBe` [(53.6, True, True)]
+    it
+      "refuses a feed that its steps do not reach, with both ranges (catches the nearest step for \
+      \any feed)"
+      $ [ (needed, low, slow)
+          | FrequencyMissing _ _ needed (low, Feed slow) _ <-
+              Result.errors
+                ( Made.made
+                    kontur
+                    (Made.along (At (here 5)) [Straight (Vec.point 0 0) (Vec.point 10 0)])
+                )
+        ]
+        `shouldBe` [(5 / 60 / 0.01, 10, 6)]
   describe "a machine whose feeds are those along the path" $ do
     it "gives what its code says (catches a frame's own length in it)" $
       property $
-        forAll (elements (map Machines.named ["lkp-01f", "lki-u", "n55"])) $ \m -> forAll (choose (20, 200)) $ \v -> case Made.program m (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point 300 50)]) of
-          Nothing -> counterexample "no frames" False
-          Just p -> conjoin [FeedCode.given m f (FeedCode.wayOf m f) === fmap Feed (Machine.valueOf m (speed f)) | f <- take 1 (framesOf p)]
+        forAll (elements (map Machines.named ["lkp-01f", "lki-u", "n55"])) $ \m ->
+          forAll (choose (20, 200)) $ \v ->
+            case Made.program
+              m
+              (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point 300 50)]) of
+              Nothing -> counterexample "no frames" False
+              Just p ->
+                conjoin
+                  [ FeedCode.given m f (FeedCode.wayOf m f)
+                      === fmap Feed (Machine.valueOf m (speed f))
+                    | f <- take 1 (framesOf p)
+                  ]
     it "refuses a feed outside its codes, once" $
-      [(v, low, high) | FeedMissing _ (Feed v) (Feed low) (Feed high) <- Result.errors (Made.made (Machines.named "lkp-01f") (Made.along (At (here 300)) (replicate 3 (Straight (Vec.point 0 0) (Vec.point 1 0)))))] `shouldBe` [(300, 15, 240)]
+      [ (v, low, high)
+        | FeedMissing _ (Feed v) (Feed low) (Feed high) <-
+            Result.errors
+              ( Made.made
+                  (Machines.named "lkp-01f")
+                  ( Made.along
+                      (At (here 300))
+                      (replicate 3 (Straight (Vec.point 0 0) (Vec.point 1 0)))
+                  )
+              )
+      ]
+        `shouldBe` [(300, 15, 240)]
   describe "rapid moves" $
     it "are a motion of their own where there is one, else at the code for them" $
-      [fmap (map (\f -> (motion f, speed f)) . filter Frame.isMoving . framesOf) (Made.program (Machines.named m) (Made.along Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])) | m <- ["n55", "kontur-3p", "lkp-01f"]]
-        `shouldBe` map (Just . pure) [(Frame.Rapid, FeedCode 0), (Frame.Straightway, FeedCode 27), (Frame.Straightway, FeedCode 9)]
+      [ fmap
+          (map (\f -> (motion f, speed f)) . filter Frame.isMoving . framesOf)
+          ( Made.program
+              (Machines.named m)
+              (Made.along Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])
+          )
+        | m <- ["n55", "kontur-3p", "lkp-01f"]
+      ]
+        `shouldBe` map
+          (Just . pure)
+          [ (Frame.Rapid, FeedCode 0),
+            (Frame.Straightway, FeedCode 27),
+            (Frame.Straightway, FeedCode 9)
+          ]
   where
-    -- In mm/min: so often a second a pulse of 0.01 mm of the axis that goes further, and more along the way.
+    -- In mm/min: so often a second a pulse of 0.01 mm of the axis that goes further, and more along
+    -- the way.
     obtained f =
       let Pulses3 (Pulses x) (Pulses y) _ = increment f
           (dx, dy) = (fromIntegral (abs x), fromIntegral (abs y)) :: (Double, Double)
-       in 60 * fromMaybe 0 (Machine.valueOf kontur (speed f)) * 0.01 * sqrt (dx * dx + dy * dy) / max dx dy
-    brief p = let f = frame p; Pulses3 (Pulses x) (Pulses y) _ = increment f; FeedCode c = speed f in ((x, y), c, [(n, k) | (CommandName n, k) <- orders f]) :: ((Int, Int), Int, [(Text, Int)])
+       in 60
+            * fromMaybe 0 (Machine.valueOf kontur (speed f))
+            * 0.01
+            * sqrt (dx * dx + dy * dy) / max dx dy
+    brief p =
+      let f =
+            frame p
+          Pulses3 (Pulses x) (Pulses y) _ = increment f
+          FeedCode c = speed f
+       in ((x, y), c, [(n, k) | (CommandName n, k) <- orders f]) :: ((Int, Int), Int, [(Text, Int)])
 
 framesOf :: Frame.FrameProgram -> [Frame]
 framesOf = map frame . Frame.planned
@@ -73,6 +154,12 @@ kontur = Machine.forTurning (Machines.named "kontur-3p")
 
 -- | The first moves of the shaft.
 shaft :: Toolpath
-shaft = toward {blocks = Commanding (Located (Region 0 0) (Part.SpindleOn Part.Clockwise (Just 500))) : blocks toward <> blocks (Made.along (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])}
+shaft =
+  toward
+    { blocks =
+        Commanding (Located (Region 0 0) (Part.SpindleOn Part.Clockwise (Just 500))) :
+        blocks toward
+          <> blocks (Made.along (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])
+    }
   where
     toward = Made.along Rapid [Straight (Vec.point 2 110) (Vec.point 2 50)]

@@ -33,101 +33,247 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = do
   describe "chords" $ do
-    it "stay within the sagitta of their arc, both ways (catches the radius of the part in the step's formula)" $
-      property $
+    it
+      "stay within the sagitta of their arc, both ways (catches the radius of the part in the \
+      \step's formula)"
+      $ property $
         forAll ((,) <$> arc <*> sagitta) $ \(a, y) ->
           let chords = chordsOf y a
-              furthest c = maximum [d | k <- [0 .. 20 :: Int], let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 20) c) a]
+              furthest c =
+                maximum
+                  [ d
+                    | k <- [0 .. 20 :: Int],
+                      let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 20) c) a
+                  ]
               missed = Distance.uncovered (Mm (y + 1e-9)) chords a
-           in counterexample (show (map furthest chords)) (all ((<= y + 1e-9) . furthest) chords && null missed)
-    it "are as few as the sagitta allows, within a quarter turn each and no shorter than a pulse (catches a wasteful step)" $
-      property $
+           in counterexample
+                (show (map furthest chords))
+                (all ((<= y + 1e-9) . furthest) chords && null missed)
+    it
+      "are as few as the sagitta allows, within a quarter turn each and no shorter than a pulse \
+      \(catches a wasteful step)"
+      $ property $
         forAll ((,) <$> arc <*> sagitta) $ \(a, y) ->
           let n = FromToolpath.chordCount lkp01f (Mm y) a
               Mm r = Segment.radius (centre a) (start a)
               Rad s = sweep a
               sag k = r * (1 - cos (abs s / fromIntegral k / 2))
-           in n > 1 ==> counterexample (show n) (sag (n - 1) > y - 1e-9 || abs s / fromIntegral (n - 1) > pi / 2 - 1e-9)
-    it "in a band stay within it, and end where the arc ends (catches the edges of the band exchanged)" $
-      property $
-        forAll ((,,) <$> arc <*> sagitta <*> sagitta) $ \(a, toward, away) -> forAll (elements [(toward, away), (0, away), (toward, 0)]) $ \(i, o) ->
-          let ends = FromToolpath.bandChords lkp01f (Mm i) (Mm o) a
-              Mm r = Segment.radius (centre a) (start a)
-              radii = [d | (p, q) <- zip (start a : ends) ends, k <- [0 .. 40 :: Int], let Mm d = Vec.distance (centre a) (Vec.between (fromIntegral k / 40) p q)]
-           in -- A step of a pulse is taken also where it leaves the band.
-              (r + o) * cos (asin (min 1 (0.02 / (2 * r)))) >= r - i ==> counterexample (show (r, minimum radii, maximum radii)) (minimum radii >= r - i - 1e-9 && maximum radii <= r + o + 1e-9 && last ends == end a)
+           in n
+                > 1
+                  ==> counterexample
+                    (show n)
+                    (sag (n - 1) > y - 1e-9 || abs s / fromIntegral (n - 1) > pi / 2 - 1e-9)
+    it
+      "in a band stay within it, and end where the arc ends (catches the edges of the band \
+      \exchanged)"
+      $ property $
+        forAll ((,,) <$> arc <*> sagitta <*> sagitta) $ \(a, toward, away) ->
+          forAll (elements [(toward, away), (0, away), (toward, 0)]) $ \(i, o) ->
+            let ends = FromToolpath.bandChords lkp01f (Mm i) (Mm o) a
+                Mm r = Segment.radius (centre a) (start a)
+                radii =
+                  [ d
+                    | (p, q) <- zip (start a : ends) ends,
+                      k <- [0 .. 40 :: Int],
+                      let Mm d = Vec.distance (centre a) (Vec.between (fromIntegral k / 40) p q)
+                  ]
+             in -- A step of a pulse is taken also where it leaves the band.
+                (r + o) * cos (asin (min 1 (0.02 / (2 * r))))
+                  >= r
+                    - i
+                      ==> counterexample
+                        (show (r, minimum radii, maximum radii))
+                        ( minimum radii >= r - i - 1e-9
+                            && maximum radii <= r + o + 1e-9
+                            && last ends == end a
+                        )
     it "in a band are fewer than on the arc alone (catches corners that stay on the arc)" $
       property $
         forAll ((,) <$> arc <*> choose (0.02, 0.1)) $ \(a, y) ->
           let n = FromToolpath.chordCount lkp01f (Mm y) a
-           in n >= 8 && y < 0.05 * (let Mm r = Segment.radius (centre a) (start a) in r) ==> length (FromToolpath.bandChords lkp01f (Mm y) (Mm y) a) < n
+           in n >= 8
+                && y
+                  < 0.05
+                    * (let Mm r = Segment.radius (centre a) (start a) in r)
+                      ==> length (FromToolpath.bandChords lkp01f (Mm y) (Mm y) a)
+                  < n
     it "of arc 1–2 of the Ural paper are nine" $
-      FromToolpath.chordCount lkp01f (Mm 0.02) (Segment.Arc (Vec.point 18 0) (Vec.point (18 * cos 0.7982) (18 * sin 0.7982)) (Vec.point 0 0) (Rad 0.7982)) `shouldBe` 9
-    it "are no shorter for a tolerance of nothing than rounding asks (catches chords of a pulse)" $ do
-      let round' = Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
-          quarter = fmap (length . Frame.planned) (Made.program lkp01f (Made.along (Part.At (Located (Region 0 0) (Feed 60))) [round']))
-      quarter `shouldSatisfy` maybe False (< 60)
+      FromToolpath.chordCount
+        lkp01f
+        (Mm 0.02)
+        ( Segment.Arc
+            (Vec.point 18 0)
+            (Vec.point (18 * cos 0.7982) (18 * sin 0.7982))
+            (Vec.point 0 0)
+            (Rad 0.7982)
+        )
+        `shouldBe` 9
+    it "are no shorter for a tolerance of nothing than rounding asks (catches chords of a pulse)" $
+      do
+        let round' = Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
+            quarter =
+              fmap
+                (length . Frame.planned)
+                ( Made.program
+                    lkp01f
+                    (Made.along (Part.At (Located (Region 0 0) (Feed 60))) [round'])
+                )
+        quarter `shouldSatisfy` maybe False (< 60)
   describe "tapes" $
     it "are proven whatever the tolerance (catches what comes to the tolerance and a pulse)" $
       property $
-        forAllBlind machine $ \m -> forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c -> forAll accuracy $ \a ->
-          case Result.output (FromPart.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = a})))) of
-            Nothing -> counterexample "no path" False
-            Just path -> case Made.program m path of
-              -- A tolerance may be larger than the cutter.
-              Nothing -> label "none" True
-              Just p -> Proof.findings (Verify.prove m path p (map frame (Frame.planned p))) === []
+        forAllBlind machine $ \m ->
+          forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c -> forAll accuracy $ \a ->
+            case Result.output
+              ( FromPart.lay
+                  ( Generate.partOf
+                      (Generate.begin c)
+                      (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = a}))
+                  )
+              ) of
+              Nothing -> counterexample "no path" False
+              Just path -> case Made.program m path of
+                -- A tolerance may be larger than the cutter.
+                Nothing -> label "none" True
+                Just p ->
+                  Proof.findings (Verify.prove m path p (map frame (Frame.planned p))) === []
   describe "increments" $ do
     it "of a closed contour add to zero (catches rounded increments instead of rounded positions)" $
       property $
-        forAllBlind machine $ \m -> forAll Generate.closedCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \_ program ->
-          sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0] === 0
+        forAllBlind machine $ \m ->
+          forAll Generate.closedCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \_ program ->
+            sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
+              === 0
     it "lead to within half a pulse of every node (catches rounding that adds up)" $
       property $
-        forAllBlind machine $ \m -> forAll Generate.openCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \path program ->
-          let positions = map (Frame.position m) (scanl (+) (Frame.start program) (map (increment . frame) (Frame.planned program)))
-              Mm grain = Machine.pulse m
-              off n = minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
-           in conjoin [counterexample (show (n, off n)) (off n <= grain / 2 + 1e-9) | n <- Made.nodesOf path]
+        forAllBlind machine $ \m ->
+          forAll Generate.openCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \path program ->
+            let positions =
+                  map
+                    (Frame.position m)
+                    ( scanl
+                        (+)
+                        (Frame.start program)
+                        (map (increment . frame) (Frame.planned program))
+                    )
+                Mm grain = Machine.pulse m
+                off n =
+                  minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
+             in conjoin
+                  [ counterexample (show (n, off n)) (off n <= grain / 2 + 1e-9)
+                    | n <- Made.nodesOf path
+                  ]
     it "keep the machine's invariants (catches a move that does not fit its field)" $
       property $
         forAll (choose (-3e4, 3e4)) $ \x -> forAll (choose (-3e4, 3e4)) $ \y ->
           let frames = longMove x y
-           in Frame.invariants lkp01f frames === [] .&&. counterexample (show (length frames)) (length frames <= 1 + ceiling (max (abs x) (abs y) / 199.98 :: Double))
+           in Frame.invariants lkp01f frames
+                === []
+                  .&&. counterexample
+                    (show (length frames))
+                    (length frames <= 1 + ceiling (max (abs x) (abs y) / 199.98 :: Double))
   describe "frames" $ do
-    it "keep the machine's invariants on every machine (catches a frame that its machine cannot be told)" $
-      property $
-        forAllBlind machine $ \m -> forAll anyCase $ \c -> forAllBlind Generate.settings $ \set -> case Result.output (FromPart.lay (Generate.partOf (Vec.point (-200) 0) (Part.Mill (Located (Region 0 0) (set (Generate.job c)))))) of
-          Nothing -> property Discard
-          Just path -> with m (Just path) $ \_ program -> Frame.invariants m (map frame (Frame.planned program)) === []
-    it "stay within the tolerance and a pulse of the path, and pass all of it (catches a chord on the wrong side, a lost piece)" $
-      property $
-        forAllBlind machine $ \m -> forAll anyCase $ \c -> forAll (elements [y | let Mm grain = Machine.pulse m, y <- [0.005, 0.02, 0.1], y + grain < Generate.radiusOf c]) $ \y -> with m (Generate.milled (Mm y) c) $ \path program ->
-          let exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
-              walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
-              Mm grain = Machine.pulse m
-           in counterexample (show (Made.worstOff exact walk, Made.worstOff walk exact)) $
-                Made.worstOff exact walk <= y + grain .&&. Made.worstOff walk exact <= y + grain
+    it
+      "keep the machine's invariants on every machine (catches a frame that its machine cannot be \
+      \told)"
+      $ property $
+        forAllBlind machine $ \m ->
+          forAll anyCase $ \c ->
+            forAllBlind Generate.settings $ \set ->
+              case Result.output
+                ( FromPart.lay
+                    ( Generate.partOf
+                        (Vec.point (-200) 0)
+                        (Part.Mill (Located (Region 0 0) (set (Generate.job c))))
+                    )
+                ) of
+                Nothing -> property Discard
+                Just path ->
+                  with m (Just path) $ \_ program ->
+                    Frame.invariants m (map frame (Frame.planned program)) === []
+    it
+      "stay within the tolerance and a pulse of the path, and pass all of it (catches a chord on \
+      \the wrong side, a lost piece)"
+      $ property $
+        forAllBlind machine $ \m ->
+          forAll anyCase $ \c ->
+            forAll
+              ( elements
+                  [ y
+                    | let Mm grain = Machine.pulse m,
+                      y <- [0.005, 0.02, 0.1],
+                      y + grain < Generate.radiusOf c
+                  ]
+              )
+              $ \y ->
+                with m (Generate.milled (Mm y) c) $ \path program ->
+                  let exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
+                      walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
+                      Mm grain = Machine.pulse m
+                   in counterexample (show (Made.worstOff exact walk, Made.worstOff walk exact)) $
+                        Made.worstOff exact walk
+                          <= y + grain .&&. Made.worstOff walk exact
+                          <= y + grain
     it "of a machine without an axis are refused there (catches a division by its digits)" $
-      [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]] `shouldBe` [["E0507"], []]
+      [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]]
+        `shouldBe` [["E0507"], []]
     it "beyond the field of a position are refused (catches a position cut off to its digits)" $
       errorsOn short (Generate.straightPath 150 0) `shouldBe` ["E0508"]
     it "of more contours than there may be are refused (catches a limit that nobody reads)" $
       [errorsOn (Machines.named "lki-u") (contoursOf n) | n <- [30, 31]] `shouldBe` [[], ["E0506"]]
   where
     anyCase = oneof [Generate.openCase, Generate.closedCase, Generate.smoothCase]
-    short = let m = Machines.named "iso6983" in m {Machine.layout = (Machine.layout m) {Machine.items = fmap fiveDigits (Machine.items (Machine.layout m))}}
+    short =
+      let m =
+            Machines.named "iso6983"
+       in m
+            { Machine.layout =
+                (Machine.layout m)
+                  { Machine.items =
+                      fmap fiveDigits (Machine.items (Machine.layout m))
+                  }
+            }
     fiveDigits i = case i of
-      Machine.AWord w | Machine.Along _ <- Machine.content w -> Machine.AWord w {Machine.form = (Machine.form w) {Machine.digits = 5}}
+      Machine.AWord w
+        | Machine.Along _ <- Machine.content w ->
+          Machine.AWord w {Machine.form = (Machine.form w) {Machine.digits = 5}}
       _ -> i
-    upAndDown = let down = Toolpath.Move (Straight (Vec.point 0 0) (Vec.point 0 0)) (Toolpath.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (Feed 60))) False) (Region 0 0) False in Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [Toolpath.Travelling (Mm 0) [down]] False
+    upAndDown =
+      let down =
+            Toolpath.Move
+              (Straight (Vec.point 0 0) (Vec.point 0 0))
+              (Toolpath.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (Feed 60))) False)
+              (Region 0 0)
+              False
+       in Toolpath.Toolpath
+            (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
+            [Toolpath.Travelling (Mm 0) [down]]
+            False
 
 -- | The path around so many squares.
 contoursOf :: Int -> Toolpath
-contoursOf n = Made.pathOf (Text.unlines (["part p", "tool mill(diameter 4 mm)", "feed 60 mm/min", "tolerance 0.02 mm", "from (-10, 0)"] <> concat [["contour c" <> k <> " open { (" <> k <> ", 0) (" <> k <> ", 9) }", "mill c" <> k <> " left { }"] | i <- [1 .. n], let k = Text.pack (show (20 * i))]))
+contoursOf n =
+  Made.pathOf
+    ( Text.unlines
+        ( [ "part p",
+            "tool mill(diameter 4 mm)",
+            "feed 60 mm/min",
+            "tolerance 0.02 mm",
+            "from (-10, 0)"
+          ]
+            <> concat
+              [ [ "contour c" <> k <> " open { (" <> k <> ", 0) (" <> k <> ", 9) }",
+                  "mill c" <> k <> " left { }"
+                ]
+                | i <- [1 .. n],
+                  let k = Text.pack (show (20 * i))
+              ]
+        )
+    )
 
 errorsOn :: Machine -> Toolpath -> [Text]
-errorsOn m path = [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.made m path))]
+errorsOn m path =
+  [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.made m path))]
 
 machine :: Gen Machine
 machine = elements Machines.known
@@ -144,7 +290,8 @@ lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
 
 chordsOf :: Double -> Segment -> [Segment]
-chordsOf y a = let ends = start a : FromToolpath.chords lkp01f (Mm y) a in zipWith Straight ends (drop 1 ends)
+chordsOf y a =
+  let ends = start a : FromToolpath.chords lkp01f (Mm y) a in zipWith Straight ends (drop 1 ends)
 
 -- | Arcs from a hundredth of a millimetre to ten metres.
 arc :: Gen Segment
@@ -157,10 +304,18 @@ arc = do
   pure (Arc (at a) (at (a + sign * s)) (Vec.point 0 0) (Rad (sign * s)))
 
 accuracy :: Gen Part.Accuracy
-accuracy = elements ([Part.OnPath (Mm y) | y <- [0, 0.001, 0.005, 0.02, 0.1]] <> [Part.Band (Mm 0) (Mm 0.05), Part.Band (Mm 0.05) (Mm 0)])
+accuracy =
+  elements
+    ( [Part.OnPath (Mm y) | y <- [0, 0.001, 0.005, 0.02, 0.1]]
+        <> [Part.Band (Mm 0) (Mm 0.05), Part.Band (Mm 0.05) (Mm 0)]
+    )
 
 sagitta :: Gen Double
 sagitta = elements [0.005, 0.02, 0.1, 1]
 
 longMove :: Double -> Double -> [Frame]
-longMove x y = maybe [] (map frame . Frame.planned) (Result.output (FromToolpath.quantise lkp01f (Generate.straightPath x y)))
+longMove x y =
+  maybe
+    []
+    (map frame . Frame.planned)
+    (Result.output (FromToolpath.quantise lkp01f (Generate.straightPath x y)))

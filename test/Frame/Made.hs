@@ -52,7 +52,14 @@ pathOf text = need "path" (Toolpath.lay part)
 along :: Pace -> [Segment] -> Toolpath
 along pace segments = case segments of
   [] -> error "a path of nothing"
-  s : _ -> Toolpath (Located nowhere (SpacePoint (Segment.start s) (Mm 0))) [Travelling (Mm 0) [Move x (Toolpath.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]] False
+  s : _ ->
+    Toolpath
+      (Located nowhere (SpacePoint (Segment.start s) (Mm 0)))
+      [ Travelling
+          (Mm 0)
+          [Move x (Toolpath.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]
+      ]
+      False
   where
     nowhere = Region 0 0
 
@@ -64,7 +71,8 @@ program machine = Result.settled . made machine
 
 -- | What each frame does in the plane.
 walked :: Machine -> FrameProgram -> [Segment]
-walked machine p = zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
+walked machine p =
+  zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
   where
     frames = map frame (planned p)
 
@@ -78,10 +86,22 @@ arcsIn = length . filter (roundly . frame) . planned
 
 -- | How far the points of some segments are from others: in 24ths, or fewer where there are many.
 worstOff :: [Segment] -> [Segment] -> Double
-worstOff those these = maximum (0 : [minimum [d | s <- those, let Mm d = Distance.toPoint p s] | t <- these, k <- [0 .. parts], let p = Segment.at (fromIntegral k / fromIntegral parts) t])
+worstOff those these =
+  maximum
+    ( 0 :
+        [ minimum [d | s <- those, let Mm d = Distance.toPoint p s]
+          | t <- these,
+            k <- [0 .. parts],
+            let p = Segment.at (fromIntegral k / fromIntegral parts) t
+        ]
+    )
   where
     parts = max 2 (min 24 (1000 `div` max 1 (length these))) :: Int
 
 -- | The ends of the moves along contours.
 nodesOf :: Toolpath -> [Point]
-nodesOf path = [Segment.end (Toolpath.segment m) | Cutting {cut} <- Toolpath.blocks path, m <- NonEmpty.toList cut]
+nodesOf path =
+  [ Segment.end (Toolpath.segment m)
+    | Cutting {cut} <- Toolpath.blocks path,
+      m <- NonEmpty.toList cut
+  ]

@@ -1,5 +1,6 @@
--- | Frames with arcs, made in the plainest way, and how far off they are by sampling: for the proof, independently of
--- the frames that the compiler makes and of the distances that the proof measures with.
+-- | Frames with arcs, made in the plainest way, and how far off they are by sampling: for the
+-- proof, independently of the frames that the compiler makes and of the distances that the proof
+-- measures with.
 module Generate.Arcs
   ( quantise,
     Off (..),
@@ -14,7 +15,13 @@ import Base.Region (Located (..))
 import Data.List (minimumBy)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
-import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (FrameProgram), Planned (Planned, origin, tool), Role (..))
+import Frame.Frame
+  ( Frame (..),
+    FrameMotion (..),
+    FrameProgram (FrameProgram),
+    Planned (Planned, origin, tool),
+    Role (..),
+  )
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (Arc, Straight))
@@ -29,10 +36,11 @@ import Test.QuickCheck
 import Toolpath.Toolpath (Move, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The frames of a path on a machine with arcs. Nothing slows down, nothing is commanded, and the machine has room for
--- every number.
+-- | The frames of a path on a machine with arcs. Nothing slows down, nothing is commanded, and the
+-- machine has room for every number.
 quantise :: Machine -> Toolpath -> FrameProgram
-quantise machine path = FrameProgram begin (go begin (concat (zipWith block [0 ..] (Toolpath.blocks path))))
+quantise machine path =
+  FrameProgram begin (go begin (concat (zipWith block [0 ..] (Toolpath.blocks path))))
   where
     Located _ (SpacePoint p z) = Toolpath.start path
     begin = rounded machine (p, z)
@@ -40,16 +48,33 @@ quantise machine path = FrameProgram begin (go begin (concat (zipWith block [0 .
       Toolpath.Travelling r ms -> map (Travelling,r,) ms
       Toolpath.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
       Toolpath.Commanding _ -> []
-      Toolpath.Clearing {Toolpath.pocket = Located _ pocket, Toolpath.approach, Toolpath.cleared, Toolpath.retract} ->
-        let r = Part.radius (Part.wall pocket)
-         in map (Approaching n,r,) approach <> map (Cutting n,r,) (NonEmpty.toList cleared) <> map (Retracting n,r,) retract
-      Toolpath.Cutting {Toolpath.job = Located _ m, Toolpath.approach, Toolpath.cut, Toolpath.retract} ->
-        map (Approaching n,Part.radius m,) approach <> map (Cutting n,Part.radius m,) (NonEmpty.toList cut) <> map (Retracting n,Part.radius m,) retract
+      Toolpath.Clearing
+        { Toolpath.pocket = Located _ pocket,
+          Toolpath.approach,
+          Toolpath.cleared,
+          Toolpath.retract
+        } ->
+          let r = Part.radius (Part.wall pocket)
+           in map (Approaching n,r,) approach
+                <> map (Cutting n,r,) (NonEmpty.toList cleared)
+                <> map (Retracting n,r,) retract
+      Toolpath.Cutting
+        { Toolpath.job = Located _ m,
+          Toolpath.approach,
+          Toolpath.cut,
+          Toolpath.retract
+        } ->
+          map (Approaching n,Part.radius m,) approach
+            <> map (Cutting n,Part.radius m,) (NonEmpty.toList cut)
+            <> map (Retracting n,Part.radius m,) retract
     go at moves = case moves of
       [] -> []
       (role, tool, m) : rest ->
         let fs = framesOf machine at m
-         in [Planned {Frame.frame = f, Frame.role = role, origin = Toolpath.origin m, tool} | f <- fs] <> go (at + sum (map increment fs)) rest
+         in [ Planned {Frame.frame = f, Frame.role = role, origin = Toolpath.origin m, tool}
+              | f <- fs
+            ]
+              <> go (at + sum (map increment fs)) rest
 
 rounded :: Machine -> (Point, Mm) -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
@@ -62,7 +87,10 @@ framesOf machine at m = case Toolpath.segment m of
   s@Arc {} -> snd (foldl next (at, []) (inQuadrants s))
   Straight _ q -> straight speed' at (rounded machine (q, snd (Toolpath.heights m)))
   where
-    next (p, done) part = let fs = arcFrames machine speed' (fst (Toolpath.heights m)) p part in (p + sum (map increment fs), done <> fs)
+    next (p, done) part =
+      let fs =
+            arcFrames machine speed' (fst (Toolpath.heights m)) p part
+       in (p + sum (map increment fs), done <> fs)
     speed' = case Toolpath.pace m of
       Part.Rapid -> Machine.rapidCode machine
       Part.At (Located _ (Feed v)) -> case Machine.choose machine v of
@@ -73,7 +101,17 @@ framesOf machine at m = case Toolpath.segment m of
       _ -> [s]
 
 straight :: FeedCode -> Pulses3 -> Pulses3 -> [Frame]
-straight code from to = [Frame {motion = Straightway, increment = to - from, centre = 0, speed = code, braking = False, orders = []} | to /= from]
+straight code from to =
+  [ Frame
+      { motion = Straightway,
+        increment = to - from,
+        centre = 0,
+        speed = code,
+        braking = False,
+        orders = []
+      }
+    | to /= from
+  ]
 
 -- | An arc cut where it crosses the axes through its centre.
 quarters :: Segment -> [Segment]
@@ -81,36 +119,77 @@ quarters s = case s of
   Straight _ _ -> [s]
   Arc begins _ middle (Rad turned) ->
     let Rad begin = Vec.angle (Vec.to middle begins)
-        cuts = [t | k <- [-8 .. 8 :: Int], let t = (fromIntegral k * pi / 2 - begin) / turned, t > 1e-6, t < 1 - 1e-6]
+        cuts =
+          [ t
+            | k <- [-8 .. 8 :: Int],
+              let t = (fromIntegral k * pi / 2 - begin) / turned,
+              t > 1e-6,
+              t < 1 - 1e-6
+          ]
         marks = 0 : (if turned > 0 then cuts else reverse cuts) <> [1]
      in [piece a b | (a, b) <- zip marks (drop 1 marks)]
   where
-    piece a b = let upTo = if b < 1 then fst (Segment.cutAt b s) else s in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
+    piece a b =
+      let upTo =
+            if b < 1 then fst (Segment.cutAt b s) else s
+       in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
--- | The frames of an arc: one, if a centre of whole pulses keeps it within a pulse; else those of its halves.
+-- | The frames of an arc: one, if a centre of whole pulses keeps it within a pulse; else those of
+-- its halves.
 arcFrames :: Machine -> FeedCode -> Mm -> Pulses3 -> Segment -> [Frame]
 arcFrames machine code z at s = case (Segment.bulge s, candidates) of
   (Mm bulge, _) | bulge < pulse / 2 -> straight code at end
   (_, []) -> halves
-  (_, fs) -> let (d, f) = minimumBy (comparing fst) [(off f', f') | f' <- fs] in if d <= pulse then [f] else halves
+  (_, fs) ->
+    let (d, f) =
+          minimumBy (comparing fst) [(off f', f') | f' <- fs]
+     in if d <= pulse then [f] else halves
   where
     Mm pulse = Machine.pulse machine
     end = rounded machine (Segment.end s, z)
-    candidates = [f | f <- [about (Pulses2 (i + Pulses a) (j + Pulses b)) | a <- [-3 .. 3], b <- [-3 .. 3]], null (Frame.invariants machine [f]), apart f <= 2 * pulse]
+    candidates =
+      [ f
+        | f <- [about (Pulses2 (i + Pulses a) (j + Pulses b)) | a <- [-3 .. 3], b <- [-3 .. 3]],
+          null (Frame.invariants machine [f]),
+          apart f <= 2 * pulse
+      ]
     Pulses3 i j _ = rounded machine (Segment.centre s, z) - at
-    about c = Frame {motion = Round (if positive then CounterClockwise else Clockwise), increment = end - at, centre = c, speed = code, braking = False, orders = []}
+    about c =
+      Frame
+        { motion = Round (if positive then CounterClockwise else Clockwise),
+          increment = end - at,
+          centre = c,
+          speed = code,
+          braking = False,
+          orders = []
+        }
     Rad turned = Segment.sweep s
     positive = turned > 0
     apart f = let (a, b) = radii f in abs (a - b)
-    radii f = let c = Frame.centreOf machine at f in (between (Frame.position machine at) c, between (Frame.position machine end) c)
-    -- Both ways between which a control may go, at places along the arc; an arc must not become a full turn.
+    radii f =
+      let c =
+            Frame.centreOf machine at f
+       in (between (Frame.position machine at) c, between (Frame.position machine end) c)
+    -- Both ways between which a control may go, at places along the arc; an arc must not become a
+    -- full turn.
     off f =
       let c = Frame.centreOf machine at f
           (a, b) = radii f
           exact = between (Segment.start s) (Segment.centre s)
           Rad walked = Segment.sweep (Frame.segment machine at f)
           Rad begin = Vec.angle (Vec.to c (Frame.position machine at))
-       in maximum ((if abs (walked - turned) > 1 then 1e9 else 0) : [abs (between (Vec.shift (Vec.polar (Mm r) (Rad (begin + walked * k / 8))) c) (Segment.centre s) - exact) | r <- [a, b], k <- [0 .. 8]])
+       in maximum
+            ( (if abs (walked - turned) > 1 then 1e9 else 0) :
+                [ abs
+                    ( between
+                        (Vec.shift (Vec.polar (Mm r) (Rad (begin + walked * k / 8))) c)
+                        (Segment.centre s)
+                        - exact
+                    )
+                  | r <- [a, b],
+                    k <- [0 .. 8]
+                ]
+            )
     halves =
       let (a, b) = Segment.cutAt 0.5 s
           first = arcFrames machine code z at a
@@ -123,16 +202,21 @@ between p q = let Mm d = Vec.distance p q in d
 data Off = Off {deepest :: Double, most :: Double}
   deriving stock (Show)
 
--- | How far frames from a position are off from a contour with a cutter of a radius, by points close to one another on
--- both. An arc goes with the radius of its beginning and ends where it ends.
+-- | How far frames from a position are off from a contour with a cutter of a radius, by points
+-- close to one another on both. An arc goes with the radius of its beginning and ends where it
+-- ends.
 deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Off
 deviation machine begin frames contour radius =
-  Off {deepest = radius - minimum [nearest on p | p <- walked], most = maximum [nearest walked q | q <- on] - radius}
+  Off
+    { deepest = radius - minimum [nearest on p | p <- walked],
+      most = maximum [nearest walked q | q <- on] - radius
+    }
   where
     on = concatMap (dense 0.4) contour
     walked = concat (zipWith path (scanl (+) begin (map increment frames)) frames)
     path at f = Frame.position machine at : dense 0.2 (Frame.segment machine at f)
-    nearest ps q = sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps])
+    nearest ps q =
+      sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps])
 
 -- | Points of a segment at most so far apart, its ends among them.
 dense :: Double -> Segment -> [Point]
@@ -150,7 +234,9 @@ change frames = do
       with f' = take n frames <> [f'] <> drop (n + 1) frames
       -- The next frame goes back by as much.
       made up f' = case drop (n + 1) frames of
-        g : rest | up -> take n frames <> [f', g {increment = increment g + increment f - increment f'}] <> rest
+        g : rest
+          | up ->
+            take n frames <> [f', g {increment = increment g + increment f - increment f'}] <> rest
         _ -> with f'
       Pulses3 x y _ = increment f
       Pulses2 i j = centre f
@@ -165,9 +251,19 @@ change frames = do
         Round turn ->
           [ pure ("i by " <> show d, with f {centre = centre f + Pulses2 d 0}),
             pure ("j by " <> show d, with f {centre = centre f + Pulses2 0 d}),
-            pure ("the long way round", with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise)}),
+            pure
+              ( "the long way round",
+                with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise)}
+              ),
             pure ("the centre on the other side", with f {centre = Pulses2 (x - i) (y - j)}),
-            pure ("both", with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise), centre = Pulses2 (x - i) (y - j)}),
+            pure
+              ( "both",
+                with
+                  f
+                    { motion = Round (if turn == Clockwise then CounterClockwise else Clockwise),
+                      centre = Pulses2 (x - i) (y - j)
+                    }
+              ),
             pure ("its chord", with f {motion = Straightway, centre = 0})
           ]
         _ -> []

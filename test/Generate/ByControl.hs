@@ -46,26 +46,59 @@ cases = do
       let Mm r = radius c
           free = if side c == LeftOf then -1 else 1
           -- Back along the first move and then to the free side.
-          from = Vec.shift (Vec.scale (-(far * r)) (Vec.rotate (Rad (free * angle)) (Segment.startDirection begin))) (Segment.start begin)
-          to' = Vec.shift (Vec.scale (3 * r) (Vec.rotate (Rad (-(free * 0.5))) (Segment.endDirection finish))) (Segment.end finish)
-       in (c, plain {Part.approach = [stop from], Part.retract = [stop to'], Part.byControl = Just nowhere})
+          from =
+            Vec.shift
+              ( Vec.scale
+                  (-(far * r))
+                  (Vec.rotate (Rad (free * angle)) (Segment.startDirection begin))
+              )
+              (Segment.start begin)
+          to' =
+            Vec.shift
+              (Vec.scale (3 * r) (Vec.rotate (Rad (-(free * 0.5))) (Segment.endDirection finish)))
+              (Segment.end finish)
+       in ( c,
+            plain
+              { Part.approach = [stop from],
+                Part.retract = [stop to'],
+                Part.byControl = Just nowhere
+              }
+          )
   where
     stop p = Part.Stop (Located nowhere p) Nothing Part.Rapid
 
--- | With a cutter that is so much smaller than the smallest arc about whose inside it rolls, if that fits.
+-- | With a cutter that is so much smaller than the smallest arc about whose inside it rolls, if
+-- that fits.
 snug :: Case -> Double -> Case
-snug c less = case sort [old - less | Arc from _ centre (Rad a) <- NonEmpty.toList (segments (contour c)), (a > 0) == (side c == LeftOf), let Mm old = Segment.radius centre from, old > less + 0.1, old < 20] of
-  r : _ | Right pieces <- Equidistant.equidistant (side c) (Mm r) (contour c) -> c {radius = Mm r, pieces}
-  _ -> c
+snug c less =
+  case sort
+    [ old - less
+      | Arc from _ centre (Rad a) <- NonEmpty.toList (segments (contour c)),
+        (a > 0) == (side c == LeftOf),
+        let Mm old = Segment.radius centre from,
+        old > less + 0.1,
+        old < 20
+    ] of
+    r : _
+      | Right pieces <- Equidistant.equidistant (side c) (Mm r) (contour c) ->
+        c {radius = Mm r, pieces}
+    _ -> c
 
 -- | The first and the last move of the cutter beside a contour, leads included.
 firstAndLast :: Milling -> Maybe (Segment, Segment)
 firstAndLast job = case laid (beginning job) job of
   Just (Toolpath.Cutting {Toolpath.approach, Toolpath.cut, Toolpath.retract} : _) ->
-    let leads = [Toolpath.segment m | m <- reverse (take 1 (reverse approach)), Just _ <- [Part.leadIn job]]
+    let leads =
+          [ Toolpath.segment m
+            | m <- reverse (take 1 (reverse approach)),
+              Just _ <- [Part.leadIn job]
+          ]
         cuts = fmap Toolpath.segment cut
         behind = map Toolpath.segment retract
-     in Just (fromMaybe (NonEmpty.head cuts) (listToMaybe leads), fromMaybe (NonEmpty.last cuts) (listToMaybe (reverse behind)))
+     in Just
+          ( fromMaybe (NonEmpty.head cuts) (listToMaybe leads),
+            fromMaybe (NonEmpty.last cuts) (listToMaybe (reverse behind))
+          )
   _ -> Nothing
 
 -- | The blocks of a milling from a point.

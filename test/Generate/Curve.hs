@@ -1,5 +1,5 @@
--- | Random curves and shifts for the laws of curves: open and closed, gentle and doubling back, with vertical
--- tangents, of few points and of many.
+-- | Random curves and shifts for the laws of curves: open and closed, gentle and doubling back,
+-- with vertical tangents, of few points and of many.
 module Generate.Curve
   ( Table (..),
     anyCurve,
@@ -32,7 +32,15 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import GHC.Exts qualified as Exts
 import Geometry.Carrier qualified as Carrier
-import Geometry.Curve (Curve, Distance (..), EndCondition (..), Growth (..), Joggle (..), Side (..), SpanShape (..))
+import Geometry.Curve
+  ( Curve,
+    Distance (..),
+    EndCondition (..),
+    Growth (..),
+    Joggle (..),
+    Side (..),
+    SpanShape (..),
+  )
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Segment (Segment (..))
@@ -70,8 +78,8 @@ gentle = do
   Table ends points <- walked begin turns
   pure (ok (splineOf (Table ends points)))
 
--- | Points of a walk that turns as it likes: it doubles back, crosses itself, climbs straight up. Now and then the
--- direction at an end is given.
+-- | Points of a walk that turns as it likes: it doubles back, crosses itself, climbs straight up.
+-- Now and then the direction at an end is given.
 winding :: Gen Table
 winding = do
   n <- choose (2, 20)
@@ -87,7 +95,11 @@ walked begin turns = do
       points = scanl (\p (a, s) -> Vec.shift (Vec.polar (Mm s) (Rad a)) p) at (zip headings steps)
       final = begin + sum (drop 1 turns)
   bent <- choose (-0.1, 0.1)
-  ends <- elements [Natural, Clamped (Vec.polar (Mm 1) (Rad (begin + bent))) (Vec.polar (Mm 1) (Rad (final - bent)))]
+  ends <-
+    elements
+      [ Natural,
+        Clamped (Vec.polar (Mm 1) (Rad (begin + bent))) (Vec.polar (Mm 1) (Rad (final - bent)))
+      ]
   pure (Table ends points)
 
 -- | Splines through a few points anywhere, which bend back within a span.
@@ -95,7 +107,9 @@ zigzag :: Gen Curve
 zigzag = do
   ends <- elements [Natural, Periodic]
   n <- choose (if ends == Periodic then 3 else 2, 6)
-  points <- vectorOf n (Vec.point <$> choose (0, 100) <*> choose (0, 100)) `suchThat` \ps -> and [Vec.distance p q > Mm 5 | p : rest <- tails ps, q <- rest]
+  points <-
+    vectorOf n (Vec.point <$> choose (0, 100) <*> choose (0, 100)) `suchThat` \ps ->
+      and [Vec.distance p q > Mm 5 | p : rest <- tails ps, q <- rest]
   pure (ok (splineOf (Table ends points)))
 
 -- | A closed spline about a centre.
@@ -126,7 +140,11 @@ polyline = do
   Table _ points <- walked 0 turns
   closing <- arbitrary
   let closedUp = points <> [p | closing, length points > 2, p <- take 1 points]
-  pure (fromRight (ok (Curve.polyline (Exts.fromList points))) (Curve.polyline (Exts.fromList closedUp)))
+  pure
+    ( fromRight
+        (ok (Curve.polyline (Exts.fromList points)))
+        (Curve.polyline (Exts.fromList closedUp))
+    )
 
 -- | Parabolas, the x rising or falling.
 parabola :: Gen Curve
@@ -143,7 +161,10 @@ parabola = do
 chain :: Gen Curve
 chain = do
   n <- choose (1, 6)
-  parts <- vectorOf n ((,,) <$> choose (-2, 2) <*> choose (10, 40) <*> frequency [(2, pure 0), (1, choose (-1, 1))])
+  parts <-
+    vectorOf
+      n
+      ((,,) <$> choose (-2, 2) <*> choose (10, 40) <*> frequency [(2, pure 0), (1, choose (-1, 1))])
   pure (ok (Curve.ofSegments (segments (Vec.point 3 (-4)) 0.3 parts)))
   where
     segments p heading parts = case parts of
@@ -157,9 +178,15 @@ chain = do
       | abs sweep < 0.2 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
       | otherwise =
         let centre = Vec.shift (Vec.scale (l / sweep) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
-         in Arc {start = p, end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre, centre, sweep = Rad sweep}
+         in Arc
+              { start = p,
+                end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre,
+                centre,
+                sweep = Rad sweep
+              }
 
--- | A line, a parabola that touches it and an arc that touches the parabola, with rows anywhere on them.
+-- | A line, a parabola that touches it and an arc that touches the parabola, with rows anywhere on
+-- them.
 pieces :: Gen Curve
 pieces = do
   a <- choose (-0.02, 0.02)
@@ -171,8 +198,20 @@ pieces = do
       slope = atan (2 * a * w)
       centre = Vec.shift (Vec.scale r (Vec.left (Vec.polar (Mm 1) (Rad slope)))) top
       sweep = signum r * 0.8
-      arc = Arc {start = top, end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre top)) centre, centre, sweep = Rad sweep}
-  pure (ok (Curve.ofPieces (Line (Vec.point (-l) 0) (Vec.point 0 0) :| [Quadratic a 0 0 0 w, Circular arc]) (Exts.fromList (scanl (+) 0 inner <> [3]))))
+      arc =
+        Arc
+          { start = top,
+            end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre top)) centre,
+            centre,
+            sweep = Rad sweep
+          }
+  pure
+    ( ok
+        ( Curve.ofPieces
+            (Line (Vec.point (-l) 0) (Vec.point 0 0) :| [Quadratic a 0 0 0 w, Circular arc])
+            (Exts.fromList (scanl (+) 0 inner <> [3]))
+        )
+    )
 
 -- | A place as a share of the curve, kept away from neither rows nor ends.
 parameter :: Gen Double
@@ -183,7 +222,12 @@ parameterOf curve share = share * Curve.domain curve
 
 -- | The largest curvature found at many places, in 1/mm.
 tightest :: Curve -> Double
-tightest curve = maximum [abs (Curve.curvature curve (a + (b - a) * k / 12)) | (a, b) <- zip bs (drop 1 bs), k <- [0.01 .. 12]]
+tightest curve =
+  maximum
+    [ abs (Curve.curvature curve (a + (b - a) * k / 12))
+      | (a, b) <- zip bs (drop 1 bs),
+        k <- [0.01 .. 12]
+    ]
   where
     bs = Curve.breaks curve
 
@@ -196,7 +240,10 @@ columnOf curve low high = do
   let n = length (Base.rows (Curve.base curve))
       repeated = Curve.isClosed curve && not (Base.unrepeated (Curve.base curve))
       turns = 2 * pi / fromIntegral (if repeated then n - 1 else n)
-      value k = if repeated && k == n - 1 then value 0 else middle + 0.5 * wave * sin (phase + turns * fromIntegral k)
+      value k =
+        if repeated && k == n - 1
+          then value 0
+          else middle + 0.5 * wave * sin (phase + turns * fromIntegral k)
   pure (Curve.column curve (Exts.fromList (map value [0 .. n - 1])))
 
 -- | A distance no larger than a reach, of every kind.
@@ -212,7 +259,11 @@ distance reach curve =
       joggled
     ]
   where
-    bevelled = Bevelled <$> columnOf curve (-0.4) 0.4 <*> columnOf curve 0 reach <*> (Mm <$> choose (0, 0.5 * reach))
+    bevelled =
+      Bevelled
+        <$> columnOf curve (-0.4) 0.4
+          <*> columnOf curve 0 reach
+          <*> (Mm <$> choose (0, 0.5 * reach))
     growth = do
       h1 <- choose (0, 0.8 * reach)
       h2 <- choose (0, 0.8 * reach)
@@ -226,7 +277,19 @@ distance reach curve =
       d <- choose (0.2, 0.8) >>= \share -> pure (share * min 1 reach)
       k <- choose (0.6, 3)
       flip' <- elements [1, -1]
-      pure (fromRight (Constant (Mm d)) (Curve.joggled Joggle {begins = parameterOf curve a, ends = parameterOf curve b, depth = Mm (flip' * d), radius = Mm (k * d)} curve))
+      pure
+        ( fromRight
+            (Constant (Mm d))
+            ( Curve.joggled
+                Joggle
+                  { begins = parameterOf curve a,
+                    ends = parameterOf curve b,
+                    depth = Mm (flip' * d),
+                    radius = Mm (k * d)
+                  }
+                curve
+            )
+        )
 
 -- | A shift that fits: well within the radius of curvature.
 shifts :: Curve -> Gen Curve
@@ -254,5 +317,11 @@ similarity = do
   q <- Vec.shift <$> (Vec.polar (Mm 10) . Rad <$> choose (0, 6)) <*> pure p
   a <- choose (-3, 3)
   k <- choose (0.3, 3)
-  chosen <- sublistOf [Transformation.translation v, Transformation.rotation (Rad a) p, Transformation.reflection (Carrier.Line p q), Transformation.scaling k p]
+  chosen <-
+    sublistOf
+      [ Transformation.translation v,
+        Transformation.rotation (Rad a) p,
+        Transformation.reflection (Carrier.Line p q),
+        Transformation.scaling k p
+      ]
   pure (foldr Transformation.after Transformation.identity chosen)

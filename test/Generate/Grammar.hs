@@ -1,4 +1,5 @@
--- | Grammars as the manual writes them: read, tried forwards as sentences, and backwards as a recogniser.
+-- | Grammars as the manual writes them: read, tried forwards as sentences, and backwards as a
+-- recogniser.
 module Generate.Grammar
   ( Grammar,
     fromText,
@@ -50,9 +51,15 @@ fromText = Grammar . Map.fromList . rules . marks
 marks :: Text -> [Text]
 marks text = case Text.uncons (Text.stripStart text) of
   Nothing -> []
-  Just ('"', rest) -> let (inside, after) = Text.breakOn "\"" rest in ("\"" <> inside) : marks (Text.drop 1 after)
+  Just ('"', rest) ->
+    let (inside, after) =
+          Text.breakOn "\"" rest
+     in ("\"" <> inside) : marks (Text.drop 1 after)
   Just (c, rest)
-    | isAlpha c -> let (word, after) = Text.span (\x -> isAlpha x || x == '-') (Text.stripStart text) in word : marks after
+    | isAlpha c ->
+      let (word, after) =
+            Text.span (\x -> isAlpha x || x == '-') (Text.stripStart text)
+       in word : marks after
     | isSpace c -> marks rest
     | otherwise -> Text.singleton c : marks rest
 
@@ -83,7 +90,8 @@ inOrder = go []
         | Text.any isAlpha (Text.take 1 word) -> go (Named word : before) rest
       _ -> (sequence' (reverse before), ms)
       where
-        bracket make rest = let (inside, after) = alternatives rest in go (make inside : before) (drop 1 after)
+        bracket make rest =
+          let (inside, after) = alternatives rest in go (make inside : before) (drop 1 after)
 
 sequence' :: [Rule] -> Rule
 sequence' rs = case rs of
@@ -92,7 +100,8 @@ sequence' rs = case rs of
 
 -- | Names that stand for nothing, and rules that nothing uses.
 loose :: Grammar -> [Text]
-loose (Grammar known) = (used \\ (Map.keys known <> terminals)) <> ((Map.keys known <> terminals) \\ ("program" : used))
+loose (Grammar known) =
+  (used \\ (Map.keys known <> terminals)) <> ((Map.keys known <> terminals) \\ ("program" : used))
   where
     used = Set.toList (Set.fromList (concatMap names (Map.elems known)))
     names rule = case rule of
@@ -121,7 +130,8 @@ literals (Grammar known) = sort (Set.toList (Set.fromList (concatMap inside (Map
 data Mark = Written Text | LineEnd | Touching
   deriving stock (Eq, Show)
 
--- | A random sentence. Statements and the lines of tables begin on lines of their own, and the parenthesis of a call touches its name.
+-- | A random sentence. Statements and the lines of tables begin on lines of their own, and the
+-- parenthesis of a call touches its name.
 sentence :: Grammar -> Gen Text
 sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (Named "program")
   where
@@ -140,7 +150,8 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       Named "number" -> word ["0", "41", "59.3", "007"]
       Named "text" -> word ["\"\"", "\"Фланец, фиг. 2\""]
       Named "machine-name" -> word ["lkp-01f", "2.5-ax"]
-      Named name -> around name (derive (below name fuel) (Map.findWithDefault (Sequence []) name known))
+      Named name ->
+        around name (derive (below name fuel) (Map.findWithDefault (Sequence []) name known))
     -- Blocks and values are not nested deeply: sentences would have no end.
     below name fuel
       | name `elem` ["items", "statements"] = fuel - 9
@@ -202,7 +213,8 @@ recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
       Named name -> case Map.lookup name table of
         Just row -> Map.findWithDefault Set.empty at row
         Nothing -> one at (terminal name)
-      Sequence rs -> foldl (\from r -> unions [ends x r | x <- Set.toList from]) (Set.singleton at) rs
+      Sequence rs ->
+        foldl (\from r -> unions [ends x r | x <- Set.toList from]) (Set.singleton at) rs
       Choice rs -> unions (map (ends at) rs)
       Many r -> closure r (Set.singleton at) (Set.singleton at)
       Optional r -> Set.insert at (ends at r)

@@ -1,8 +1,9 @@
 -- | Random machines within the limits of their language, and random frames for them.
 --
--- A layout can be read only if a reader knows at every row what may stand there: words that may be missing have
--- addresses with beginnings of their own, numbers of unknown length are followed by something that is no digit, and
--- where blank rows between frames are passed over a frame begins with a hole.
+-- A layout can be read only if a reader knows at every row what may stand there: words that may be
+-- missing have addresses with beginnings of their own, numbers of unknown length are followed by
+-- something that is no digit, and where blank rows between frames are passed over a frame begins
+-- with a hole.
 module Generate.Machine (machine, frames) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -27,7 +28,15 @@ machine :: Gen Machine
 machine = oneof [inPlaces, lettered, printed]
 
 -- | What all kinds of machines share.
-data Shared = Shared {used :: [Axis], motions :: Maybe MotionCodes, arcKind :: Arcs, how :: AxisMeasure, feedTable :: FeedCodes, feedDigits :: Int, bottom :: Machine}
+data Shared = Shared
+  { used :: [Axis],
+    motions :: Maybe MotionCodes,
+    arcKind :: Arcs,
+    how :: AxisMeasure,
+    feedTable :: FeedCodes,
+    feedDigits :: Int,
+    bottom :: Machine
+  }
 
 shared :: Gen Shared
 shared = do
@@ -37,22 +46,58 @@ shared = do
   quick <- arbitrary
   let arcsFit = X `elem` used && Y `elem` used
       motions = case codes of
-        a : b : c : d : _ | moving -> Just (MotionCodes (if quick then Just a else Nothing) b (if arcsFit then Just c else Nothing) (if arcsFit then Just d else Nothing))
+        a : b : c : d : _
+          | moving ->
+            Just
+              ( MotionCodes
+                  (if quick then Just a else Nothing)
+                  b
+                  (if arcsFit then Just c else Nothing)
+                  (if arcsFit then Just d else Nothing)
+              )
         _ -> Nothing
-  arcKind <- if moving && arcsFit then oneof [pure NoArcs, Arcs <$> arbitrary <*> arbitrary] else pure NoArcs
+  arcKind <-
+    if moving && arcsFit
+      then oneof [pure NoArcs, Arcs <$> arbitrary <*> arbitrary]
+      else pure NoArcs
   how <- elements [Increments, Positions]
   feedDigits <- choose (1, 4)
   feedTable <- feedCodes feedDigits
-  forms <- traverse (\a -> AxisForm a . Mm <$> elements [0.001, 0.01, 0.02] <*> arbitrary <*> arbitrary <*> pure True) used
+  forms <-
+    traverse
+      ( \a ->
+          AxisForm a . Mm <$> elements [0.001, 0.01, 0.02] <*> arbitrary <*> arbitrary <*> pure True
+      )
+      used
   let bottom =
         Machine
           { name = MachineName "random",
             title = "",
-            medium = Medium {tracks = 8, pitch = Just (Mm 2.54), suffix = "tape", leader = 0, gap = 0, evenShift = 0, spare = Counted, opening = "", closing = ""},
-            code = TapeCode {codeName = "random", symbols = Map.empty, weights = Map.empty, evenTrack = Nothing, serviceTrack = Nothing, skips = []},
+            medium =
+              Medium
+                { tracks = 8,
+                  pitch = Just (Mm 2.54),
+                  suffix = "tape",
+                  leader = 0,
+                  gap = 0,
+                  evenShift = 0,
+                  spare = Counted,
+                  opening = "",
+                  closing = ""
+                },
+            code =
+              TapeCode
+                { codeName = "random",
+                  symbols = Map.empty,
+                  weights = Map.empty,
+                  evenTrack = Nothing,
+                  serviceTrack = Nothing,
+                  skips = []
+                },
             axes = NonEmpty.fromList forms,
             arcs = arcKind,
-            layout = Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
+            layout =
+              Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
             feeds = Feeds AlongPath feedTable NotAbove Highest,
             Machine.braking = Braking 5 SlowFrames,
             Machine.orders = noOrders,
@@ -71,18 +116,30 @@ feedCodes n = oneof [Direct 1 <$> choose (1, most), list, formula]
       cs <- vectorOf k (choose (0, most))
       vs <- vectorOf k (choose (1, 1000))
       pure (Listed (Map.fromList (zip (map FeedCode cs) vs)))
-    formula = pure (Listed (Map.fromList [(FeedCode c, 10 * 10 ** (fromIntegral c / 20)) | c <- [0 .. min most 40]]))
+    formula =
+      pure
+        ( Listed
+            ( Map.fromList
+                [(FeedCode c, 10 * 10 ** (fromIntegral c / 20)) | c <- [0 .. min most 40]]
+            )
+        )
 
 -- Digits in their places --------------------------------------------------------------------------
 
--- | Words without addresses that stand in every frame; signs, commands and marks in the service track.
+-- | Words without addresses that stand in every frame; signs, commands and marks in the service
+-- track.
 inPlaces :: Gen Machine
 inPlaces = do
   s <- shared
   tracks <- choose (5, 8)
   spareTracks <- shuffle [5 .. tracks]
   evenTrack <- elements (Nothing : map Just (take 1 (drop 1 spareTracks)))
-  tetrads <- frequency [(1, pure [0 .. 9]), (1, pure [0x0, 0x1, 0x5, 0x6, 0x7, 0x8, 0x9, 0xA, 0xB, 0xF]), (2, take 10 <$> shuffle [0 .. 15])]
+  tetrads <-
+    frequency
+      [ (1, pure [0 .. 9]),
+        (1, pure [0x0, 0x1, 0x5, 0x6, 0x7, 0x8, 0x9, 0xA, 0xB, 0xF]),
+        (2, take 10 <$> shuffle [0 .. 15])
+      ]
   let serviceTrack = case spareTracks of
         k : _ -> k
         [] -> 5
@@ -107,7 +164,12 @@ inPlaces = do
               serviceTrack = Just serviceTrack,
               skips = []
             },
-        layout = Layout {items = NonEmpty.fromList ([Literal "*" | marked] <> body), measure = how s, separator = ""}
+        layout =
+          Layout
+            { items = NonEmpty.fromList ([Literal "*" | marked] <> body),
+              measure = how s,
+              separator = ""
+            }
       }
 
 -- | The words of a layout of places, in any order.
@@ -118,8 +180,23 @@ placed s = do
   numberDigits <- choose (0, 3)
   orderBits <- arbitrary
   orderWord <- arbitrary
-  axisWords <- traverse (\a -> signed (Along a) axisDigits (if orderBits && [a] == take 1 (used s) then [OrderBit (CommandName "bits") (k - 1) | k <- [axisDigits - 1, axisDigits - 2 .. 1]] else [])) (used s)
-  centreWords <- traverse (\a -> signed (Centre a) centreDigits []) (if arcKind s == NoArcs then [] else [X, Y])
+  axisWords <-
+    traverse
+      ( \a ->
+          signed
+            (Along a)
+            axisDigits
+            ( if orderBits && [a] == take 1 (used s)
+                then
+                  [ OrderBit (CommandName "bits") (k - 1)
+                    | k <- [axisDigits - 1, axisDigits - 2 .. 1]
+                  ]
+                else []
+            )
+      )
+      (used s)
+  centreWords <-
+    traverse (\a -> signed (Centre a) centreDigits []) (if arcKind s == NoArcs then [] else [X, Y])
   mark <- elements [Marker, BrakingHole, NoHole]
   shuffle
     ( axisWords <> centreWords
@@ -131,7 +208,14 @@ placed s = do
   where
     plain c n sv = Word' "" c (form n Unsigned sv) Always
     signed c n sv = pure (Word' "" c (form n ServiceSign (MinusHole : sv)) Always)
-    form n sg sv = NumberForm {digits = n, padded = True, decimals = 0, sign = sg, service = take n (sv <> repeat NoHole)}
+    form n sg sv =
+      NumberForm
+        { digits = n,
+          padded = True,
+          decimals = 0,
+          sign = sg,
+          service = take n (sv <> repeat NoHole)
+        }
 
 mediumOf :: Int -> Spare -> Text -> Gen Medium
 mediumOf tracks spare mark = do
@@ -140,11 +224,23 @@ mediumOf tracks spare mark = do
   evenShift <- choose (0, 2)
   opening <- elements ["", mark, mark <> mark]
   closing <- elements ["", mark <> mark]
-  pure Medium {tracks, pitch = Just (Mm 2.54), suffix = "tape", leader, gap, evenShift, spare, opening, closing}
+  pure
+    Medium
+      { tracks,
+        pitch = Just (Mm 2.54),
+        suffix = "tape",
+        leader,
+        gap,
+        evenShift,
+        spare,
+        opening,
+        closing
+      }
 
 -- Letters -----------------------------------------------------------------------------------------
 
--- | Words with letters of one track more than the digits, an end of frame, and a check digit of any modulus.
+-- | Words with letters of one track more than the digits, an end of frame, and a check digit of any
+-- modulus.
 lettered :: Gen Machine
 lettered = do
   s <- shared
@@ -175,7 +271,19 @@ lettered = do
               serviceTrack = Nothing,
               skips = [0x1F | spare == Skipped, isNothing evenTrack]
             },
-        layout = Layout {items = NonEmpty.fromList ([Literal begin | spare == Skipped] <> check 1 <> map AWord ws <> check 2 <> [Literal end | ended]), measure = how s, separator = ""}
+        layout =
+          Layout
+            { items =
+                NonEmpty.fromList
+                  ( [Literal begin | spare == Skipped]
+                      <> check 1
+                      <> map AWord ws
+                      <> check 2
+                      <> [Literal end | ended]
+                  ),
+              measure = how s,
+              separator = ""
+            }
       }
   where
     digitSigns = do
@@ -193,14 +301,26 @@ addressed s addresses signs = do
   full <- arbitrary
   count <- choose (0, 3)
   let pad = full || simple sg
-      axisForm' = NumberForm {digits = width, padded = pad, decimals = if simple sg then 0 else decimal, sign = sg, service = []}
+      axisForm' =
+        NumberForm
+          { digits = width,
+            padded = pad,
+            decimals = if simple sg then 0 else decimal,
+            sign = sg,
+            service = []
+          }
       plain n = NumberForm {digits = n, padded = pad, decimals = 0, sign = Unsigned, service = []}
       contents =
         [(FrameNumber, plain 3) | count > 1] <> [(Motion m, plain 2) | Just m <- [motions s]]
           <> [(Along a, axisForm') | a <- used s]
           <> [(Centre a, axisForm') | arcKind s /= NoArcs, a <- [X, Y]]
           <> [(FeedWord, plain (feedDigits s))]
-          <> take count [(Command (CommandName "first"), plain 2), (Command (CommandName "second"), plain 1), (Command (CommandName "none"), (plain 0) {padded = True})]
+          <> take
+            count
+            [ (Command (CommandName "first"), plain 2),
+              (Command (CommandName "second"), plain 1),
+              (Command (CommandName "none"), (plain 0) {padded = True})
+            ]
   shuffled <- shuffle contents
   traverse one (zip addresses shuffled)
   where
@@ -229,9 +349,16 @@ printed = do
   double <- arbitrary
   between <- elements ["", " "]
   spare <- elements [Counted, Skipped]
-  ws <- addressed s (map (\c -> if double then Text.pack [c, 'o'] else Text.singleton c) letters) (elements [MinusSign, EitherSign])
+  ws <-
+    addressed
+      s
+      (map (\c -> if double then Text.pack [c, 'o'] else Text.singleton c) letters)
+      (elements [MinusSign, EitherSign])
   tapeMedium <- mediumOf 8 spare "%\n"
-  let medium' = if onTape then tapeMedium else tapeMedium {pitch = Nothing, leader = 0, gap = 0, evenShift = 0, spare = Counted}
+  let medium' =
+        if onTape
+          then tapeMedium
+          else tapeMedium {pitch = Nothing, leader = 0, gap = 0, evenShift = 0, spare = Counted}
   pure
     (bottom s)
       { medium = medium',
@@ -244,7 +371,14 @@ printed = do
               serviceTrack = Nothing,
               skips = if onTape && spare == Skipped then [0x00, 0xFF] else []
             },
-        layout = Layout {items = NonEmpty.fromList ([Literal "/" | spare == Skipped] <> map AWord ws <> [Literal "\n"]), measure = how s, separator = between}
+        layout =
+          Layout
+            { items =
+                NonEmpty.fromList
+                  ([Literal "/" | spare == Skipped] <> map AWord ws <> [Literal "\n"]),
+              measure = how s,
+              separator = between
+            }
       }
 
 ascii :: Map Char Word8
@@ -256,7 +390,10 @@ ascii = Map.fromList [(c, fromIntegral (ord c)) | c <- '\n' : [' ' .. '~']]
 frames :: Machine -> Gen (Pulses3, [Frame])
 frames m = do
   n <- choose (0, 12)
-  start <- let on a = Pulses <$> choose (negate (reach a), reach a) in Pulses3 <$> on X <*> on Y <*> on Z
+  start <-
+    let on a =
+          Pulses <$> choose (negate (reach a), reach a)
+     in Pulses3 <$> on X <*> on Y <*> on Z
   feeds' <- vectorOf 2 (feedOf m)
   (,) start <$> go n feeds' start
   where
@@ -276,10 +413,20 @@ feedOf m = case codes (feeds m) of
 -- | A frame from where the cutter stands, at one of some feeds.
 frame :: Machine -> [FeedCode] -> Pulses3 -> Gen Frame
 frame m feeds' at = do
-  f <- frequency ([(6, straightway)] <> [(2, rapidly) | hasRapidMotion m] <> [(2, only) | not (null (orderNames m))] <> [(6, round') | arcs m /= NoArcs])
+  f <-
+    frequency
+      ( [(6, straightway)]
+          <> [(2, rapidly) | hasRapidMotion m]
+          <> [(2, only) | not (null (orderNames m))]
+          <> [(6, round') | arcs m /= NoArcs]
+      )
   if null (Frame.invariants m [f]) && fits f then pure f else frame m feeds' at
   where
-    fits f = and [abs p <= capacity m a || measure (layout m) == Increments | (a, p) <- zip [X, Y, Z] (parts (at + increment f))]
+    fits f =
+      and
+        [ abs p <= capacity m a || measure (layout m) == Increments
+          | (a, p) <- zip [X, Y, Z] (parts (at + increment f))
+        ]
     straightway = do
       d <- move m at
       base <- atFeed
@@ -287,7 +434,15 @@ frame m feeds' at = do
     rapidly = do
       d <- move m at
       given <- ordersOf m 3
-      pure Frame {motion = Rapid, increment = d, centre = 0, speed = FeedCode 0, braking = False, orders = given}
+      pure
+        Frame
+          { motion = Rapid,
+            increment = d,
+            centre = 0,
+            speed = FeedCode 0,
+            braking = False,
+            orders = given
+          }
     only = Frame.still <$> ordersOf m 1
     round' = do
       base <- atFeed
@@ -295,9 +450,20 @@ frame m feeds' at = do
       pure base {motion = Round turn, increment = d, centre = c}
     atFeed = do
       code' <- elements feeds'
-      slow <- if null [() | w <- wordsOf m, BrakingHole <- service (form w)] then pure False else arbitrary
+      slow <-
+        if null [() | w <- wordsOf m, BrakingHole <- service (form w)]
+          then pure False
+          else arbitrary
       given <- ordersOf m 3
-      pure Frame {motion = Straightway, increment = 0, centre = 0, speed = code', braking = slow, orders = given}
+      pure
+        Frame
+          { motion = Straightway,
+            increment = 0,
+            centre = 0,
+            speed = code',
+            braking = slow,
+            orders = given
+          }
 
 parts :: Pulses3 -> [Pulses]
 parts (Pulses3 x y z) = [x, y, z]
@@ -312,7 +478,13 @@ move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
           (low, high) = case measure (layout m) of
             Increments -> (-c, c)
             Positions -> (max (-c) (-c - here), min c (c - here))
-      Pulses <$> frequency [(2, pure 0), (1, elements [max low (-1), min high 1]), (4, choose (low, high)), (1, elements [low, high])]
+      Pulses
+        <$> frequency
+          [ (2, pure 0),
+            (1, elements [max low (-1), min high 1]),
+            (4, choose (low, high)),
+            (1, elements [low, high])
+          ]
 
 -- | An arc within what the words hold, in one quadrant or anywhere.
 arc :: Machine -> Pulses3 -> Gen (Sense, Pulses3, Pulses2)
@@ -322,7 +494,11 @@ arc m at = case arcs m of
     (a, b) <- (,) <$> near <*> near
     (c, d) <- (,) <$> near <*> near
     let cross = p * q * (a * d - b * c)
-    pure (if cross > 0 then CounterClockwise else Clockwise, Pulses3 (Pulses (p * (c - a))) (Pulses (q * (d - b))) 0, Pulses2 (Pulses (negate (p * a))) (Pulses (negate (q * b))))
+    pure
+      ( if cross > 0 then CounterClockwise else Clockwise,
+        Pulses3 (Pulses (p * (c - a))) (Pulses (q * (d - b))) 0,
+        Pulses2 (Pulses (negate (p * a))) (Pulses (negate (q * b)))
+      )
   _ -> do
     turn <- elements [Clockwise, CounterClockwise]
     full <- arbitrary
@@ -336,7 +512,11 @@ arc m at = case arcs m of
 
 -- | The commands of a machine in the order of its words.
 orderNames :: Machine -> [CommandName]
-orderNames m = concat [[o | Command o <- [content w]] <> take 1 [o | OrderBit o _ <- service (form w)] | w <- wordsOf m]
+orderNames m =
+  concat
+    [ [o | Command o <- [content w]] <> take 1 [o | OrderBit o _ <- service (form w)]
+      | w <- wordsOf m
+    ]
 
 -- | Some commands, each with odds of one in so many.
 ordersOf :: Machine -> Int -> Gen [(CommandName, Int)]

@@ -1,5 +1,6 @@
--- | Random problems for the offset kernel, degenerate ones among them: unions of cells with touching corners and spikes,
--- polygons on a lattice, arcs from next to nothing to nearly a whole turn, noise.
+-- | Random problems for the offset kernel, degenerate ones among them: unions of cells with
+-- touching corners and spikes, polygons on a lattice, arcs from next to nothing to nearly a whole
+-- turn, noise.
 module Generate.Outline
   ( Case (..),
     Family (..),
@@ -28,9 +29,18 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 import Test.QuickCheck
 
--- | What the kernel is asked, with how much further it stays from the segments (in turn, none if empty); the winding number of
--- the free places; whether the outlines are known not to cross themselves.
-data Case = Case {family :: Family, outlines :: [FlatPolyarc], side :: Side, radius :: Double, extras :: [Double], free :: Int, sound :: Bool}
+-- | What the kernel is asked, with how much further it stays from the segments (in turn, none if
+-- empty); the winding number of the free places; whether the outlines are known not to cross
+-- themselves.
+data Case = Case
+  { family :: Family,
+    outlines :: [FlatPolyarc],
+    side :: Side,
+    radius :: Double,
+    extras :: [Double],
+    free :: Int,
+    sound :: Bool
+  }
   deriving stock (Eq, Show)
 
 data Family = Cells | Lattice | Arcs | Noise
@@ -69,7 +79,11 @@ uneven = do
 
 -- | Walked one way or the other.
 eitherWay :: Case -> Gen Case
-eitherWay c = elements [c, c {outlines = map FlatPolyarc.reverse (outlines c), side = other (side c), free = -(free c)}]
+eitherWay c =
+  elements
+    [ c,
+      c {outlines = map FlatPolyarc.reverse (outlines c), side = other (side c), free = -(free c)}
+    ]
   where
     other s = case s of
       LeftOf -> RightOf
@@ -80,12 +94,27 @@ somewhere :: Case -> Gen Case
 somewhere c = do
   size <- frequency [(5, pure 1), (1, elements [0.1, 10, 2, 25.4])]
   angle <- frequency [(4, pure 0), (1, choose (0, 2 * pi)), (1, elements [pi / 4, pi / 6])]
-  (mx, my) <- frequency [(4, pure (0, 0)), (1, (,) <$> choose (-100, 100) <*> choose (-100, 100)), (1, pure (1000, 300))]
-  pure c {outlines = map (turned size angle (mx, my)) (outlines c), radius = size * radius c, extras = map (size *) (extras c)}
+  (mx, my) <-
+    frequency
+      [ (4, pure (0, 0)),
+        (1, (,) <$> choose (-100, 100) <*> choose (-100, 100)),
+        (1, pure (1000, 300))
+      ]
+  pure
+    c
+      { outlines = map (turned size angle (mx, my)) (outlines c),
+        radius = size * radius c,
+        extras = map (size *) (extras c)
+      }
 
 -- | Scaled, turned, moved.
 turned :: Double -> Double -> (Double, Double) -> FlatPolyarc -> FlatPolyarc
-turned factor angle (mx, my) o = FlatPolyarc.outline (FlatPolyarc.ends o) [(mx + factor * (co * x - si * y), my + factor * (co * y + si * x), b) | (x, y, b) <- FlatPolyarc.vertices o]
+turned factor angle (mx, my) o =
+  FlatPolyarc.outline
+    (FlatPolyarc.ends o)
+    [ (mx + factor * (co * x - si * y), my + factor * (co * y + si * x), b)
+      | (x, y, b) <- FlatPolyarc.vertices o
+    ]
   where
     (co, si) = if angle == 0 then (1, 0) else (cos angle, sin angle)
 
@@ -95,8 +124,19 @@ onLattice :: Gen Case
 onLattice = do
   radius <- elements [0.25, 0.5, 0.5, 1, 1, 1.5, 2, 3, 1 / 3, 0.7]
   inside <- arbitrary
-  (family, loops) <- frequency [(4, (Cells,) <$> (cells >>= mapM decorated)), (1, (Lattice,) . pure <$> latticePolygon)]
-  pure Case {family, outlines = map loop loops, side = if inside then LeftOf else RightOf, radius, extras = [], free = if inside then 1 else 0, sound = True}
+  (family, loops) <-
+    frequency
+      [(4, (Cells,) <$> (cells >>= mapM decorated)), (1, (Lattice,) . pure <$> latticePolygon)]
+  pure
+    Case
+      { family,
+        outlines = map loop loops,
+        side = if inside then LeftOf else RightOf,
+        radius,
+        extras = [],
+        free = if inside then 1 else 0,
+        sound = True
+      }
 
 -- | The boundary of a union of unit cells, counter-clockwise outside and clockwise around holes.
 cells :: Gen [[(Int, Int)]]
@@ -104,7 +144,9 @@ cells = do
   w <- choose (1, 5)
   h <- choose (1, 4)
   share <- elements [4, 6, 8]
-  chosen <- filter snd . zip [(x, y) | x <- [0 .. w - 1], y <- [0 .. h - 1]] <$> replicateM (w * h) ((< share) <$> choose (1, 10 :: Int))
+  chosen <-
+    filter snd . zip [(x, y) | x <- [0 .. w - 1], y <- [0 .. h - 1]]
+      <$> replicateM (w * h) ((< share) <$> choose (1, 10 :: Int))
   joined <- arbitrary
   case chosen of
     [] -> pure [[(0, 0), (1, 0), (1, 1), (0, 1)]]
@@ -113,7 +155,13 @@ cells = do
 traced :: Bool -> Set (Int, Int) -> [[(Int, Int)]]
 traced joined filled = walks (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.toList edges])
   where
-    edges = Set.fromList [(a, b) | cell <- Set.toList filled, (a, b, beside) <- around cell, Set.notMember beside filled]
+    edges =
+      Set.fromList
+        [ (a, b)
+          | cell <- Set.toList filled,
+            (a, b, beside) <- around cell,
+            Set.notMember beside filled
+        ]
     around (x, y) =
       [ ((x, y), (x + 1, y), (x, y - 1)),
         ((x + 1, y), (x + 1, y + 1), (x + 1, y)),
@@ -134,11 +182,16 @@ traced joined filled = walks (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.to
           [r] -> go (q : seen) q r (leave q r left)
           rs -> let r = best p q rs in go (q : seen) q r (leave q r left)
     -- Where two cells touch at a corner only, the walk goes over to the other one or stays.
-    best (px, py) (qx, qy) rs = case [r | r@(rx, ry) <- rs, let t = (qx - px) * (ry - qy) - (qy - py) * (rx - qx), if joined then t < 0 else t > 0] of
-      r : _ -> r
-      [] -> case rs of
+    best (px, py) (qx, qy) rs =
+      case [ r
+             | r@(rx, ry) <- rs,
+               let t = (qx - px) * (ry - qy) - (qy - py) * (rx - qx),
+               if joined then t < 0 else t > 0
+           ] of
         r : _ -> r
-        [] -> (qx, qy)
+        [] -> case rs of
+          r : _ -> r
+          [] -> (qx, qy)
 
 -- | Corners rounded, chamfered or scalloped; spikes, repeated vertices, vertices on straight lines.
 decorated :: [(Int, Int)] -> Gen [Vertex]
@@ -148,7 +201,10 @@ decorated vs = do
   spiky <- frequency [(4, pure False), (1, arbitrary)]
   merge <- arbitrary
   doubled <- frequency [(5, pure False), (1, pure True)]
-  concat <$> mapM (corner style cut spiky merge doubled) (zip3 (drop (n - 1) points <> points) points (drop 1 points <> points))
+  concat
+    <$> mapM
+      (corner style cut spiky merge doubled)
+      (zip3 (drop (n - 1) points <> points) points (drop 1 points <> points))
   where
     points = [(fromIntegral x, fromIntegral y) | (x, y) <- vs] :: [(Double, Double)]
     n = length points
@@ -172,7 +228,10 @@ decorated vs = do
             | this == 4 = [(x - 0.25 * ix, y - 0.25 * iy, 0), (x, y, 0)]
             | otherwise = [before, behind]
           (mx, my) = (x + 0.5 * ox, y + 0.5 * oy)
-          spikes = if spike == 0 || this == 4 then [] else [(mx, my, 0), (mx - spike * oy, my + spike * ox, 0), (mx, my, 0)]
+          spikes =
+            if spike == 0 || this == 4
+              then []
+              else [(mx, my, 0), (mx - spike * oy, my + spike * ox, 0), (mx, my, 0)]
       pure (plain <> [v | twice, v@(_, _, g) <- take 1 (reverse plain), g == 0] <> spikes)
 
 -- | A polygon through lattice points that does not touch itself.
@@ -184,33 +243,65 @@ latticePolygon = do
   let distinct = Set.toList (Set.fromList points)
   order <- shuffle distinct
   let polygon = untangled 60 [(fromIntegral x, fromIntegral y) | (x, y) <- order :: [(Int, Int)]]
-  if length distinct >= 3 && strictly polygon then pure [(x, y, 0) | (x, y) <- counterClockwise polygon] else latticePolygon
+  if length distinct >= 3 && strictly polygon
+    then pure [(x, y, 0) | (x, y) <- counterClockwise polygon]
+    else latticePolygon
 
 -- | Whether edges that are no neighbours keep apart, and neighbours do not fold.
 strictly :: [(Double, Double)] -> Bool
-strictly ps = and [apart e f | (i, e) : more <- tails (zip [0 :: Int ..] edges), (j, f) <- more, j /= i + 1, not (i == 0 && j == n - 1)] && and (zipWith fair edges (drop 1 edges <> take 1 edges))
+strictly ps =
+  and
+    [ apart e f
+      | (i, e) : more <- tails (zip [0 :: Int ..] edges),
+        (j, f) <- more,
+        j /= i + 1,
+        not (i == 0 && j == n - 1)
+    ]
+    && and (zipWith fair edges (drop 1 edges <> take 1 edges))
   where
     n = length ps
     edges = zip ps (drop 1 ps <> take 1 ps)
-    apart (a, b) (c, d) = signum (orient a b c) * signum (orient a b d) > 0 || signum (orient c d a) * signum (orient c d b) > 0 || collinearApart
+    apart (a, b) (c, d) =
+      signum (orient a b c) * signum (orient a b d) > 0
+        || signum (orient c d a) * signum (orient c d b) > 0
+        || collinearApart
       where
-        collinearApart = orient a b c == 0 && orient a b d == 0 && (max (along a) (along b) < min (along c) (along d) || max (along c) (along d) < min (along a) (along b))
+        collinearApart =
+          orient a b c == 0
+            && orient a b d == 0
+            && ( max (along a) (along b) < min (along c) (along d)
+                   || max (along c) (along d) < min (along a) (along b)
+               )
         along (x, y) = x * (fst b - fst a) + y * (snd b - snd a)
-    fair (a, b) (_, d) = orient a b d /= 0 || (fst b - fst a) * (fst d - fst b) + (snd b - snd a) * (snd d - snd b) > 0
+    fair (a, b) (_, d) =
+      orient a b d /= 0 || (fst b - fst a) * (fst d - fst b) + (snd b - snd a) * (snd d - snd b) > 0
 
 orient :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Double
 orient (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 counterClockwise :: [(Double, Double)] -> [(Double, Double)]
-counterClockwise ps = if sum (zipWith (\(ax, ay) (bx, by) -> ax * by - ay * bx) ps (drop 1 ps <> take 1 ps)) > 0 then ps else reverse ps
+counterClockwise ps =
+  if sum (zipWith (\(ax, ay) (bx, by) -> ax * by - ay * bx) ps (drop 1 ps <> take 1 ps)) > 0
+    then ps
+    else reverse ps
 
 -- | Two edges that cross are exchanged for two that do not, until there are none.
 untangled :: Int -> [(Double, Double)] -> [(Double, Double)]
 untangled rounds ps
   | rounds <= 0 = ps
-  | otherwise = case [(i, j) | (i, (a, b)) : more <- tails (zip [0 ..] edges), (j, (c, d)) <- more, signum (orient a b c) * signum (orient a b d) < 0, signum (orient c d a) * signum (orient c d b) < 0] of
-    [] -> ps
-    (i, j) : _ -> let (front, rest) = splitAt (i + 1) ps; (middle, end) = splitAt (j - i) rest in untangled (rounds - 1) (front <> reverse middle <> end)
+  | otherwise =
+    case [ (i, j)
+           | (i, (a, b)) : more <- tails (zip [0 ..] edges),
+             (j, (c, d)) <- more,
+             signum (orient a b c) * signum (orient a b d) < 0,
+             signum (orient c d a) * signum (orient c d b) < 0
+         ] of
+      [] -> ps
+      (i, j) : _ ->
+        let (front, rest) =
+              splitAt (i + 1) ps
+            (middle, end) = splitAt (j - i) rest
+         in untangled (rounds - 1) (front <> reverse middle <> end)
   where
     edges = zip ps (drop 1 ps <> take 1 ps)
 
@@ -220,9 +311,20 @@ withArcs :: Gen Case
 withArcs = do
   inside <- arbitrary
   (sound, vs, special) <- oneof [bent, rounded, round', keyhole, slot, blob]
-  radius <- frequency [(2, choose (0.05, 4)), (1, elements (1 : 0.5 : special)), (1, elements (0.5 : special))]
+  radius <-
+    frequency
+      [(2, choose (0.05, 4)), (1, elements (1 : 0.5 : special)), (1, elements (0.5 : special))]
   let outward = FlatPolyarc.area (loop vs) < 0
-  pure Case {family = Arcs, outlines = [loop vs], side = if inside then LeftOf else RightOf, radius, extras = [], free = (if inside then 1 else 0) - (if outward then 1 else 0), sound}
+  pure
+    Case
+      { family = Arcs,
+        outlines = [loop vs],
+        side = if inside then LeftOf else RightOf,
+        radius,
+        extras = [],
+        free = (if inside then 1 else 0) - (if outward then 1 else 0),
+        sound
+      }
 
 -- | A star-shaped polygon with some edges bent; it may cross itself.
 bent :: Gen (Bool, [Vertex], [Double])
@@ -231,7 +333,14 @@ bent = do
   bs <- mapM (const bulge) ps
   pure (False, zipWith (\(x, y) b -> (x, y, b)) ps bs, [1])
   where
-    bulge = frequency [(3, pure 0), (4, choose (-0.5, 0.5)), (1, choose (-1.2, 1.2)), (1, elements [1e-3, -1e-4, 1e-6, -1e-8, 1e-10, 1, -1, 0.5]), (1, elements [3, -3])]
+    bulge =
+      frequency
+        [ (3, pure 0),
+          (4, choose (-0.5, 0.5)),
+          (1, choose (-1.2, 1.2)),
+          (1, elements [1e-3, -1e-4, 1e-6, -1e-8, 1e-10, 1, -1, 0.5]),
+          (1, elements [3, -3])
+        ]
 
 -- | Every corner rounded, tangent to its sides.
 rounded :: Gen (Bool, [Vertex], [Double])
@@ -250,7 +359,9 @@ rounded = do
           at (ux, uy) k = (fst v + k * ux, snd v + k * uy)
           (ax, ay) = at (ix, iy) (-back)
           (bx, by) = at (ox, oy) back
-       in if abs t < 1e-9 then ([(fst v, snd v, 0)], 1) else ([(ax, ay, tan (t / 4)), (bx, by, 0)], abs (back / tan (t / 2)))
+       in if abs t < 1e-9
+            then ([(fst v, snd v, 0)], 1)
+            else ([(ax, ay, tan (t / 4)), (bx, by, 0)], abs (back / tan (t / 2)))
     dist (ax, ay) (bx, by) = sqrt ((bx - ax) * (bx - ax) + (by - ay) * (by - ay))
     unit a@(ax, ay) b@(bx, by) = ((bx - ax) / dist a b, (by - ay) / dist a b)
 
@@ -262,11 +373,24 @@ round' = do
     [ do
         k <- choose (2, 5)
         phase <- elements [0, 0.1]
-        pure (True, [(r * cos t, r * sin t, tan (pi / (2 * fromIntegral k))) | i <- [0 .. k - 1 :: Int], let t = phase + 2 * pi * fromIntegral i / fromIntegral k], [r, 2 * r]),
+        pure
+          ( True,
+            [ (r * cos t, r * sin t, tan (pi / (2 * fromIntegral k)))
+              | i <- [0 .. k - 1 :: Int],
+                let t = phase + 2 * pi * fromIntegral i / fromIntegral k
+            ],
+            [r, 2 * r]
+          ),
       do
         gap <- elements [1e-3, 1e-6, 1e-8, 0.5]
         start <- choose (0, 2 * pi)
-        pure (True, [(r * cos (start + gap / 2), r * sin (start + gap / 2), tan ((2 * pi - gap) / 4)), (r * cos (start - gap / 2), r * sin (start - gap / 2), 0)], [r, 2 * r])
+        pure
+          ( True,
+            [ (r * cos (start + gap / 2), r * sin (start + gap / 2), tan ((2 * pi - gap) / 4)),
+              (r * cos (start - gap / 2), r * sin (start - gap / 2), 0)
+            ],
+            [r, 2 * r]
+          )
     ]
 
 -- | A circle with a channel, which may be as narrow as the cutter.
@@ -279,7 +403,12 @@ keyhole = do
   let s = asin (half / r)
       sweep = 2 * pi - 2 * s
       h = r * cos s
-      vs = [(h, half, tan (sweep / 4)), (h, -half, 0), (long, -half, if out then 1 else 0), (long, half, 0)]
+      vs =
+        [ (h, half, tan (sweep / 4)),
+          (h, -half, 0),
+          (long, -half, if out then 1 else 0),
+          (long, half, 0)
+        ]
   pure (True, vs, [half, r, half * 2])
 
 -- | A slot with round ends.
@@ -294,10 +423,15 @@ blob :: Gen (Bool, [Vertex], [Double])
 blob = do
   k <- choose (1, 4)
   signs <- replicateM k (elements [1, -1])
-  let wave = concat [[(2 * fromIntegral i, 0, -s), (2 * fromIntegral i + 1, 0, s)] | (i, s) <- zip [0 :: Int ..] signs]
+  let wave =
+        concat
+          [ [(2 * fromIntegral i, 0, -s), (2 * fromIntegral i + 1, 0, s)]
+            | (i, s) <- zip [0 :: Int ..] signs
+          ]
       top = 2 * fromIntegral k
   height <- elements [1, 2, 1.5, 3]
-  pure (height > 1, wave <> [(top, 0, 0), (top, height, 0), (0, height, 0)], [0.5, 0.25, height / 2])
+  pure
+    (height > 1, wave <> [(top, 0, 0), (top, height, 0), (0, height, 0)], [0.5, 0.25, height / 2])
 
 -- * Noise
 
@@ -306,7 +440,16 @@ noisy = do
   inside <- arbitrary
   ps <- frequency [(3, starred), (1, tangled)]
   radius <- oneof [choose (0.01, 1), choose (0.5, 6)]
-  pure Case {family = Noise, outlines = [loop [(x, y, 0) | (x, y) <- ps]], side = if inside then LeftOf else RightOf, radius, extras = [], free = if inside then 1 else 0, sound = True}
+  pure
+    Case
+      { family = Noise,
+        outlines = [loop [(x, y, 0) | (x, y) <- ps]],
+        side = if inside then LeftOf else RightOf,
+        radius,
+        extras = [],
+        free = if inside then 1 else 0,
+        sound = True
+      }
 
 -- | In the order of their angles.
 starred :: Gen [(Double, Double)]
@@ -315,7 +458,11 @@ starred = do
   rough <- elements [0.1, 1, 4]
   jitters <- replicateM n (choose (0, 0.7))
   radii <- replicateM n (choose (-rough, rough))
-  pure . counterClockwise $ [((5 + r) * cos t, (5 + r) * sin t) | (i, j, r) <- zip3 [0 :: Int ..] jitters radii, let t = 2 * pi * (fromIntegral i + j) / fromIntegral n]
+  pure . counterClockwise $
+    [ ((5 + r) * cos t, (5 + r) * sin t)
+      | (i, j, r) <- zip3 [0 :: Int ..] jitters radii,
+        let t = 2 * pi * (fromIntegral i + j) / fromIntegral n
+    ]
 
 tangled :: Gen [(Double, Double)]
 tangled = do

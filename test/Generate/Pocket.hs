@@ -35,7 +35,8 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Pocket (Loop, PocketRoom (..))
 import Toolpath.Toolpath (Toolpath)
 
--- | Loops with the free space on their left: the outline, and islands; the cutter's radius; what it leaves; the step.
+-- | Loops with the free space on their left: the outline, and islands; the cutter's radius; what it
+-- leaves; the step.
 data Pocket = Pocket {loops :: NonEmpty Loop, cutter :: Mm, left :: Mm, step :: Mm}
   deriving stock (Show)
 
@@ -69,15 +70,35 @@ island outline before = do
   k <- choose (3, 5)
   a <- choose (0, 2 * pi)
   round' <- arbitrary
-  let corners = [Vec.shift (Vec.polar (Mm r) (Rad (a - 2 * pi * fromIntegral i / fromIntegral (k :: Int)))) p | i <- [0 .. k - 1]]
-      circle = let (one, other) = Segment.cutAt 0.5 (Segment.fullCircle Clockwise (Circle p (Mm r)) (Vec.shift (Vec.polar (Mm r) (Rad a)) p)) in one :| [other]
+  let corners =
+        [ Vec.shift
+            (Vec.polar (Mm r) (Rad (a - 2 * pi * fromIntegral i / fromIntegral (k :: Int))))
+            p
+          | i <- [0 .. k - 1]
+        ]
+      circle =
+        let (one, other) =
+              Segment.cutAt
+                0.5
+                ( Segment.fullCircle
+                    Clockwise
+                    (Circle p (Mm r))
+                    (Vec.shift (Vec.polar (Mm r) (Rad a)) p)
+                )
+         in one :| [other]
       polygon = NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))
-      fits = WindingNumber.about p outline /= 0 && all (\s -> Distance.toPoint p s > Mm (r + 1)) (concatMap NonEmpty.toList (outline : before)) && all ((== 0) . WindingNumber.about p) before
+      fits =
+        WindingNumber.about p outline /= 0
+          && all
+            (\s -> Distance.toPoint p s > Mm (r + 1))
+            (concatMap NonEmpty.toList (outline : before))
+          && all ((== 0) . WindingNumber.about p) before
   pure ([if round' then circle else polygon | fits] <> before)
   where
     BoundingBox l bottom right top = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment outline)
 
--- | The pocket as a statement asks it, with the spindle clockwise, 1.5 mm deep; more is left first, as much as is said.
+-- | The pocket as a statement asks it, with the spindle clockwise, 1.5 mm deep; more is left first,
+-- as much as is said.
 pocketing :: [Mm] -> Pocket -> Pocketing
 pocketing before p =
   Pocketing
@@ -97,7 +118,8 @@ pocketing before p =
             Part.plunge = Nothing,
             Part.leadIn = Nothing,
             Part.leadOut = Nothing,
-            Part.allowances = foldr (\more rest -> plus more (left p) NonEmpty.<| rest) (left p :| []) before,
+            Part.allowances =
+              foldr (\more rest -> plus more (left p) NonEmpty.<| rest) (left p :| []) before,
             Part.corners = Part.Round,
             Part.sense = Nothing,
             Part.spin = Part.Clockwise,
@@ -109,13 +131,23 @@ pocketing before p =
     }
   where
     outline :| islands = loops p
-    contourOf loop = Part.Contour (here (Name "c")) Polyarc.Closed (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop) []
+    contourOf loop =
+      Part.Contour
+        (here (Name "c"))
+        Polyarc.Closed
+        (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop)
+        []
 
 -- | The path of a pocket, if the cutter has room in it.
 laid :: Pocketing -> Maybe Toolpath
-laid p = case FromPart.lay (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p))) {Part.start = Just (here (Part.SpacePoint (Vec.point 0 0) (Mm 20)))} of
-  Result _ [] path -> path
-  Result {} -> Nothing
+laid p =
+  case FromPart.lay
+    (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p)))
+      { Part.start =
+          Just (here (Part.SpacePoint (Vec.point 0 0) (Mm 20)))
+      } of
+    Result _ [] path -> path
+    Result {} -> Nothing
 
 here :: a -> Located a
 here = Located (Region 0 0)
@@ -131,15 +163,24 @@ roomOf p =
       turned = False
     }
 
--- | The loops at a distance to the left of some: all segments moved and all corners rounded, cut where they meet one another; what is
--- nowhere too near to the walls, joined again.
+-- | The loops at a distance to the left of some: all segments moved and all corners rounded, cut
+-- where they meet one another; what is nowhere too near to the walls, joined again.
 insetOf :: [Loop] -> Mm -> [Loop]
 insetOf walls d@(Mm d') = joined [piece | (i, s) <- numbered, piece <- cutUp i s, admissible piece]
   where
     numbered = zip [0 :: Int ..] (filter (\s -> Segment.length s > Mm 1e-9) (concatMap raw walls))
-    raw loop = concat (zipWith (\s next -> moved s <> corner s next) (NonEmpty.toList loop) (NonEmpty.tail loop <> [NonEmpty.head loop]))
+    raw loop =
+      concat
+        ( zipWith
+            (\s next -> moved s <> corner s next)
+            (NonEmpty.toList loop)
+            (NonEmpty.tail loop <> [NonEmpty.head loop])
+        )
     moved s = case s of
-      Straight a b -> let n = Vec.scale d' (Vec.left (Vec.unit (Vec.to a b))) in [Straight (Vec.shift n a) (Vec.shift n b)]
+      Straight a b ->
+        let n =
+              Vec.scale d' (Vec.left (Vec.unit (Vec.to a b)))
+         in [Straight (Vec.shift n a) (Vec.shift n b)]
       Arc {start = a, end = b, centre, sweep = w@(Rad angle)} ->
         let Mm r = Segment.radius centre a
             r' = r - signum angle * d'
@@ -148,11 +189,38 @@ insetOf walls d@(Mm d') = joined [piece | (i, s) <- numbered, piece <- cutUp i s
     corner s next =
       let Rad t = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
           beside dir = Vec.shift (Vec.scale d' (Vec.left dir)) (Segment.end s)
-       in [Arc {start = beside (Segment.endDirection s), end = beside (Segment.startDirection next), centre = Segment.end s, sweep = Rad t} | t < -1e-9]
+       in [ Arc
+              { start = beside (Segment.endDirection s),
+                end = beside (Segment.startDirection next),
+                centre = Segment.end s,
+                sweep = Rad t
+              }
+            | t < -1e-9
+          ]
     cutUp i s =
-      let marks = sort (0 : 1 : [t | (j, other) <- numbered, j /= i, p <- Distance.crossings s other, let t = Segment.fraction s p, t > 1e-9, t < 1 - 1e-9])
-       in [snd (Segment.cutAt (if b > 0 then a / b else 0) (fst (Segment.cutAt b s))) | (a, b) <- zip marks (drop 1 marks), b - a > 1e-9]
-    admissible piece = Segment.length piece > Mm 1e-7 && all (\w -> Distance.toPoint (Segment.at 0.5 piece) w > Mm (d' - 1e-7)) (concatMap NonEmpty.toList walls) && d > Mm 0
+      let marks =
+            sort
+              ( 0 :
+                1 :
+                  [ t
+                    | (j, other) <- numbered,
+                      j /= i,
+                      p <- Distance.crossings s other,
+                      let t = Segment.fraction s p,
+                      t > 1e-9,
+                      t < 1 - 1e-9
+                  ]
+              )
+       in [ snd (Segment.cutAt (if b > 0 then a / b else 0) (fst (Segment.cutAt b s)))
+            | (a, b) <- zip marks (drop 1 marks),
+              b - a > 1e-9
+          ]
+    admissible piece =
+      Segment.length piece > Mm 1e-7
+        && all
+          (\w -> Distance.toPoint (Segment.at 0.5 piece) w > Mm (d' - 1e-7))
+          (concatMap NonEmpty.toList walls)
+        && d > Mm 0
 
 -- | Pieces joined where they end and begin.
 joined :: [Segment] -> [Loop]
@@ -161,12 +229,18 @@ joined pieces = case pieces of
   first : rest -> go (first :| []) rest
   where
     go chain rest
-      | Vec.distance (end (NonEmpty.head chain)) (start (NonEmpty.last chain)) < Mm 1e-5 = NonEmpty.reverse chain : joined rest
+      | Vec.distance (end (NonEmpty.head chain)) (start (NonEmpty.last chain)) < Mm 1e-5 =
+        NonEmpty.reverse chain : joined rest
       | otherwise = case rest of
         [] -> []
         some ->
-          let (k, _) = minimumBy (comparing snd) (zip [0 ..] [Vec.distance (end (NonEmpty.head chain)) (start s) | s <- some])
+          let (k, _) =
+                minimumBy
+                  (comparing snd)
+                  (zip [0 ..] [Vec.distance (end (NonEmpty.head chain)) (start s) | s <- some])
               (before, from) = splitAt k some
            in case from of
-                s : behind | Vec.distance (end (NonEmpty.head chain)) (start s) < Mm 1e-5 -> go (NonEmpty.cons s chain) (before <> behind)
+                s : behind
+                  | Vec.distance (end (NonEmpty.head chain)) (start s) < Mm 1e-5 ->
+                    go (NonEmpty.cons s chain) (before <> behind)
                 _ -> joined rest

@@ -26,7 +26,8 @@ import Test.QuickCheck
 
 -- | A program that the parser can give: all of it at one place, and nothing broken in it.
 program :: Gen Program
-program = sized $ \n -> (`Program` []) <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
+program =
+  sized $ \n -> (`Program` []) <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
 
 here :: a -> Located a
 here = Located (Region 0 0)
@@ -50,12 +51,68 @@ every = elements [minBound .. maxBound]
 name :: Gen Name
 name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
   where
-    plain = ["a", "b", "p", "lug", "радиус", "Ёж", "x1", "_", "half_turn", "a_rather_long_name_for_a_thing"]
-    words' = ["by", "at", "depth", "step", "diameter", "nose", "line", "arc", "out", "round", "sharp", "climb", "conventional", "start", "plunge", "peck", "corners", "compensation", "controller", "compiler", "lead", "cipher", "joggle", "radius", "cone", "blade", "gear", "bevel1", "to", "rpm1", "min", "byte", "pocket", "islands", "rest", "allowed"]
-    made = (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019"))) `suchThat` (not . Keyword.isReserved)
+    plain =
+      [ "a",
+        "b",
+        "p",
+        "lug",
+        "радиус",
+        "Ёж",
+        "x1",
+        "_",
+        "half_turn",
+        "a_rather_long_name_for_a_thing"
+      ]
+    words' =
+      [ "by",
+        "at",
+        "depth",
+        "step",
+        "diameter",
+        "nose",
+        "line",
+        "arc",
+        "out",
+        "round",
+        "sharp",
+        "climb",
+        "conventional",
+        "start",
+        "plunge",
+        "peck",
+        "corners",
+        "compensation",
+        "controller",
+        "compiler",
+        "lead",
+        "cipher",
+        "joggle",
+        "radius",
+        "cone",
+        "blade",
+        "gear",
+        "bevel1",
+        "to",
+        "rpm1",
+        "min",
+        "byte",
+        "pocket",
+        "islands",
+        "rest",
+        "allowed"
+      ]
+    made =
+      (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019")))
+        `suchThat` (not . Keyword.isReserved)
 
 number :: Gen Numeral
-number = numeral <$> frequency [(3, whole), (2, (\a b -> a <> "." <> b) <$> whole <*> whole), (1, Text.pack <$> vectorOf 18 (choose ('0', '9')))]
+number =
+  numeral
+    <$> frequency
+      [ (3, whole),
+        (2, (\a b -> a <> "." <> b) <$> whole <*> whole),
+        (1, Text.pack <$> vectorOf 18 (choose ('0', '9')))
+      ]
   where
     whole = Text.pack <$> (choose (1, 4) >>= \k -> vectorOf k (choose ('0', '9')))
     numeral digits = Numeral digits (fromMaybe 0 (Decimal.amount digits))
@@ -82,7 +139,12 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Param <$> at name <*> expr n,
         Table <$> at name <*> (LinesOf <$> at title),
         Curve <$> at name <*> expr (n + 1),
-        Piece <$> at name <*> expr n <*> some' 3 (at cipher) <*> at (elements [LeftSide, RightSide]) <*> some' 2 (at joggle),
+        Piece
+          <$> at name
+            <*> expr n
+            <*> some' 3 (at cipher)
+            <*> at (elements [LeftSide, RightSide])
+            <*> some' 2 (at joggle),
         Assert <$> expr (n + 1) <*> maybe' (expr n),
         Drill <$> expr n <*> expr n <*> some' 3 (setting n),
         Travel <$> every <*> nonEmpty 3 (stop n),
@@ -93,7 +155,16 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       ]
     deep =
       [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
-        Table <$> at name <*> (WrittenLines <$> ((:) <$> at (Header <$> nonEmpty 3 heading) <*> some' 4 (at (oneof [Entries <$> nonEmpty 3 cell, Numbers <$> rows])))),
+        Table
+          <$> at name
+            <*> ( WrittenLines
+                    <$> ( (:)
+                            <$> at (Header <$> nonEmpty 3 heading)
+                              <*> some'
+                                4
+                                (at (oneof [Entries <$> nonEmpty 3 cell, Numbers <$> rows]))
+                        )
+                ),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
         Pocket <$> expr n <*> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
@@ -102,17 +173,42 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         With <$> expr n <*> inside
       ]
     inside = some' 3 (statement (n - 1))
-    cipher = Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
+    cipher =
+      Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
     joggle = Joggle <$> expr n <*> expr n <*> expr n <*> expr n
-    rows = chooseInt (1, 3) >>= \width -> NumberTable.fromList <$> listOf1 ((Region 0 0,) . PrimArray.primArrayFromList <$> vectorOf width ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000)))
+    rows =
+      chooseInt (1, 3) >>= \width ->
+        NumberTable.fromList
+          <$> listOf1
+            ( (Region 0 0,) . PrimArray.primArrayFromList
+                <$> vectorOf width ((/ 1000) . fromIntegral <$> chooseInt (-1000000, 1000000))
+            )
     heading = Heading <$> at name <*> maybe' (elements columnUnits)
-    cell = oneof [at (Literal <$> number <*> maybe' every), at (Negate <$> at (Literal <$> number <*> maybe' every)), expr (n + 1)]
+    cell =
+      oneof
+        [ at (Literal <$> number <*> maybe' every),
+          at (Negate <$> at (Literal <$> number <*> maybe' every)),
+          expr (n + 1)
+        ]
 
 machine :: Gen Text
-machine = oneof [pure "lkp-01f", (Text.pack <$> listOf1 (elements "abж.-079")) `suchThat` (not . Text.isInfixOf "--")]
+machine =
+  oneof
+    [ pure "lkp-01f",
+      (Text.pack <$> listOf1 (elements "abж.-079")) `suchThat` (not . Text.isInfixOf "--")
+    ]
 
 cutter :: Int -> Gen Cutter
-cutter n = at (oneof [MillCutter <$> expr n, DrillCutter <$> expr n, TurningCutter <$> expr n, ConeCutter <$> expr n <*> expr n <*> expr n, BladeCutter <$> expr n <*> expr n])
+cutter n =
+  at
+    ( oneof
+        [ MillCutter <$> expr n,
+          DrillCutter <$> expr n,
+          TurningCutter <$> expr n,
+          ConeCutter <$> expr n <*> expr n <*> expr n,
+          BladeCutter <$> expr n <*> expr n
+        ]
+    )
 
 stop :: Int -> Gen Stop
 stop n = Stop <$> expr n <*> oneof [pure Cutting, pure Rapid, AtFeed <$> expr n]
@@ -120,9 +216,13 @@ stop n = Stop <$> expr n <*> oneof [pure Cutting, pure Rapid, AtFeed <$> expr n]
 item :: Int -> Gen Item
 item n = at (frequency ((6, element) : [(1, i) | n > 0, i <- deep]))
   where
-    element = Element <$> maybe' (at every) <*> expr (n + 1) <*> some' 2 (at modifier) <*> maybe' (at link)
-    modifier = oneof [AtElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n, Bevel <$> expr n]
-    link = oneof [Meet <$> maybe' (expr n), pure Smooth, pure Tangent, Fillet <$> expr n, Chamfer <$> expr n]
+    element =
+      Element <$> maybe' (at every) <*> expr (n + 1) <*> some' 2 (at modifier) <*> maybe' (at link)
+    modifier =
+      oneof [AtElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n, Bevel <$> expr n]
+    link =
+      oneof
+        [Meet <$> maybe' (expr n), pure Smooth, pure Tangent, Fillet <$> expr n, Chamfer <$> expr n]
     deep = [For <$> at name <*> expr n <*> inside, Choose <$> expr n <*> inside <*> inside]
     inside = some' 3 (item (n - 1))
 
@@ -147,7 +247,14 @@ setting n =
 -- Expressions
 
 expr :: Int -> Gen Expr
-expr n = at (frequency ([(if n > 0 then 1 else 4, leaf) | leaf <- leaves] <> [(1, e) | n > 0, e <- deep] <> [(4, e) | n > 0, e <- binary]))
+expr n =
+  at
+    ( frequency
+        ( [(if n > 0 then 1 else 4, leaf) | leaf <- leaves]
+            <> [(1, e) | n > 0, e <- deep]
+            <> [(4, e) | n > 0, e <- binary]
+        )
+    )
   where
     leaves = [Literal <$> number <*> maybe' every, Variable <$> name]
     less = expr (n - 1)
@@ -163,12 +270,13 @@ expr n = at (frequency ([(if n > 0 then 1 else 4, leaf) | leaf <- leaves] <> [(1
         List <$> some' 12 less,
         Each <$> less <*> at name <*> less
       ]
-    argument = frequency [(3, Given <$> less), (1, Chosen <$> at every <*> less), (1, Ranked <$> at every)]
+    argument =
+      frequency [(3, Given <$> less), (1, Chosen <$> at every <*> less), (1, Ranked <$> at every)]
 
 -- Ways to write
 
--- | The text of a program with comments, blank lines, indentation, line breaks and ends of lines put in at
--- random, as far as they mean nothing.
+-- | The text of a program with comments, blank lines, indentation, line breaks and ends of lines
+-- put in at random, as far as they mean nothing.
 respaced :: Text -> Gen Text
 respaced text = do
   end' <- elements ["\n", "\r\n", "\r"]
@@ -178,14 +286,17 @@ respaced text = do
   pure (mark <> Text.replace "\n" end' (before <> Text.concat pieces))
   where
     tokens = fst (Lexer.tokens 0 text)
-    piece (inTable, t, next) = (written text t <>) <$> maybe newLines (if inTable then inLine t else between t) next
+    piece (inTable, t, next) =
+      (written text t <>) <$> maybe newLines (if inTable then inLine t else between t) next
 
 -- | Whether each token stands in the braces of a table, where lines mean something.
 inTables :: [Token] -> [Bool]
 inTables = go False
   where
     go inside tokens = case tokens of
-      a : _ : c : rest | not inside && newLine a && map shape [a, c] == [Word "table", Symbol "{"] -> False : False : True : go True rest
+      a : _ : c : rest
+        | not inside && newLine a && map shape [a, c] == [Word "table", Symbol "{"] ->
+          False : False : True : go True rest
       t : rest | inside && shape t == Symbol "}" -> False : go False rest
       _ : rest -> inside : go inside rest
       [] -> []
@@ -202,8 +313,11 @@ between t u
   | newLine u && begins u = (<>) <$> newLines <*> indentation
   | newLine u = oneof [(<>) <$> newLines <*> indentation, pure " "]
   | glued t u = pure (if attached u then "" else " ")
-  | attached u && shape t /= Symbol "-" = frequency [(8, pure ""), (1, pure " "), (1, (<>) <$> newLines <*> indentation)]
-  | any (\x -> shape x `elem` map Symbol [",", "+", "*", "=", "<="]) [t, u] && shape u `notElem` [Symbol "-", Symbol "("] = frequency [(6, pure " "), (2, pure ""), (1, (<>) <$> newLines <*> indentation)]
+  | attached u && shape t /= Symbol "-" =
+    frequency [(8, pure ""), (1, pure " "), (1, (<>) <$> newLines <*> indentation)]
+  | any (\x -> shape x `elem` map Symbol [",", "+", "*", "=", "<="]) [t, u]
+      && shape u `notElem` [Symbol "-", Symbol "("] =
+    frequency [(6, pure " "), (2, pure ""), (1, (<>) <$> newLines <*> indentation)]
   | otherwise = frequency [(8, pure " "), (1, (<>) <$> newLines <*> indentation)]
   where
     indentation = elements ["", "  ", "\t", "        "]
@@ -241,7 +355,13 @@ glued t u = case (shape t, shape u) of
 
 -- | The names of the constructors in a program.
 constructors :: Program -> Set Text
-constructors = Set.fromList . filter capital . Text.split (\c -> not (isAlphaNum c || c == '\'' || c == '_')) . unquoted . Text.pack . show
+constructors =
+  Set.fromList
+    . filter capital
+    . Text.split (\c -> not (isAlphaNum c || c == '\'' || c == '_'))
+    . unquoted
+    . Text.pack
+    . show
   where
     capital word = Text.any (`elem` ['A' .. 'Z']) (Text.take 1 word)
     -- What stands in quotation marks is no constructor.

@@ -1,5 +1,5 @@
--- | Random chains of arcs that stand for one curve: open ones that wind, turn back and pass through vertical tangents,
--- closed ones with waves, and lines and arcs cut into many.
+-- | Random chains of arcs that stand for one curve: open ones that wind, turn back and pass through
+-- vertical tangents, closed ones with waves, and lines and arcs cut into many.
 module Generate.Run
   ( open,
     bent,
@@ -34,7 +34,8 @@ import Test.QuickCheck hiding (elements)
 import Test.QuickCheck qualified as QuickCheck
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
--- | Arcs and lines, few or many, each setting out as the one before arrives; from tight to nearly straight.
+-- | Arcs and lines, few or many, each setting out as the one before arrives; from tight to nearly
+-- straight.
 open :: Gen [Segment]
 open = do
   count <- oneof [choose (1, 6), choose (20, 120)]
@@ -48,7 +49,8 @@ open = do
       | otherwise = do
         l <- choose (0.1 * reach, reach)
         -- The curvature jumps now and then, and else changes a little.
-        bend' <- frequency [(1, pure 0), (2, choose (-0.3, 0.3)), (6, (bend +) <$> choose (-0.02, 0.02))]
+        bend' <-
+          frequency [(1, pure 0), (2, choose (-0.3, 0.3)), (6, (bend +) <$> choose (-0.02, 0.02))]
         let turned = max (-6) (min 6 (bend' * l))
             s = arcFrom p heading turned l
         (s :) <$> go (count - 1) reach (Segment.end s) (heading + turned) bend'
@@ -59,21 +61,34 @@ bent = go (Vec.point 0 0) 0
   where
     go p heading wanted = case wanted of
       [] -> []
-      (l, bend) : more -> let s = arcFrom p heading (bend * l) l in s : go (Segment.end s) (heading + bend * l) more
+      (l, bend) : more ->
+        let s =
+              arcFrom p heading (bend * l) l
+         in s : go (Segment.end s) (heading + bend * l) more
 
 -- | An arc or a line from a point in a direction that turns by an angle on a length.
 arcFrom :: Point -> Double -> Double -> Double -> Segment
 arcFrom p heading turned l
   | abs turned < 1e-9 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
-  | otherwise = Arc {start = p, end = Vec.shift (Vec.rotate (Rad turned) (Vec.to centre p)) centre, centre, sweep = Rad turned}
+  | otherwise =
+    Arc
+      { start = p,
+        end = Vec.shift (Vec.rotate (Rad turned) (Vec.to centre p)) centre,
+        centre,
+        sweep = Rad turned
+      }
   where
     centre = Vec.shift (Vec.scale (l / turned) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
 
--- | A closed curve without corners, as biarcs: a circle with waves. Now and then a small one of arcs that are no longer
--- than a tolerance.
+-- | A closed curve without corners, as biarcs: a circle with waves. Now and then a small one of
+-- arcs that are no longer than a tolerance.
 closed :: Gen [Segment]
 closed = do
-  (r, count) <- frequency [(5, (,) <$> choose (15, 60) <*> choose (12, 150)), (1, (,) <$> choose (5, 9) <*> choose (500, 900))]
+  (r, count) <-
+    frequency
+      [ (5, (,) <$> choose (15, 60) <*> choose (12, 150)),
+        (1, (,) <$> choose (5, 9) <*> choose (500, 900))
+      ]
   waves <- choose (2, 5)
   deep <- choose (0, 0.8)
   turned <- choose (-pi, pi)
@@ -82,20 +97,29 @@ closed = do
 
 -- | The curve @ρ = r·(1 + d·cos kφ)@ as biarcs between so many points, from an angle, in a sense.
 oval :: Double -> Int -> Double -> Double -> Double -> Int -> [Segment]
-oval r waves deep from way count = biarcs [at (from + way * 2 * pi * fromIntegral k / fromIntegral count) | k <- map (`mod` count) [0 .. count]]
+oval r waves deep from way count =
+  biarcs
+    [ at (from + way * 2 * pi * fromIntegral k / fromIntegral count)
+      | k <- map (`mod` count) [0 .. count]
+    ]
   where
     w = fromIntegral waves
     at phi =
       let rho = r * (1 + deep * cos (w * phi))
           rho' = -(r * deep * w * sin (w * phi))
           out = Vec.vec (cos phi) (sin phi)
-       in (Vec.shift (Vec.scale rho out) (Vec.point 3 (-2)), Vec.scale way (Vec.unit (Vec.add (Vec.scale rho' out) (Vec.scale rho (Vec.left out)))))
+       in ( Vec.shift (Vec.scale rho out) (Vec.point 3 (-2)),
+            Vec.scale way (Vec.unit (Vec.add (Vec.scale rho' out) (Vec.scale rho (Vec.left out))))
+          )
 
 -- | The wave @y = a·sin (2πx/l)@ from 0 to a place, as biarcs between so many points.
 wave :: Double -> Double -> Double -> Int -> [Segment]
 wave a l far count = biarcs [at (far * fromIntegral k / fromIntegral count) | k <- [0 .. count]]
   where
-    at x = let p = 2 * pi * x / l in (Vec.point x (a * sin p), Vec.unit (Vec.vec 1 (2 * pi * a / l * cos p)))
+    at x =
+      let p =
+            2 * pi * x / l
+       in (Vec.point x (a * sin p), Vec.unit (Vec.vec 1 (2 * pi * a / l * cos p)))
 
 -- | Two arcs between each point and the next, with the directions given there.
 biarcs :: [(Point, Vec)] -> [Segment]
@@ -105,7 +129,10 @@ biarcs places = concat (zipWith pair places (drop 1 places))
       let v = Vec.to p q
           along = Vec.dot v (Vec.add t u)
           spread = 2 * (1 - Vec.dot t u)
-          d = if spread < 1e-12 then Vec.dot v v / (2 * along) else (sqrt (along * along + spread * Vec.dot v v) - along) / spread
+          d =
+            if spread < 1e-12
+              then Vec.dot v v / (2 * along)
+              else (sqrt (along * along + spread * Vec.dot v v) - along) / spread
           m = Vec.between 0.5 (Vec.shift (Vec.scale d t) p) (Vec.shift (Vec.scale (-d) u) q)
        in [touching p t m, Segment.reverse (touching q (Vec.negate u) m)]
 
@@ -113,7 +140,13 @@ biarcs places = concat (zipWith pair places (drop 1 places))
 touching :: Point -> Vec -> Point -> Segment
 touching p t q
   | abs turned < 1e-9 = Straight p q
-  | otherwise = Arc {start = p, end = q, centre = Vec.shift (Vec.scale (Vec.dot v v / (2 * Vec.dot n v)) n) p, sweep = Rad turned}
+  | otherwise =
+    Arc
+      { start = p,
+        end = q,
+        centre = Vec.shift (Vec.scale (Vec.dot v v / (2 * Vec.dot n v)) n) p,
+        sweep = Rad turned
+      }
   where
     v = Vec.to p q
     n = Vec.left t
@@ -127,14 +160,21 @@ parts n s
 
 -- | Chains as the elements of a contour: of each the arcs behind the first continue.
 elements :: [[Segment]] -> [Element]
-elements = concatMap (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing) [0 :: Int ..])
+elements =
+  concatMap
+    (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing) [0 :: Int ..])
 
 -- | A chain as the moves of one run at a height.
 run :: [Segment] -> NonEmpty Move
-run = NonEmpty.fromList . zipWith (\k s -> Move s (Manner (Mm 0, Mm 0) Part.Rapid False) (Region 0 0) (k > 0)) [0 :: Int ..]
+run =
+  NonEmpty.fromList
+    . zipWith
+      (\k s -> Move s (Manner (Mm 0, Mm 0) Part.Rapid False) (Region 0 0) (k > 0))
+      [0 :: Int ..]
 
--- | A closed curve with a cutter that fits on one of its sides, and that is left a way to go: of one whose path is hardly
--- more than a point, shorter than the way of braking (1.6 mm) or narrower than a tolerance, the laws do not hold.
+-- | A closed curve with a cutter that fits on one of its sides, and that is left a way to go: of
+-- one whose path is hardly more than a point, shorter than the way of braking (1.6 mm) or narrower
+-- than a tolerance, the laws do not hold.
 curveCase :: Gen Case
 curveCase = do
   chain <- closed
@@ -145,13 +185,21 @@ curveCase = do
     Right found | wide found -> pure Case {contour, side, radius = Mm r, pieces = found}
     _ -> curveCase
   where
-    -- The curves are round enough that one that is as wide as this one way is about as wide in the other.
+    -- The curves are round enough that one that is as wide as this one way is about as wide in the
+    -- other.
     wide found =
       let p :| more = fmap (Segment.start . Equidistant.segment) found
        in any (\q -> Vec.distance p q >= Mm 2) more
 
 -- | The milling of a case whose contour is one curve.
 jobAlong :: Case -> Milling
-jobAlong c = job {Part.contour = (Part.contour job) {Part.elements = NonEmpty.fromList (elements [NonEmpty.toList (segments (contour c))])}}
+jobAlong c =
+  job
+    { Part.contour =
+        (Part.contour job)
+          { Part.elements =
+              NonEmpty.fromList (elements [NonEmpty.toList (segments (contour c))])
+          }
+    }
   where
     job = Generate.job c

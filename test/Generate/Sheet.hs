@@ -26,18 +26,36 @@ sheet = do
   where
     stopped ps = NonEmpty.fromList (NonEmpty.init ps <> [(NonEmpty.last ps) {feed = here 0}])
 
--- | One piece, far from its neighbours, that can be cut: an array with a cutter on the pieces themselves, whose curves are
--- nearly straight and whose distances are small beside them.
+-- | One piece, far from its neighbours, that can be cut: an array with a cutter on the pieces
+-- themselves, whose curves are nearly straight and whose distances are small beside them.
 cut :: Gen Sheet
 cut = do
   s <- sheet
   count <- choose (1, 3 :: Int)
   alone <- traverse gentle [1 .. count]
   ways <- vectorOf (count - 1) (onePoint 60)
-  let arraysOf = zipWith (\p w -> Array {joined = [], final = p, onward = w :| []}) alone (ways <> [(plain 900 900) {feed = here 0}])
+  let arraysOf =
+        zipWith
+          (\p w -> Array {joined = [], final = p, onward = w :| []})
+          alone
+          (ways <> [(plain 900 900) {feed = here 0}])
   pure $ case arraysOf of
     [] -> s
-    a : as -> s {general = (general s) {gear = here 0, bevel = here 0, height = here 0, diameter = here 6, tolerance = here 0.05, side = here Nothing}, approach = plain (-300) 0 :| [], first = a, others = as}
+    a : as ->
+      s
+        { general =
+            (general s)
+              { gear = here 0,
+                bevel = here 0,
+                height = here 0,
+                diameter = here 6,
+                tolerance = here 0.05,
+                side = here Nothing
+              },
+          approach = plain (-300) 0 :| [],
+          first = a,
+          others = as
+        }
   where
     plain a b = Waypoint {x = here a, y = here b, z = here 0, feed = here 60}
     onePoint f = (\a b -> (plain a b) {feed = here f}) <$> choose (-500, 500) <*> choose (-500, 500)
@@ -47,18 +65,37 @@ gentle :: Int -> Gen Piece
 gentle strip = do
   digits <- resize 3 (listOf (elements [minBound .. maxBound]))
   n <- choose (2, 8)
-  rows <- NonEmpty.fromList <$> traverse (\k -> row (Four `elem` digits) (fromIntegral k * 40) (fromIntegral strip * 120)) [0 .. n - 1 :: Int]
+  rows <-
+    NonEmpty.fromList
+      <$> traverse
+        (\k -> row (Four `elem` digits) (fromIntegral k * 40) (fromIntegral strip * 120))
+        [0 .. n - 1 :: Int]
   side <- elements [minBound .. maxBound]
   cipher <- traverse (recalculation n (choose (0, 3))) digits
   slow <- arbitrary
-  pure Piece {towards = here (if null cipher then LeftSide else side), cipher = here cipher, rows, slow = here slow, allowance = here 0}
+  pure
+    Piece
+      { towards = here (if null cipher then LeftSide else side),
+        cipher = here cipher,
+        rows,
+        slow = here slow,
+        allowance = here 0
+      }
   where
     row steep px py = do
       dx <- choose (0, 5)
       dy <- choose (0, 5)
       mu <- choose (-4, 4)
       h <- choose (5, 20)
-      pure PointRow {px = here (rounded (px + dx)), py = here (rounded (py + dy)), surface = if steep then Just Surface {mu = here (rounded mu), flange = here (rounded h)} else Nothing}
+      pure
+        PointRow
+          { px = here (rounded (px + dx)),
+            py = here (rounded (py + dy)),
+            surface =
+              if steep
+                then Just Surface {mu = here (rounded mu), flange = here (rounded h)}
+                else Nothing
+          }
     rounded v = fromIntegral (round (v * 100 :: Double) :: Int) / 100
 
 here :: a -> Located a
@@ -66,7 +103,12 @@ here = Located (Region 0 0)
 
 -- | A number that a sheet can hold.
 number :: Gen Double
-number = oneof [fromIntegral <$> choose (-500, 500 :: Int), (/ 100) . fromIntegral <$> choose (-50000, 50000 :: Int), choose (-1000, 1000)]
+number =
+  oneof
+    [ fromIntegral <$> choose (-500, 500 :: Int),
+      (/ 100) . fromIntegral <$> choose (-50000, 50000 :: Int),
+      choose (-1000, 1000)
+    ]
 
 above :: Gen Double
 above = (abs <$> number) `suchThat` (> 0)
@@ -80,18 +122,32 @@ generalData = do
   (gear, bevel, height) <- oneof [pure (0, 0, 0), (,0,0) <$> above, (0,,) <$> above <*> above]
   tolerance <- here <$> above
   side <- here <$> elements [Nothing, Just LeftSide, Just RightSide]
-  pure General {productCipher, partCipher, program, diameter, gear = here gear, bevel = here bevel, height = here height, tolerance, side}
+  pure
+    General
+      { productCipher,
+        partCipher,
+        program,
+        diameter,
+        gear = here gear,
+        bevel = here bevel,
+        height = here height,
+        tolerance,
+        side
+      }
   where
     whole = here . fromIntegral <$> choose (0, 999999999 :: Int)
 
 -- | Points, the last of which has a feed for pieces.
 waypoints :: (Int, Int) -> Gen (NonEmpty Waypoint)
 waypoints range = do
-  before <- choose range >>= \k -> vectorOf k (waypoint (frequency [(2, above), (1, pure rapidFeed)]))
+  before <-
+    choose range >>= \k ->
+      vectorOf k (waypoint (frequency [(2, above), (1, pure rapidFeed)]))
   final <- waypoint (above `suchThat` (/= rapidFeed))
   pure (NonEmpty.fromList (before <> [final]))
   where
-    waypoint f = Waypoint <$> coordinate <*> coordinate <*> (here <$> oneof [pure 0, number]) <*> (here <$> f)
+    waypoint f =
+      Waypoint <$> coordinate <*> coordinate <*> (here <$> oneof [pure 0, number]) <*> (here <$> f)
 
 coordinate :: Gen Number
 coordinate = here <$> number
@@ -115,9 +171,20 @@ piece = do
   cipher <- normal <$> traverse (recalculation n number) digits
   slow <- arbitrary
   allowance <- oneof [pure (here 0), coordinate]
-  pure Piece {towards = here (if null cipher then LeftSide else side), cipher = here cipher, rows, slow = here slow, allowance}
+  pure
+    Piece
+      { towards = here (if null cipher then LeftSide else side),
+        cipher = here cipher,
+        rows,
+        slow = here slow,
+        allowance
+      }
   where
-    row steep = PointRow <$> coordinate <*> coordinate <*> if steep then Just <$> (Surface <$> coordinate <*> coordinate) else pure Nothing
+    row steep =
+      PointRow <$> coordinate <*> coordinate
+        <*> if steep
+          then Just <$> (Surface <$> coordinate <*> coordinate)
+          else pure Nothing
     -- The first distance before the points has the side's sign.
     normal list = case break isGiven list of
       (before, Growing a b : rest) -> before <> (Growing (fmap abs a) b : rest)

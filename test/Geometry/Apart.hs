@@ -1,4 +1,5 @@
--- | Distances by other means than the program's, for the judges of laws: from an arc by the angle from its middle. In mm.
+-- | Distances by other means than the program's, for the judges of laws: from an arc by the angle
+-- from its middle. In mm.
 module Geometry.Apart
   ( apart,
     away,

@@ -23,23 +23,45 @@ spec = do
       property $
         forAll ((,) <$> circle <*> circle) $ \(a@(Circle c1 (Mm r1)), b@(Circle c2 (Mm r2))) ->
           case Intersection.circles a b of
-            Apart (Mm gap) -> gap > 0 .&&. property (abs (max (apart c1 c2 - r1 - r2) (abs (r1 - r2) - apart c1 c2) - gap) < 1e-9)
+            Apart (Mm gap) ->
+              gap
+                > 0
+                  .&&. property
+                    (abs (max (apart c1 c2 - r1 - r2) (abs (r1 - r2) - apart c1 c2) - gap) < 1e-9)
             Touching p -> on a p .&&. on b p
             Crossing p q -> conjoin [on a p, on b p, on a q, on b q, property (apart p q > 0)]
             CrossingOnce _ -> property False
             Same -> property False
-    it "lie on both curves, be one of them as good as a line (catches places that are measured from a centre far away)" $
-      property $
-        forAll ((,,) <$> circle <*> choose (4, 8) <*> choose (-0.9, 0.9)) $ \(b@(Circle c (Mm r)), power, share) -> forAll (choose (0, 2 * pi)) $ \angle ->
-          let far = 10 ** power
-              away = Vec.shift (Vec.polar (Mm (far + share * r)) (Rad angle)) c
-              a = Circle away (Mm far)
-              near p = abs (apart c p - r) < 1e-9 && abs (apart away p - far) < 1e-6
-           in conjoin [counterexample (show (p, q)) (near p && near q) | (one, other) <- [(a, b), (b, a)], (p, q) <- case Intersection.circles one other of Crossing p q -> [(p, q)]; m -> error (show m)]
+    it
+      "lie on both curves, be one of them as good as a line (catches places that are measured from \
+      \a centre far away)"
+      $ property $
+        forAll ((,,) <$> circle <*> choose (4, 8) <*> choose (-0.9, 0.9)) $
+          \(b@(Circle c (Mm r)), power, share) ->
+            forAll (choose (0, 2 * pi)) $ \angle ->
+              let far = 10 ** power
+                  away = Vec.shift (Vec.polar (Mm (far + share * r)) (Rad angle)) c
+                  a = Circle away (Mm far)
+                  near p = abs (apart c p - r) < 1e-9 && abs (apart away p - far) < 1e-6
+               in conjoin
+                    [ counterexample (show (p, q)) (near p && near q)
+                      | (one, other) <- [(a, b), (b, a)],
+                        (p, q) <- case Intersection.circles one other of
+                          Crossing p q ->
+                            [(p, q)]
+                          m -> error (show m)
+                    ]
     it "of a line and a circle come in the order of the line (catches a lost sign)" $
       property $
         forAll ((,) <$> line <*> circle) $ \(l, c) -> case Intersection.lineCircle l c of
-          Crossing p q -> conjoin [on c p, on c q, onLine l p, onLine l q, property (Vec.dot (Carrier.direction l) (Vec.to p q) > 0)]
+          Crossing p q ->
+            conjoin
+              [ on c p,
+                on c q,
+                onLine l p,
+                onLine l q,
+                property (Vec.dot (Carrier.direction l) (Vec.to p q) > 0)
+              ]
           _ -> property True
     it "of coincident, touching and concentric circles are told apart" $ do
       let c r = Circle (Vec.point 1 2) (Mm r)
@@ -50,21 +72,31 @@ spec = do
   describe "tangents" $ do
     it "touch both circles in the direction of the walk (catches a tangent on the wrong side)" $
       property $
-        forAll ((,,,) <$> turn <*> circle <*> turn <*> circle) $ \(t1, a, t2, b) -> case TangentLine.directed (t1, a) (t2, b) of
-          Nothing -> property (noTangent (t1, a) (t2, b))
-          Just l -> touches (OnCircle t1 a) (from l) (Carrier.direction l) .&&. touches (OnCircle t2 b) (to l) (Carrier.direction l)
+        forAll ((,,,) <$> turn <*> circle <*> turn <*> circle) $ \(t1, a, t2, b) ->
+          case TangentLine.directed (t1, a) (t2, b) of
+            Nothing -> property (noTangent (t1, a) (t2, b))
+            Just l ->
+              touches (OnCircle t1 a) (from l) (Carrier.direction l)
+                .&&. touches (OnCircle t2 b) (to l) (Carrier.direction l)
     it "are four for circles apart, two for crossing ones, none for one inside the other" $ do
       let far = Circle (Vec.point 20 0) (Mm 3)
-      map (\d -> length (TangentLine.all (Circle (Vec.point d 0) (Mm 5)) far)) [0, 13, 19] `shouldBe` [4, 2, 0]
+      map (\d -> length (TangentLine.all (Circle (Vec.point d 0) (Mm 5)) far)) [0, 13, 19]
+        `shouldBe` [4, 2, 0]
   describe "fillets" $
-    it "touch both neighbours in the direction of the walk, at their radius (catches an arc on the wrong side)" $
-      property $
+    it
+      "touch both neighbours in the direction of the walk, at their radius (catches an arc on the \
+      \wrong side)"
+      $ property $
         forAll ((,,,) <$> choose (0.5, 30) <*> turn <*> walked <*> walked) $ \(r, t, a, b) ->
           let found = Fillet.between (Mm r) t a b
            in classify (null found) "none" $
                 conjoin
                   [ conjoin
-                      [ counterexample "radius" (abs (apart middle start - r) < 1e-6 && abs (apart middle end - r) < 1e-6),
+                      [ counterexample
+                          "radius"
+                          ( abs (apart middle start - r) < 1e-6
+                              && abs (apart middle end - r) < 1e-6
+                          ),
                         touches a start (Segment.startDirection arc),
                         touches b end (Segment.endDirection arc)
                       ]
@@ -77,7 +109,8 @@ spec = do
 touches :: ElementCarrier -> Point -> Vec -> Property
 touches w p direction = case w of
   OnLine l -> onLine l p .&&. same (Carrier.direction l)
-  OnCircle t c@(Circle m _) -> on c p .&&. same (Vec.unit (Vec.scale (Carrier.sense t) (Vec.left (Vec.to m p))))
+  OnCircle t c@(Circle m _) ->
+    on c p .&&. same (Vec.unit (Vec.scale (Carrier.sense t) (Vec.left (Vec.to m p))))
   AtPoint q -> property (apart p q < 1e-6)
   OnCurve _ -> property False
   where

@@ -1,5 +1,5 @@
--- | What curves are before any shift: that they pass where they should, as smoothly as they should, and that they can
--- be measured and searched.
+-- | What curves are before any shift: that they pass where they should, as smoothly as they should,
+-- and that they can be measured and searched.
 module Geometry.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
@@ -9,7 +9,14 @@ import Data.List.NonEmpty (NonEmpty (..))
 import GHC.Exts qualified as Exts
 import Generate.Curve (Table (..))
 import Generate.Curve qualified as Generate
-import Geometry.Curve (Approach (..), Curve, CurveFault (..), EndCondition (..), Span (..), SpanShape (..))
+import Geometry.Curve
+  ( Approach (..),
+    Curve,
+    CurveFault (..),
+    EndCondition (..),
+    Span (..),
+    SpanShape (..),
+  )
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Spline qualified as Spline
@@ -28,23 +35,40 @@ spec = do
     it "pass through every row at its parameter (catches a span that takes the next row's number)" $
       property $
         forAll Generate.anyCurve $ \c ->
-          conjoin [close 1e-9 (Curve.at c (Base.at row)) (Base.place row) | row <- toList (Base.rows (Curve.base c))]
-    it "a spline has the same derivatives by the chord on both sides of a row (catches a wrong right side of its system)" $
-      property $
+          conjoin
+            [ close 1e-9 (Curve.at c (Base.at row)) (Base.place row)
+              | row <- toList (Base.rows (Curve.base c))
+            ]
+    it
+      "a spline has the same derivatives by the chord on both sides of a row (catches a wrong \
+      \right side of its system)"
+      $ property $
         forAll Generate.smooth joinsTwice
     it "a natural spline does not bend at its ends (catches an end that is clamped)" $
       property $
         forAll (tableWith (const Natural)) $ \c ->
-          conjoin [counterexample (show v) (Vec.norm v < 1e-9) | (approach, u) <- outer c, let v = secondBy (chord c u) (Curve.jet approach 2 c u)]
-    it "a clamped spline sets out and arrives in its directions, at one mm for a mm of the chord (catches a direction by the parameter)" $
-      property $
+          conjoin
+            [ counterexample (show v) (Vec.norm v < 1e-9)
+              | (approach, u) <- outer c,
+                let v = secondBy (chord c u) (Curve.jet approach 2 c u)
+            ]
+    it
+      "a clamped spline sets out and arrives in its directions, at one mm for a mm of the chord \
+      \(catches a direction by the parameter)"
+      $ property $
         forAll ((,) <$> choose (-3, 3) <*> choose (-3, 3)) $ \(a, b) ->
           let from = Vec.polar (Mm 1) (Rad a)
               to = Vec.polar (Mm 1) (Rad b)
            in forAll (tableWith (const (Clamped from to))) $ \c ->
-                conjoin [alike 1e-9 v w | ((approach, u), w) <- zip (outer c) [from, to], let v = firstBy (chord c u) (Curve.jet approach 1 c u)]
-    it "a closed spline goes over into itself at its joint (catches a corner of the cyclic system left out)" $
-      property $
+                conjoin
+                  [ alike 1e-9 v w
+                    | ((approach, u), w) <- zip (outer c) [from, to],
+                      let v = firstBy (chord c u) (Curve.jet approach 1 c u)
+                  ]
+    it
+      "a closed spline goes over into itself at its joint (catches a corner of the cyclic system \
+      \left out)"
+      $ property $
         forAll Generate.ring $ \c ->
           let n = Curve.domain c
               arriving = Curve.jet Before 2 c n
@@ -55,23 +79,42 @@ spec = do
     it "a closed table may repeat its first row or not" $
       property $
         forAll Generate.closedRing $ \(Table _ points) ->
-          let single = if take 1 points == drop (length points - 1) points then init points else points
+          let single =
+                if take 1 points == drop (length points - 1) points then init points else points
               c = splineOf Periodic single
               c' = splineOf Periodic (single <> take 1 single)
-           in forAll Generate.parameter $ \t -> close 1e-9 (Curve.at c (Generate.parameterOf c t)) (Curve.at c' (Generate.parameterOf c t))
+           in forAll Generate.parameter $ \t ->
+                close
+                  1e-9
+                  (Curve.at c (Generate.parameterOf c t))
+                  (Curve.at c' (Generate.parameterOf c t))
     it "parabolas give the parabola that the points lie on (catches fractions of the wrong span)" $
       property $
         forAll ((,,) <$> choose (-0.05, 0.05) <*> choose (-2, 2) <*> choose (-9, 9)) $ \(a, b, c) ->
           forAll (choose (1, 4)) $ \k -> forAll (vectorOf (2 * k + 1) (choose (1, 9))) $ \steps ->
             forAll (elements [1, -1]) $ \sense -> forAll Generate.parameter $ \t ->
               let y x = a * x * x + b * x + c
-                  curve = Generate.ok (Curve.parabola (Exts.fromList [Vec.point x (y x) | x <- scanl1 (+) (map (sense *) steps)]))
+                  curve =
+                    Generate.ok
+                      ( Curve.parabola
+                          ( Exts.fromList
+                              [Vec.point x (y x) | x <- scanl1 (+) (map (sense *) steps)]
+                          )
+                      )
                   p = Curve.at curve (Generate.parameterOf curve t)
-               in counterexample (show p) (abs (Vec.y p - y (Vec.x p)) < 1e-9 * (1 + abs (Vec.x p) ^ (2 :: Int)))
+               in counterexample
+                    (show p)
+                    (abs (Vec.y p - y (Vec.x p)) < 1e-9 * (1 + abs (Vec.x p) ^ (2 :: Int)))
     it "the template's parabolas have the coefficients of the paper, corrected" $
-      coefficients template `shouldSatisfy` and . zipWith agrees [(-0.00722596, 1.1707467, -27.504988), (-0.00460579, 0.8200501, -16.220749)]
-    it "a circle given by 60 points is one to 1e-4 mm, shifted by anything (catches a spline that flattens at its joint)" $
-      property $
+      coefficients template
+        `shouldSatisfy` and
+          . zipWith
+            agrees
+            [(-0.00722596, 1.1707467, -27.504988), (-0.00460579, 0.8200501, -16.220749)]
+    it
+      "a circle given by 60 points is one to 1e-4 mm, shifted by anything (catches a spline that \
+      \flattens at its joint)"
+      $ property $
         forAll ((,) <$> choose (-20, 20) <*> choose (0, 60)) $ \(d, u) ->
           let c = Curve.shifted Curve.LeftOf (Curve.Constant (Mm d)) (circleOf 60 50)
               Mm r = Vec.distance (Vec.point 0 0) (Curve.at c u)
@@ -89,8 +132,10 @@ spec = do
               Mm l = Curve.lengthTo c u
               byChords = chordSum c u
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-6)
-    it "is as long between the rows of a column, which lie within spans, of a curve shifted once more (catches a panel across a row)" $
-      property $
+    it
+      "is as long between the rows of a column, which lie within spans, of a curve shifted once \
+      \more (catches a panel across a row)"
+      $ property $
         forAll shiftedTwice $ \c ->
           let rows = map Base.at (toList (Base.rows (Curve.base c)))
               Mm l = Curve.length c
@@ -106,7 +151,9 @@ spec = do
     it "has the length of a parabola by its closed formula" $
       property $
         forAll ((,) <$> choose (1, 50) <*> choose (1, 80)) $ \(p, x) ->
-          let c = Generate.ok (Curve.ofPieces (Quadratic (1 / (2 * p)) 0 0 0 x :| []) (Exts.fromList [0, 1]))
+          let c =
+                Generate.ok
+                  (Curve.ofPieces (Quadratic (1 / (2 * p)) 0 0 0 x :| []) (Exts.fromList [0, 1]))
               Mm l = Curve.length c
               t = x / p
            in counterexample (show l) (abs (l - p / 2 * (t * sqrt (1 + t * t) + asinh t)) < 1e-8)
@@ -120,40 +167,88 @@ spec = do
   describe "looking for places" $ do
     it "nearest: no place of the curve is nearer (catches a foot that is taken for the first one)" $
       property $
-        forAll (Generate.layered 1 Generate.anyCurve) $ \c -> forAll ((,) <$> choose (-150, 150) <*> choose (-150, 150)) $ \(x, y) ->
-          let p = Vec.point x y
-              u = Curve.nearest p c
-              found = minimum [Vec.distance p (Curve.placeFrom approach c u) | approach <- [Before, After]]
-              sampled = minimum [Vec.distance p (Curve.placeFrom approach c (Generate.parameterOf c (k / 1500))) | k <- [0 .. 1500], approach <- [Before, After]]
-           in counterexample (show (found, sampled)) (minus found sampled <= Mm 1e-9)
-    it "nearest: a place on a spline that bends back lies on it (catches samples that pass over a bend)" $
-      property $
+        forAll (Generate.layered 1 Generate.anyCurve) $ \c ->
+          forAll ((,) <$> choose (-150, 150) <*> choose (-150, 150)) $ \(x, y) ->
+            let p = Vec.point x y
+                u = Curve.nearest p c
+                found =
+                  minimum
+                    [Vec.distance p (Curve.placeFrom approach c u) | approach <- [Before, After]]
+                sampled =
+                  minimum
+                    [ Vec.distance
+                        p
+                        (Curve.placeFrom approach c (Generate.parameterOf c (k / 1500)))
+                      | k <- [0 .. 1500],
+                        approach <- [Before, After]
+                    ]
+             in counterexample (show (found, sampled)) (minus found sampled <= Mm 1e-9)
+    it
+      "nearest: a place on a spline that bends back lies on it (catches samples that pass over a \
+      \bend)"
+      $ property $
         forAll Generate.zigzag $ \c -> forAll Generate.parameter $ \t ->
           let p = Curve.at c (Generate.parameterOf c t)
               u = Curve.nearest p c
            in counterexample (show (p, u)) (Vec.distance p (Curve.at c u) <= Mm 1e-6)
-    it "nearest: of a place on the curve it is that place (catches samples that are not made exact)" $
-      property $
+    it
+      "nearest: of a place on the curve it is that place (catches samples that are not made exact)"
+      $ property $
         forAll Generate.gentle $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
            in counterexample (show u) (abs (Curve.nearest (Curve.at c u) c - u) < 1e-6)
-    it "at an abscissa: every answer lies there, and no crossing is left out (catches an answer of another span)" $
-      property $
+    it
+      "at an abscissa: every answer lies there, and no crossing is left out (catches an answer of \
+      \another span)"
+      $ property $
         forAll (Generate.layered 1 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let x = Vec.x (Curve.at c (Generate.parameterOf c t)) + 1e-4
               found = Curve.atX x c
               side u = Vec.x (Curve.at c u) > x
               bs = Curve.breaks c
               -- Crossings between close samples, breaks left out.
-              steps = [(a', a' + step) | (a, b) <- zip bs (drop 1 bs), let step = (b - a) / 40, k <- [0 .. 38 :: Int], let a' = a + step * fromIntegral k]
-           in conjoin [counterexample (show u) (abs (Vec.x (Curve.placeFrom approach c u) - x) < 1e-6) | u <- found, let approach = if u `elem` bs && abs (Vec.x (Curve.placeFrom Before c u) - x) < 1e-6 then Before else After]
-                .&&. conjoin [counterexample (show (a, b, found)) (any (\u -> u >= a - 1e-9 && u <= b + 1e-9) found) | (a, b) <- steps, side a /= side b]
-    it "just beside a corner that turns back there are two places, however close (catches two crossings taken for one)" $
-      length (Curve.atX (-3.9999) (Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 15, Vec.point (-4) 0, Vec.point 1 19])))) `shouldBe` 2
+              steps =
+                [ (a', a' + step)
+                  | (a, b) <- zip bs (drop 1 bs),
+                    let step = (b - a) / 40,
+                    k <- [0 .. 38 :: Int],
+                    let a' = a + step * fromIntegral k
+                ]
+           in conjoin
+                [ counterexample (show u) (abs (Vec.x (Curve.placeFrom approach c u) - x) < 1e-6)
+                  | u <- found,
+                    let approach =
+                          if u `elem` bs && abs (Vec.x (Curve.placeFrom Before c u) - x) < 1e-6
+                            then Before
+                            else After
+                ]
+                .&&. conjoin
+                  [ counterexample
+                      (show (a, b, found))
+                      (any (\u -> u >= a - 1e-9 && u <= b + 1e-9) found)
+                    | (a, b) <- steps,
+                      side a /= side b
+                  ]
+    it
+      "just beside a corner that turns back there are two places, however close (catches two \
+      \crossings taken for one)"
+      $ length
+        ( Curve.atX
+            (-3.9999)
+            ( Generate.ok
+                (Curve.polyline (Exts.fromList [Vec.point 0 15, Vec.point (-4) 0, Vec.point 1 19]))
+            )
+        )
+        `shouldBe` 2
     it "of a stretch that runs straight up its ends are told (catches samples between them)" $
-      fmap (Curve.atX 0) (Curve.polyline (Exts.fromList [Vec.point (-3) 2, Vec.point 0 0, Vec.point 0 10, Vec.point 5 10])) `shouldSatisfy` \case
-        Right [a, b] -> abs (a - 1) < 1e-6 && abs (b - 2) < 1e-6
-        _ -> False
+      fmap
+        (Curve.atX 0)
+        ( Curve.polyline
+            (Exts.fromList [Vec.point (-3) 2, Vec.point 0 0, Vec.point 0 10, Vec.point 5 10])
+        )
+        `shouldSatisfy` \case
+          Right [a, b] -> abs (a - 1) < 1e-6 && abs (b - 2) < 1e-6
+          _ -> False
     it "just short of a turn there are two places (catches a turn between two samples)" $
       property $
         forAll Generate.ring $ \c -> forAll (choose (0.001, 0.02)) $ \short ->
@@ -161,32 +256,58 @@ spec = do
               x = maximum xs - short
               sides = map (> x) xs
            in length (Curve.atX x c) === length (filter id (zipWith (/=) sides (drop 1 sides)))
-    it "at an abscissa that it only touches there is one place (catches the place that is counted twice)" $
-      Curve.atX 50 (circleOf 60 50) `shouldSatisfy` \case
+    it
+      "at an abscissa that it only touches there is one place (catches the place that is counted \
+      \twice)"
+      $ Curve.atX 50 (circleOf 60 50) `shouldSatisfy` \case
         [0] -> True
         [0, u] -> abs (u - 60) < 1e-6
         _ -> False
-    it "corners: a polyline has them where it turns, a spline nowhere (catches ends that are taken for corners)" $
-      property $
+    it
+      "corners: a polyline has them where it turns, a spline nowhere (catches ends that are taken \
+      \for corners)"
+      $ property $
         forAll Generate.polyline $ \c ->
-          let turned u = let Rad a = Vec.turn (Curve.tangentFrom Before c u) (Curve.tangentFrom After c u) in abs a > 1e-6
+          let turned u =
+                let Rad a =
+                      Vec.turn (Curve.tangentFrom Before c u) (Curve.tangentFrom After c u)
+                 in abs a > 1e-6
               inner = map fromIntegral [1 .. Curve.spans c - 1]
            in Curve.corners c === [0 | Curve.isClosed c, turned 0] <> filter turned inner
     it "corners: a square walked round has four" $
-      Curve.corners (Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 9 0, Vec.point 9 9, Vec.point 0 9, Vec.point 0 0])))
+      Curve.corners
+        ( Generate.ok
+            ( Curve.polyline
+                ( Exts.fromList
+                    [Vec.point 0 0, Vec.point 9 0, Vec.point 9 9, Vec.point 0 9, Vec.point 0 0]
+                )
+            )
+        )
         `shouldBe` [0, 1, 2, 3]
-    it "a spline that turns straight back has a direction at its turn (catches a division by a speed of zero)" $ do
-      let c = splineOf Natural [Vec.point 0 0, Vec.point 10 0, Vec.point 0 0]
-      (Curve.tangentFrom Before c 1, Curve.tangentFrom After c 1) `shouldSatisfy` \(a, b) -> Vec.dot a (Vec.vec 1 0) > 0.999 && Vec.dot b (Vec.vec 1 0) < -0.999
+    it
+      "a spline that turns straight back has a direction at its turn (catches a division by a \
+      \speed of zero)"
+      $ do
+        let c = splineOf Natural [Vec.point 0 0, Vec.point 10 0, Vec.point 0 0]
+        (Curve.tangentFrom Before c 1, Curve.tangentFrom After c 1) `shouldSatisfy` \(a, b) ->
+          Vec.dot a (Vec.vec 1 0) > 0.999 && Vec.dot b (Vec.vec 1 0) < -0.999
 
   describe "curves turned" $ do
-    it "a similarity moves every place of a curve, shifts and all (catches a distance that does not grow with the rest)" $
-      property $
-        forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.similarity $ \s -> forAll Generate.parameter $ \t ->
-          let u = Generate.parameterOf c t
-           in close 1e-6 (Curve.at (Curve.transformed s c) u) (Transformation.point s (Curve.at c u))
-    it "a reversed curve passes the same places the other way (catches a column that is not reversed)" $
-      property $
+    it
+      "a similarity moves every place of a curve, shifts and all (catches a distance that does not \
+      \grow with the rest)"
+      $ property $
+        forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
+          forAll Generate.similarity $ \s -> forAll Generate.parameter $ \t ->
+            let u = Generate.parameterOf c t
+             in close
+                  1e-6
+                  (Curve.at (Curve.transformed s c) u)
+                  (Transformation.point s (Curve.at c u))
+    it
+      "a reversed curve passes the same places the other way (catches a column that is not \
+      \reversed)"
+      $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
               n = Curve.domain c
@@ -204,21 +325,33 @@ spec = do
     it "too few points" $ do
       Curve.polyline (Exts.fromList [Vec.point 0 0]) `shouldBe` Left (TooFew 2)
       Curve.spline Natural (Exts.fromList []) `shouldBe` Left (TooFew 2)
-      Curve.spline Periodic (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 0 0]) `shouldBe` Left (TooFew 3)
+      Curve.spline Periodic (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 0 0])
+        `shouldBe` Left (TooFew 3)
       Curve.parabola (Exts.fromList [Vec.point 0 0]) `shouldBe` Left (TooFew 3)
     it "a point twice: the first of the two rows is named" $
-      Curve.spline Natural (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 1 0, Vec.point 2 0]) `shouldBe` Left (Coincident 2)
+      Curve.spline
+        Natural
+        (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 1 0, Vec.point 2 0])
+        `shouldBe` Left (Coincident 2)
     it "parabolas of an even number of points" $
       Curve.parabola (Exts.fromList [Vec.point k 0 | k <- [1 .. 4]]) `shouldBe` Left (EvenCount 4)
     it "parabolas that turn back in x: the last row that goes on is named" $
-      Curve.parabola (Exts.fromList [Vec.point 0 0, Vec.point 2 1, Vec.point 1 2]) `shouldBe` Left (NotMonotone 2)
+      Curve.parabola (Exts.fromList [Vec.point 0 0, Vec.point 2 1, Vec.point 1 2])
+        `shouldBe` Left (NotMonotone 2)
     it "pieces that do not meet, and one without a length" $ do
-      Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| [Line (Vec.point 1 1) (Vec.point 2 0)]) (Exts.fromList []) `shouldBe` Left (Disjoint 1)
+      Curve.ofPieces
+        (Line (Vec.point 0 0) (Vec.point 1 0) :| [Line (Vec.point 1 1) (Vec.point 2 0)])
+        (Exts.fromList [])
+        `shouldBe` Left (Disjoint 1)
       Curve.ofPieces (Quadratic 1 2 3 4 4 :| []) (Exts.fromList []) `shouldBe` Left (NoLength 1)
     it "rows that do not come one behind the other" $
-      Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| []) (Exts.fromList [0, 0.5, 0.4]) `shouldBe` Left (Disordered 2)
+      Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| []) (Exts.fromList [0, 0.5, 0.4])
+        `shouldBe` Left (Disordered 2)
     it "a direction without a length" $
-      Curve.spline (Clamped (Vec.vec 0 0) (Vec.vec 1 0)) (Exts.fromList [Vec.point 0 0, Vec.point 1 0]) `shouldBe` Left NoDirection
+      Curve.spline
+        (Clamped (Vec.vec 0 0) (Vec.vec 1 0))
+        (Exts.fromList [Vec.point 0 0, Vec.point 1 0])
+        `shouldBe` Left NoDirection
 
 -- Helpers -----------------------------------------------------------------------------------
 
@@ -226,7 +359,12 @@ splineOf :: EndCondition -> [Point] -> Curve
 splineOf ends points = Generate.ok (Curve.spline ends (Exts.fromList points))
 
 circleOf :: Int -> Double -> Curve
-circleOf n r = splineOf Periodic [Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 0 0) | k <- [0 .. n - 1]]
+circleOf n r =
+  splineOf
+    Periodic
+    [ Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * fromIntegral k / fromIntegral n))) (Vec.point 0 0)
+      | k <- [0 .. n - 1]
+    ]
 
 -- | Points of a walk, with other ends.
 tableWith :: (EndCondition -> EndCondition) -> Gen Curve
@@ -244,8 +382,10 @@ chord c u = Exts.toList (Base.chords (Curve.base c)) !! min (Curve.spans c - 1) 
 
 -- | The derivatives by the chord length.
 firstBy, secondBy :: Double -> TaylorExpansion -> Vec
-firstBy h (TaylorExpansion a b) = Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
-secondBy h (TaylorExpansion a b) = Vec.scale (2 / h / h) (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
+firstBy h (TaylorExpansion a b) =
+  Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
+secondBy h (TaylorExpansion a b) =
+  Vec.scale (2 / h / h) (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
 
 joinsTwice :: Curve -> Property
 joinsTwice c =
@@ -269,7 +409,10 @@ chordsBetween c a b = fine + (fine - chords 300) / 3
   where
     fine = chords 600
     chords n =
-      let place k = if k == n then Curve.placeFrom Before c b else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
+      let place k =
+            if k == n
+              then Curve.placeFrom Before c b
+              else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
 
 -- | Pieces that are shifted by a column and then by so little that no cusp comes of it.
@@ -284,7 +427,11 @@ shiftedTwice = do
 
 spanLength :: Span -> Double
 spanLength s = case s of
-  Polynomial x y -> let at t = Vec.point (Spline.value x t) (Spline.value y t); Mm d = Vec.distance (at 0) (at 1) in d
+  Polynomial x y ->
+    let at t =
+          Vec.point (Spline.value x t) (Spline.value y t)
+        Mm d = Vec.distance (at 0) (at 1)
+     in d
   Round (Arc {start, centre, sweep = Rad a}) -> let Mm r = Vec.distance centre start in r * abs a
   Round (Straight p q) -> let Mm d = Vec.distance p q in d
 
@@ -292,11 +439,19 @@ spanLength s = case s of
 template :: Curve
 template =
   Generate.ok . Curve.parabola . Exts.fromList $
-    [Vec.point 35.50 4.95, Vec.point 44.95 10.52, Vec.point 53.81 14.57, Vec.point 61.65 16.83, Vec.point 70.85 18.76]
+    [ Vec.point 35.50 4.95,
+      Vec.point 44.95 10.52,
+      Vec.point 53.81 14.57,
+      Vec.point 61.65 16.83,
+      Vec.point 70.85 18.76
+    ]
 
 -- | @a, b, c@ of every parabola, from three of its places.
 coefficients :: Curve -> [(Double, Double, Double)]
-coefficients c = [ofThree (Curve.at c u) (Curve.at c (u + 0.3)) (Curve.placeFrom Before c (u + 1)) | u <- map fromIntegral [0 .. Curve.spans c - 1]]
+coefficients c =
+  [ ofThree (Curve.at c u) (Curve.at c (u + 0.3)) (Curve.placeFrom Before c (u + 1))
+    | u <- map fromIntegral [0 .. Curve.spans c - 1]
+  ]
   where
     ofThree p q r =
       let slope s t = (Vec.y t - Vec.y s) / (Vec.x t - Vec.x s)
@@ -308,13 +463,26 @@ agrees :: (Double, Double, Double) -> (Double, Double, Double) -> Bool
 agrees (a, b, c) (a', b', c') = abs (a - a') < 1e-8 && abs (b - b') < 1e-6 && abs (c - c') < 1e-5
 
 vertical :: Curve -> Bool
-vertical c = let dx u = Vec.dot (Curve.tangent c u) (Vec.vec 1 0) in or [dx u * dx v < 0 | let us = [Generate.parameterOf c (k / 60) | k <- [0 .. 60]], (u, v) <- zip us (drop 1 us)]
+vertical c =
+  let dx u =
+        Vec.dot (Curve.tangent c u) (Vec.vec 1 0)
+   in or
+        [ dx u * dx v < 0
+          | let us = [Generate.parameterOf c (k / 60) | k <- [0 .. 60]],
+            (u, v) <- zip us (drop 1 us)
+        ]
 
 doublesBack :: Curve -> Bool
-doublesBack c = minimum [Vec.dot (Curve.tangent c 0) (Curve.tangent c (Generate.parameterOf c (k / 60))) | k <- [0 .. 60]] < -0.9
+doublesBack c =
+  minimum
+    [ Vec.dot (Curve.tangent c 0) (Curve.tangent c (Generate.parameterOf c (k / 60)))
+      | k <- [0 .. 60]
+    ]
+    < -0.9
 
 close :: Double -> Point -> Point -> Property
 close tolerance p q = counterexample (show (p, q)) (Vec.distance p q <= Mm tolerance)
 
 alike :: Double -> Vec -> Vec -> Property
-alike tolerance v w = counterexample (show (v, w)) (Vec.norm (Vec.add v (Vec.negate w)) <= tolerance)
+alike tolerance v w =
+  counterexample (show (v, w)) (Vec.norm (Vec.add v (Vec.negate w)) <= tolerance)

@@ -15,24 +15,53 @@ spec :: Spec
 spec = describe "an outline" $ do
   it "of a circle has its area and length, however it is cut" $
     property . forAll (choose (2, 60)) $ \k -> forAll (choose (0.1, 10)) $ \r ->
-      let o = Generate.Outline.loop [(r * cos t, r * sin t, tan (pi / (2 * fromIntegral k))) | i <- [0 .. k - 1 :: Int], let t = 2 * pi * fromIntegral i / fromIntegral k]
+      let o =
+            Generate.Outline.loop
+              [ (r * cos t, r * sin t, tan (pi / (2 * fromIntegral k)))
+                | i <- [0 .. k - 1 :: Int],
+                  let t = 2 * pi * fromIntegral i / fromIntegral k
+              ]
           Mm l = FlatPolyarc.length o
-       in counterexample (show (FlatPolyarc.area o, l)) (abs (FlatPolyarc.area o - pi * r * r) < 1e-11 * r * r && abs (l - 2 * pi * r) < 1e-11 * r)
-  it "walked back has the negative area and the same length (catches a bulge of the wrong segment)" $
-    property . forAll Generate.Outline.problem $ \c ->
-      conjoin [counterexample (show o) (near (FlatPolyarc.area o) (-(FlatPolyarc.area (FlatPolyarc.reverse o))) .&&. near (len o) (len (FlatPolyarc.reverse o))) | o <- Generate.Outline.outlines c]
+       in counterexample
+            (show (FlatPolyarc.area o, l))
+            ( abs (FlatPolyarc.area o - pi * r * r) < 1e-11 * r * r
+                && abs (l - 2 * pi * r) < 1e-11 * r
+            )
+  it
+    "walked back has the negative area and the same length (catches a bulge of the wrong segment)"
+    $ property . forAll Generate.Outline.problem $ \c ->
+      conjoin
+        [ counterexample
+            (show o)
+            ( near (FlatPolyarc.area o) (-(FlatPolyarc.area (FlatPolyarc.reverse o)))
+                .&&. near (len o) (len (FlatPolyarc.reverse o))
+            )
+          | o <- Generate.Outline.outlines c
+        ]
   it "walked back twice is itself" $
-    property . forAll Generate.Outline.open $ \c -> map (FlatPolyarc.reverse . FlatPolyarc.reverse) (Generate.Outline.outlines c) === map lastless (Generate.Outline.outlines c)
+    property . forAll Generate.Outline.open $ \c ->
+      map (FlatPolyarc.reverse . FlatPolyarc.reverse) (Generate.Outline.outlines c)
+        === map lastless (Generate.Outline.outlines c)
   it "of a contour is as long, and passes the same places (catches an arc cut at the wrong place)" $
     property . forAll Generate.closedCase $ \c ->
       let contour = Generate.contour c
           (o, numbers) = FlatPolyarc.fromContour contour
-          Mm whole = foldr (plus . Segment.length) (Mm 0) (NonEmpty.toList (Polyarc.segments contour))
-       in near (len o) whole .&&. counterexample (show numbers) (FlatPolyarc.size o >= NonEmpty.length (Polyarc.segments contour))
+          Mm whole =
+            foldr (plus . Segment.length) (Mm 0) (NonEmpty.toList (Polyarc.segments contour))
+       in near (len o) whole
+            .&&. counterexample
+              (show numbers)
+              (FlatPolyarc.size o >= NonEmpty.length (Polyarc.segments contour))
   where
     len o = let Mm l = FlatPolyarc.length o in l
     near :: Double -> Double -> Property
     near a b = counterexample (show (a, b)) (abs (a - b) < 1e-9 * (1 + abs a + abs b))
     plus (Mm a) (Mm b) = Mm (a + b)
     -- The last bulge of an open outline means nothing.
-    lastless o = FlatPolyarc.outline (FlatPolyarc.ends o) (let vs = FlatPolyarc.vertices o in case reverse vs of (x, y, _) : rest -> reverse ((x, y, 0) : rest); [] -> [])
+    lastless o =
+      FlatPolyarc.outline
+        (FlatPolyarc.ends o)
+        ( let vs =
+                FlatPolyarc.vertices o
+           in case reverse vs of (x, y, _) : rest -> reverse ((x, y, 0) : rest); [] -> []
+        )

@@ -11,11 +11,15 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  it "places on very flat arcs are the same from either end (catches a place about a centre that is far away)" $
-    forAll flatArc $ \arc -> forAll share $ \t ->
+  it
+    "places on very flat arcs are the same from either end (catches a place about a centre that is \
+    \far away)"
+    $ forAll flatArc $ \arc -> forAll share $ \t ->
       Vec.distance (Segment.at t arc) (Segment.at (1 - t) (Segment.reverse arc)) `atMost` Mm 1e-11
-  it "places on very flat arcs are as high above the chord as an arc is (catches a line instead of the arc)" $
-    forAll flatArc $ \arc -> forAll share $ \t -> case arc of
+  it
+    "places on very flat arcs are as high above the chord as an arc is (catches a line instead of \
+    \the arc)"
+    $ forAll flatArc $ \arc -> forAll share $ \t -> case arc of
       Arc {start, end, sweep = Rad s} ->
         let c = Vec.to start end
             Mm chord = Vec.distance start end
@@ -26,7 +30,8 @@ spec = do
 atMost :: Mm -> Mm -> Property
 atMost d most = counterexample (show d) (d <= most)
 
--- | An arc between two places, of less than a ten-thousandth, about a centre up to many kilometres away.
+-- | An arc between two places, of less than a ten-thousandth, about a centre up to many kilometres
+-- away.
 flatArc :: Gen Segment
 flatArc = do
   start <- place
@@ -34,7 +39,10 @@ flatArc = do
   size <- choose (-9, -4.1)
   sense <- elements [1, -1]
   let s = sense * 10 ** size
-      centre = Vec.shift (Vec.scale (1 / (2 * tan (s / 2))) (Vec.left (Vec.to start end))) (Vec.between 0.5 start end)
+      centre =
+        Vec.shift
+          (Vec.scale (1 / (2 * tan (s / 2))) (Vec.left (Vec.to start end)))
+          (Vec.between 0.5 start end)
   pure Arc {start, end, centre, sweep = Rad s}
 
 place :: Gen Point

@@ -16,29 +16,53 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = describe "a contour" $ do
-  it "crosses itself where two of its segments do that are not joined (catches boxes without what an arc bulges, and the way back of an open one)" $
-    property $
+  it
+    "crosses itself where two of its segments do that are not joined (catches boxes without what \
+    \an arc bulges, and the way back of an open one)"
+    $ property $
       forAll contour $ \c ->
         let found = SelfIntersection.selfCrossing c
             meet = meetings c
-         in checkCoverage . cover 20 (isJust found) "crosses" . cover 20 (null meet) "apart" . counterexample (show (found, take 3 meet)) $
-              null meet || isJust found
+         in checkCoverage
+              . cover 20 (isJust found) "crosses"
+              . cover 20 (null meet) "apart"
+              . counterexample (show (found, take 3 meet))
+              $ null meet || isJust found
   it "crosses itself nowhere else (catches neighbours that meet where they are joined)" $
     property $
       forAll contour $ \c -> case SelfIntersection.selfCrossing c of
-        Just (i, j, p) -> counterexample (show (i, j, p)) (i < j && all (\k -> Distance.toPoint p (segments c NonEmpty.!! k) <= Mm 1e-6) [i, j])
+        Just (i, j, p) ->
+          counterexample
+            (show (i, j, p))
+            (i < j && all (\k -> Distance.toPoint p (segments c NonEmpty.!! k) <= Mm 1e-6) [i, j])
         Nothing -> property True
-  it "of two lines crosses itself where the second turns back along the first, and at no other angle (catches a way back that is taken for a bend)" $
-    property $
-      forAll ((,,,) <$> choose (-3, 3) <*> choose (0.01, 10) <*> choose (0.01, 10) <*> elements [0, 0.001, 0.05, 0.09, 0.11, 0.2, 1, 1.5, 1.6, 2, 3.1]) $ \(a, l, m, away) ->
-        let q = Vec.point 300 (-20)
-            p = Vec.shift (Vec.polar (Mm l) (Rad a)) q
-            r = Vec.shift (Vec.polar (Mm m) (Rad (a + away))) q
-         in isJust (SelfIntersection.selfCrossing (Polyarc Open (Straight p q :| [Straight q r]))) === (away == 0)
+  it
+    "of two lines crosses itself where the second turns back along the first, and at no other \
+    \angle (catches a way back that is taken for a bend)"
+    $ property $
+      forAll
+        ( (,,,)
+            <$> choose (-3, 3)
+              <*> choose (0.01, 10)
+              <*> choose (0.01, 10)
+              <*> elements [0, 0.001, 0.05, 0.09, 0.11, 0.2, 1, 1.5, 1.6, 2, 3.1]
+        )
+        $ \(a, l, m, away) ->
+          let q = Vec.point 300 (-20)
+              p = Vec.shift (Vec.polar (Mm l) (Rad a)) q
+              r = Vec.shift (Vec.polar (Mm m) (Rad (a + away))) q
+           in isJust (SelfIntersection.selfCrossing (Polyarc Open (Straight p q :| [Straight q r])))
+                === (away == 0)
 
 -- | The places where segments meet that are not joined, pair by pair.
 meetings :: Polyarc -> [Point]
-meetings (Polyarc ends ss) = [p | (i, s) <- numbered, (j, other) <- drop (i + 2) numbered, not (ends == Closed && i == 0 && j == length ss - 1), p <- Distance.crossings s other]
+meetings (Polyarc ends ss) =
+  [ p
+    | (i, s) <- numbered,
+      (j, other) <- drop (i + 2) numbered,
+      not (ends == Closed && i == 0 && j == length ss - 1),
+      p <- Distance.crossings s other
+  ]
   where
     numbered = zip [0 ..] (NonEmpty.toList ss)
 
@@ -46,7 +70,9 @@ meetings (Polyarc ends ss) = [p | (i, s) <- numbered, (j, other) <- drop (i + 2)
 contour :: Gen Polyarc
 contour = do
   n <- choose (3, 60)
-  ps <- scanl (flip Vec.shift) (Vec.point 0 0) <$> vectorOf n (Vec.vec <$> choose (-0.1, 1) <*> choose (-1, 1))
+  ps <-
+    scanl (flip Vec.shift) (Vec.point 0 0)
+      <$> vectorOf n (Vec.vec <$> choose (-0.1, 1) <*> choose (-1, 1))
   closed <- arbitrary
   let q = last ps
   ss <- mapM (uncurry bent) (zip ps (drop 1 ps) <> [(q, Vec.point 0 0) | closed])
@@ -56,5 +82,6 @@ contour = do
 bent :: Point -> Point -> Gen Segment
 bent p q = do
   b <- frequency [(1, pure 0), (3, choose (-0.5, 0.5)), (1, choose (-2, 2))]
-  let centre = Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q))) (Vec.between 0.5 p q)
+  let centre =
+        Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q))) (Vec.between 0.5 p q)
   pure (if b == 0 then Straight p q else Arc {start = p, end = q, centre, sweep = Rad (4 * atan b)})

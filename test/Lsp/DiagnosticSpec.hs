@@ -21,13 +21,16 @@ import Test.Hspec
 spec :: Spec
 spec = do
   it "a report on an imported file stands at the import and names the true place" $
-    shown (report Error "E0101" (InSource (Region 9 10)) "wrong") `shouldBe` [(at (1, 0), String "/tmp/ж.part:2:3: wrong")]
+    shown (report Error "E0101" (InSource (Region 9 10)) "wrong")
+      `shouldBe` [(at (1, 0), String "/tmp/ж.part:2:3: wrong")]
   it "a report on the file as a whole stands at its top" $
     shown (report Error "E0804" InFile "wrong") `shouldBe` [(at (0, 0), String "wrong")]
   it "a report on the document stands at its place" $
-    shown (report Error "E0101" (InSource (Region 3 4)) "wrong") `shouldBe` [(at (1, 0), String "wrong")]
+    shown (report Error "E0101" (InSource (Region 3 4)) "wrong")
+      `shouldBe` [(at (1, 0), String "wrong")]
   it "a place in the document keeps the client's address; one in another file has that file's" $
-    map (field "uri" . Location.location uri' source) [Region 3 4, Region 9 10] `shouldBe` [String "file:///tmp/%61.part", String "file:///tmp/%D0%B6.part"]
+    map (field "uri" . Location.location uri' source) [Region 3 4, Region 9 10]
+      `shouldBe` [String "file:///tmp/%61.part", String "file:///tmp/%D0%B6.part"]
 
 uri' :: Uri
 uri' = Uri "file:///tmp/%61.part"
@@ -40,8 +43,14 @@ source :: Source
 source = Region.add "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
 
 shown :: Report -> [(Value, Value)]
-shown r = case Diagnostic.publish (Capability.fromInitialize (object [])) (Document uri' Nothing text') (Just snapshot) of
-  Notify _ params | Array ds <- field "diagnostics" params -> [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
-  other -> error (show other)
+shown r =
+  case Diagnostic.publish
+    (Capability.fromInitialize (object []))
+    (Document uri' Nothing text')
+    (Just snapshot) of
+    Notify _ params
+      | Array ds <- field "diagnostics" params ->
+        [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
+    other -> error (show other)
   where
     snapshot = Snapshot source [r] (Program [] []) Mention.none [(Region 3 4, "/tmp/ж.part")]

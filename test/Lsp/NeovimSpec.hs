@@ -36,9 +36,11 @@ spec = do
       file <- written folder
       silent <- neovim 500 "{'sleep', '60'}" folder file
       missing <- neovim 500 "{'/nowhere/partc', 'lsp'}" folder file
-      [(diagnostics a, jumped a, hover a, fixed a) | a <- [silent, missing]] `shouldBe` replicate 2 ([], False, "", False)
+      [(diagnostics a, jumped a, hover a, fixed a) | a <- [silent, missing]]
+        `shouldBe` replicate 2 ([], False, "", False)
 
--- | What Neovim shows of a mistake: line and byte of both ends from 0, the code, whether it is an error.
+-- | What Neovim shows of a mistake: line and byte of both ends from 0, the code, whether it is an
+-- error.
 data Shown = Shown {from :: (Int, Int), to :: (Int, Int), code :: Text, severe :: Bool}
   deriving stock (Eq, Ord, Show)
 
@@ -46,11 +48,25 @@ instance FromJSON Shown where
   parseJSON = withObject "a diagnostic" $ \o ->
     Shown <$> o .: "from" <*> o .: "to" <*> o .: "code" <*> ((== (1 :: Int)) <$> o .: "severity")
 
-data Answer = Answer {filetype :: Text, diagnostics :: [Shown], jumped :: Bool, cursor :: [Int], hover :: Text, fixed :: Bool}
+data Answer = Answer
+  { filetype :: Text,
+    diagnostics :: [Shown],
+    jumped :: Bool,
+    cursor :: [Int],
+    hover :: Text,
+    fixed :: Bool
+  }
 
 instance FromJSON Answer where
   parseJSON = withObject "an answer" $ \o ->
-    Answer <$> o .: "filetype" <*> o .: "diagnostics" <*> o .: "jumped" <*> o .: "cursor" <*> o .: "hover" <*> o .: "fixed"
+    Answer
+      <$> o
+        .: "filetype" <*> o
+        .: "diagnostics" <*> o
+        .: "jumped" <*> o
+        .: "cursor" <*> o
+        .: "hover" <*> o
+        .: "fixed"
 
 -- | A program with two mistakes behind characters of two and of four bytes.
 program :: Text
@@ -75,9 +91,12 @@ written folder = file <$ ByteString.writeFile file (Encoding.encodeUtf8 program)
 -- | What the command line reports, in the units of Neovim.
 reported :: FilePath -> IO [Shown]
 reported file = do
-  (_, out, err) <- readCreateProcessWithExitCode (proc "partc" ["check", "--format", "json", file]) ""
+  (_, out, err) <-
+    readCreateProcessWithExitCode (proc "partc" ["check", "--format", "json", file]) ""
   out `shouldBe` ""
-  traverse (either fail (pure . inBytes) . Aeson.eitherDecodeStrict . Encoding.encodeUtf8) (Text.lines (Text.pack err))
+  traverse
+    (either fail (pure . inBytes) . Aeson.eitherDecodeStrict . Encoding.encodeUtf8)
+    (Text.lines (Text.pack err))
 
 -- | A report of the command line: lines and columns count characters from 1.
 data Report = Report {start :: Place, end :: Place, code' :: Text, severity :: Text}
@@ -85,17 +104,28 @@ data Report = Report {start :: Place, end :: Place, code' :: Text, severity :: T
 data Place = Place {line :: Int, column :: Int}
 
 instance FromJSON Report where
-  parseJSON = withObject "a report" (\o -> Report <$> o .: "start" <*> o .: "end" <*> o .: "code" <*> o .: "severity")
+  parseJSON =
+    withObject
+      "a report"
+      (\o -> Report <$> o .: "start" <*> o .: "end" <*> o .: "code" <*> o .: "severity")
 
 instance FromJSON Place where
   parseJSON = withObject "a place" (\o -> Place <$> o .: "line" <*> o .: "column")
 
 inBytes :: Report -> Shown
-inBytes r = Shown {from = bytes (start r), to = bytes (end r), code = code' r, severe = severity r == "error"}
+inBytes r =
+  Shown {from = bytes (start r), to = bytes (end r), code = code' r, severe = severity r == "error"}
   where
-    bytes place = (line place - 1, ByteString.length (Encoding.encodeUtf8 (Text.take (column place - 1) (Text.lines program !! (line place - 1)))))
+    bytes place =
+      ( line place - 1,
+        ByteString.length
+          ( Encoding.encodeUtf8
+              (Text.take (column place - 1) (Text.lines program !! (line place - 1)))
+          )
+      )
 
--- | Open a file in Neovim with this server, and ask what the editor shows; so many milliseconds for each wait.
+-- | Open a file in Neovim with this server, and ask what the editor shows; so many milliseconds for
+-- each wait.
 neovim :: Int -> String -> FilePath -> FilePath -> IO Answer
 neovim patience server folder file = do
   there <- findExecutable "nvim"
@@ -104,19 +134,39 @@ neovim patience server folder file = do
   script <- makeAbsolute "test/Lsp/neovim.lua"
   environment <- getEnvironment
   let answer = folder </> "answer.json"
-      home = [(name, folder) | name <- ["HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME"]]
-      own = home <> [("PARTC_TEST_ANSWER", answer), ("PARTC_TEST_PATIENCE", show patience), ("LC_ALL", "C.UTF-8")]
+      home =
+        [ (name, folder)
+          | name <- ["HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME"]
+        ]
+      own =
+        home
+          <> [ ("PARTC_TEST_ANSWER", answer),
+               ("PARTC_TEST_PATIENCE", show patience),
+               ("LC_ALL", "C.UTF-8")
+             ]
       arguments =
         ["-k", "5", "120", "nvim", "--headless", "-u", "NONE", "-i", "NONE", "-n"]
-          <> ["--cmd", "set runtimepath^=" <> setup, "--cmd", "lua vim.g.partc_command = " <> server]
+          <> [ "--cmd",
+               "set runtimepath^=" <> setup,
+               "--cmd",
+               "lua vim.g.partc_command = " <> server
+             ]
           <> ["-c", "filetype plugin on", "-c", "edit " <> file, "-c", "luafile " <> script]
   ByteString.writeFile answer ""
-  (status, out, err) <- readCreateProcessWithExitCode (proc "timeout" arguments) {env = Just (own <> [e | e@(name, _) <- environment, name `notElem` map fst own])} ""
+  (status, out, err) <-
+    readCreateProcessWithExitCode
+      (proc "timeout" arguments)
+        { env =
+            Just (own <> [e | e@(name, _) <- environment, name `notElem` map fst own])
+        }
+      ""
   decoded <- Aeson.eitherDecodeStrict <$> ByteString.readFile answer
   case (status, decoded) of
     (ExitSuccess, Right shown) -> pure shown
-    (_, Left why) -> fail ("Neovim gave no answer (" <> show status <> ", " <> why <> "): " <> out <> err)
+    (_, Left why) ->
+      fail ("Neovim gave no answer (" <> show status <> ", " <> why <> "): " <> out <> err)
     (ExitFailure n, Right _) -> fail ("Neovim ended with " <> show n <> ": " <> out <> err)
 
 inFolder :: (FilePath -> IO a) -> IO a
-inFolder act = withSystemTempDirectory "partc" $ \folder -> createDirectory (folder </> "nvim") *> act folder
+inFolder act =
+  withSystemTempDirectory "partc" $ \folder -> createDirectory (folder </> "nvim") *> act folder

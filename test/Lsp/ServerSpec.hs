@@ -27,7 +27,16 @@ import Query.Snapshot (Check)
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
 import System.IO (Handle, hClose, hFlush, hSetBinaryMode)
-import System.Process (CreateProcess (..), ProcessHandle, StdStream (..), createPipe, createProcess, proc, terminateProcess, waitForProcess)
+import System.Process
+  ( CreateProcess (..),
+    ProcessHandle,
+    StdStream (..),
+    createPipe,
+    createProcess,
+    proc,
+    terminateProcess,
+    waitForProcess,
+  )
 import System.Timeout (timeout)
 import Test.Hspec
 
@@ -35,21 +44,41 @@ spec :: Spec
 spec = do
   it "under LC_ALL=C, with what editors pass, it speaks the protocol and nothing else" $
     forM_ [["--stdio"], ["--clientProcessId=1"], ["--clientProcessId", "1"], []] $ \arguments -> do
-      (status, rest, answers) <- conversation arguments (opening <> [question 1 "textDocument/hover" (about addressOf (6, 4)), question 2 "shutdown" Null, notice "exit" Null])
+      (status, rest, answers) <-
+        conversation
+          arguments
+          ( opening
+              <> [ question 1 "textDocument/hover" (about addressOf (6, 4)),
+                   question 2 "shutdown" Null,
+                   notice "exit" Null
+                 ]
+          )
       (status, rest) `shouldBe` (ExitSuccess, "")
       map (field "id") answers `shouldBe` [Number 0, Number 1, Number 2]
       Aeson.encode answers `shouldSatisfy` LazyByteString.isPrefixOf "["
       field "result" (answers !! 1) `shouldNotBe` Null
-  it "exit without shutdown, and the end of input, are status 1; the end after shutdown is no fault" $ do
-    (a, _, _) <- conversation [] (opening <> [notice "exit" Null])
-    (b, _, _) <- conversation [] opening
-    (c, _, _) <- conversation [] []
-    (d, _, _) <- conversation [] (opening <> [question 1 "shutdown" Null, notice "exit" Null, question 2 "shutdown" Null])
-    [a, b, c, d] `shouldBe` [ExitFailure 1, ExitFailure 1, ExitFailure 1, ExitSuccess]
+  it
+    "exit without shutdown, and the end of input, are status 1; the end after shutdown is no fault"
+    $ do
+      (a, _, _) <- conversation [] (opening <> [notice "exit" Null])
+      (b, _, _) <- conversation [] opening
+      (c, _, _) <- conversation [] []
+      (d, _, _) <-
+        conversation
+          []
+          (opening <> [question 1 "shutdown" Null, notice "exit" Null, question 2 "shutdown" Null])
+      [a, b, c, d] `shouldBe` [ExitFailure 1, ExitFailure 1, ExitFailure 1, ExitSuccess]
   it "what is no message is refused, and the server lives on" $ do
-    (status, _, answers) <- conversation [] (opening <> ["{", "[]", "{\"id\":3}", "\255"] <> [question 4 "shutdown" Null, notice "exit" Null])
+    (status, _, answers) <-
+      conversation
+        []
+        ( opening
+            <> ["{", "[]", "{\"id\":3}", "\255"]
+            <> [question 4 "shutdown" Null, notice "exit" Null]
+        )
     status `shouldBe` ExitSuccess
-    map (field "code" . field "error") (take 4 (drop 1 answers)) `shouldBe` map Number [-32700, -32600, -32600, -32700]
+    map (field "code" . field "error") (take 4 (drop 1 answers))
+      `shouldBe` map Number [-32700, -32600, -32600, -32700]
     field "id" (last answers) `shouldBe` Number 4
   it "publishes when the text has rested, without being asked" $
     talking [] $ \to from -> do
@@ -57,34 +86,73 @@ spec = do
       (_, first) <- diagnosticsFrom "" from
       version first `shouldBe` Number 1
       codes first `shouldBe` [String "E0201"]
-      forM_ [2 .. 9] $ \n -> send to (notice "textDocument/didChange" (object ["textDocument" .= object ["uri" .= addressOf, "version" .= (n :: Int)], "contentChanges" .= [object ["text" .= Text.concat (replicate n "-- жёлтый 🙂\n")]]]))
+      forM_ [2 .. 9] $ \n ->
+        send
+          to
+          ( notice
+              "textDocument/didChange"
+              ( object
+                  [ "textDocument" .= object ["uri" .= addressOf, "version" .= (n :: Int)],
+                    "contentChanges"
+                      .= [object ["text" .= Text.concat (replicate n "-- жёлтый 🙂\n")]]
+                  ]
+              )
+          )
       (_, second) <- diagnosticsFrom "" from
       version second `shouldBe` Number 9
   it "a failure refuses its own request, shows itself, and the server lives on" $
-    inProcess (\loaded -> if "нет" `Text.isInfixOf` Region.text (Compile.source loaded) then bug "a fault\nof ours" else Cli.checked [] loaded) $ \to from -> do
-      mapM_ (send to) opening
-      (a, welcome) <- nextFrom "" from
-      (b, shown) <- nextFrom a from
-      send to (question 1 "textDocument/hover" (about addressOf (6, 4)))
-      (c, refused) <- nextFrom b from
-      send to (notice "textDocument/didChange" (object ["textDocument" .= object ["uri" .= addressOf, "version" .= (2 :: Int)], "contentChanges" .= [object ["text" .= ("let ж = 1\n" :: Text)]]]))
-      send to (question 2 "textDocument/hover" (about addressOf (0, 4)))
-      -- While the server waits, nothing else runs in this process; so either may come first.
-      (d, one) <- nextFrom c from
-      (_, other) <- nextFrom d from
-      field "id" welcome `shouldBe` Number 0
-      [field "message" m | m <- diagnosticsOf shown] `shouldBe` [String "this is a bug in partc: please send us the program\na fault"]
-      (field "id" refused, field "code" (field "error" refused)) `shouldBe` (Number 1, Number (-32603))
-      [field "result" m | m <- [one, other], field "id" m == Number 2] `shouldSatisfy` \case
-        [Object _] -> True
-        _ -> False
-      [(version m, codes m) | m <- [one, other], field "id" m == Null] `shouldBe` [(Number 2, [String "E0215"])]
+    inProcess
+      ( \loaded ->
+          if "нет" `Text.isInfixOf` Region.text (Compile.source loaded)
+            then bug "a fault\nof ours"
+            else Cli.checked [] loaded
+      )
+      $ \to from ->
+        do
+          mapM_ (send to) opening
+          (a, welcome) <- nextFrom "" from
+          (b, shown) <- nextFrom a from
+          send to (question 1 "textDocument/hover" (about addressOf (6, 4)))
+          (c, refused) <- nextFrom b from
+          send
+            to
+            ( notice
+                "textDocument/didChange"
+                ( object
+                    [ "textDocument" .= object ["uri" .= addressOf, "version" .= (2 :: Int)],
+                      "contentChanges" .= [object ["text" .= ("let ж = 1\n" :: Text)]]
+                    ]
+                )
+            )
+          send to (question 2 "textDocument/hover" (about addressOf (0, 4)))
+          -- While the server waits, nothing else runs in this process; so either may come first.
+          (d, one) <- nextFrom c from
+          (_, other) <- nextFrom d from
+          field "id" welcome `shouldBe` Number 0
+          [field "message" m | m <- diagnosticsOf shown]
+            `shouldBe` [String "this is a bug in partc: please send us the program\na fault"]
+          (field "id" refused, field "code" (field "error" refused))
+            `shouldBe` (Number 1, Number (-32603))
+          [field "result" m | m <- [one, other], field "id" m == Number 2] `shouldSatisfy` \case
+            [Object _] -> True
+            _ -> False
+          [(version m, codes m) | m <- [one, other], field "id" m == Null]
+            `shouldBe` [(Number 2, [String "E0215"])]
   it "takes a long text in one message" $ do
     flange <- readText "examples/flange.part"
     let long = flange <> Text.replicate 40000 "-- шестьдесят 🙂\n"
-    (status, _, answers) <- conversation [] [initialize, opened long, question 1 "textDocument/documentSymbol" (about addressOf (0, 0)), question 2 "shutdown" Null, notice "exit" Null]
+    (status, _, answers) <-
+      conversation
+        []
+        [ initialize,
+          opened long,
+          question 1 "textDocument/documentSymbol" (about addressOf (0, 0)),
+          question 2 "shutdown" Null,
+          notice "exit" Null
+        ]
     status `shouldBe` ExitSuccess
-    mapMaybe named (concat [foldMap pure a | r <- answers, Array a <- [field "result" r]]) `shouldBe` ["flange", "c", "lug", "boss", "outline", "mill outline outside"]
+    mapMaybe named (concat [foldMap pure a | r <- answers, Array a <- [field "result" r]])
+      `shouldBe` ["flange", "c", "lug", "boss", "outline", "mill outline outside"]
   where
     version = field "version" . field "params"
     codes = map (field "code") . diagnosticsOf
@@ -93,13 +161,31 @@ spec = do
       _ -> Nothing
 
 opening :: [ByteString]
-opening = [initialize, notice "initialized" (object []), opened "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, 0)\nlet ж = 1\nlet b = ж + нет\n"]
+opening =
+  [ initialize,
+    notice "initialized" (object []),
+    opened
+      "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom \
+      \(0, 0)\nlet ж = 1\nlet b = ж + нет\n"
+  ]
 
 initialize :: ByteString
 initialize = question 0 "initialize" (object ["capabilities" .= object []])
 
 opened :: Text -> ByteString
-opened text = notice "textDocument/didOpen" (object ["textDocument" .= object ["uri" .= addressOf, "languageId" .= ("part" :: Text), "version" .= (1 :: Int), "text" .= text]])
+opened text =
+  notice
+    "textDocument/didOpen"
+    ( object
+        [ "textDocument"
+            .= object
+              [ "uri" .= addressOf,
+                "languageId" .= ("part" :: Text),
+                "version" .= (1 :: Int),
+                "text" .= text
+              ]
+        ]
+    )
 
 question :: Int -> Text -> Value -> ByteString
 question ident method params = encoded ["id" .= ident, "method" .= method, "params" .= params]
@@ -108,13 +194,14 @@ notice :: Text -> Value -> ByteString
 notice method params = encoded ["method" .= method, "params" .= params]
 
 encoded :: [(Aeson.Key, Value)] -> ByteString
-encoded fields = LazyByteString.toStrict (Aeson.encode (object (("jsonrpc" .= ("2.0" :: Text)) : fields)))
+encoded fields =
+  LazyByteString.toStrict (Aeson.encode (object (("jsonrpc" .= ("2.0" :: Text)) : fields)))
 
 send :: Handle -> ByteString -> IO ()
 send to message = ByteString.hPut to (Transport.framed message) *> hFlush to
 
--- | Say all this and hang up: the status, what is left on standard output behind the messages, the messages
--- that are no diagnostics.
+-- | Say all this and hang up: the status, what is left on standard output behind the messages, the
+-- messages that are no diagnostics.
 conversation :: [String] -> [ByteString] -> IO (ExitCode, ByteString, [Value])
 conversation arguments messages = within . withServer arguments $ \to from process -> do
   ByteString.hPut to (ByteString.concat (map Transport.framed messages))
@@ -146,7 +233,9 @@ nextFrom waiting from = case Transport.next waiting of
 diagnosticsFrom :: ByteString -> Handle -> IO (ByteString, Value)
 diagnosticsFrom waiting from = do
   (rest, value) <- nextFrom waiting from
-  if field "method" value == String "textDocument/publishDiagnostics" then pure (rest, value) else diagnosticsFrom rest from
+  if field "method" value == String "textDocument/publishDiagnostics"
+    then pure (rest, value)
+    else diagnosticsFrom rest from
 
 diagnosticsOf :: Value -> [Value]
 diagnosticsOf message = case field "diagnostics" (field "params" message) of
@@ -159,7 +248,12 @@ inProcess check act = within $ do
   (input, to) <- createPipe
   (from, output) <- createPipe
   done <- newEmptyMVar
-  _ <- forkIO (Server.serve Host {input, output, load = \_ path text -> pure (Compile.alone path text), check} >>= putMVar done)
+  _ <-
+    forkIO
+      ( Server.serve
+          Host {input, output, load = \_ path text -> pure (Compile.alone path text), check}
+          >>= putMVar done
+      )
   act to from
   hClose to
   takeMVar done `shouldReturn` Abrupt
@@ -173,8 +267,15 @@ withServer arguments act = bracket begin end (\(to, from, process) -> act to fro
   where
     begin = do
       environment <- getEnvironment
-      (Just to, Just from, _, process) <- createProcess (proc "partc" ("lsp" : arguments)) {std_in = CreatePipe, std_out = CreatePipe, env = Just (("LC_ALL", "C") : filter ((/= "LC_ALL") . fst) environment)}
+      (Just to, Just from, _, process) <-
+        createProcess
+          (proc "partc" ("lsp" : arguments))
+            { std_in = CreatePipe,
+              std_out = CreatePipe,
+              env = Just (("LC_ALL", "C") : filter ((/= "LC_ALL") . fst) environment)
+            }
       hSetBinaryMode to True
       hSetBinaryMode from True
       pure (to, from, process)
-    end (to, from, process) = hClose to *> terminateProcess process *> hClose from *> void (waitForProcess process)
+    end (to, from, process) =
+      hClose to *> terminateProcess process *> hClose from *> void (waitForProcess process)

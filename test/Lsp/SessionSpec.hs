@@ -26,23 +26,30 @@ spec :: Spec
 spec = do
   describe "the order of a conversation" $ do
     it "nothing is answered before initialize" $
-      refusals (say (Request (Number 1) "textDocument/hover" Null) begin) `shouldBe` [(Number 1, NotInitialized)]
+      refusals (say (Request (Number 1) "textDocument/hover" Null) begin)
+        `shouldBe` [(Number 1, NotInitialized)]
     it "notifications before initialize are dropped" $
       heard (pause 900 (open addressOf 1 "x" begin)) `shouldBe` []
     it "initialize is answered once" $
-      refusals (say (Request (String "two") "initialize" Null) (running (object []))) `shouldBe` [(String "two", InvalidRequest)]
+      refusals (say (Request (String "two") "initialize" Null) (running (object [])))
+        `shouldBe` [(String "two", InvalidRequest)]
     it "unknown requests are refused, unknown notifications ignored" $ do
-      refusals (say (Request (Number 7) "textDocument/frobnicate" Null) ready) `shouldBe` [(Number 7, MethodNotFound)]
+      refusals (say (Request (Number 7) "textDocument/frobnicate" Null) ready)
+        `shouldBe` [(Number 7, MethodNotFound)]
       heard (say (Notification "$/setTrace" Null) ready) `shouldBe` []
-      heard (say (Notification "workspace/didChangeConfiguration" (object ["settings" .= Null])) ready) `shouldBe` []
+      heard
+        (say (Notification "workspace/didChangeConfiguration" (object ["settings" .= Null])) ready)
+        `shouldBe` []
     it "parameters that are none are refused" $
-      refusals (say (Request (Number 7) "textDocument/hover" (String "no")) ready) `shouldBe` [(Number 7, InvalidParams)]
+      refusals (say (Request (Number 7) "textDocument/hover" (String "no")) ready)
+        `shouldBe` [(Number 7, InvalidParams)]
     it "a document that is not open has no answers" $
       ask "textDocument/hover" (about "file:///tmp/other.part" (0, 0)) ready `shouldBe` Right Null
     it "after shutdown nothing is answered, and exit is orderly" $ do
       let gone = say (Request (Number 1) "shutdown" Null) ready
       heard gone `shouldBe` [Send (Result (Number 1) Null)]
-      refusals (say (Request (Number 2) "textDocument/hover" Null) gone) `shouldBe` [(Number 2, InvalidRequest)]
+      refusals (say (Request (Number 2) "textDocument/hover" Null) gone)
+        `shouldBe` [(Number 2, InvalidRequest)]
       last (heard (say (Notification "exit" Null) gone)) `shouldBe` Stop Orderly
     it "exit without shutdown is abrupt" $
       heard (say (Notification "exit" Null) ready) `shouldBe` [Stop Abrupt]
@@ -57,50 +64,132 @@ spec = do
       length (published (pause 199 touched)) `shouldBe` 1
       length (published (pause 200 touched)) `shouldBe` 2
     it "of fast edits are those of the last text, once" $ do
-      let fast = pause 500 (foldl (\t n -> pause 60 (replace addressOf n (if even n then right else wrong) t)) (opened wrong) [2 .. 40])
-      map (\(_, v, found) -> (v, map code found)) (drop 1 (published fast)) `shouldBe` [(Number 40, [])]
+      let fast =
+            pause
+              500
+              ( foldl
+                  (\t n -> pause 60 (replace addressOf n (if even n then right else wrong) t))
+                  (opened wrong)
+                  [2 .. 40]
+              )
+      map (\(_, v, found) -> (v, map code found)) (drop 1 (published fast))
+        `shouldBe` [(Number 40, [])]
     it "are gone after the fix" $
-      map (\(_, _, found) -> map code found) (published (pause 200 (replace addressOf 2 right (opened wrong)))) `shouldBe` [["E0201"], []]
+      map
+        (\(_, _, found) -> map code found)
+        (published (pause 200 (replace addressOf 2 right (opened wrong))))
+        `shouldBe` [["E0201"], []]
     it "are gone after closing" $
-      map (\(u, _, found) -> (u, map code found)) (published (close addressOf (opened wrong))) `shouldBe` [(String addressOf, ["E0201"]), (String addressOf, [])]
+      map (\(u, _, found) -> (u, map code found)) (published (close addressOf (opened wrong)))
+        `shouldBe` [(String addressOf, ["E0201"]), (String addressOf, [])]
     it "do not come after closing" $
-      length (published (pause 900 (close addressOf (replace addressOf 2 wrong (opened wrong))))) `shouldBe` 2
+      length (published (pause 900 (close addressOf (replace addressOf 2 wrong (opened wrong)))))
+        `shouldBe` 2
     it "stand beside an answer that came first" $
-      length (published (pause 500 (say (Request (Number 1) "textDocument/documentSymbol" (about addressOf (0, 0))) (open addressOf 0 wrong ready)))) `shouldBe` 1
+      length
+        ( published
+            ( pause
+                500
+                ( say
+                    (Request (Number 1) "textDocument/documentSymbol" (about addressOf (0, 0)))
+                    (open addressOf 0 wrong ready)
+                )
+            )
+        )
+        `shouldBe` 1
     it "follow what is imported, while it is edited in another window" $ do
-      let both = pause 500 (open addressOf 1 importing (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" ready))
+      let both =
+            pause
+              500
+              ( open
+                  addressOf
+                  1
+                  importing
+                  (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" ready)
+              )
           spoilt = pause 500 (replace "file:///tmp/pins.part" 2 "part pins\nlet pen = 3 mm\n" both)
-          mended = pause 500 (replace "file:///tmp/pins.part" 3 "part pins\n-- wider\nlet pin = 3 mm\n" spoilt)
-          latest talk = [map code found | (String u, _, found) <- reverse (published talk), u == addressOf]
+          mended =
+            pause
+              500
+              (replace "file:///tmp/pins.part" 3 "part pins\n-- wider\nlet pin = 3 mm\n" spoilt)
+          latest talk =
+            [map code found | (String u, _, found) <- reverse (published talk), u == addressOf]
       map (take 1 . latest) [both, spoilt, mended] `shouldBe` [[[]], [["E0201"]], [[]]]
-      fmap (field "uri") (ask "textDocument/definition" (about addressOf (2, 9)) mended) `shouldBe` Right (String "file:///tmp/pins.part")
-      fmap (field "line" . field "start" . field "range") (ask "textDocument/definition" (about addressOf (2, 9)) mended) `shouldBe` Right (Number 2)
+      fmap (field "uri") (ask "textDocument/definition" (about addressOf (2, 9)) mended)
+        `shouldBe` Right (String "file:///tmp/pins.part")
+      fmap
+        (field "line" . field "start" . field "range")
+        (ask "textDocument/definition" (about addressOf (2, 9)) mended)
+        `shouldBe` Right (Number 2)
     it "come when a missing import is opened" $ do
       let alone = pause 500 (open addressOf 1 importing ready)
           found = pause 500 (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" alone)
-          latest talk = [map code there | (String u, _, there) <- reverse (published talk), u == addressOf]
+          latest talk =
+            [map code there | (String u, _, there) <- reverse (published talk), u == addressOf]
       map (take 1 . latest) [alone, found] `shouldBe` [[["E0112"]], [[]]]
     it "of an imported file stand at the import, and name the file" $ do
-      let talk = pause 500 (open addressOf 1 importing (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm + 1 deg\n" ready))
-      [map (\f -> (from f, code f, "pins.part:2" `Text.isInfixOf` message f)) found | (String u, _, found) <- published talk, u == addressOf] `shouldBe` [[((1, 7), "E0206", True)]]
+      let talk =
+            pause
+              500
+              ( open
+                  addressOf
+                  1
+                  importing
+                  (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm + 1 deg\n" ready)
+              )
+      [map (\f -> (from f, code f, "pins.part:2" `Text.isInfixOf` message f)) found | (String u, _, found) <- published talk, u == addressOf]
+        `shouldBe` [[((1, 7), "E0206", True)]]
     it "have the hint and the other places in the message, for clients that show nothing else" $
-      map message (squiggles (header <> "let a = 1\nlet a = 2\n")) `shouldBe` ["‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: Give one of them another name."]
+      map message (squiggles (header <> "let a = 1\nlet a = 2\n"))
+        `shouldBe` [ "‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: \
+                     \Give one of them another name."
+                   ]
     it "name the other places apart when the client can show them" $ do
-      let talk = pause 0 (open addressOf 0 (header <> "let a = 1\nlet a = 2\n") (running (object ["publishDiagnostics" .= object ["relatedInformation" .= True]])))
+      let talk =
+            pause
+              0
+              ( open
+                  addressOf
+                  0
+                  (header <> "let a = 1\nlet a = 2\n")
+                  (running (object ["publishDiagnostics" .= object ["relatedInformation" .= True]]))
+              )
       [field "relatedInformation" d | Send (Notify _ p) <- heard talk, Array ds <- [field "diagnostics" p], d <- foldMap pure ds]
-        `shouldBe` [Array (pure (object ["message" .= ("first defined here" :: Text), "location" .= object ["uri" .= addressOf, "range" .= object ["start" .= at (6, 4), "end" .= at (6, 5)]]]))]
+        `shouldBe` [ Array
+                       ( pure
+                           ( object
+                               [ "message" .= ("first defined here" :: Text),
+                                 "location"
+                                   .= object
+                                     [ "uri" .= addressOf,
+                                       "range" .= object ["start" .= at (6, 4), "end" .= at (6, 5)]
+                                     ]
+                               ]
+                           )
+                       )
+                   ]
     it "of a text with a mark of the byte order stand where the client sees them" $
       map from (squiggles ("\xFEFFpart p junk\n" <> Text.drop 7 header)) `shouldBe` [(0, 8)]
-    prop "a text with Cyrillic and emoji before the place shifts its columns by its UTF-16 length" . forAll (listOf (elements "aж€🙂𝔸 -")) $ \put ->
-      let title = Text.pack put
-       in map (\s -> (from s, to s)) (squiggles ("part p \"" <> title <> "\" junk\n" <> Text.drop 7 header)) === [((0, 10 + units title), (0, 14 + units title))]
+    prop "a text with Cyrillic and emoji before the place shifts its columns by its UTF-16 length"
+      . forAll (listOf (elements "aж€🙂𝔸 -"))
+      $ \put ->
+        let title = Text.pack put
+         in map
+              (\s -> (from s, to s))
+              (squiggles ("part p \"" <> title <> "\" junk\n" <> Text.drop 7 header))
+              === [((0, 10 + units title), (0, 14 + units title))]
     prop "lines that end with LF, CR and CR LF have the same places" . forAll broken $ \text ->
       let ended end = squiggles (Text.intercalate end (Text.splitOn "\n" text))
        in conjoin [ended "\r\n" === ended "\n", ended "\r" === ended "\n"]
-    prop "after any edits are those of the final text in a fresh session" . forAll edits $ \(first, steps) ->
-      let (final, talk) = foldl edited (first, opened first) (zip [2 ..] steps)
-          (_, version, found) = last (published (pause 200 talk))
-       in conjoin [textOf "/tmp/a.part" talk === Just final, found === squiggles final, version === Number (fromIntegral (1 + length steps))]
+    prop "after any edits are those of the final text in a fresh session" . forAll edits $
+      \(first, steps) ->
+        let (final, talk) = foldl edited (first, opened first) (zip [2 ..] steps)
+            (_, version, found) = last (published (pause 200 talk))
+         in conjoin
+              [ textOf "/tmp/a.part" talk === Just final,
+                found === squiggles final,
+                version === Number (fromIntegral (1 + length steps))
+              ]
     programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
     it "have the places and codes of the command line's reports, for all programs of the tests" $
       forM_ programs $ \file -> do
@@ -110,9 +199,22 @@ spec = do
       forM_ programs $ \file -> do
         text <- readText file
         let talk = opened text
-            places = [(line, character) | (line, content) <- zip [0 ..] (Text.lines text <> ["", ""]), character <- [0 .. Text.length content + 1]]
-        lefts [ask method (about addressOf place) talk | place <- places, method <- ["textDocument/hover", "textDocument/definition"]] `shouldBe` []
-        lefts [ask method (about addressOf (0, 0)) talk | method <- ["textDocument/documentSymbol", "textDocument/formatting"]] `shouldBe` []
+            places =
+              [ (line, character)
+                | (line, content) <- zip [0 ..] (Text.lines text <> ["", ""]),
+                  character <- [0 .. Text.length content + 1]
+              ]
+        lefts
+          [ ask method (about addressOf place) talk
+            | place <- places,
+              method <- ["textDocument/hover", "textDocument/definition"]
+          ]
+          `shouldBe` []
+        lefts
+          [ ask method (about addressOf (0, 0)) talk
+            | method <- ["textDocument/documentSymbol", "textDocument/formatting"]
+          ]
+          `shouldBe` []
 
 ready :: Talk
 ready = running (object [])
@@ -125,15 +227,22 @@ refusals talk = [(ident, trouble) | Send (Refusal ident (Failure trouble _)) <- 
 
 -- | A sound beginning of six lines.
 header :: Text
-header = "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, 0)\n"
+header =
+  "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, \
+  \0)\n"
 
 right, wrong :: Text
 right = header <> "let a = 1\nlet b = a\n"
 wrong = header <> "let a = 1\nlet b = c\n"
 
--- | What the command line says: the ends of the places, in the units of the protocol, and the codes.
+-- | What the command line says: the ends of the places, in the units of the protocol, and the
+-- codes.
 reported :: Text -> [((Int, Int), (Int, Int), Text)]
-reported text = [(ends Region.start r, ends Region.end r, c) | r <- Report.sorted (Result.errors result <> Result.warnings result), let ReportCode c = Report.code r]
+reported text =
+  [ (ends Region.start r, ends Region.end r, c)
+    | r <- Report.sorted (Result.errors result <> Result.warnings result),
+      let ReportCode c = Report.code r
+  ]
   where
     result = Cli.checked [] (Compile.alone "/tmp/a.part" text)
     ends end r = case Report.place r of
@@ -143,29 +252,53 @@ reported text = [(ends Region.start r, ends Region.end r, c) | r <- Report.sorte
 
 -- | Texts in which most lines are wrong.
 broken :: Gen Text
-broken = (header <>) . Text.unlines <$> listOf (elements ["let ж = 1 + (1, 2)", "let b = nothing -- 🙂", "🙂", "contour k closed {", "}", "", "part q \"€\" x", "let f(x) = x"])
+broken =
+  (header <>) . Text.unlines
+    <$> listOf
+      ( elements
+          [ "let ж = 1 + (1, 2)",
+            "let b = nothing -- 🙂",
+            "🙂",
+            "contour k closed {",
+            "}",
+            "",
+            "part q \"€\" x",
+            "let f(x) = x"
+          ]
+      )
 
 -- | A text and edits: where they begin and end in the text that is there then, and what they put.
 edits :: Gen (Text, [[(Double, Double, Text)]])
-edits = (,) <$> oneof [pure right, pure wrong, broken] <*> listOf (listOf1 ((,,) <$> choose (0, 1) <*> choose (0, 1) <*> piece))
+edits =
+  (,)
+    <$> oneof [pure right, pure wrong, broken]
+      <*> listOf (listOf1 ((,,) <$> choose (0, 1) <*> choose (0, 1) <*> piece))
   where
-    piece = elements ["", "a", "ж", "🙂", "\n", "\r\n", "\r", "let z = a\n", "(", "\"", "-- 🙂 ж", "1"]
+    piece =
+      elements ["", "a", "ж", "🙂", "\n", "\r\n", "\r", "let z = a\n", "(", "\"", "-- 🙂 ж", "1"]
 
 -- | The same edits on a text and in a session.
 edited :: (Text, Talk) -> (Int, [(Double, Double, Text)]) -> (Text, Talk)
-edited (text, talk) (version, steps) = (final, change addressOf version (map snd changes) (pause 30 talk))
+edited (text, talk) (version, steps) =
+  (final, change addressOf version (map snd changes) (pause 30 talk))
   where
     changes = drop 1 (scanl next (text, Null) steps)
     final = fst (last changes)
     next (old, _) (a, b, put) =
       let (begin', end') = (offsetAt old (min a b), offsetAt old (max a b))
        in ( Text.take begin' old <> put <> Text.drop end' old,
-            object ["range" .= object ["start" .= at (placeIn old begin'), "end" .= at (placeIn old end')], "text" .= put]
+            object
+              [ "range"
+                  .= object ["start" .= at (placeIn old begin'), "end" .= at (placeIn old end')],
+                "text" .= put
+              ]
           )
     -- No position lies between CR and LF.
     offsetAt old share =
       let offset = round (share * fromIntegral (Text.length old))
-       in if offset > 0 && Text.take 2 (Text.drop (offset - 1) old) == "\r\n" then offset - 1 else offset
+       in if offset > 0 && Text.take 2 (Text.drop (offset - 1) old) == "\r\n"
+            then offset - 1
+            else offset
 
 -- | A program that imports another.
 importing :: Text

@@ -48,11 +48,19 @@ data Talk = Talk Session Int [Effect]
 begin :: Talk
 begin = Talk Session.start 0 []
 
--- | After @initialize@ with these capabilities of text documents; what was sent up to then is forgotten.
+-- | After @initialize@ with these capabilities of text documents; what was sent up to then is
+-- forgotten.
 running :: Value -> Talk
 running capabilities = Talk session now []
   where
-    Talk session now _ = say (Request (Number 0) "initialize" (object ["capabilities" .= object ["textDocument" .= capabilities]])) begin
+    Talk session now _ =
+      say
+        ( Request
+            (Number 0)
+            "initialize"
+            (object ["capabilities" .= object ["textDocument" .= capabilities]])
+        )
+        begin
 
 -- | The client sends something.
 say :: Incoming -> Talk -> Talk
@@ -62,16 +70,26 @@ happen :: Event -> Talk -> Talk
 happen event (Talk session now sent) = Talk session' now (reverse effects <> sent)
   where
     time = Milliseconds now
-    (session', effects) = Session.step time event (foldl look session (Session.awaited time event session))
-    look s Awaited {path, text} = Session.supply path (Snapshot.take (Cli.checked []) (runIdentity (Compile.load (Import.byName (opened s)) (Text.unpack path) text))) s
+    (session', effects) =
+      Session.step time event (foldl look session (Session.awaited time event session))
+    look s Awaited {path, text} =
+      Session.supply
+        path
+        ( Snapshot.take
+            (Cli.checked [])
+            (runIdentity (Compile.load (Import.byName (opened s)) (Text.unpack path) text))
+        )
+        s
     -- What is imported is what is open.
-    opened s there = Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
+    opened s there =
+      Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
 
 -- | Time passes.
 pause :: Int -> Talk -> Talk
 pause milliseconds talk@(Talk session now sent) = case Session.deadline session of
   Just (Milliseconds due)
-    | due <= now + milliseconds -> pause (now + milliseconds - max now due) (happen Due (Talk session (max now due) sent))
+    | due <= now + milliseconds ->
+      pause (now + milliseconds - max now due) (happen Due (Talk session (max now due) sent))
   _ -> let Talk s _ e = talk in Talk s (now + milliseconds) e
 
 -- | All that has been sent, in order.
@@ -87,18 +105,42 @@ ask method params talk = case say (Request (String "q") method params) talk of
 
 -- | Open a text under an address.
 open :: Text -> Int -> Text -> Talk -> Talk
-open uri version text = say (Notification "textDocument/didOpen" (object ["textDocument" .= object ["uri" .= uri, "languageId" .= ("part" :: Text), "version" .= version, "text" .= text]]))
+open uri version text =
+  say
+    ( Notification
+        "textDocument/didOpen"
+        ( object
+            [ "textDocument"
+                .= object
+                  [ "uri" .= uri,
+                    "languageId" .= ("part" :: Text),
+                    "version" .= version,
+                    "text" .= text
+                  ]
+            ]
+        )
+    )
 
 -- | Change an open text.
 change :: Text -> Int -> [Value] -> Talk -> Talk
-change uri version edits = say (Notification "textDocument/didChange" (object ["textDocument" .= object ["uri" .= uri, "version" .= version], "contentChanges" .= edits]))
+change uri version edits =
+  say
+    ( Notification
+        "textDocument/didChange"
+        ( object
+            [ "textDocument" .= object ["uri" .= uri, "version" .= version],
+              "contentChanges" .= edits
+            ]
+        )
+    )
 
 -- | Replace the whole of an open text.
 replace :: Text -> Int -> Text -> Talk -> Talk
 replace uri version text = change uri version [object ["text" .= text]]
 
 close :: Text -> Talk -> Talk
-close uri = say (Notification "textDocument/didClose" (object ["textDocument" .= object ["uri" .= uri]]))
+close uri =
+  say (Notification "textDocument/didClose" (object ["textDocument" .= object ["uri" .= uri]]))
 
 -- | The text of an open file as the server has it.
 textOf :: Text -> Talk -> Maybe Text
@@ -106,16 +148,26 @@ textOf path (Talk session _ _) = Session.openText session path
 
 -- | What has been published: address, version, diagnostics.
 published :: Talk -> [(Value, Value, [Squiggle])]
-published talk = [(field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p))) | Send (Notify "textDocument/publishDiagnostics" p) <- heard talk]
+published talk =
+  [ (field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p)))
+    | Send (Notify "textDocument/publishDiagnostics" p) <- heard talk
+  ]
 
 -- | A diagnostic: line and character of its beginning and of its end, its code, its words.
 data Squiggle = Squiggle {from :: (Int, Int), to :: (Int, Int), code :: Text, message :: Text}
   deriving stock (Eq, Show)
 
 squiggle :: Value -> Squiggle
-squiggle d = Squiggle {from = place "start", to = place "end", code = words' "code", message = words' "message"}
+squiggle d =
+  Squiggle
+    { from = place "start",
+      to = place "end",
+      code = words' "code",
+      message = words' "message"
+    }
   where
-    place end = let p = field end (field "range" d) in (int (field "line" p), int (field "character" p))
+    place end =
+      let p = field end (field "range" d) in (int (field "line" p), int (field "character" p))
     words' key = case field key d of
       String text -> text
       other -> Text.pack (show other)
@@ -137,7 +189,8 @@ addressOf = "file:///tmp/a.part"
 
 -- | Parameters that name a document and a position.
 about :: Text -> (Int, Int) -> Value
-about uri (line, character) = object ["textDocument" .= object ["uri" .= uri], "position" .= at (line, character)]
+about uri (line, character) =
+  object ["textDocument" .= object ["uri" .= uri], "position" .= at (line, character)]
 
 -- | A position.
 at :: (Int, Int) -> Value

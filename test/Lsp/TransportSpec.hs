@@ -13,20 +13,32 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  prop "messages come out as they went in, however the bytes arrive" . forAll (listOf body) $ \bodies ->
-    forAll (cut (ByteString.concat (map Transport.framed bodies))) $ \pieces ->
-      received "" pieces === bodies
+  prop "messages come out as they went in, however the bytes arrive" . forAll (listOf body) $
+    \bodies ->
+      forAll (cut (ByteString.concat (map Transport.framed bodies))) $ \pieces ->
+        received "" pieces === bodies
   it "counts bytes, not characters" $
-    Transport.framed (Encoding.encodeUtf8 "ж🙂") `shouldSatisfy` ByteString.isPrefixOf "Content-Length: 6\r\n\r\n"
+    Transport.framed (Encoding.encodeUtf8 "ж🙂")
+      `shouldSatisfy` ByteString.isPrefixOf "Content-Length: 6\r\n\r\n"
   it "takes other headers, and names in any case" $
-    Transport.next "Content-Type: application/vscode-jsonrpc; charset=utf-8\r\ncontent-length:2\r\n\r\n{}rest" `shouldBe` Complete "{}" "rest"
+    Transport.next
+      "Content-Type: application/vscode-jsonrpc; charset=utf-8\r\ncontent-length:2\r\n\r\n{}rest"
+      `shouldBe` Complete "{}" "rest"
   it "says how much is missing" $
     Transport.next "Content-Length: 5\r\n\r\n{}" `shouldBe` Incomplete 3
   it "passes over a header without a length, or with one that cannot be" $
-    map Transport.next ["X: 1\r\n\r\nrest", "Content-Length: -1\r\n\r\nrest", "Content-Length: 99999999999999\r\n\r\nrest", "Content-Length: x\r\n\r\nrest"]
+    map
+      Transport.next
+      [ "X: 1\r\n\r\nrest",
+        "Content-Length: -1\r\n\r\nrest",
+        "Content-Length: 99999999999999\r\n\r\nrest",
+        "Content-Length: x\r\n\r\nrest"
+      ]
       `shouldBe` replicate 4 (Headless "rest")
-  it "finds the next message behind one whose header does not say how long it is (catches a stream that stays deaf)" $
-    case Transport.next "X: 1\r\n\r\n{\"a\": 1}Content-Length: 2\r\n\r\n{}rest" of
+  it
+    "finds the next message behind one whose header does not say how long it is (catches a stream \
+    \that stays deaf)"
+    $ case Transport.next "X: 1\r\n\r\n{\"a\": 1}Content-Length: 2\r\n\r\n{}rest" of
       Headless rest -> Transport.next rest `shouldBe` Complete "{}" "rest"
       other -> expectationFailure (show other)
 

@@ -1,4 +1,5 @@
--- | A machine as a description with all its numbers spelt out: for the law that what is written is what is read.
+-- | A machine as a description with all its numbers spelt out: for the law that what is written is
+-- what is read.
 module Machine.ToText
   ( toText,
   )
@@ -65,7 +66,9 @@ millimetres (Mm x) = Decimal.exact x <> " mm"
 codeLines :: Int -> TapeCode -> [Text]
 codeLines n c =
   block "symbols" [quoted (Text.singleton s) <> " = " <> row p | (s, p) <- Map.toList (symbols c)]
-    <> block "weights" [quoted (Text.singleton s) <> " = " <> Decimal.whole w | (s, w) <- Map.toList (weights c)]
+    <> block
+      "weights"
+      [quoted (Text.singleton s) <> " = " <> Decimal.whole w | (s, w) <- Map.toList (weights c)]
     <> ["parity-track " <> Decimal.whole t | Just t <- [evenTrack c]]
     <> ["service-track " <> Decimal.whole t | Just t <- [serviceTrack c]]
     <> ["skip " <> Text.unwords (map row (skips c)) | not (null (skips c))]
@@ -85,7 +88,8 @@ axisLines a =
 arcsText :: Arcs -> Text
 arcsText a = case a of
   NoArcs -> "none"
-  Arcs {quadrants, fullCircle} -> (if quadrants then "quadrant" else "any") <> (if fullCircle then " full-circle" else "")
+  Arcs {quadrants, fullCircle} ->
+    (if quadrants then "quadrant" else "any") <> (if fullCircle then " full-circle" else "")
 
 frameLines :: Layout -> [Text]
 frameLines l =
@@ -99,7 +103,13 @@ frameLines l =
     itemLines item = case item of
       Literal t -> ["symbols " <> quoted t]
       CheckDigit k -> ["check modulo " <> Decimal.whole k]
-      AWord w -> block ("word " <> (if address w == "" then "" else quoted (address w) <> " ") <> contentText (content w)) (wordLines w)
+      AWord w ->
+        block
+          ( "word "
+              <> (if address w == "" then "" else quoted (address w) <> " ")
+              <> contentText (content w)
+          )
+          (wordLines w)
 
 contentText :: Content -> Text
 contentText c = case c of
@@ -112,7 +122,9 @@ contentText c = case c of
 
 wordLines :: Word' -> [Text]
 wordLines w =
-  ["digits " <> (if padded f then "" else "at-most ") <> Decimal.whole (digits f), "decimals " <> Decimal.whole (decimals f)]
+  [ "digits " <> (if padded f then "" else "at-most ") <> Decimal.whole (digits f),
+    "decimals " <> Decimal.whole (decimals f)
+  ]
     <> ["sign " <> s | Just s <- [signText (sign f)]]
     <> ["holes " <> Text.unwords (map serviceText (service f)) | not (null (service f))]
     <> [ "when " <> case presence w of
@@ -151,7 +163,10 @@ feedLines f =
   ]
     <> case codes f of
       Direct a b -> ["direct " <> Decimal.whole a <> ".." <> Decimal.whole b]
-      Listed t -> block "table" [Decimal.whole c <> " = " <> Decimal.exact v | (FeedCode c, v) <- Map.toList t]
+      Listed t ->
+        block
+          "table"
+          [Decimal.whole c <> " = " <> Decimal.exact v | (FeedCode c, v) <- Map.toList t]
     <> [ "rule " <> case rule f of
            NotAbove -> "not-above"
            Nearest -> "nearest",
@@ -172,12 +187,33 @@ brakingLines b =
 commandLines :: CommandWords -> [Text]
 commandLines o =
   concat [block event (concatMap orderLines os) | (event, os) <- events, not (null os)]
-    <> concat [block "compensation" (block "left" (orderLines (keepLeft c)) <> block "right" (orderLines (keepRight c)) <> block "off" (orderLines (release c))) | Just c <- [compensation o]]
-    <> block "finish" (concat [block "frame" (concatMap orderLines (NonEmpty.toList os)) | os <- finish o])
+    <> concat
+      [ block
+          "compensation"
+          ( block "left" (orderLines (keepLeft c))
+              <> block "right" (orderLines (keepRight c))
+              <> block "off" (orderLines (release c))
+          )
+        | Just c <- [compensation o]
+      ]
+    <> block
+      "finish"
+      (concat [block "frame" (concatMap orderLines (NonEmpty.toList os)) | os <- finish o])
   where
-    events = [("spindle-clockwise", spindleClockwise o), ("spindle-counterclockwise", spindleCounterClockwise o), ("spindle-off", spindleOff o), ("coolant-on", coolantOn o), ("coolant-off", coolantOff o), ("tool-change", toolChange o), ("auxiliary", auxiliary o)]
+    events =
+      [ ("spindle-clockwise", spindleClockwise o),
+        ("spindle-counterclockwise", spindleCounterClockwise o),
+        ("spindle-off", spindleOff o),
+        ("coolant-on", coolantOn o),
+        ("coolant-off", coolantOff o),
+        ("tool-change", toolChange o),
+        ("auxiliary", auxiliary o)
+      ]
     orderLines (CommandWord (CommandName n) v) = case v of
       Fixed k -> ["set " <> quoted n <> " " <> Decimal.whole k]
       Argument -> ["set " <> quoted n <> " argument"]
       Diameter -> ["set " <> quoted n <> " diameter"]
-      Step t -> block ("set " <> quoted n <> " steps") [Decimal.whole k <> " = " <> Decimal.exact x | (k, x) <- Map.toList t]
+      Step t ->
+        block
+          ("set " <> quoted n <> " steps")
+          [Decimal.whole k <> " = " <> Decimal.exact x | (k, x) <- Map.toList t]

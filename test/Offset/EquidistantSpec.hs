@@ -23,44 +23,66 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "laws of the equidistant" $ do
-    it "distance: every point is at the cutter's radius from the contour (catches an arc whose radius changes by the wrong sign)" $
-      property $
+    it
+      "distance: every point is at the cutter's radius from the contour (catches an arc whose \
+      \radius changes by the wrong sign)"
+      $ property $
         forAll Generate.closedCase distanceLaw
     it "distance, open contours (catches a corner arc at an end that has no corner)" $
       property $
         forAll Generate.openCase distanceLaw
-    it "clearance: no piece comes nearer to any element, by closed form (catches ways that are not shortened where they meet)" $
-      property $
+    it
+      "clearance: no piece comes nearer to any element, by closed form (catches ways that are not \
+      \shortened where they meet)"
+      $ property $
         forAll Generate.closedCase clearanceLaw
-    it "continuity: every piece begins where the one before ends, a closed path closes (catches a missing corner arc)" $
-      property $
+    it
+      "continuity: every piece begins where the one before ends, a closed path closes (catches a \
+      \missing corner arc)"
+      $ property $
         forAll Generate.closedCase continuityLaw
-    it "reversal: the other side of the reversed contour is the reversed path (catches a side that depends on the sense of an arc)" $
-      property $
+    it
+      "reversal: the other side of the reversed contour is the reversed path (catches a side that \
+      \depends on the sense of an arc)"
+      $ property $
         forAll Generate.closedCase reversalLaw
-    it "motion: moving, turning and mirroring the part does so to the path (catches a formula that knows the axes)" $
-      property $
+    it
+      "motion: moving, turning and mirroring the part does so to the path (catches a formula that \
+      \knows the axes)"
+      $ property $
         forAll Generate.closedCase $ \c -> forAll Generate.motion (motionLaw c)
-    it "length: outside of a closed contour it is L + 2πR, inside L − 2πR (catches an arc walked the long way round)" $
-      property $
+    it
+      "length: outside of a closed contour it is L + 2πR, inside L − 2πR (catches an arc walked \
+      \the long way round)"
+      $ property $
         forAll Generate.smoothCase lengthLaw
     it "reaches contours with hollows, with corners, and with the cutter on either side" $
       checkCoverage $
         forAll Generate.closedCase $ \c ->
-          cover 25 (hollow c) "hollow" (cover 25 (any isCorner (pieces c)) "corner" (cover 25 (side c == LeftOf) "left" True))
+          cover
+            25
+            (hollow c)
+            "hollow"
+            (cover 25 (any isCorner (pieces c)) "corner" (cover 25 (side c == LeftOf) "left" True))
     it "length, with sharp corners (catches a corner arc of another radius or sweep)" $
       property $
         forAll Generate.closedCase $ \c -> not (cutOff c) ==> lengthLaw c
-    it "slight inner corners: the ways along two arcs, or an arc and a line, meet where both are at the radius (catches arcs cut as lines are)" $
-      property slightCornerLaw
+    it
+      "slight inner corners: the ways along two arcs, or an arc and a line, meet where both are at \
+      \the radius (catches arcs cut as lines are)"
+      $ property slightCornerLaw
   describe "obstacles" $ do
-    it "the largest cutter that fits does fit, and one a little larger does not (catches a search that stops early)" $
-      property $
-        forAll (Generate.contour <$> Generate.closedCase) $ \c -> forAll (elements [LeftOf, RightOf]) (largestLaw c)
+    it
+      "the largest cutter that fits does fit, and one a little larger does not (catches a search \
+      \that stops early)"
+      $ property $
+        forAll (Generate.contour <$> Generate.closedCase) $ \c ->
+          forAll (elements [LeftOf, RightOf]) (largestLaw c)
     it "a concave radius below the cutter's is named" $
       causeOf LeftOf 6 (circle CounterClockwise 5) `shouldBe` Just (Concave 0 (Mm 5), 5)
     it "a cutter that just fits into a circle stands still in its centre" $
-      fmap (fmap segmentLength) (Equidistant.equidistant LeftOf (Mm 5) (circle CounterClockwise 5)) `shouldBe` Right (0 :| [])
+      fmap (fmap segmentLength) (Equidistant.equidistant LeftOf (Mm 5) (circle CounterClockwise 5))
+        `shouldBe` Right (0 :| [])
     it "an inner corner is named, and no cutter fits" $
       fmap fst (causeOf LeftOf 2 square) `shouldBe` Just (InnerCorner 0 1 (Vec.point 10 0))
     it "a slot of 8 whose walls are far apart in the contour stops a cutter of 10" $
@@ -75,7 +97,8 @@ spec = do
     it "a cutter of 8 goes down a slot of 8" $
       causeOf RightOf 4 keyhole `shouldBe` Nothing
     it "a radius of 0 gives the contour itself" $
-      fmap (fmap segment) (Equidistant.equidistant LeftOf (Mm 0) square) `shouldBe` Right (segments square)
+      fmap (fmap segment) (Equidistant.equidistant LeftOf (Mm 0) square)
+        `shouldBe` Right (segments square)
 
 samples :: Segment -> [Point]
 samples s = [Segment.at t s | t <- [0, 0.13, 0.5, 0.77, 1]]
@@ -83,7 +106,10 @@ samples s = [Segment.at t s | t <- [0, 0.13, 0.5, 0.77, 1]]
 distanceLaw :: Case -> Property
 distanceLaw c = conjoin (map near (concatMap (samples . segment) (NonEmpty.toList (pieces c))))
   where
-    near p = let Mm d = minimum (fmap (Distance.toPoint p) (segments (contour c))) in counterexample (show (p, d)) (abs (d - Generate.radiusOf c) < 1e-6)
+    near p =
+      let Mm d =
+            minimum (fmap (Distance.toPoint p) (segments (contour c)))
+       in counterexample (show (p, d)) (abs (d - Generate.radiusOf c) < 1e-6)
 
 clearanceLaw :: Case -> Property
 clearanceLaw c =
@@ -95,7 +121,8 @@ clearanceLaw c =
     ]
 
 continuityLaw :: Case -> Property
-continuityLaw c = conjoin (zipWith joined ps (drop 1 ps <> take 1 ps)) .&&. conjoin (map onCircle ps)
+continuityLaw c =
+  conjoin (zipWith joined ps (drop 1 ps <> take 1 ps)) .&&. conjoin (map onCircle ps)
   where
     ps = map segment (NonEmpty.toList (pieces c))
     joined a b = Segment.end a === Segment.start b
@@ -103,12 +130,18 @@ continuityLaw c = conjoin (zipWith joined ps (drop 1 ps <> take 1 ps)) .&&. conj
     onCircle s = case s of
       Straight _ _ -> property True
       Arc {start, end, centre, sweep} ->
-        counterexample (show s) (apart (Vec.shift (Vec.rotate sweep (Vec.to centre start)) centre) end < 1e-6)
+        counterexample
+          (show s)
+          (apart (Vec.shift (Vec.rotate sweep (Vec.to centre start)) centre) end < 1e-6)
 
 reversalLaw :: Case -> Property
-reversalLaw c = case Equidistant.equidistant (other (side c)) (radius c) (Polyarc.reverse (contour c)) of
-  Left o -> counterexample (show o) False
-  Right back -> sameWalk (map (Segment.reverse . segment) (NonEmpty.toList back)) (map segment (NonEmpty.toList (pieces c)))
+reversalLaw c =
+  case Equidistant.equidistant (other (side c)) (radius c) (Polyarc.reverse (contour c)) of
+    Left o -> counterexample (show o) False
+    Right back ->
+      sameWalk
+        (map (Segment.reverse . segment) (NonEmpty.toList back))
+        (map segment (NonEmpty.toList (pieces c)))
 
 other :: Side -> Side
 other s = case s of
@@ -118,20 +151,32 @@ other s = case s of
 motionLaw :: Case -> Motion -> Property
 motionLaw c m = case Equidistant.equidistant side' (radius c) moved of
   Left o -> counterexample (show o) False
-  Right ps -> sameWalk (map segment (NonEmpty.toList ps)) (map (Generate.move m . segment) (NonEmpty.toList (pieces c)))
+  Right ps ->
+    sameWalk
+      (map segment (NonEmpty.toList ps))
+      (map (Generate.move m . segment) (NonEmpty.toList (pieces c)))
   where
     moved = Polyarc (ends (contour c)) (fmap (Generate.move m) (segments (contour c)))
     side' = if mirrored m then other (side c) else side c
 
 -- | The same segments, whichever comes first.
 sameWalk :: [Segment] -> [Segment] -> Property
-sameWalk as bs = length as === length bs .&&. conjoin [counterexample (show a) (any (alike a) bs) | a <- as]
+sameWalk as bs =
+  length as === length bs .&&. conjoin [counterexample (show a) (any (alike a) bs) | a <- as]
   where
-    alike a b = apart (Segment.start a) (Segment.start b) < 1e-6 && apart (Segment.end a) (Segment.end b) < 1e-6 && apart (Segment.at 0.5 a) (Segment.at 0.5 b) < 1e-6
+    alike a b =
+      apart (Segment.start a) (Segment.start b) < 1e-6
+        && apart (Segment.end a) (Segment.end b) < 1e-6
+        && apart (Segment.at 0.5 a) (Segment.at 0.5 b) < 1e-6
 
 -- | Whether a corner turns slightly towards the cutter: the path is cut off there.
 cutOff :: Case -> Bool
-cutOff c = or [turned * (if side c == LeftOf then 1 else -1) > 1e-6 | (a, b) <- zip ss (drop 1 ss <> take 1 ss), let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)]
+cutOff c =
+  or
+    [ turned * (if side c == LeftOf then 1 else -1) > 1e-6
+      | (a, b) <- zip ss (drop 1 ss <> take 1 ss),
+        let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+    ]
   where
     ss = NonEmpty.toList (segments (contour c))
 
@@ -144,7 +189,8 @@ lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * 
     outside = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
     sign = if outside then 1 else -1
 
--- | Two elements, of which one at least is an arc, at a corner so slight that the cutter passes it: the centre is then at its radius from both.
+-- | Two elements, of which one at least is an arc, at a corner so slight that the cutter passes it:
+-- the centre is then at its radius from both.
 slightCornerLaw :: Property
 slightCornerLaw =
   forAll (choose (2e-7, 0.0039)) $ \turned ->
@@ -153,27 +199,50 @@ slightCornerLaw =
           first = Segment.reverse (from corner (Vec.vec (-1) 0) (negate k))
           second = from corner (Vec.vec (cos turned) (sin turned)) k'
        in case Equidistant.equidistant LeftOf (Mm r) (Polyarc Open (first :| [second])) of
-            Right (p :| [q]) -> conjoin [Segment.end (segment p) === Segment.start (segment q), isAway (segment p) first, isAway (segment p) second]
+            Right (p :| [q]) ->
+              conjoin
+                [ Segment.end (segment p) === Segment.start (segment q),
+                  isAway (segment p) first,
+                  isAway (segment p) second
+                ]
             found -> counterexample (show found) False
   where
     r = 5
     -- A curvature, positive to the left; 0 for a line.
-    bend = frequency [(1, pure 0), (4, (\sign old -> sign / old) <$> elements [-1, 1] <*> choose (12, 300))]
+    bend =
+      frequency
+        [(1, pure 0), (4, (\sign old -> sign / old) <$> elements [-1, 1] <*> choose (12, 300))]
     -- From a point in a direction, 4 mm long.
     from at u bent
       | bent == 0 = Straight at (Vec.shift (Vec.scale 4 u) at)
-      | otherwise = let c = Vec.shift (Vec.scale (1 / bent) (Vec.left u)) at in Arc {start = at, end = Vec.shift (Vec.rotate (Rad (4 * bent)) (Vec.to c at)) c, centre = c, sweep = Rad (4 * bent)}
-    isAway way s = let Mm d = carrier s (Segment.end way) in counterexample (show (s, d)) (abs (d - r) < 1e-9)
+      | otherwise =
+        let c =
+              Vec.shift (Vec.scale (1 / bent) (Vec.left u)) at
+         in Arc
+              { start = at,
+                end = Vec.shift (Vec.rotate (Rad (4 * bent)) (Vec.to c at)) c,
+                centre = c,
+                sweep = Rad (4 * bent)
+              }
+    isAway way s =
+      let Mm d = carrier s (Segment.end way) in counterexample (show (s, d)) (abs (d - r) < 1e-9)
     -- From the line or the circle that carries an element.
     carrier s p = case s of
       Straight a b -> Mm (abs (Vec.cross (Vec.unit (Vec.to a b)) (Vec.to a p)))
-      Arc {start, centre} -> let Mm d = Quantity.minus (Vec.distance centre p) (Vec.distance centre start) in Mm (abs d)
+      Arc {start, centre} ->
+        let Mm d =
+              Quantity.minus (Vec.distance centre p) (Vec.distance centre start)
+         in Mm (abs d)
 
 largestLaw :: Polyarc -> Side -> Property
 largestLaw c s = case Equidistant.equidistant s (Mm 60) c of
   Right _ -> discard
   Left (Obstacle _ Nothing) -> classify True "no cutter fits" (isBlocked 0.001)
-  Left (Obstacle _ (Just (Mm r))) -> classify True "some cutter fits" (counterexample (show r) (not (isBlocked r) && isBlocked (r + 1e-3)))
+  Left (Obstacle _ (Just (Mm r))) ->
+    classify
+      True
+      "some cutter fits"
+      (counterexample (show r) (not (isBlocked r) && isBlocked (r + 1e-3)))
   where
     isBlocked r = case Equidistant.equidistant s (Mm r) c of
       Left _ -> True
@@ -181,15 +250,20 @@ largestLaw c s = case Equidistant.equidistant s (Mm 60) c of
 
 causeOf :: Side -> Double -> Polyarc -> Maybe (Cause, Double)
 causeOf s r c = case Equidistant.equidistant s (Mm r) c of
-  Left (Obstacle cause largest) -> Just (cause, maybe 0 (\(Mm l) -> fromIntegral (round (l * 1e5) :: Int) / 1e5) largest)
+  Left (Obstacle cause largest) ->
+    Just (cause, maybe 0 (\(Mm l) -> fromIntegral (round (l * 1e5) :: Int) / 1e5) largest)
   Right _ -> Nothing
 
 circle :: Sense -> Double -> Polyarc
-circle turn r = Polyarc Closed (Segment.fullCircle turn (Circle (Vec.point 3 4) (Mm r)) (Vec.point (3 + r) 4) :| [])
+circle turn r =
+  Polyarc
+    Closed
+    (Segment.fullCircle turn (Circle (Vec.point 3 4) (Mm r)) (Vec.point (3 + r) 4) :| [])
 
 -- | A contour with arcs of both senses.
 hollow :: Case -> Bool
-hollow c = any ((> 0) . sweepOf) (segments (contour c)) && any ((< 0) . sweepOf) (segments (contour c))
+hollow c =
+  any ((> 0) . sweepOf) (segments (contour c)) && any ((< 0) . sweepOf) (segments (contour c))
   where
     sweepOf s = case s of
       Straight _ _ -> 0
@@ -204,7 +278,11 @@ square :: Polyarc
 square = Polyarc Closed (lines' :| rest)
   where
     lines' = Straight (Vec.point 0 0) (Vec.point 10 0)
-    rest = [Straight (Vec.point 10 0) (Vec.point 10 10), Straight (Vec.point 10 10) (Vec.point 0 10), Straight (Vec.point 0 10) (Vec.point 0 0)]
+    rest =
+      [ Straight (Vec.point 10 0) (Vec.point 10 10),
+        Straight (Vec.point 10 10) (Vec.point 0 10),
+        Straight (Vec.point 0 10) (Vec.point 0 0)
+      ]
 
 -- | A block with a slot of width 8 that widens to a round of radius 20, walked counter-clockwise.
 keyhole :: Polyarc
@@ -224,9 +302,17 @@ keyhole =
   where
     neck = -20 + sqrt (20 * 20 - 4 * 4)
 
--- | A wall, walked with its inside on the left, that goes round and comes back beneath its own beginning: a line, three quarters of a turn and more, a line.
+-- | A wall, walked with its inside on the left, that goes round and comes back beneath its own
+-- beginning: a line, three quarters of a turn and more, a line.
 hook :: Polyarc
-hook = Polyarc Open (Straight (Vec.point 70 30) begin :| [Segment.arc CounterClockwise middle begin behind, Straight behind (Vec.shift (Vec.vec 8 6) behind)])
+hook =
+  Polyarc
+    Open
+    ( Straight (Vec.point 70 30) begin
+        :| [ Segment.arc CounterClockwise middle begin behind,
+             Straight behind (Vec.shift (Vec.vec 8 6) behind)
+           ]
+    )
   where
     begin = Vec.point 50 50
     middle = Vec.shift (Vec.scale (-30 / sqrt 2) (Vec.vec 1 1)) begin

@@ -1,4 +1,5 @@
--- | Whether an answer of the offset kernel is right, by naive distances and winding numbers at many places.
+-- | Whether an answer of the offset kernel is right, by naive distances and winding numbers at many
+-- places.
 module Offset.Judge
   ( Verdict (..),
     judge,
@@ -51,7 +52,10 @@ answer c = Kernel.offset (Kernel.plain (side c) (Mm (radius c))) {Kernel.extra =
 
 -- | Lengths are measured by this: the largest coordinate and the radius.
 scaleOf :: Case -> Double
-scaleOf c = radius c + maximum (0 : extras c) + maximum (1e-3 : [max (abs x) (abs y) | o <- outlines c, (x, y, _) <- FlatPolyarc.vertices o])
+scaleOf c =
+  radius c
+    + maximum (0 : extras c)
+    + maximum (1e-3 : [max (abs x) (abs y) | o <- outlines c, (x, y, _) <- FlatPolyarc.vertices o])
 
 judge :: Case -> Verdict
 judge c = case answer c of
@@ -67,13 +71,28 @@ judge c = case answer c of
     Right n -> Right' n
   where
     segments = concatMap (FlatPolyarc.segments . straightened) (outlines c)
-    meeting i j = let Mm d = Distance.distance (Distance.segments (segments !! i) (segments !! j)) in d < 1e-5 * scaleOf c
+    meeting i j =
+      let Mm d =
+            Distance.distance (Distance.segments (segments !! i) (segments !! j))
+       in d < 1e-5 * scaleOf c
 
 -- | Whether the answer does not depend on how the same is asked.
 consistent :: Case -> Verdict
 consistent c = case answer c of
   Left _ -> Refused
-  Right reach -> maybe (Right' 1) Wrong (firstOf ((if illConditioned c then [] else exactly reach) <> [same "start" (started 1), same "start" (started 3), same "reversed" (map FlatPolyarc.reverse (outlines c)), same "moved" (map (turned 1 1.234 (3, -7)) (outlines c))]))
+  Right reach ->
+    maybe
+      (Right' 1)
+      Wrong
+      ( firstOf
+          ( (if illConditioned c then [] else exactly reach)
+              <> [ same "start" (started 1),
+                   same "start" (started 3),
+                   same "reversed" (map FlatPolyarc.reverse (outlines c)),
+                   same "moved" (map (turned 1 1.234 (3, -7)) (outlines c))
+                 ]
+          )
+      )
     where
       firstOf = listToMaybe . concat
       started k = map (fromVertex k) (outlines c)
@@ -82,22 +101,48 @@ consistent c = case answer c of
       same name os
         | name == ("start" :: String) && any ((== Open) . FlatPolyarc.ends) (outlines c) = []
         | not (null (extras c)) || illConditioned c = []
-        | otherwise = case answer c {outlines = os, side = if name == "reversed" then other (side c) else side c} of
+        | otherwise =
+          case answer
+            c {outlines = os, side = if name == "reversed" then other (side c) else side c} of
+            Left fault -> [name <> ": " <> show fault]
+            Right r
+              | abs (abs (Loop.area (Kernel.loops r)) - abs total) <= 1e-8 * size * perimeter -> []
+              | otherwise ->
+                [name <> " area " <> show (Loop.area (Kernel.loops r)) <> " not " <> show total]
+      perimeter =
+        size + sum [l | o <- Loop.outlines (Kernel.loops reach), let Mm l = FlatPolyarc.length o]
+      exactly r =
+        [ twin "quarter" quarter False r,
+          twin "half" (quarter . quarter) False r,
+          twin "mirror" mirror True r
+        ]
+      twin name f flipped r =
+        case answer
+          c {outlines = map f (outlines c), side = if flipped then other (side c) else side c} of
           Left fault -> [name <> ": " <> show fault]
-          Right r
-            | abs (abs (Loop.area (Kernel.loops r)) - abs total) <= 1e-8 * size * perimeter -> []
-            | otherwise -> [name <> " area " <> show (Loop.area (Kernel.loops r)) <> " not " <> show total]
-      perimeter = size + sum [l | o <- Loop.outlines (Kernel.loops reach), let Mm l = FlatPolyarc.length o]
-      exactly r = [twin "quarter" quarter False r, twin "half" (quarter . quarter) False r, twin "mirror" mirror True r]
-      twin name f flipped r = case answer c {outlines = map f (outlines c), side = if flipped then other (side c) else side c} of
-        Left fault -> [name <> ": " <> show fault]
-        Right r'
-          | cyclic (map f (Loop.outlines (Kernel.loops r))) == cyclic (Loop.outlines (Kernel.loops r')) -> []
-          | otherwise -> [name <> " differs: " <> show (take 2 (zip (cyclic (map f (Loop.outlines (Kernel.loops r)))) (cyclic (Loop.outlines (Kernel.loops r')))))]
-      quarter o = FlatPolyarc.outline (FlatPolyarc.ends o) [(-y, x, b) | (x, y, b) <- FlatPolyarc.vertices o]
-      mirror o = FlatPolyarc.outline (FlatPolyarc.ends o) [(-x, y, -b) | (x, y, b) <- FlatPolyarc.vertices o]
+          Right r'
+            | cyclic (map f (Loop.outlines (Kernel.loops r)))
+                == cyclic (Loop.outlines (Kernel.loops r')) ->
+              []
+            | otherwise ->
+              [ name
+                  <> " differs: "
+                  <> show
+                    ( take
+                        2
+                        ( zip
+                            (cyclic (map f (Loop.outlines (Kernel.loops r))))
+                            (cyclic (Loop.outlines (Kernel.loops r')))
+                        )
+                    )
+              ]
+      quarter o =
+        FlatPolyarc.outline (FlatPolyarc.ends o) [(-y, x, b) | (x, y, b) <- FlatPolyarc.vertices o]
+      mirror o =
+        FlatPolyarc.outline (FlatPolyarc.ends o) [(-x, y, -b) | (x, y, b) <- FlatPolyarc.vertices o]
       cyclic = sort . map (canonical . FlatPolyarc.vertices)
-      canonical vs = let n = length vs; best = snd (minimum (zip vs [0 ..])) in take n (drop best (cycle vs))
+      canonical vs =
+        let n = length vs; best = snd (minimum (zip vs [0 ..])) in take n (drop best (cycle vs))
 
 other :: Side -> Side
 other s = case s of
@@ -106,7 +151,10 @@ other s = case s of
 
 -- | Begun at another vertex.
 fromVertex :: Int -> FlatPolyarc -> FlatPolyarc
-fromVertex k o = FlatPolyarc.outline (FlatPolyarc.ends o) (let (a, b) = splitAt k (FlatPolyarc.vertices o) in b <> a)
+fromVertex k o =
+  FlatPolyarc.outline
+    (FlatPolyarc.ends o)
+    (let (a, b) = splitAt k (FlatPolyarc.vertices o) in b <> a)
 
 -- | Circles of next to nothing but a gap, whose radius depends on the last digits of the gap.
 illConditioned :: Case -> Bool
@@ -116,62 +164,142 @@ illConditioned c = or [abs b > 100 | o <- outlines c, (_, _, b) <- FlatPolyarc.v
 rounds :: Case -> Verdict
 rounds c = case answer c of
   Left _ -> Refused
-  Right reach -> if illConditioned c || not (null (extras c)) then Right' 0 else maybe (Right' 1) Wrong (listToMaybe (steps <> (if family c == Cells then [] else back reach)))
+  Right reach ->
+    if illConditioned c || not (null (extras c))
+      then Right' 0
+      else
+        maybe
+          (Right' 1)
+          Wrong
+          (listToMaybe (steps <> (if family c == Cells then [] else back reach)))
     where
       size = scaleOf c
       total = Loop.area (Kernel.loops reach)
       go s d os = Kernel.loops <$> Kernel.offset (Kernel.plain s (Mm d)) os
-      steps = close "in two steps" (go (side c) (0.375 * radius c) (outlines c) >>= go (side c) (0.625 * radius c) . Loop.outlines)
-      back r = close "there and back" (go (other (side c)) (radius c) (Loop.outlines (Kernel.loops r)) >>= go (side c) (radius c) . Loop.outlines)
+      steps =
+        close
+          "in two steps"
+          ( go (side c) (0.375 * radius c) (outlines c)
+              >>= go (side c) (0.625 * radius c) . Loop.outlines
+          )
+      back r =
+        close
+          "there and back"
+          ( go (other (side c)) (radius c) (Loop.outlines (Kernel.loops r))
+              >>= go (side c) (radius c) . Loop.outlines
+          )
       close name r = case r of
         Left fault -> [name <> ": " <> show fault]
         Right l
           | abs (Loop.area l - total) <= 1e-7 * size * size -> []
           | otherwise -> [name <> " area " <> show (Loop.area l) <> " not " <> show total]
 
--- | Out and in again by less than a cutter that is known to fit: by what a larger one has swept. It has no hollow, no inner corner and no
--- gap that is too narrow, but islands and hollows of all kinds.
+-- | Out and in again by less than a cutter that is known to fit: by what a larger one has swept. It
+-- has no hollow, no inner corner and no gap that is too narrow, but islands and hollows of all
+-- kinds.
 identity :: Case -> Verdict
 identity c = case answer c >>= offset' (other (side c)) (radius c) . loopsOf of
   Left _ -> Refused
   Right reach
     | illConditioned c || null (loopsOf reach) -> Right' 0
-    | otherwise -> maybe (Right' 1) Wrong (listToMaybe (concatMap (again (loopsOf reach)) [0.9, 0.35]))
+    | otherwise ->
+      maybe (Right' 1) Wrong (listToMaybe (concatMap (again (loopsOf reach)) [0.9, 0.35]))
   where
     loopsOf = Loop.outlines . Kernel.loops
     offset' s d = Kernel.offset (Kernel.plain s (Mm d))
-    again swept part = case offset' (side c) (part * radius c) swept >>= offset' (other (side c)) (part * radius c) . loopsOf of
-      Left fault -> [show part <> ": " <> show fault]
-      Right back ->
-        let same :: String -> ([FlatPolyarc] -> Double) -> Double -> [String]
-            same name f allowed = [show part <> ": " <> name <> " " <> show (f (loopsOf back)) <> " not " <> show (f swept) | abs (f (loopsOf back) - f swept) > allowed]
-         in same "loops" (fromIntegral . length) 0 <> same "area" (sum . map FlatPolyarc.area) (1e-8 * scaleOf c * scaleOf c) <> same "length" (\os -> sum [l | o <- os, let Mm l = FlatPolyarc.length o]) (1e-6 * scaleOf c)
+    again swept part =
+      case offset' (side c) (part * radius c) swept
+        >>= offset' (other (side c)) (part * radius c) . loopsOf of
+        Left fault -> [show part <> ": " <> show fault]
+        Right back ->
+          let same :: String -> ([FlatPolyarc] -> Double) -> Double -> [String]
+              same name f allowed =
+                [ show part
+                    <> ": "
+                    <> name
+                    <> " "
+                    <> show (f (loopsOf back))
+                    <> " not "
+                    <> show (f swept)
+                  | abs (f (loopsOf back) - f swept) > allowed
+                ]
+           in same "loops" (fromIntegral . length) 0
+                <> same "area" (sum . map FlatPolyarc.area) (1e-8 * scaleOf c * scaleOf c)
+                <> same
+                  "length"
+                  (\os -> sum [l | o <- os, let Mm l = FlatPolyarc.length o])
+                  (1e-6 * scaleOf c)
 
 -- | Whether no two segments of the answer cross between their ends.
 uncrossed :: Case -> Verdict
 uncrossed c = case answer c of
   Left _ -> Refused
   Right reach ->
-    let segments = concatMap (FlatPolyarc.segments . straightened) (Loop.outlines (Kernel.loops reach))
-     in maybe (Right' (length segments)) Wrong (listToMaybe [show a <> " crosses " <> show b <> " at " <> show p | a : more <- tails segments, b <- more, p <- Distance.crossings a b, all (clearly p) [a, b], slant a b p])
+    let segments =
+          concatMap (FlatPolyarc.segments . straightened) (Loop.outlines (Kernel.loops reach))
+     in maybe
+          (Right' (length segments))
+          Wrong
+          ( listToMaybe
+              [ show a <> " crosses " <> show b <> " at " <> show p
+                | a : more <- tails segments,
+                  b <- more,
+                  p <- Distance.crossings a b,
+                  all (clearly p) [a, b],
+                  slant a b p
+              ]
+          )
   where
-    clearly p s = all (\q -> let Mm d = Vec.distance p q in d > 1e-5 * scaleOf c) [Segment.start s, Segment.end s]
-    slant a b p = abs (Vec.cross (Segment.directionAt (Segment.fraction a p) a) (Segment.directionAt (Segment.fraction b p) b)) > 1e-3
+    clearly p s =
+      all
+        (\q -> let Mm d = Vec.distance p q in d > 1e-5 * scaleOf c)
+        [Segment.start s, Segment.end s]
+    slant a b p =
+      abs
+        ( Vec.cross
+            (Segment.directionAt (Segment.fraction a p) a)
+            (Segment.directionAt (Segment.fraction b p) b)
+        )
+        > 1e-3
 
--- | Whether an offset by nothing keeps the area; and the length, but where sides lie along one another: what has no width is no boundary.
+-- | Whether an offset by nothing keeps the area; and the length, but where sides lie along one
+-- another: what has no width is no boundary.
 stays :: Case -> Verdict
 stays c = case answer c {radius = 0} of
   Left _ -> Refused
   Right reach ->
     let same :: String -> (FlatPolyarc -> Double) -> Double -> [String]
-        same name f allowed = [name <> " " <> show (total os) <> " not " <> show (total (outlines c)) | let os = Loop.outlines (Kernel.loops reach); total = sum . map f, abs (total os - total (outlines c)) > allowed]
-     in maybe (Right' 1) Wrong (listToMaybe (same "area" FlatPolyarc.area (1e-9 * scaleOf c * scaleOf c) <> (if apart c then same "length" (\o -> let Mm l = FlatPolyarc.length o in l) (1e-8 * scaleOf c) else [])))
+        same name f allowed =
+          [ name <> " " <> show (total os) <> " not " <> show (total (outlines c))
+            | let os = Loop.outlines (Kernel.loops reach); total = sum . map f,
+              abs (total os - total (outlines c)) > allowed
+          ]
+     in maybe
+          (Right' 1)
+          Wrong
+          ( listToMaybe
+              ( same "area" FlatPolyarc.area (1e-9 * scaleOf c * scaleOf c)
+                  <> ( if apart c
+                         then
+                           same
+                             "length"
+                             (\o -> let Mm l = FlatPolyarc.length o in l)
+                             (1e-8 * scaleOf c)
+                         else []
+                     )
+              )
+          )
 
 -- | Whether all segments keep clearly apart but for the vertices that they share.
 apart :: Case -> Bool
-apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- FlatPolyarc.vertices o] && and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
+apart c =
+  notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- FlatPolyarc.vertices o]
+    && and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
   where
-    numbered = zip [0 :: Int ..] (concatMap (\o -> map (o,) (FlatPolyarc.segments (straightened o))) (outlines c))
+    numbered =
+      zip
+        [0 :: Int ..]
+        (concatMap (\o -> map (o,) (FlatPolyarc.segments (straightened o))) (outlines c))
     total = length numbered
     clear (i, (o, a)) (j, (_, b))
       | j == i + 1 || (i == 0 && j == total - 1 && FlatPolyarc.ends o == Closed) = trimmed a b i j
@@ -186,12 +314,20 @@ apart c = notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- F
 
 -- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
 straightened :: FlatPolyarc -> FlatPolyarc
-straightened o = FlatPolyarc.outline (FlatPolyarc.ends o) [(x, y, if abs b < 2e-6 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
+straightened o =
+  FlatPolyarc.outline
+    (FlatPolyarc.ends o)
+    [(x, y, if abs b < 2e-6 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
 
--- | The result's boundary is everywhere as far from the source as asked; and whether a place is free by the result is
--- whether it is free and far enough by the source: beside the boundary, and at random.
+-- | The result's boundary is everywhere as far from the source as asked; and whether a place is
+-- free by the result is whether it is free and far enough by the source: beside the boundary, and
+-- at random.
 places :: Case -> Kernel.ReachableRegion -> Either String Int
-places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|> firstJust beside spots <|> firstJust thin loops)
+places c reach =
+  maybe
+    (Right (length spots))
+    Left
+    (firstJust boundary result <|> firstJust beside spots <|> firstJust thin loops)
   where
     firstJust f = listToMaybe . mapMaybe f
     loops = Loop.outlines (Kernel.loops reach)
@@ -202,46 +338,111 @@ places c reach = maybe (Right (length spots)) Left (firstJust boundary result <|
     near = 2e-9 * scale
     d = radius c
     -- What the walls of a pocket ask for holds inside it.
-    tooNear (x, y) = or [Naive.blocked leftward d ps x y | (isPocket, ps) <- asked, not isPocket || Naive.winding (map fst ps) x y /= 0]
+    tooNear (x, y) =
+      or
+        [ Naive.blocked leftward d ps x y
+          | (isPocket, ps) <- asked,
+            not isPocket || Naive.winding (map fst ps) x y /= 0
+        ]
     leftward = if side c == LeftOf then 1 else -1
-    asked = zipWith (\o ps -> (not isOpen && leftward * FlatPolyarc.area o > 0, if isOpen then ps <> map backwards (reverse ps) else ps)) (outlines c) . walks (outlines c) $ map (d +) (cycle (if null (extras c) then [0] else extras c))
+    asked =
+      zipWith
+        ( \o ps ->
+            ( not isOpen && leftward * FlatPolyarc.area o > 0,
+              if isOpen then ps <> map backwards (reverse ps) else ps
+            )
+        )
+        (outlines c)
+        . walks (outlines c)
+        $ map (d +) (cycle (if null (extras c) then [0] else extras c))
     walks os es = case os of
       [] -> []
-      o : rest -> let ps = Naive.pieces o; (mine, others) = splitAt (length ps) es in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] : walks rest others
+      o : rest ->
+        let ps =
+              Naive.pieces o
+            (mine, others) = splitAt (length ps) es
+         in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] :
+            walks rest others
     backwards (Piece ax ay bx by b, e) = (Piece bx by ax ay (-b), e)
     blocked = case side c of
       LeftOf -> free c - 1
       RightOf -> free c + 1
-    boundary p = listToMaybe ["distance off by " <> show (e, x, y, p) | t <- [0, 0.03, 0.5, 0.97], let (x, y, _, _) = on p t, let e = Naive.distance sources x y - d, if null (extras c) then abs e > near || isNaN e else e < -near]
+    boundary p =
+      listToMaybe
+        [ "distance off by " <> show (e, x, y, p)
+          | t <- [0, 0.03, 0.5, 0.97],
+            let (x, y, _, _) = on p t,
+            let e = Naive.distance sources x y - d,
+            if null (extras c) then abs e > near || isNaN e else e < -near
+        ]
     thin o
-      | family c `elem` [Cells, Lattice] && abs (FlatPolyarc.area o) < 1e-12 * scale * (let Mm l = FlatPolyarc.length o in l) = Just ("no area " <> show (FlatPolyarc.area o))
+      | family c `elem` [Cells, Lattice]
+          && abs (FlatPolyarc.area o) < 1e-12 * scale * (let Mm l = FlatPolyarc.length o in l) =
+        Just ("no area " <> show (FlatPolyarc.area o))
       | otherwise = Nothing
-    spots = concat [[(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)] | p <- result, t <- [0.04, 0.6], let { (x, y, nx, ny) = on p t }] <> take 24 scattered
+    spots =
+      concat
+        [ [(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)]
+          | p <- result,
+            t <- [0.04, 0.6],
+            let (x, y, nx, ny) = on p t
+        ]
+        <> take 24 scattered
     h = 1e-6 * scale
     beside (x, y)
       | null (extras c) && abs (far - d) <= 0.3 * h = Nothing
-      | not (null (extras c)), any ((/= tooNear (x, y)) . tooNear) [(x + h, y), (x - h, y), (x, y + h), (x, y - h)] = Nothing
-      | not isOpen && far > h && start /= free c && start /= blocked = Just ("crossed source not noticed " <> show (x, y, start))
+      | not (null (extras c)),
+        any ((/= tooNear (x, y)) . tooNear) [(x + h, y), (x - h, y), (x, y + h), (x, y - h)] =
+        Nothing
+      | not isOpen && far > h && start /= free c && start /= blocked =
+        Just ("crossed source not noticed " <> show (x, y, start))
       | number == expected = Nothing
-      | otherwise = Just ("wrong number " <> show number <> " not " <> show expected <> " at " <> show (x, y) <> " distance " <> show far <> " source " <> show start)
+      | otherwise =
+        Just
+          ( "wrong number "
+              <> show number
+              <> " not "
+              <> show expected
+              <> " at "
+              <> show (x, y)
+              <> " distance "
+              <> show far
+              <> " source "
+              <> show start
+          )
       where
         far = Naive.distance sources x y
         start = if isOpen then free c else Naive.winding sources x y
         number = Naive.winding result x y
-        expected = if start == free c && (if null (extras c) then far > d else not (tooNear (x, y))) then free c else blocked
+        expected =
+          if start == free c && (if null (extras c) then far > d else not (tooNear (x, y)))
+            then free c
+            else blocked
     corners = [(x0 p, y0 p) | p <- sources]
-    (lx, hx, ly, hy) = foldl' (\(a, b, a', b') (x, y) -> (min a x, max b x, min a' y, max b' y)) (1 / 0, -1 / 0, 1 / 0, -1 / 0) corners
+    (lx, hx, ly, hy) =
+      foldl'
+        (\(a, b, a', b') (x, y) -> (min a x, max b x, min a' y, max b' y))
+        (1 / 0, -1 / 0, 1 / 0, -1 / 0)
+        corners
     margin = 1.3 * (d + maximum (0 : extras c)) + 0.1 * (hx - lx)
-    scattered = pairs (randoms (fromIntegral (length result) + truncate (1e6 * abs (sum (map fst corners)))))
+    scattered =
+      pairs (randoms (fromIntegral (length result) + truncate (1e6 * abs (sum (map fst corners)))))
     pairs us = case us of
-      u : v : more -> (lx - margin + u * (hx - lx + 2 * margin), ly - margin + v * (hy - ly + 2 * margin)) : pairs more
+      u : v : more ->
+        (lx - margin + u * (hx - lx + 2 * margin), ly - margin + v * (hy - ly + 2 * margin)) :
+        pairs more
       _ -> []
 
 -- | A place of a piece, and the direction there.
 on :: Piece -> Double -> (Double, Double, Double, Double)
 on (Piece ax ay bx by b) t
   | b == 0 = (ax + t * dx, ay + t * dy, dx / l, dy / l)
-  | otherwise = (ax + m * (co * dx + si * dy), ay + m * (co * dy - si * dx), (co' * dx + si' * dy) / l, (co' * dy - si' * dx) / l)
+  | otherwise =
+    ( ax + m * (co * dx + si * dy),
+      ay + m * (co * dy - si * dx),
+      (co' * dx + si' * dy) / l,
+      (co' * dy - si' * dx) / l
+    )
   where
     (dx, dy) = (bx - ax, by - ay)
     l = sqrt (dx * dx + dy * dy)

@@ -25,75 +25,180 @@ spec :: Spec
 spec = do
   count <- runIO (maybe 3000 read <$> lookupEnv "PARTC_CONTOURS")
   describe "laws of the offset kernel" $ do
-    each count "reach: whether a place is free is whether it is far enough, and the boundary is at the distance asked (catches a slice that is kept with the wrong number)" Generate.problem judge
-    each (count `div` 3) "reach, beside open outlines (catches an end that is not gone round)" Generate.open judge
-    each (count `div` 3) "uneven: where segments ask for different distances, each holds beside its own segment (catches a step where there is none)" Generate.uneven judge
-    each (count `div` 3) "sameness: quarter turns and mirrors give the same loops digit for digit, another start, motion and reversal the same area (catches an order round a node that knows the axes)" Generate.problem consistent
-    each (count `div` 6) "sameness, beside open outlines (catches a side that counts from one end)" Generate.open consistent
-    each (count `div` 3) "composition: by a and then by b is by a + b; there, back and there is there (catches loops in loops that are each taken by themselves)" Generate.problem rounds
-    each (count `div` 3) "identity: out and in again, where hollows, corners and gaps have room for a larger cutter, is as before, concave or not (catches an arc that is cut to another one)" Generate.problem identity
-    each (count `div` 3) "uncrossed: no segments of an answer cross (catches a loop that takes in a vertex of another one)" Generate.problem uncrossed
+    each
+      count
+      "reach: whether a place is free is whether it is far enough, and the boundary is at the \
+      \distance asked (catches a slice that is kept with the wrong number)"
+      Generate.problem
+      judge
+    each
+      (count `div` 3)
+      "reach, beside open outlines (catches an end that is not gone round)"
+      Generate.open
+      judge
+    each
+      (count `div` 3)
+      "uneven: where segments ask for different distances, each holds beside its own segment \
+      \(catches a step where there is none)"
+      Generate.uneven
+      judge
+    each
+      (count `div` 3)
+      "sameness: quarter turns and mirrors give the same loops digit for digit, another start, \
+      \motion and reversal the same area (catches an order round a node that knows the axes)"
+      Generate.problem
+      consistent
+    each
+      (count `div` 6)
+      "sameness, beside open outlines (catches a side that counts from one end)"
+      Generate.open
+      consistent
+    each
+      (count `div` 3)
+      "composition: by a and then by b is by a + b; there, back and there is there (catches loops \
+      \in loops that are each taken by themselves)"
+      Generate.problem
+      rounds
+    each
+      (count `div` 3)
+      "identity: out and in again, where hollows, corners and gaps have room for a larger cutter, \
+      \is as before, concave or not (catches an arc that is cut to another one)"
+      Generate.problem
+      identity
+    each
+      (count `div` 3)
+      "uncrossed: no segments of an answer cross (catches a loop that takes in a vertex of another \
+      \one)"
+      Generate.problem
+      uncrossed
     it "nothing: an offset by nothing is the outline itself (catches a joint that leaves a trace)" $
       property . forAll Generate.simple $ \o -> forAll (elements [LeftOf, RightOf]) $ \s ->
         fmap (map FlatPolyarc.vertices) (loopsOf s 0 [o]) === Right [FlatPolyarc.vertices o]
-    each (count `div` 3) "nothing, whatever the outlines: an offset by nothing keeps area and length (catches an arc that is lost where nothing moves)" Generate.problem stays
-    it "Steiner, with arcs: the same round what one cutter leaves (catches an arc that keeps its radius)" $
-      property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r -> forAll (choose (0.01, 5)) $ \r' ->
-        case loopsOf RightOf r' [Generate.loop vs] of
-          Right [o] -> steiner o r
-          other -> counterexample (show other) False
-    it "Steiner: round a convex outline the area is A + LR + πR², the length L + 2πR (catches a corner that is cut off)" $
-      property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r -> steiner (Generate.loop vs) r
-    it "back: in after out is the identity for a convex outline (catches two sides that move to the same one)" $
-      property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r ->
+    each
+      (count `div` 3)
+      "nothing, whatever the outlines: an offset by nothing keeps area and length (catches an arc \
+      \that is lost where nothing moves)"
+      Generate.problem
+      stays
+    it
+      "Steiner, with arcs: the same round what one cutter leaves (catches an arc that keeps its \
+      \radius)"
+      $ property . forAll Generate.convex $ \vs ->
+        forAll (choose (0.01, 5)) $ \r -> forAll (choose (0.01, 5)) $ \r' ->
+          case loopsOf RightOf r' [Generate.loop vs] of
+            Right [o] -> steiner o r
+            other -> counterexample (show other) False
+    it
+      "Steiner: round a convex outline the area is A + LR + πR², the length L + 2πR (catches a \
+      \corner that is cut off)"
+      $ property . forAll Generate.convex $ \vs ->
+        forAll (choose (0.01, 5)) $ \r -> steiner (Generate.loop vs) r
+    it
+      "back: in after out is the identity for a convex outline (catches two sides that move to the \
+      \same one)"
+      $ property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r ->
         let o = Generate.loop vs
-         in fmap (sum . map FlatPolyarc.area) (loopsOf RightOf r [o] >>= loopsOf LeftOf r) `nearly` Right (FlatPolyarc.area o)
+         in fmap (sum . map FlatPolyarc.area) (loopsOf RightOf r [o] >>= loopsOf LeftOf r)
+              `nearly` Right (FlatPolyarc.area o)
     it "crossed: two sides that cross are named (catches a source that is taken for simple)" $
       property (forAll bowTie crossedLaw)
-    it "far out: short arcs that go over into lines leave no corners, nor are any made and cut off again (catches directions that are compared more finely than they are known)" $ do
-      let made = Kernel.offset (Kernel.plain RightOf (Mm 3)) [lobes 10000]
-      fmap (map FlatPolyarc.size . found) made `shouldBe` Right [20000]
-      fmap (\reach -> sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw reach))) made `shouldBe` Right (20000 + 1)
-    it "round a cusp, wherever the walk begins: outside it as it is (catches an arc that seems outermost just before its end)" $
-      let horn = [(-20.625495970237296, -11.829756256299746, 0), (-20.625495970237296, -10.329756256299746, 0), (-19.625495970237296, -10.329756256299746, 0), (-19.625495970237296, -10.829756256299746, 0.4142135623730951)]
-          areaFrom k = areaOf LeftOf 0.5 [Generate.loop (drop k horn <> take k horn)]
-       in mapM_ (\k -> areaFrom k `nearly` areaFrom 0) [1 .. 3]
-    it "comes upon everything that degenerates: repeated vertices, spikes, sides along one another, touching outlines, whole numbers, arcs of next to nothing and of nearly a whole turn" $
-      [name | (name, has) <- degenerate, length (filter has (take 3000 [unGen Generate.problem (mkQCGen seed) 30 | seed <- [1 ..]])) < 20] `shouldBe` []
+    it
+      "far out: short arcs that go over into lines leave no corners, nor are any made and cut off \
+      \again (catches directions that are compared more finely than they are known)"
+      $ do
+        let made = Kernel.offset (Kernel.plain RightOf (Mm 3)) [lobes 10000]
+        fmap (map FlatPolyarc.size . found) made `shouldBe` Right [20000]
+        fmap (\reach -> sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw reach))) made
+          `shouldBe` Right (20000 + 1)
+    it
+      "round a cusp, wherever the walk begins: outside it as it is (catches an arc that seems \
+      \outermost just before its end)"
+      $ let horn =
+              [ (-20.625495970237296, -11.829756256299746, 0),
+                (-20.625495970237296, -10.329756256299746, 0),
+                (-19.625495970237296, -10.329756256299746, 0),
+                (-19.625495970237296, -10.829756256299746, 0.4142135623730951)
+              ]
+            areaFrom k = areaOf LeftOf 0.5 [Generate.loop (drop k horn <> take k horn)]
+         in mapM_ (\k -> areaFrom k `nearly` areaFrom 0) [1 .. 3]
+    it
+      "comes upon everything that degenerates: repeated vertices, spikes, sides along one another, \
+      \touching outlines, whole numbers, arcs of next to nothing and of nearly a whole turn"
+      $ [ name
+          | (name, has) <- degenerate,
+            length
+              (filter has (take 3000 [unGen Generate.problem (mkQCGen seed) 30 | seed <- [1 ..]]))
+              < 20
+        ]
+        `shouldBe` []
   describe "slots, pockets and islands" $ do
     it "a gap of exactly the cutter's width is closed" $
-      loopsOf LeftOf 1 [Generate.loop [(0, 0, 0), (10, 0, 0), (10, 2, 0), (0, 2, 0)]] `shouldBe` Right []
+      loopsOf LeftOf 1 [Generate.loop [(0, 0, 0), (10, 0, 0), (10, 2, 0), (0, 2, 0)]]
+        `shouldBe` Right []
     it "a cutter of an arc's own radius stands still in its centre: nothing to walk" $
       loopsOf LeftOf 2 [circle 2] `shouldBe` Right []
-    it "a cutter much larger than a round pocket finds no place (catches a loop that turns inside out)" $
-      map (\r -> loopsOf LeftOf r [circle 2]) [2.5, 4, 10, 1000] `shouldBe` replicate 4 (Right [])
+    it
+      "a cutter much larger than a round pocket finds no place (catches a loop that turns inside \
+      \out)"
+      $ map (\r -> loopsOf LeftOf r [circle 2]) [2.5, 4, 10, 1000] `shouldBe` replicate 4 (Right [])
     it "nor one that covers all of a pocket but its corners" $
       loopsOf LeftOf 0.7 [lens] `shouldBe` Right []
     it "a pocket too small does not spoil the one beside it" $
       areaOf LeftOf 1 [square 0 0 10, turned 1 0 (20, 5) (circle 0.4)] `nearly` Right 64
     it "an island is gone round in a pocket" $
-      areaOf LeftOf 1 [square 0 0 10, FlatPolyarc.reverse (square 4 4 2)] `nearly` Right (64 - (4 + 8 + pi))
+      areaOf LeftOf 1 [square 0 0 10, FlatPolyarc.reverse (square 4 4 2)]
+        `nearly` Right (64 - (4 + 8 + pi))
     it "islands by themselves are gone round from outside" $
-      areaOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 10 0 2)] `nearly` Right (-(2 * (4 + 8 + pi)))
+      areaOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 10 0 2)]
+        `nearly` Right (-(2 * (4 + 8 + pi)))
     it "islands nearer than the cutter is wide are one" $
-      fmap length (loopsOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 3 0 2)]) `shouldBe` Right 1
+      fmap
+        length
+        (loopsOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 3 0 2)])
+        `shouldBe` Right 1
     it "an outline in another one the wrong way is misplaced" $
       loopsOf LeftOf 1 [square 0 0 10, square 4 4 2] `shouldBe` Left Misplaced
     it "corners that touch, and sides, are no fault" $
-      fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1]) `shouldBe` Right 1
+      fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1])
+        `shouldBe` Right 1
     it "sharp corners stay where the ways meet" $
-      fmap (map FlatPolyarc.vertices . found) (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2]) `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
-    it "into a cusp nothing reaches: what is asked for there is not asked for behind it (catches a way round a cusp that opens to the cutter)" $
-      fmap (maximum . concatMap (\o -> [y | (_, y, _) <- FlatPolyarc.vertices o]) . found) (Kernel.offset (Kernel.plain RightOf (Mm 1)) {extra = Just (\i -> Mm (if i == 1 || i == 2 then 4 else 0))} [Generate.loop [(0, 0, 0), (3, 0, 1), (4, 0, 1), (5, 0, 0), (8, 0, 0), (8, 1.5, 0), (0, 1.5, 0)]])
+      fmap
+        (map FlatPolyarc.vertices . found)
+        (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2])
+        `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
+    it
+      "into a cusp nothing reaches: what is asked for there is not asked for behind it (catches a \
+      \way round a cusp that opens to the cutter)"
+      $ fmap
+        (maximum . concatMap (\o -> [y | (_, y, _) <- FlatPolyarc.vertices o]) . found)
+        ( Kernel.offset
+            (Kernel.plain RightOf (Mm 1))
+              { extra =
+                  Just (\i -> Mm (if i == 1 || i == 2 then 4 else 0))
+              }
+            [ Generate.loop
+                [(0, 0, 0), (3, 0, 1), (4, 0, 1), (5, 0, 0), (8, 0, 0), (8, 1.5, 0), (0, 1.5, 0)]
+            ]
+        )
         `nearly` Right 2.5
     it "an open line is gone round on both sides and at both ends" $
       areaOf LeftOf 1 [FlatPolyarc.outline Open [(0, 0, 0), (5, 0, 0)]] `nearly` Right (-(10 + pi))
     it "the side of an open line does not matter but for the way round" $
-      areaOf RightOf 1 [FlatPolyarc.outline Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]] `nearly` Right (20 + pi - 1 + pi / 4)
+      areaOf RightOf 1 [FlatPolyarc.outline Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]]
+        `nearly` Right (20 + pi - 1 + pi / 4)
 
 -- | So many circles of radius 4 around a large one, joined by tangents.
 lobes :: Int -> FlatPolyarc
-lobes n = FlatPolyarc.outline Closed (concat [[at (a - half) k, at (a + half) 0] | i <- [0 .. n - 1], let a = 2 * half * fromIntegral i, let at b bulge = (r * cos a + 4 * cos b, r * sin a + 4 * sin b, bulge)])
+lobes n =
+  FlatPolyarc.outline
+    Closed
+    ( concat
+        [ [at (a - half) k, at (a + half) 0]
+          | i <- [0 .. n - 1],
+            let a = 2 * half * fromIntegral i,
+            let at b bulge = (r * cos a + 4 * cos b, r * sin a + 4 * sin b, bulge)
+        ]
+    )
   where
     half = pi / fromIntegral n
     k = tan (half / 2)
@@ -113,17 +218,62 @@ each count title gen law = it title (filter wrong verdicts `shouldBe` [])
 degenerate :: [(String, Case -> Bool)]
 degenerate =
   [ ("repeated vertices", anyVertex (\_ (x, y, _) (x', y', _) -> (x, y) == (x', y'))),
-    ("spikes", anyVertex (\(x, y, _) (x1, y1, b1) (x', y', b') -> b1 == 0 && b' == 0 && (x, y) == (x', y') && (x, y) /= (x1, y1))),
-    ("straight on", anyVertex (\(x, y, b) (x1, y1, b1) (x2, y2, _) -> b == 0 && b1 == 0 && (x1 - x) * (y2 - y1) == (y1 - y) * (x2 - x1) && (x1 - x) * (x2 - x1) + (y1 - y) * (y2 - y1) > 0)),
-    ("outlines that touch", \c -> or [(x, y) == (x', y') | (o, p) <- pairs (outlines c), (x, y, _) <- FlatPolyarc.vertices o, (x', y', _) <- FlatPolyarc.vertices p]),
-    ("an outline that touches itself", \c -> or [(x, y) == (x', y') | o <- outlines c, let vs = zip [0 :: Int ..] (FlatPolyarc.vertices o), (i, (x, y, _)) <- vs, (j, (x', y', _)) <- vs, j > i + 1, not (i == 0 && j == length vs - 1)]),
-    ("whole numbers", anyVertex (\_ (x, y, _) _ -> all (\v -> v == fromIntegral (round v :: Int)) [x, y] && x /= 0 && y /= 0)),
+    ( "spikes",
+      anyVertex
+        ( \(x, y, _) (x1, y1, b1) (x', y', b') ->
+            b1 == 0 && b' == 0 && (x, y) == (x', y') && (x, y) /= (x1, y1)
+        )
+    ),
+    ( "straight on",
+      anyVertex
+        ( \(x, y, b) (x1, y1, b1) (x2, y2, _) ->
+            b == 0
+              && b1 == 0
+              && (x1 - x) * (y2 - y1) == (y1 - y) * (x2 - x1)
+              && (x1 - x) * (x2 - x1) + (y1 - y) * (y2 - y1) > 0
+        )
+    ),
+    ( "outlines that touch",
+      \c ->
+        or
+          [ (x, y) == (x', y')
+            | (o, p) <- pairs (outlines c),
+              (x, y, _) <- FlatPolyarc.vertices o,
+              (x', y', _) <- FlatPolyarc.vertices p
+          ]
+    ),
+    ( "an outline that touches itself",
+      \c ->
+        or
+          [ (x, y) == (x', y')
+            | o <- outlines c,
+              let vs = zip [0 :: Int ..] (FlatPolyarc.vertices o),
+              (i, (x, y, _)) <- vs,
+              (j, (x', y', _)) <- vs,
+              j > i + 1,
+              not (i == 0 && j == length vs - 1)
+          ]
+    ),
+    ( "whole numbers",
+      anyVertex
+        ( \_ (x, y, _) _ ->
+            all (\v -> v == fromIntegral (round v :: Int)) [x, y] && x /= 0 && y /= 0
+        )
+    ),
     ("arcs of next to nothing", anyVertex (\_ (_, _, b) _ -> b /= 0 && abs b < 1e-5)),
     ("arcs of nearly a whole turn", anyVertex (\_ (_, _, b) _ -> abs b > 1e3)),
-    ("a gap or a hollow of the cutter's size", \c -> family c == Cells && radius c `elem` [0.5, 1, 1.5, 2])
+    ( "a gap or a hollow of the cutter's size",
+      \c -> family c == Cells && radius c `elem` [0.5, 1, 1.5, 2]
+    )
   ]
   where
-    anyVertex f c = or [f u v w | o <- outlines c, let vs = FlatPolyarc.vertices o, (u, v, w) <- zip3 (drop (length vs - 1) vs <> vs) vs (drop 1 vs <> vs)]
+    anyVertex f c =
+      or
+        [ f u v w
+          | o <- outlines c,
+            let vs = FlatPolyarc.vertices o,
+            (u, v, w) <- zip3 (drop (length vs - 1) vs <> vs) vs (drop 1 vs <> vs)
+        ]
     pairs os = [(o, p) | o : more <- tails os, p <- more]
 
 found :: Kernel.ReachableRegion -> [FlatPolyarc]
@@ -142,7 +292,9 @@ nearly a b = case (a, b) of
 
 nearly' :: Either OffsetFault [[(Double, Double, Double)]] -> [(Double, Double)] -> Expectation
 nearly' a expected = case a of
-  Right [vs] -> [(x, y) | (x, y) <- expected, not (any (\(x', y', _) -> abs (x - x') + abs (y - y') < 1e-9) vs)] `shouldBe` []
+  Right [vs] ->
+    [(x, y) | (x, y) <- expected, not (any (\(x', y', _) -> abs (x - x') + abs (y - y') < 1e-9) vs)]
+      `shouldBe` []
   _ -> fmap length a `shouldBe` Right 1
 
 square :: Double -> Double -> Double -> FlatPolyarc
@@ -153,17 +305,37 @@ circle r = Generate.loop [(-r, 0, 1), (r, 0, 1)]
 
 -- | Two right corners, joined by lines and round ends.
 lens :: FlatPolyarc
-lens = turned 1 (pi / 4) (0, 0) (Generate.loop [(0, 0, 0), (0.75, 0, tan (pi / 8)), (1, 0.25, 0), (1, 1, 0), (0.25, 1, tan (pi / 8)), (0, 0.75, 0)])
+lens =
+  turned
+    1
+    (pi / 4)
+    (0, 0)
+    ( Generate.loop
+        [ (0, 0, 0),
+          (0.75, 0, tan (pi / 8)),
+          (1, 0.25, 0),
+          (1, 1, 0),
+          (0.25, 1, tan (pi / 8)),
+          (0, 0.75, 0)
+        ]
+    )
 
 steiner :: FlatPolyarc -> Double -> Property
 steiner o r = case loopsOf RightOf r [o] of
   Right [q] ->
     let Mm l = FlatPolyarc.length o
         Mm l' = FlatPolyarc.length q
-     in counterexample (show q) (abs (FlatPolyarc.area q - (FlatPolyarc.area o + l * r + pi * r * r)) < 1e-9 * FlatPolyarc.area q && abs (l' - (l + 2 * pi * r)) < 1e-9 * l')
+     in counterexample
+          (show q)
+          ( abs (FlatPolyarc.area q - (FlatPolyarc.area o + l * r + pi * r * r))
+              < 1e-9 * FlatPolyarc.area q
+                && abs (l' - (l + 2 * pi * r))
+              < 1e-9 * l'
+          )
   other -> counterexample (show other) False
 
--- | A simple polygon with two neighbouring vertices exchanged so that their sides cross: the polygon, and the two sides.
+-- | A simple polygon with two neighbouring vertices exchanged so that their sides cross: the
+-- polygon, and the two sides.
 bowTie :: Gen (FlatPolyarc, Int, Int)
 bowTie = do
   o <- Generate.simple
@@ -174,7 +346,9 @@ bowTie = do
       at i = (b <> a) !! (i `mod` n)
       exchanged = [at 0, at 2, at 1] <> map at [3 .. n - 1]
       point i = let (x, y, _) = exchanged !! (i `mod` n) in (x, y)
-  if n >= 4 && crossing (point 0) (point 1) (point 2) (point 3) then pure (Generate.loop exchanged, 0, 2) else bowTie
+  if n >= 4 && crossing (point 0) (point 1) (point 2) (point 3)
+    then pure (Generate.loop exchanged, 0, 2)
+    else bowTie
 
 crossing :: (Double, Double) -> (Double, Double) -> (Double, Double) -> (Double, Double) -> Bool
 crossing a b c d = side' a b c * side' a b d < 0 && side' c d a * side' c d b < 0
@@ -185,7 +359,8 @@ side' (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 -- | The sides that are named do cross; others may as well.
 crossedLaw :: (FlatPolyarc, Int, Int) -> Property
 crossedLaw (o, _, _) = case loopsOf LeftOf 0.1 [o] of
-  Left (Crossed i j) -> counterexample (show (i, j)) (crossing (point i) (point (i + 1)) (point j) (point (j + 1)))
+  Left (Crossed i j) ->
+    counterexample (show (i, j)) (crossing (point i) (point (i + 1)) (point j) (point (j + 1)))
   other -> counterexample (show other) False
   where
     vs = FlatPolyarc.vertices o

@@ -1,5 +1,5 @@
--- | Distance and winding number of outlines, segment after segment with angles and centres: what the offset kernel is judged
--- by, and shares nothing with.
+-- | Distance and winding number of outlines, segment after segment with angles and centres: what
+-- the offset kernel is judged by, and shares nothing with.
 module Offset.Naive
   ( Piece (..),
     pieces,
@@ -19,7 +19,15 @@ data Piece = Piece {x0, y0, x1, y1, bulge :: Double}
   deriving stock (Eq, Show)
 
 pieces :: FlatPolyarc -> [Piece]
-pieces o = [Piece (at (FlatPolyarc.xs o) i) (at (FlatPolyarc.ys o) i) (at (FlatPolyarc.xs o) (next i)) (at (FlatPolyarc.ys o) (next i)) (at (FlatPolyarc.bulges o) i) | i <- [0 .. FlatPolyarc.size o - 1]]
+pieces o =
+  [ Piece
+      (at (FlatPolyarc.xs o) i)
+      (at (FlatPolyarc.ys o) i)
+      (at (FlatPolyarc.xs o) (next i))
+      (at (FlatPolyarc.ys o) (next i))
+      (at (FlatPolyarc.bulges o) i)
+    | i <- [0 .. FlatPolyarc.size o - 1]
+  ]
   where
     at = indexPrimArray
     next i = if i + 1 == sizeofPrimArray (FlatPolyarc.xs o) then 0 else i + 1
@@ -28,15 +36,19 @@ pieces o = [Piece (at (FlatPolyarc.xs o) i) (at (FlatPolyarc.ys o) i) (at (FlatP
 distance :: [Piece] -> Double -> Double -> Double
 distance ps x y = minimum (1 / 0 : map (\p -> toPiece p x y) ps)
 
--- | Whether a point is too near to a closed or doubled walk of pieces that ask for different distances, from the side (1 left,
--- −1 right): beside a piece its own distance holds, about a corner away from that side the larger one of both, and the least
--- of all everywhere.
+-- | Whether a point is too near to a closed or doubled walk of pieces that ask for different
+-- distances, from the side (1 left, −1 right): beside a piece its own distance holds, about a
+-- corner away from that side the larger one of both, and the least of all everywhere.
 blocked :: Double -> Double -> [(Piece, Double)] -> Double -> Double -> Bool
 blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> take 1 ps))
   where
-    near (p, d) = let far = toPiece p x y in far < least || (far < d && beside p && side * leftward p > 0)
+    near (p, d) =
+      let far = toPiece p x y in far < least || (far < d && beside p && side * leftward p > 0)
     beside p@(Piece ax ay bx by b)
-      | b == 0 = let t = (x - ax) * (bx - ax) + (y - ay) * (by - ay) in t > 0 && t < (bx - ax) * (bx - ax) + (by - ay) * (by - ay)
+      | b == 0 =
+        let t =
+              (x - ax) * (bx - ax) + (y - ay) * (by - ay)
+         in t > 0 && t < (bx - ax) * (bx - ax) + (by - ay) * (by - ay)
       | otherwise = onSweep p x y
     leftward p@(Piece ax ay bx by b)
       | b == 0 = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
@@ -46,13 +58,17 @@ blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> t
           (vx, vy) = direction q (-1)
           turn = ux * vy - uy * vx
           (wx, wy) = (x - x0 q, y - y0 q)
-          -- Two arcs that meet in a cusp turn to the side from which they bend away; a fold has no side.
+          -- Two arcs that meet in a cusp turn to the side from which they bend away; a fold has no
+          -- side.
           bend = side * (curvature p + curvature q)
           outer = side * turn < -1e-9 || (abs turn <= 1e-9 && ux * vx + uy * vy < 0 && bend >= 0)
        in outer && ux * wx + uy * wy > 0 && vx * wx + vy * wy < 0 && norm wx wy < max d e
     curvature p@(Piece _ _ _ _ b) = if b == 0 then 0 else let (_, _, r) = circle p in 1 / r
     direction (Piece ax ay bx by b) end =
-      let h = end * 2 * atan b; l = norm (bx - ax) (by - ay) in (((bx - ax) * cos h - (by - ay) * sin h) / l, ((by - ay) * cos h + (bx - ax) * sin h) / l)
+      let h =
+            end * 2 * atan b
+          l = norm (bx - ax) (by - ay)
+       in (((bx - ax) * cos h - (by - ay) * sin h) / l, ((by - ay) * cos h + (bx - ax) * sin h) / l)
 
 toPiece :: Piece -> Double -> Double -> Double
 toPiece p@(Piece ax ay bx by b) x y
@@ -78,7 +94,10 @@ onSweep p@(Piece ax ay _ _ b) x y
   where
     (cx, cy, _) = circle p
     sweep = 4 * atan (abs b)
-    turn = atan2 ((ax - cx) * (y - cy) - (ay - cy) * (x - cx)) ((ax - cx) * (x - cx) + (ay - cy) * (y - cy))
+    turn =
+      atan2
+        ((ax - cx) * (y - cy) - (ay - cy) * (x - cx))
+        ((ax - cx) * (x - cx) + (ay - cy) * (y - cy))
 
 -- | Of an arc that is nearly its chord, as a parabola; of a line.
 toFlat :: Piece -> Double -> Double -> Double
@@ -100,7 +119,11 @@ norm a b = sqrt (a * a + b * b)
 
 -- | Centre and radius of an arc, positive when it is walked counter-clockwise.
 circle :: Piece -> (Double, Double, Double)
-circle (Piece ax ay bx by b) = (0.5 * (ax + bx) - k * (by - ay), 0.5 * (ay + by) + k * (bx - ax), norm (bx - ax) (by - ay) * (1 + b * b) / (4 * b))
+circle (Piece ax ay bx by b) =
+  ( 0.5 * (ax + bx) - k * (by - ay),
+    0.5 * (ay + by) + k * (bx - ax),
+    norm (bx - ax) (by - ay) * (1 + b * b) / (4 * b)
+  )
   where
     k = (1 - b * b) / (4 * b)
 
@@ -108,7 +131,9 @@ circle (Piece ax ay bx by b) = (0.5 * (ax + bx) - k * (by - ay), 0.5 * (ay + by)
 winding :: [Piece] -> Double -> Double -> Int
 winding ps x y = round (sum (map angle ps) / (2 * pi))
   where
-    angle p@(Piece ax ay bx by b) = seen (ax - x) (ay - y) (bx - x) (by - y) + (if b /= 0 && between p x y then 2 * pi * signum b else 0)
+    angle p@(Piece ax ay bx by b) =
+      seen (ax - x) (ay - y) (bx - x) (by - y)
+        + (if b /= 0 && between p x y then 2 * pi * signum b else 0)
     seen ux uy vx vy = atan2 (ux * vy - uy * vx) (ux * vx + uy * vy)
 
 -- | Whether a point lies between an arc and its chord.

@@ -1,5 +1,5 @@
--- | The laws of what can be reached beside a contour into which the cutter does not fit everywhere. Each says which bug it would
--- catch.
+-- | The laws of what can be reached beside a contour into which the cutter does not fit everywhere.
+-- Each says which bug it would catch.
 module Offset.ReachableSpec (spec, Subject (..), subject, reached, laws) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
@@ -21,18 +21,48 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
-import Offset.Equidistant (Cause (..), CornerStyle (..), Obstacle (..), OffsetSegment (..), Origin (..), RestMaterial (..), TrimmedOffset (pieces), UnreachedPart (..))
+import Offset.Equidistant
+  ( Cause (..),
+    CornerStyle (..),
+    Obstacle (..),
+    OffsetSegment (..),
+    Origin (..),
+    RestMaterial (..),
+    TrimmedOffset (pieces),
+    UnreachedPart (..),
+  )
 import Offset.Equidistant qualified as Equidistant
 import Test.Hspec
 import Test.QuickCheck
 
 spec :: Spec
 spec = describe "laws of what can be reached" $ do
-  mapM_ (\(title, law) -> it title (property (withMaxSuccess 1000 (forAll subject (conjoin . map (`counterexample` False) . law))))) laws
-  it "some of it is not reached, at corners, in hollows and between elements (the cases are what they are meant to be)" $
-    checkCoverage . forAll subject $ \s ->
+  mapM_
+    ( \(title, law) ->
+        it
+          title
+          ( property
+              (withMaxSuccess 1000 (forAll subject (conjoin . map (`counterexample` False) . law)))
+          )
+    )
+    laws
+  it
+    "some of it is not reached, at corners, in hollows and between elements (the cases are what \
+    \they are meant to be)"
+    $ checkCoverage . forAll subject $ \s ->
       let causes = map (cause . stop) (snd (reached s))
-       in cover 30 (not (null causes)) "rests" . cover 20 (any isCorner causes) "corners" . cover 0.5 (or [True | SameAs _ <- map standing (snd (reached s))]) "passages" . cover 10 (ends (contour s) == Closed && not (null causes) && notElem Unbounded (map standing (snd (reached s)))) "bounded" . cover 2 (any isHollow causes) "hollows" $ cover 5 (any isCollision causes) "collisions" True
+       in cover 30 (not (null causes)) "rests"
+            . cover 20 (any isCorner causes) "corners"
+            . cover 0.5 (or [True | SameAs _ <- map standing (snd (reached s))]) "passages"
+            . cover
+              10
+              ( ends (contour s) == Closed
+                  && not (null causes)
+                  && notElem Unbounded (map standing (snd (reached s)))
+              )
+              "bounded"
+            . cover 2 (any isHollow causes) "hollows"
+            $ cover 5 (any isCollision causes) "collisions" True
 
 -- | A contour, the side and the radius of a cutter that may not fit everywhere.
 data Subject = Subject {contour :: Polyarc, side :: Side, radius :: Double}
@@ -43,17 +73,41 @@ type Law = Subject -> [String]
 
 laws :: [(String, Law)]
 laws =
-  [ ("ways: everywhere at the cutter's radius, each piece from where the one before ends (catches a piece of the wrong loop)", waysLaw),
-    ("whole: a place at the radius beside an element, and no nearer to another one, is on a way (catches a way that is lost)", wholeLaw),
-    ("told: where something beside an element cannot be reached, there is a rest (catches a cut that nobody hears of)", toldLaw),
-    ("middle: there the cutter touches what stops it (catches the place of another cut)", middleLaw),
-    ("material: beside a closed contour just that stays of which no place is within the radius of a way (catches edges of the cutter that cross one another)", materialLaw),
-    ("standing: a chain that closes, from where the cutter touches the one element to where it touches the other (catches an arc the other way round)", standingLaw),
-    ("largest: a cutter of that radius is not stopped there, a slightly larger one is (catches a search from the wrong end)", largestLaw),
-    ("answered: with sharp corners and with other distances there are ways and rests too, to their last digit (catches a part that is not there)", answeredLaw)
+  [ ( "ways: everywhere at the cutter's radius, each piece from where the one before ends (catches \
+      \a piece of the wrong loop)",
+      waysLaw
+    ),
+    ( "whole: a place at the radius beside an element, and no nearer to another one, is on a way \
+      \(catches a way that is lost)",
+      wholeLaw
+    ),
+    ( "told: where something beside an element cannot be reached, there is a rest (catches a cut \
+      \that nobody hears of)",
+      toldLaw
+    ),
+    ( "middle: there the cutter touches what stops it (catches the place of another cut)",
+      middleLaw
+    ),
+    ( "material: beside a closed contour just that stays of which no place is within the radius of \
+      \a way (catches edges of the cutter that cross one another)",
+      materialLaw
+    ),
+    ( "standing: a chain that closes, from where the cutter touches the one element to where it \
+      \touches the other (catches an arc the other way round)",
+      standingLaw
+    ),
+    ( "largest: a cutter of that radius is not stopped there, a slightly larger one is (catches a \
+      \search from the wrong end)",
+      largestLaw
+    ),
+    ( "answered: with sharp corners and with other distances there are ways and rests too, to \
+      \their last digit (catches a part that is not there)",
+      answeredLaw
+    )
   ]
 
--- | Closed contours and open ones, of lines and arcs, smooth or with corners, on grids and degenerate.
+-- | Closed contours and open ones, of lines and arcs, smooth or with corners, on grids and
+-- degenerate.
 subject :: Gen Subject
 subject = do
   c <- frequency [(2, rooms), (5, anyhow)]
@@ -62,11 +116,26 @@ subject = do
   radius <- frequency [(3, (l *) <$> choose (0.002, 0.06)), (1, elements [0.25, 0.5, 1, 2, 3])]
   pure Subject {contour = c, side, radius}
   where
-    anyhow = oneof [outlined Outlines.problem, outlined Outlines.open, Generate.contour <$> Generate.closedCase, Generate.contour <$> Generate.openCase]
+    anyhow =
+      oneof
+        [ outlined Outlines.problem,
+          outlined Outlines.open,
+          Generate.contour <$> Generate.closedCase,
+          Generate.contour <$> Generate.openCase
+        ]
     outlined gen = do
       c <- gen
       case Outlines.outlines c of
-        o : _ | Just ss <- NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (FlatPolyarc.segments (straightened o))), whole <- Polyarc (FlatPolyarc.ends o) ss, Nothing <- SelfIntersection.selfCrossing whole -> pure whole
+        o : _
+          | Just ss <-
+              NonEmpty.nonEmpty
+                ( filter
+                    ((> Tolerance.coincident) . Segment.length)
+                    (FlatPolyarc.segments (straightened o))
+                ),
+            whole <- Polyarc (FlatPolyarc.ends o) ss,
+            Nothing <- SelfIntersection.selfCrossing whole ->
+            pure whole
         _ -> outlined gen
 
 -- | Rooms in a row with passages between them, of which some are too narrow for a cutter.
@@ -77,15 +146,29 @@ rooms = do
   lengths <- vectorOf (2 * count - 1) (choose (0, 1))
   turned <- choose (0, 2 * pi)
   let widths = [if even k then 3 + 6 * l else 0.1 + 3 * l | (k, l) <- zip [0 :: Int ..] lengths]
-      walls = zip3 (scanl (+) 0 widths) widths [if even k then h + 8 else h / 2 | (k, h) <- zip [0 :: Int ..] heights]
+      walls =
+        zip3
+          (scanl (+) 0 widths)
+          widths
+          [if even k then h + 8 else h / 2 | (k, h) <- zip [0 :: Int ..] heights]
       below = concat [[Vec.point x (-h), Vec.point (x + w) (-h)] | (x, w, h) <- walls]
       above = concat [[Vec.point (x + w) h, Vec.point x h] | (x, w, h) <- reverse walls]
-      corners = map (\p -> Vec.shift (Vec.rotate (Rad turned) (Vec.to (Vec.point 0 0) p)) (Vec.point 3 4)) (below <> above)
-  pure (Polyarc Closed (NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners))))
+      corners =
+        map
+          (\p -> Vec.shift (Vec.rotate (Rad turned) (Vec.to (Vec.point 0 0) p)) (Vec.point 3 4))
+          (below <> above)
+  pure
+    ( Polyarc
+        Closed
+        (NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners)))
+    )
 
 -- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
 straightened :: FlatPolyarc -> FlatPolyarc
-straightened o = FlatPolyarc.outline (FlatPolyarc.ends o) [(x, y, if abs b < 1e-5 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
+straightened o =
+  FlatPolyarc.outline
+    (FlatPolyarc.ends o)
+    [(x, y, if abs b < 1e-5 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
 
 style :: CornerStyle
 style = CornerStyle {sharp = False, extra = const (Mm 0)}
@@ -95,7 +178,13 @@ reached s = Equidistant.reachable style (side s) (Mm (radius s)) (contour s)
 
 -- | Points may be off by so much.
 slack :: Subject -> Double
-slack s = 1e-9 * (radius s + sum [abs (Vec.x p) + abs (Vec.y p) | p <- take 1 (map Segment.start (elementsOf s))] + l) + 1e-9
+slack s =
+  1e-9
+    * ( radius s
+          + sum [abs (Vec.x p) + abs (Vec.y p) | p <- take 1 (map Segment.start (elementsOf s))]
+          + l
+      )
+    + 1e-9
   where
     Mm l = Polyarc.length (contour s)
 
@@ -114,33 +203,79 @@ waysLaw s = concatMap way (fst (reached s))
   where
     way w =
       let ps = map segment (NonEmpty.toList (pieces w))
-       in ["a gap of " <> show (gap (Segment.end a) (Segment.start b)) | (a, b) <- zip ps (drop 1 ps <> [NonEmpty.head (fmap segment (pieces w)) | Equidistant.ends w == Closed]), gap (Segment.end a) (Segment.start b) > slack s]
-            <> ["distance " <> show d <> " at " <> show p | a <- ps, t <- [0, 0.1, 0.5, 0.8], let p = Segment.at t a, let d = minimum (map (distanceTo p) (elementsOf s)), abs (d - radius s) > slack s]
+       in [ "a gap of " <> show (gap (Segment.end a) (Segment.start b))
+            | (a, b) <-
+                zip
+                  ps
+                  ( drop 1 ps
+                      <> [NonEmpty.head (fmap segment (pieces w)) | Equidistant.ends w == Closed]
+                  ),
+              gap (Segment.end a) (Segment.start b) > slack s
+          ]
+            <> [ "distance " <> show d <> " at " <> show p
+                 | a <- ps,
+                   t <- [0, 0.1, 0.5, 0.8],
+                   let p = Segment.at t a,
+                   let d = minimum (map (distanceTo p) (elementsOf s)),
+                   abs (d - radius s) > slack s
+               ]
 
--- | Places beside the elements at the radius, with the number of the element, and how near the others come.
+-- | Places beside the elements at the radius, with the number of the element, and how near the
+-- others come.
 beside :: Subject -> [(Int, Point, Double)]
-beside s = [(i, p, minimum (1 / 0 : [distanceTo p o | (j, o) <- numbered, j /= i])) | (i, e) <- numbered, t <- [0.13, 0.5, 0.77], Just p <- [aside e t]]
+beside s =
+  [ (i, p, minimum (1 / 0 : [distanceTo p o | (j, o) <- numbered, j /= i]))
+    | (i, e) <- numbered,
+      t <- [0.13, 0.5, 0.77],
+      Just p <- [aside e t]
+  ]
   where
     numbered = zip [0 ..] (elementsOf s)
     left = if side s == LeftOf then 1 else -1
-    moved e t = Vec.shift (Vec.scale (left * radius s) (Vec.left (Segment.directionAt t e))) (Segment.at t e)
+    moved e t =
+      Vec.shift (Vec.scale (left * radius s) (Vec.left (Segment.directionAt t e))) (Segment.at t e)
     -- Not beyond the centre of an arc, nor there.
     aside e t
-      | gap (moved e 0) (moved e 0.5) > 1e-5 && distanceTo (moved e t) e > radius s - slack s = Just (moved e t)
+      | gap (moved e 0) (moved e 0.5) > 1e-5 && distanceTo (moved e t) e > radius s - slack s =
+        Just (moved e t)
       | otherwise = Nothing
 
 wholeLaw :: Law
-wholeLaw s = ["not on a way: " <> show p <> " beside " <> show i | (i, p, near) <- beside s, near > radius s + 1e-5, all (\w -> all ((> slack s) . distanceTo p . segment) (pieces w)) ways]
+wholeLaw s =
+  [ "not on a way: " <> show p <> " beside " <> show i
+    | (i, p, near) <- beside s,
+      near > radius s + 1e-5,
+      all (\w -> all ((> slack s) . distanceTo p . segment) (pieces w)) ways
+  ]
   where
     ways = fst (reached s)
 
 toldLaw :: Law
-toldLaw s = ["no rest though " <> show p <> " beside " <> show i <> " is " <> show near <> " from another one" | not (null ways), null rests, (i, p, near) <- take 1 [b | b@(_, _, near) <- beside s, near < radius s - 1e-3]]
+toldLaw s =
+  [ "no rest though "
+      <> show p
+      <> " beside "
+      <> show i
+      <> " is "
+      <> show near
+      <> " from another one"
+    | not (null ways),
+      null rests,
+      (i, p, near) <- take 1 [b | b@(_, _, near) <- beside s, near < radius s - 1e-3]
+  ]
   where
     (ways, rests) = reached s
 
 middleLaw :: Law
-middleLaw s = concatMap (\r -> ["rest " <> show (cause (stop r)) <> " at " <> show (middle r) <> ": " <> show d | d <- map (distanceTo (middle r) . (elementsOf s !!)) (touched (cause (stop r))), abs (d - radius s) > slack s]) (snd (reached s))
+middleLaw s =
+  concatMap
+    ( \r ->
+        [ "rest " <> show (cause (stop r)) <> " at " <> show (middle r) <> ": " <> show d
+          | d <- map (distanceTo (middle r) . (elementsOf s !!)) (touched (cause (stop r))),
+            abs (d - radius s) > slack s
+        ]
+    )
+    (snd (reached s))
   where
     n = length (elementsOf s)
     -- A hollow stops the cutter where it touches both neighbours.
@@ -152,7 +287,15 @@ middleLaw s = concatMap (\r -> ["rest " <> show (cause (stop r)) <> " at " <> sh
 materialLaw :: Law
 materialLaw s
   | ends (contour s) == Open || null ways || any ((== Unbounded) . standing) rests = []
-  | otherwise = ["stays " <> show stays <> ", told " <> show told <> " at " <> show p | p <- places, let far = minimum (map (distanceTo p) wayPieces), abs (far - radius s) > 1e-5, let stays = far > radius s, let told = any ((/= 0) . WindingNumber.about p) outlines, stays /= told]
+  | otherwise =
+    [ "stays " <> show stays <> ", told " <> show told <> " at " <> show p
+      | p <- places,
+        let far = minimum (map (distanceTo p) wayPieces),
+        abs (far - radius s) > 1e-5,
+        let stays = far > radius s,
+        let told = any ((/= 0) . WindingNumber.about p) outlines,
+        stays /= told
+    ]
   where
     (ways, rests) = reached s
     wayPieces = map segment (concatMap (NonEmpty.toList . pieces) ways)
@@ -163,7 +306,10 @@ materialLaw s
         | e <- elementsOf s,
           t <- [0.1, 0.3, 0.5, 0.7, 0.9],
           share <- [0.1, 0.3, 0.5, 0.7, 0.9],
-          let p = Vec.shift (Vec.scale (left * share * radius s) (Vec.left (Segment.directionAt t e))) (Segment.at t e),
+          let p =
+                Vec.shift
+                  (Vec.scale (left * share * radius s) (Vec.left (Segment.directionAt t e)))
+                  (Segment.at t e),
           minimum (map (distanceTo p) (elementsOf s)) > 1e-5,
           (WindingNumber.about p (elementsOf s) /= 0) == isInside
       ]
@@ -177,14 +323,36 @@ standingLaw s = concatMap one (snd (reached s))
     edgesIn chain = [a | a@Arc {centre} <- chain, any ((<= slack s) . gap centre . middle) rests]
     one r = case standing r of
       Unbounded -> []
-      SameAs p -> ["the other place is none of them" | null [() | o <- rests, middle o == p, Within _ <- [standing o]]]
+      SameAs p ->
+        [ "the other place is none of them"
+          | null [() | o <- rests, middle o == p, Within _ <- [standing o]]
+        ]
       Within outline@(first :| more) ->
         let chain = NonEmpty.toList outline
-         in ["a gap of " <> show (gap (Segment.end a) (Segment.start b)) | (a, b) <- zip chain (more <> [first]), gap (Segment.end a) (Segment.start b) > slack s]
-              <> ["not the cutter's edge" | Arc {centre, start} <- take 1 (reverse chain), gap centre (middle r) > slack s || abs (gap centre start - radius s) > slack s]
-              <> ["it takes in the cutter: " <> show (cause (stop r)) | edge <- take 1 (reverse chain), WindingNumber.about (Vec.between (-0.5) (middle r) (Segment.at 0.5 edge)) chain /= 0]
-              <> ["a way goes through it: " <> show (cause (stop r)) | w <- fst (reached s), p <- NonEmpty.toList (pieces w), let at = Segment.at 0.5 (segment p), all ((> radius s / 2) . distanceTo at) (edgesIn chain), WindingNumber.about at chain /= 0]
-              <> ["not on the cutter's side: " <> show (cause (stop r), a) | let a = Polyarc.signedArea (Polyarc Closed (first :| more)), (if side s == LeftOf then a else -a) <= 0]
+         in [ "a gap of " <> show (gap (Segment.end a) (Segment.start b))
+              | (a, b) <- zip chain (more <> [first]),
+                gap (Segment.end a) (Segment.start b) > slack s
+            ]
+              <> [ "not the cutter's edge"
+                   | Arc {centre, start} <- take 1 (reverse chain),
+                     gap centre (middle r) > slack s || abs (gap centre start - radius s) > slack s
+                 ]
+              <> [ "it takes in the cutter: " <> show (cause (stop r))
+                   | edge <- take 1 (reverse chain),
+                     WindingNumber.about (Vec.between (-0.5) (middle r) (Segment.at 0.5 edge)) chain
+                       /= 0
+                 ]
+              <> [ "a way goes through it: " <> show (cause (stop r))
+                   | w <- fst (reached s),
+                     p <- NonEmpty.toList (pieces w),
+                     let at = Segment.at 0.5 (segment p),
+                     all ((> radius s / 2) . distanceTo at) (edgesIn chain),
+                     WindingNumber.about at chain /= 0
+                 ]
+              <> [ "not on the cutter's side: " <> show (cause (stop r), a)
+                   | let a = Polyarc.signedArea (Polyarc Closed (first :| more)),
+                     (if side s == LeftOf then a else -a) <= 0
+                 ]
 
 largestLaw :: Law
 largestLaw s = concatMap one (nub (map stop (snd (reached s))))
@@ -192,11 +360,13 @@ largestLaw s = concatMap one (nub (map stop (snd (reached s))))
     one o = case (cause o, largest o) of
       (InnerCorner {}, Nothing) -> []
       (InnerCorner {}, Just r) -> ["a corner let through " <> show r]
-      (c, Nothing) -> ["no cutter fits but one of a thousandth: " <> show c | not (stopped c (Mm 1e-3))]
+      (c, Nothing) ->
+        ["no cutter fits but one of a thousandth: " <> show c | not (stopped c (Mm 1e-3))]
       (c, Just r)
         | r >= Mm (radius s) -> ["not smaller: " <> show r]
         | stopped c r -> ["stopped all the same: " <> show (c, r)]
-        | not (stopped c (plus r (Mm 1e-4))) && plus r (Mm 1e-4) < Mm (radius s) -> ["a larger one is not stopped: " <> show (c, r)]
+        | not (stopped c (plus r (Mm 1e-4))) && plus r (Mm 1e-4) < Mm (radius s) ->
+          ["a larger one is not stopped: " <> show (c, r)]
         | otherwise -> []
     -- It is named again, or what it is about is not reached at all.
     stopped c r =
@@ -216,7 +386,19 @@ largestLaw s = concatMap one (nub (map stop (snd (reached s))))
       _ -> False
 
 answeredLaw :: Law
-answeredLaw s = [show answer | answer <- [Equidistant.reachable CornerStyle {sharp = isSharp, extra = more} (side s) (Mm (radius s)) (contour s) | isSharp <- [False, True], more <- [const (Mm 0), \i -> Mm (if even i then 0 else 0.3 * radius s)]], length (show answer) < 0]
+answeredLaw s =
+  [ show answer
+    | answer <-
+        [ Equidistant.reachable
+            CornerStyle {sharp = isSharp, extra = more}
+            (side s)
+            (Mm (radius s))
+            (contour s)
+          | isSharp <- [False, True],
+            more <- [const (Mm 0), \i -> Mm (if even i then 0 else 0.3 * radius s)]
+        ],
+      length (show answer) < 0
+  ]
 
 isCorner, isHollow, isCollision :: Cause -> Bool
 isCorner c = case c of

@@ -22,37 +22,70 @@ spec = do
             chain = ClosedPolyarcs.fromOutlines 1e-14 os
             bs = SegmentTree.boxes 1e-14 chain
             naive = concatMap Naive.pieces os
-            at (u, v) = let (lx, ly, hx, hy) = SegmentTree.whole bs (,,,) in (lx + u * (hx - lx), ly + v * (hy - ly))
-         in conjoin [counterexample (show (x, y)) (Naive.distance naive x y < 1e-6 .||. WindingNumber.at chain bs x y === Naive.winding naive x y) | (x, y) <- map at ps]
+            at (u, v) =
+              let (lx, ly, hx, hy) =
+                    SegmentTree.whole bs (,,,)
+               in (lx + u * (hx - lx), ly + v * (hy - ly))
+         in conjoin
+              [ counterexample
+                  (show (x, y))
+                  ( Naive.distance naive x y
+                      < 1e-6 .||. WindingNumber.at chain bs x y === Naive.winding naive x y
+                  )
+                | (x, y) <- map at ps
+              ]
     it "are so on the chord of an arc (catches a point that belongs to neither side)" $
-      let chain = ClosedPolyarcs.fromOutlines 1e-14 [Generate.loop [(2, 0, b), (0, 2, b), (-2, 0, b), (0, -2, b)], Generate.loop [(3, 1, 1), (1, 1, 1)]]
+      let chain =
+            ClosedPolyarcs.fromOutlines
+              1e-14
+              [ Generate.loop [(2, 0, b), (0, 2, b), (-2, 0, b), (0, -2, b)],
+                Generate.loop [(3, 1, 1), (1, 1, 1)]
+              ]
           b = tan (pi / 8)
           bs = SegmentTree.boxes 0 chain
-       in [WindingNumber.at chain bs x y | (x, y) <- [(1, 1), (-1, 1), (-1, -1), (1, -1), (0.5, 1.5), (2, 1)]] `shouldBe` [1, 1, 1, 1, 1, 1]
-    it "beside the outermost places of a simple outline are those of its sense (catches an arc taken for its chord)" $
-      property . forAll Generate.simple $ \o ->
+       in [ WindingNumber.at chain bs x y
+            | (x, y) <- [(1, 1), (-1, 1), (-1, -1), (1, -1), (0.5, 1.5), (2, 1)]
+          ]
+            `shouldBe` [1, 1, 1, 1, 1, 1]
+    it
+      "beside the outermost places of a simple outline are those of its sense (catches an arc \
+      \taken for its chord)"
+      $ property . forAll Generate.simple $ \o ->
         let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
             bs = SegmentTree.boxes 1e-14 chain
-         in map (\w -> leftMore (WindingNumber.extreme w chain bs 0)) [Leftmost, Rightmost] === [Just 1, Just 1]
-    it "and also where its outermost place is a cusp (catches a walk that is taken to go back along itself, a cusp's side)" $
-      checkCoverage . forAll horn $ \o ->
+         in map (\w -> leftMore (WindingNumber.extreme w chain bs 0)) [Leftmost, Rightmost]
+              === [Just 1, Just 1]
+    it
+      "and also where its outermost place is a cusp (catches a walk that is taken to go back along \
+      \itself, a cusp's side)"
+      $ checkCoverage . forAll horn $ \o ->
         let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
             bs = SegmentTree.boxes 1e-14 chain
             ends = map (\w -> WindingNumber.extreme w chain bs 0) [Leftmost, Rightmost]
             atTip e = abs (x e) + abs (y e) < 1e-9
          in cover 30 (any atTip ends) "at the tip" $
-              map leftMore ends === (if FlatPolyarc.area o > 0 then [Just 1, Just 1] else [Just 0, Just 0])
+              map leftMore ends
+                === (if FlatPolyarc.area o > 0 then [Just 1, Just 1] else [Just 0, Just 0])
     it "a circle is leftmost in the middle of an arc" $
       let chain = ClosedPolyarcs.fromOutlines 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
           e = WindingNumber.extreme Leftmost chain (SegmentTree.boxes 0 chain) 0
        in (segment e, x e, abs (y e) < 1e-15, leftMore e) `shouldBe` (1, -1, True, Just 1)
   describe "boxes" $
-    it "around a place are those that a look at all of them finds (catches a level that is cut short)" $
-      property . forAll Generate.simple $ \o -> forAll (choose (-8, 8)) $ \px -> forAll (choose (-8, 8)) $ \py -> forAll (choose (0, 4)) $ \r ->
-        let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
-            bs = SegmentTree.boxes 0 chain
-            hit i = SegmentTree.leaf bs i (\lx ly hx hy -> lx <= px + r && px - r <= hx && ly <= py + r && py - r <= hy)
-         in reverse (SegmentTree.around bs (px - r) (py - r) (px + r) (py + r) [] (flip (:))) === filter hit [0 .. FlatPolyarc.size o - 1]
+    it
+      "around a place are those that a look at all of them finds (catches a level that is cut \
+      \short)"
+      $ property . forAll Generate.simple $ \o ->
+        forAll (choose (-8, 8)) $ \px ->
+          forAll (choose (-8, 8)) $ \py -> forAll (choose (0, 4)) $ \r ->
+            let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
+                bs = SegmentTree.boxes 0 chain
+                hit i =
+                  SegmentTree.leaf
+                    bs
+                    i
+                    (\lx ly hx hy -> lx <= px + r && px - r <= hx && ly <= py + r && py - r <= hy)
+             in reverse (SegmentTree.around bs (px - r) (py - r) (px + r) (py + r) [] (flip (:)))
+                  === filter hit [0 .. FlatPolyarc.size o - 1]
   describe "arrangements" $ do
     it "of a square that is walked twice has the numbers 0 and 2" $
       numbersOf [square 0 0 1, square 0 0 1] `shouldBe` Just (0, 2)
@@ -61,15 +94,22 @@ spec = do
     it "of a square and the same one walked back has nothing" $
       numbersOf [square 0 0 1, FlatPolyarc.reverse (square 0 0 1)] `shouldBe` Just (0, 0)
     it "of a figure of eight has both senses" $
-      numbersOf [Generate.loop [(0, 0, 0), (1, 1, 0), (2, 2, 0), (2, 0, 0), (1, 1, 0), (0, 2, 0)]] `shouldBe` Just (-1, 1)
-    it "of something inside, beside lines that cancel out (catches lines that cancel out and stay)" $
-      numbersOf [square 5 (-1) 2, Generate.loop [(0, 0, 0), (4, 0, 0)]] `shouldBe` Just (0, 1)
+      numbersOf [Generate.loop [(0, 0, 0), (1, 1, 0), (2, 2, 0), (2, 0, 0), (1, 1, 0), (0, 2, 0)]]
+        `shouldBe` Just (-1, 1)
+    it
+      "of something inside, beside lines that cancel out (catches lines that cancel out and stay)"
+      $ numbersOf [square 5 (-1) 2, Generate.loop [(0, 0, 0), (4, 0, 0)]] `shouldBe` Just (0, 1)
     it "whose leftmost place is smooth (catches an order that begins on the right)" $
-      numbersOf [Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)], Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]] `shouldBe` Just (0, 2)
+      numbersOf
+        [ Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)],
+          Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+        ]
+        `shouldBe` Just (0, 2)
   where
     places = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
 
--- | Between two arcs that touch one another at the origin, and a line: from any vertex, in any direction, walked either way.
+-- | Between two arcs that touch one another at the origin, and a line: from any vertex, in any
+-- direction, walked either way.
 horn :: Gen FlatPolyarc
 horn = do
   low <- oneof [pure 0, choose (-0.8, 0.7)]
@@ -80,12 +120,19 @@ horn = do
   let sweep k = asin k
       height k = if k == 0 then 0 else (1 - cos (sweep k)) / k
       place (px, py, b) = (px * cos angle - py * sin angle, px * sin angle + py * cos angle, b)
-      corners = map place [(0, 0, tan (sweep low / 4)), (1, height low, 0), (1, height high, negate (tan (sweep high / 4)))]
+      corners =
+        map
+          place
+          [ (0, 0, tan (sweep low / 4)),
+            (1, height low, 0),
+            (1, height high, negate (tan (sweep high / 4)))
+          ]
       o = Generate.loop (drop start corners <> take start corners)
   pure (if back then FlatPolyarc.reverse o else o)
 
 numbersOf :: [FlatPolyarc] -> Maybe (Int, Int)
-numbersOf os = Arrangement.numbers <$> Arrangement.arrange 1e-12 chain (SegmentTree.boxes 1e-12 chain)
+numbersOf os =
+  Arrangement.numbers <$> Arrangement.arrange 1e-12 chain (SegmentTree.boxes 1e-12 chain)
   where
     chain = ClosedPolyarcs.fromOutlines 1e-14 os
 

@@ -1,5 +1,5 @@
--- | The laws of curves from the text of a program to the path of the cutter: what is machined along a curve is what
--- the exact curve says.
+-- | The laws of curves from the text of a program to the path of the cutter: what is machined along
+-- a curve is what the exact curve says.
 module Part.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -34,19 +34,31 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec = do
   describe "a spline through the points of a circle" $ do
-    it "is milled like the circle (catches an equidistant of chords, a gap between the arcs that stand for a curve)" $
-      property $
-        forAll ((,,) <$> elements ["outside", "inside"] <*> written 1 30 <*> shares) $ \(side, r, ts) ->
-          let text = header r <> "curve ring = closed_spline(around(circle((10, 20), 50), 60))\ncontour k closed { ring }\nmill k " <> side <> " { }\n"
-              radius = if side == "outside" then 50 + r else 50 - r
-              c = Vec.point 10 20
-           in milled text $ \cut ->
-                conjoin [near radius (Segment.at t s `apart` c) | s <- cut, t <- ts]
-                  .&&. near (2 * pi * radius) (sum (map lengthOf cut))
-    it "is joined to a line by the fillet of the circle (catches a fillet that touches a chord, or the wrong side of a curve)" $
-      property $
+    it
+      "is milled like the circle (catches an equidistant of chords, a gap between the arcs that \
+      \stand for a curve)"
+      $ property $
+        forAll ((,,) <$> elements ["outside", "inside"] <*> written 1 30 <*> shares) $
+          \(side, r, ts) ->
+            let text =
+                  header r
+                    <> "curve ring = closed_spline(around(circle((10, 20), 50), 60))\ncontour k \
+                       \closed { ring }\nmill k "
+                    <> side
+                    <> " { }\n"
+                radius = if side == "outside" then 50 + r else 50 - r
+                c = Vec.point 10 20
+             in milled text $ \cut ->
+                  conjoin [near radius (Segment.at t s `apart` c) | s <- cut, t <- ts]
+                    .&&. near (2 * pi * radius) (sum (map lengthOf cut))
+    it
+      "is joined to a line by the fillet of the circle (catches a fillet that touches a chord, or \
+      \the wrong side of a curve)"
+      $ property $
         forAll rounding $ \rounding'@Rounding {middle, filletRadius, first, touches} ->
-          case (filletOf (rounded "ring" rounding'), filletOf (rounded "ccw circle(c, 50)" rounding')) of
+          case ( filletOf (rounded "ring" rounding'),
+                 filletOf (rounded "ccw circle(c, 50)" rounding')
+               ) of
             (Just onCurve, Just onCircle) ->
               conjoin
                 [ coincide 1e-4 middle (centreOf onCurve),
@@ -57,68 +69,140 @@ spec = do
                 ]
             (a, b) -> counterexample (show (a, b)) False
   describe "a contour" $ do
-    it "of arcs runs along the very arcs, there and back and turned (catches a chain of arcs that others stand for)" $
-      property $
+    it
+      "of arcs runs along the very arcs, there and back and turned (catches a chain of arcs that \
+      \others stand for)"
+      $ property $
         forAll ((,,) <$> course <*> motion <*> shares) $ \(points, (s, _, (begin, rest)), ts) ->
-          let text = "part p\ncurve a = arcs([" <> Text.intercalate ", " (map point points) <> "])\n"
-              own = maybe [] (NonEmpty.toList . Biarc.through Polyarc.Open) (NonEmpty.nonEmpty points)
-              on segments p = minimum [d | g <- segments, let { Mm d = Distance.toPoint p g }] `atMost` 1e-8
+          let text =
+                "part p\ncurve a = arcs([" <> Text.intercalate ", " (map point points) <> "])\n"
+              own =
+                maybe [] (NonEmpty.toList . Biarc.through Polyarc.Open) (NonEmpty.nonEmpty points)
+              on segments p =
+                minimum [d | g <- segments, let { Mm d = Distance.toPoint p g }] `atMost` 1e-8
            in conjoin
                 [ elementsOf (text <> "contour k open { " <> what <> " }\n") `soundly` \found ->
-                    conjoin [on found (moved (Segment.at t g)) | g <- own, t <- ts] .&&. near (sum (map lengthOf own)) (sum (map lengthOf found))
-                  | (what, moved) <- [("a", id), ("reversed(a)", id), (begin <> "a" <> rest, Transformation.point s)]
+                    conjoin [on found (moved (Segment.at t g)) | g <- own, t <- ts]
+                      .&&. near (sum (map lengthOf own)) (sum (map lengthOf found))
+                  | (what, moved) <-
+                      [ ("a", id),
+                        ("reversed(a)", id),
+                        (begin <> "a" <> rest, Transformation.point s)
+                      ]
                 ]
-    it "of two curves that cross runs along both, from crossing to crossing (catches a curve walked beyond its crossing, or its other part)" $
-      property $
+    it
+      "of two curves that cross runs along both, from crossing to crossing (catches a curve walked \
+      \beyond its crossing, or its other part)"
+      $ property $
         forAll crossing $ \(upper, lower) ->
-          let text = "part p\n" <> splineOf "a" Natural upper <> splineOf "b" Natural lower <> "contour k closed {\n  a meet near (100, 0)\n  b meet near (0, 0)\n}\n"
+          let text =
+                "part p\n"
+                  <> splineOf "a" Natural upper
+                  <> splineOf "b" Natural lower
+                  <> "contour k closed {\n  a meet near (100, 0)\n  b meet near (0, 0)\n}\n"
               a = exactly Natural upper
               b = exactly Natural lower
            in elementsOf text `soundly` \segments ->
-                let corners = [Segment.start s | (s, p) <- zip segments (drop (length segments - 1) (cycle segments)), sharp p s]
-                 in conjoin [min (p `offCurve` a) (p `offCurve` b) `atMost` 2e-5 | s <- segments, t <- [0, 0.3, 0.7, 1], let p = Segment.at t s]
+                let corners =
+                      [ Segment.start s
+                        | (s, p) <- zip segments (drop (length segments - 1) (cycle segments)),
+                          sharp p s
+                      ]
+                 in conjoin
+                      [ min (p `offCurve` a) (p `offCurve` b) `atMost` 2e-5
+                        | s <- segments,
+                          t <- [0, 0.3, 0.7, 1],
+                          let p = Segment.at t s
+                      ]
                       .&&. case corners of
-                        [p, q] -> conjoin [max (c `offCurve` a) (c `offCurve` b) `atMost` 2e-5 | c <- [p, q]] .&&. near (stretched p q a + stretched p q b) (sum (map lengthOf segments))
+                        [p, q] ->
+                          conjoin
+                            [max (c `offCurve` a) (c `offCurve` b) `atMost` 2e-5 | c <- [p, q]]
+                            .&&. near
+                              (stretched p q a + stretched p q b)
+                              (sum (map lengthOf segments))
                         _ -> counterexample (show corners) False
     it "of curves reversed has the same geometry (catches a chain turned round arc by arc)" $
       property $
         forAll ((,) <$> course <*> shares) $ \(points, ts) ->
-          let text = "part p\n" <> splineOf "a" Natural points <> "contour k open { a line(end_of(a), end_of(a) + polar(30, tangent_of(a, end_of(a)))) }\n"
+          let text =
+                "part p\n"
+                  <> splineOf "a" Natural points
+                  <> "contour k open { a line(end_of(a), end_of(a) + polar(30, tangent_of(a, \
+                     \end_of(a)))) }\n"
               back = text <> "contour l open { reversed(k) }\n"
            in elementsOf back `soundly` \both ->
                 let (there, home) = splitAt (length both `div` 2) both
                  in near (sum (map lengthOf there)) (sum (map lengthOf home))
                       .&&. coincide 1e-9 (Segment.start (head' there)) (Segment.end (last home))
-                      .&&. conjoin [coincide 1e-9 (Segment.at t s) (Segment.at (1 - t) r) | (s, r) <- zip there (reverse home), t <- ts]
+                      .&&. conjoin
+                        [ coincide 1e-9 (Segment.at t s) (Segment.at (1 - t) r)
+                          | (s, r) <- zip there (reverse home),
+                            t <- ts
+                        ]
   describe "a piece" . modifyMaxSuccess (const 50) $ do
-    it "transformed is the piece of the transformed curve, and a mirror swaps its sides (catches a side or a column that the transformation leaves behind)" $
-      property $
+    it
+      "transformed is the piece of the transformed curve, and a mirror swaps its sides (catches a \
+      \side or a column that the transformation leaves behind)"
+      $ property $
         forAll ((,,) <$> pieceCase <*> motion <*> shares) $ \(c, (s, mirrors, (begin, rest)), ts) ->
           let plain = pieceText c
               words' e = begin <> e <> rest
               of' = contourOf c
               other = if mirrors then swapped c else c
-              moved = "curve moved_skin = " <> words' "skin" <> "\n" <> pieceNamed "moved_piece" "moved_skin" other
-           in case (elementsOf (plain <> of' "edge"), elementsOf (plain <> of' (words' "edge")), elementsOf (plain <> moved <> of' "moved_piece")) of
-                (Just here, Just there, Just there') -> conjoin [along s ts here there, along s ts here there']
+              moved =
+                "curve moved_skin = "
+                  <> words' "skin"
+                  <> "\n"
+                  <> pieceNamed "moved_piece" "moved_skin" other
+           in case ( elementsOf (plain <> of' "edge"),
+                     elementsOf (plain <> of' (words' "edge")),
+                     elementsOf (plain <> moved <> of' "moved_piece")
+                   ) of
+                (Just here, Just there, Just there') ->
+                  conjoin [along s ts here there, along s ts here there']
                 (Nothing, Nothing, Nothing) -> discard
-                (a, b, d) -> counterexample (show (fmap length a, fmap length b, fmap length d)) False
-    it "is that of the exact curve (catches a cipher on the wrong side, in the wrong order, or left out)" $
-      property $
+                (a, b, d) ->
+                  counterexample (show (fmap length a, fmap length b, fmap length d)) False
+    it
+      "is that of the exact curve (catches a cipher on the wrong side, in the wrong order, or left \
+      \out)"
+      $ property $
         forAll ((,) <$> pieceCase <*> shares) $ \(c, ts) ->
           case elementsOf (pieceText c <> contourOf c "edge") of
             Nothing -> discard
-            Just segments -> conjoin [Segment.at t s `offCurve` pieceOf c `atMost` 1.2e-5 | s <- segments, t <- ts]
-    it "is milled at the radius of the cutter, everywhere (catches an equidistant of an equidistant, a side that the chain of arcs swaps)" $
-      property $
-        forAll ((,,,) <$> pieceCase <*> elements [LeftOf, RightOf] <*> written 0.5 6 <*> shares) $ \(c, side, r, ts) ->
-          let text = header r <> dropPart (pieceText c) <> contourOf c "edge" <> "mill k " <> word side <> " { }\n"
-              exact = pieceOf c
-           in case cutsOf text of
-                Nothing -> discard
-                Just cut ->
-                  conjoin [near r (p `offCurve` exact) | s <- cut, t <- ts, let p = Segment.at t s]
-                    .&&. counterexample "side" (conjoin [signOf side * Vec.cross (Curve.tangent exact u) (Vec.to (Curve.at exact u) p) > 0 | s <- cut, let p = Segment.at 0.5 s, let u = Curve.nearest p exact])
+            Just segments ->
+              conjoin [Segment.at t s `offCurve` pieceOf c `atMost` 1.2e-5 | s <- segments, t <- ts]
+    it
+      "is milled at the radius of the cutter, everywhere (catches an equidistant of an \
+      \equidistant, a side that the chain of arcs swaps)"
+      $ property $
+        forAll ((,,,) <$> pieceCase <*> elements [LeftOf, RightOf] <*> written 0.5 6 <*> shares) $
+          \(c, side, r, ts) ->
+            let text =
+                  header r
+                    <> dropPart (pieceText c)
+                    <> contourOf c "edge"
+                    <> "mill k "
+                    <> word side
+                    <> " { }\n"
+                exact = pieceOf c
+             in case cutsOf text of
+                  Nothing -> discard
+                  Just cut ->
+                    conjoin
+                      [near r (p `offCurve` exact) | s <- cut, t <- ts, let p = Segment.at t s]
+                      .&&. counterexample
+                        "side"
+                        ( conjoin
+                            [ signOf side
+                                * Vec.cross (Curve.tangent exact u) (Vec.to (Curve.at exact u) p)
+                                  > 0
+                              | s <- cut,
+                                let p = Segment.at 0.5 s,
+                                let u = Curve.nearest p exact
+                            ]
+                        )
 
 -- Numbers
 
@@ -176,12 +260,23 @@ head' xs = case xs of
 
 -- Fillets
 
--- | A line that comes to a circle of radius 50 about c, in a direction, so far to the left of its centre; a fillet, walked
--- clockwise or not; where its centre is, where it begins, where it touches the circle.
-data Rounding = Rounding {heading :: Double, offset :: Double, clockwise :: Bool, filletRadius :: Double, middle :: Point, first :: Point, touches :: Point, final :: Double}
+-- | A line that comes to a circle of radius 50 about c, in a direction, so far to the left of its
+-- centre; a fillet, walked clockwise or not; where its centre is, where it begins, where it touches
+-- the circle.
+data Rounding = Rounding
+  { heading :: Double,
+    offset :: Double,
+    clockwise :: Bool,
+    filletRadius :: Double,
+    middle :: Point,
+    first :: Point,
+    touches :: Point,
+    final :: Double
+  }
   deriving stock (Show)
 
--- | With the line along x and the circle's centre in the origin, the fillet's centre is @h ∓ R@ high and @50 ± R@ away.
+-- | With the line along x and the circle's centre in the origin, the fillet's centre is @h ∓ R@
+-- high and @50 ± R@ away.
 rounding :: Gen Rounding
 rounding = do
   heading <- written 0 360
@@ -191,7 +286,10 @@ rounding = do
   let high = if clockwise then offset - r else offset + r
       away = if clockwise then 50 + r else 50 - r
       far = (if clockwise then negate else id) (sqrt (away * away - high * high))
-      turned x y = Transformation.point (Transformation.rotation (Rad (heading * pi / 180)) (Vec.point 0 0)) (Vec.point x y)
+      turned x y =
+        Transformation.point
+          (Transformation.rotation (Rad (heading * pi / 180)) (Vec.point 0 0))
+          (Vec.point x y)
       place x y = let p = turned x y in Vec.point (Vec.x p + 10) (Vec.y p + 20)
       Rad a = Vec.angle (Vec.to (Vec.point 0 0) (turned far high))
   pure
@@ -216,7 +314,10 @@ rounded element Rounding {heading, offset, clockwise, filletRadius, final} =
       "let foot = c + polar(" <> number offset <> ", " <> number (heading + 90) <> ")",
       "curve ring = closed_spline(around(circle(c, 50), 60, " <> number final <> "))",
       "contour k open {",
-      "  line(foot + polar(-100, " <> number heading <> "), foot) fillet " <> number (if clockwise then filletRadius else -filletRadius),
+      "  line(foot + polar(-100, "
+        <> number heading
+        <> "), foot) fillet "
+        <> number (if clockwise then filletRadius else -filletRadius),
       "  " <> element,
       "  c + polar(50, " <> number final <> ")",
       "}"
@@ -237,7 +338,12 @@ crossing = (,) <$> arched 1 <*> (reverse <$> arched (-1))
     arched s = do
       ends <- vectorOf 2 (written 5 20)
       tops <- vectorOf 3 (written 10 30)
-      pure (zipWith Vec.point [-15, 20, 50, 80, 115] (map (s *) (zipWith (*) [-1, 1, 1, 1, -1] (take 1 ends <> tops <> drop 1 ends))))
+      pure
+        ( zipWith
+            Vec.point
+            [-15, 20, 50, 80, 115]
+            (map (s *) (zipWith (*) [-1, 1, 1, 1, -1] (take 1 ends <> tops <> drop 1 ends)))
+        )
 
 -- | Points along a way that may climb straight up and double back, without crossing itself.
 course :: Gen [Point]
@@ -247,8 +353,17 @@ course = do
   whole <- choose (-3, 3)
   bends <- vectorOf n (choose (-0.15, 0.15))
   steps <- vectorOf n (choose (12, 18))
-  let headings = [begin + whole * fromIntegral k / fromIntegral n + b | (k, b) <- zip [0 :: Int ..] bends]
-  pure (map rounded' (scanl (\p (a, s) -> Vec.shift (Vec.polar (Mm s) (Rad a)) p) (Vec.point 0 0) (zip headings steps)))
+  let headings =
+        [begin + whole * fromIntegral k / fromIntegral n + b | (k, b) <- zip [0 :: Int ..] bends]
+  pure
+    ( map
+        rounded'
+        ( scanl
+            (\p (a, s) -> Vec.shift (Vec.polar (Mm s) (Rad a)) p)
+            (Vec.point 0 0)
+            (zip headings steps)
+        )
+    )
   where
     rounded' p = Vec.point (digits (Vec.x p)) (digits (Vec.y p))
     digits x = fromIntegral (round (x * 1000) :: Int) / 1000
@@ -257,7 +372,14 @@ exactly :: EndCondition -> [Point] -> Curve
 exactly ends = Curves.ok . Curve.spline ends . Vector.fromList
 
 splineOf :: Text -> EndCondition -> [Point] -> Text
-splineOf name ends points = "curve " <> name <> " = " <> (case ends of Periodic -> "closed_spline"; _ -> "spline") <> "([" <> Text.intercalate ", " (map point points) <> "])\n"
+splineOf name ends points =
+  "curve "
+    <> name
+    <> " = "
+    <> (case ends of Periodic -> "closed_spline"; _ -> "spline")
+    <> "(["
+    <> Text.intercalate ", " (map point points)
+    <> "])\n"
 
 -- Pieces
 
@@ -266,7 +388,12 @@ data Cipher = Evenly Double Double | Steady Double | Leaning Double | Rowwise Do
   deriving stock (Show)
 
 -- | The points of a table, its other columns (degrees, mm), the ciphers, the side.
-data PieceCase = PieceCase {table :: [(Point, Double, Double)], closed :: Bool, ciphers :: [Cipher], side' :: Side}
+data PieceCase = PieceCase
+  { table :: [(Point, Double, Double)],
+    closed :: Bool,
+    ciphers :: [Cipher],
+    side' :: Side
+  }
   deriving stock (Show)
 
 pieceCase :: Gen PieceCase
@@ -278,10 +405,22 @@ pieceCase = do
   ciphers <- choose (0, 3) >>= \n -> vectorOf n cipher
   PieceCase (zip3 points bevels thick) closed ciphers <$> elements [LeftOf, RightOf]
   where
-    cipher = oneof [Evenly <$> written (-1) 2 <*> written 0 2, Steady <$> written (-2) 2, Leaning <$> written 2 12, Rowwise <$> written (-1) 1]
+    cipher =
+      oneof
+        [ Evenly <$> written (-1) 2 <*> written 0 2,
+          Steady <$> written (-2) 2,
+          Leaning <$> written 2 12,
+          Rowwise <$> written (-1) 1
+        ]
     closedPoints = do
       Curves.Table _ ps <- Curves.closedRing `suchThat` (\(Curves.Table _ ps) -> length ps <= 14)
-      pure [Vec.point (digits (Vec.x p)) (digits (Vec.y p)) | p <- if length ps > 1 && Vec.near (head' ps) (last ps) then drop 1 ps else ps]
+      pure
+        [ Vec.point (digits (Vec.x p)) (digits (Vec.y p))
+          | p <-
+              if length ps > 1 && Vec.near (head' ps) (last ps)
+                then drop 1 ps
+                else ps
+        ]
     digits x = fromIntegral (round (x * 1000) :: Int) / 1000
 
 swapped :: PieceCase -> PieceCase
@@ -290,17 +429,30 @@ swapped c = c {side' = case side' c of LeftOf -> RightOf; RightOf -> LeftOf}
 -- | A program with the curve @skin@ and the piece @edge@ of it.
 pieceText :: PieceCase -> Text
 pieceText c@PieceCase {table, closed} =
-  Text.unlines (["part p", "table rows {", "  x y mu deg t mm"] <> ["  " <> Text.unwords (map number [Vec.x p, Vec.y p, a, t]) | (p, a, t) <- table] <> ["}", "curve skin = " <> (if closed then "closed_spline" else "spline") <> "(rows)"])
+  Text.unlines
+    ( ["part p", "table rows {", "  x y mu deg t mm"]
+        <> ["  " <> Text.unwords (map number [Vec.x p, Vec.y p, a, t]) | (p, a, t) <- table]
+        <> ["}", "curve skin = " <> (if closed then "closed_spline" else "spline") <> "(rows)"]
+    )
     <> pieceNamed "edge" "skin" c
 
 contourOf :: PieceCase -> Text -> Text
-contourOf c what = "contour k " <> (if closed c then "closed" else "open") <> " { " <> what <> " }\n"
+contourOf c what =
+  "contour k " <> (if closed c then "closed" else "open") <> " { " <> what <> " }\n"
 
 dropPart :: Text -> Text
 dropPart = Text.drop (Text.length "part p\n")
 
 pieceNamed :: Text -> Text -> PieceCase -> Text
-pieceNamed name base PieceCase {ciphers, side'} = "piece " <> name <> " = " <> base <> (if null ciphers then "" else " cipher " <> Text.intercalate ", " (map cipher ciphers)) <> " " <> word side' <> "\n"
+pieceNamed name base PieceCase {ciphers, side'} =
+  "piece "
+    <> name
+    <> " = "
+    <> base
+    <> (if null ciphers then "" else " cipher " <> Text.intercalate ", " (map cipher ciphers))
+    <> " "
+    <> word side'
+    <> "\n"
   where
     cipher c = case c of
       Evenly a b -> "1(" <> number a <> ", " <> number b <> ")"
@@ -310,40 +462,80 @@ pieceNamed name base PieceCase {ciphers, side'} = "piece " <> name <> " = " <> b
 
 -- | The same by the exact curve itself.
 pieceOf :: PieceCase -> Curve
-pieceOf PieceCase {table, closed, ciphers, side'} = foldl shifted (exactly (if closed then Periodic else Natural) [p | (p, _, _) <- table]) ciphers
+pieceOf PieceCase {table, closed, ciphers, side'} =
+  foldl shifted (exactly (if closed then Periodic else Natural) [p | (p, _, _) <- table]) ciphers
   where
     shifted c cipher = Curve.shifted side' (distance c cipher) c
     distance c cipher = case cipher of
       Evenly a b -> Growing Growth {from = Mm a, to = Mm b, between = Nothing}
       Steady h -> Constant (Mm h)
-      Leaning h -> Bevelled (Curve.column c (column (\(_, a, _) -> a * pi / 180))) (Curve.column c (column (const h))) (Mm 0)
+      Leaning h ->
+        Bevelled
+          (Curve.column c (column (\(_, a, _) -> a * pi / 180)))
+          (Curve.column c (column (const h)))
+          (Mm 0)
       Rowwise k -> Pointwise (Curve.column c (column (\(_, _, t) -> k * t)))
     column f = Vector.fromList (map f table)
 
--- | A motion, whether it mirrors, and how it is written: what stands before a thing and what behind it.
+-- | A motion, whether it mirrors, and how it is written: what stands before a thing and what behind
+-- it.
 motion :: Gen (Transformation, Bool, (Text, Text))
 motion = do
   a <- written (-200) 200
   x <- written (-50) 50
   y <- written (-50) 50
   elements
-    [ (Transformation.translation (Vec.vec x y), False, ("moved(", ", (" <> number x <> ", " <> number y <> "))")),
-      (Transformation.rotation (Rad (a * pi / 180)) (Vec.point x y), False, ("rotated(", ", " <> number a <> " deg, (" <> number x <> ", " <> number y <> "))")),
-      (Transformation.reflection (Line (Vec.point x y) (Vec.point (x + 3) (y + 1))), True, ("mirrored(", ", line((" <> number x <> ", " <> number y <> "), (" <> number (x + 3) <> ", " <> number (y + 1) <> ")))"))
+    [ ( Transformation.translation (Vec.vec x y),
+        False,
+        ("moved(", ", (" <> number x <> ", " <> number y <> "))")
+      ),
+      ( Transformation.rotation (Rad (a * pi / 180)) (Vec.point x y),
+        False,
+        ("rotated(", ", " <> number a <> " deg, (" <> number x <> ", " <> number y <> "))")
+      ),
+      ( Transformation.reflection (Line (Vec.point x y) (Vec.point (x + 3) (y + 1))),
+        True,
+        ( "mirrored(",
+          ", line(("
+            <> number x
+            <> ", "
+            <> number y
+            <> "), ("
+            <> number (x + 3)
+            <> ", "
+            <> number (y + 1)
+            <> ")))"
+        )
+      )
     ]
 
--- | Whether segments, transformed, run along others from the same beginning to the same end. Each stays within 10⁻⁵ mm of its
--- curve.
+-- | Whether segments, transformed, run along others from the same beginning to the same end. Each
+-- stays within 10⁻⁵ mm of its curve.
 along :: Transformation -> [Double] -> [Segment] -> [Segment] -> Property
 along s ts before after =
-  conjoin [minimum [d | g <- after, let { Mm d = Distance.toPoint (Transformation.point s (Segment.at t b)) g }] `atMost` 2.5e-5 | b <- before, t <- ts]
-    .&&. coincide 1e-6 (Transformation.point s (Segment.start (head' before))) (Segment.start (head' after))
-    .&&. coincide 1e-6 (Transformation.point s (Segment.end (last before))) (Segment.end (last after))
+  conjoin
+    [ minimum
+        [d | g <- after, let Mm d = Distance.toPoint (Transformation.point s (Segment.at t b)) g]
+        `atMost` 2.5e-5
+      | b <- before,
+        t <- ts
+    ]
+    .&&. coincide
+      1e-6
+      (Transformation.point s (Segment.start (head' before)))
+      (Segment.start (head' after))
+    .&&. coincide
+      1e-6
+      (Transformation.point s (Segment.end (last before)))
+      (Segment.end (last after))
 
 -- Programs
 
 header :: Double -> Text
-header r = "part p\ntool mill(diameter " <> number (2 * r) <> ")\nfeed 60\ntolerance 0.02\nfrom (-300, -300)\n"
+header r =
+  "part p\ntool mill(diameter "
+    <> number (2 * r)
+    <> ")\nfeed 60\ntolerance 0.02\nfrom (-300, -300)\n"
 
 point :: Point -> Text
 point p = "(" <> number (Vec.x p) <> ", " <> number (Vec.y p) <> ")"
@@ -353,22 +545,31 @@ number :: Double -> Text
 number x = Text.pack (if n < 0 then '-' : digits (-n) else digits n)
   where
     n = round (x * 1e6) :: Integer
-    digits m = let (w, f) = m `divMod` 1000000 in show w <> "." <> replicate (6 - length (show f)) '0' <> show f
+    digits m =
+      let (w, f) =
+            m `divMod` 1000000
+       in show w <> "." <> replicate (6 - length (show f)) '0' <> show f
 
 -- | The elements of all contours of a program without mistakes.
 elementsOf :: Text -> Maybe [Segment]
 elementsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
-  r | null (Result.errors r) -> concatMap (map Part.segment . NonEmpty.toList . Part.elements) . Part.contours . part <$> Result.output r
+  r
+    | null (Result.errors r) ->
+      concatMap (map Part.segment . NonEmpty.toList . Part.elements) . Part.contours . part
+        <$> Result.output r
   _ -> Nothing
 
 -- | What holds for the elements of a program's contours.
 soundly :: Maybe [Segment] -> ([Segment] -> Property) -> Property
 soundly elements' holds = maybe (counterexample "the program has mistakes" False) holds elements'
 
--- | The cuts of a program's millings, if there are no mistakes. Ways in that cut are no concern here.
+-- | The cuts of a program's millings, if there are no mistakes. Ways in that cut are no concern
+-- here.
 cutsOf :: Text -> Maybe [Segment]
 cutsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
-  r | all ((== ReportCode "E0405") . Report.code) (Result.errors r) -> concatMap cuts . Toolpath.blocks . path <$> Result.output r
+  r
+    | all ((== ReportCode "E0405") . Report.code) (Result.errors r) ->
+      concatMap cuts . Toolpath.blocks . path <$> Result.output r
   _ -> Nothing
   where
     cuts b = case b of
@@ -381,4 +582,5 @@ milled text holds = maybe (counterexample (Text.unpack text) False) holds (cutsO
 
 -- | Whether the walk has a corner between two segments.
 sharp :: Segment -> Segment -> Bool
-sharp a b = let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned > 1e-3
+sharp a b =
+  let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned > 1e-3

@@ -27,49 +27,103 @@ import Test.QuickCheck hiding (Result (..))
 spec :: Spec
 spec = do
   describe "a pocket of the program" $ do
-    let whole = pocketOf ["pocket edge step 4 { islands boss, [moved(boss, (30, 0)), moved(boss, (60, 0))]  allowance 0.5, 0  depth 6 step 2  plunge 20  climb  rest allowed }"]
+    let whole =
+          pocketOf
+            [ "pocket edge step 4 { islands boss, [moved(boss, (30, 0)), moved(boss, (60, 0))]  \
+              \allowance 0.5, 0  depth 6 step 2  plunge 20  climb  rest allowed }"
+            ]
     it "has its outline, its islands in their order, its step, and what is asked as of mill" $ do
-      fmap (\p -> (map (Segment.start . NonEmpty.head . Polyarc.segments . Part.outline) (Part.islands p), Part.apart p)) whole
+      fmap
+        ( \p ->
+            ( map
+                (Segment.start . NonEmpty.head . Polyarc.segments . Part.outline)
+                (Part.islands p),
+              Part.apart p
+            )
+        )
+        whole
         `shouldBe` Just ([Vec.point 15 20, Vec.point 45 20, Vec.point 75 20], Mm 4)
-      fmap (asked . Part.wall) whole `shouldBe` Just (Part.Inside, [Mm (-2), Mm (-4), Mm (-6)], Mm 0.5 :| [Mm 0], Just Part.Climb, Part.Allowed)
+      fmap (asked . Part.wall) whole
+        `shouldBe` Just
+          ( Part.Inside,
+            [Mm (-2), Mm (-4), Mm (-6)],
+            Mm 0.5 :| [Mm 0],
+            Just Part.Climb,
+            Part.Allowed
+          )
     it "leaves nothing standing for its own sake unless that is allowed" $
-      fmap (Part.rest . Part.wall) (pocketOf ["pocket edge step 4 { }"]) `shouldBe` Just Part.Refused
+      fmap (Part.rest . Part.wall) (pocketOf ["pocket edge step 4 { }"])
+        `shouldBe` Just Part.Refused
     it "may be called pocket" $
-      fmap Part.apart (pocketOf ["contour pocket closed { ccw circle((0, 0), 40) }", "pocket pocket step 4 { }"]) `shouldBe` Just (Mm 4)
+      fmap
+        Part.apart
+        (pocketOf ["contour pocket closed { ccw circle((0, 0), 40) }", "pocket pocket step 4 { }"])
+        `shouldBe` Just (Mm 4)
     -- The bug: islands that stay where they are when the pocket is turned.
     it "moves with its islands, not with its step" $
       fmap (\p -> (starts (transformed p), Part.apart (transformed p))) whole
         `shouldBe` fmap (\p -> (map (Transformation.point turn) (starts p), Part.apart p)) whole
   describe "mill" $
     it "leaves what it cannot reach when that is allowed" $
-      [Part.rest m | Mill (Located _ m) <- operations ["mill edge inside { rest allowed }", "mill edge inside { }"]] `shouldBe` [Part.Allowed, Part.Refused]
+      [ Part.rest m
+        | Mill (Located _ m) <-
+            operations ["mill edge inside { rest allowed }", "mill edge inside { }"]
+      ]
+        `shouldBe` [Part.Allowed, Part.Refused]
   describe "winding" $ do
-    prop "is the same on the chord of an arc as beside it (catches an arc that goes past a point of its chord on the wrong side)" $
-      forAll ((,,) <$> choose (-9, 9 :: Int) <*> choose (0, 3 :: Int) <*> arbitrary) $ \(k, turns, isReversed) ->
-        let turned q = iterate (\v -> Vec.point (negate (Vec.y v)) (Vec.x v)) q !! turns
-            place x y = turned (Vec.point x y)
-            walk =
-              [ Segment.Arc {Segment.start = place 0 (-10), Segment.end = place 0 10, Segment.centre = place 0 0, Segment.sweep = Rad pi},
-                Segment.Straight (place 0 10) (place (-10) 10),
-                Segment.Straight (place (-10) 10) (place (-10) (-10)),
-                Segment.Straight (place (-10) (-10)) (place 0 (-10))
-              ]
-         in WindingNumber.about (place 0 (fromIntegral k)) (if isReversed then map Segment.reverse walk else walk) === if isReversed then -1 else 1
+    prop
+      "is the same on the chord of an arc as beside it (catches an arc that goes past a point of \
+      \its chord on the wrong side)"
+      $ forAll ((,,) <$> choose (-9, 9 :: Int) <*> choose (0, 3 :: Int) <*> arbitrary) $
+        \(k, turns, isReversed) ->
+          let turned q = iterate (\v -> Vec.point (negate (Vec.y v)) (Vec.x v)) q !! turns
+              place x y = turned (Vec.point x y)
+              walk =
+                [ Segment.Arc
+                    { Segment.start = place 0 (-10),
+                      Segment.end = place 0 10,
+                      Segment.centre = place 0 0,
+                      Segment.sweep = Rad pi
+                    },
+                  Segment.Straight (place 0 10) (place (-10) 10),
+                  Segment.Straight (place (-10) 10) (place (-10) (-10)),
+                  Segment.Straight (place (-10) (-10)) (place 0 (-10))
+                ]
+           in WindingNumber.about
+                (place 0 (fromIntegral k))
+                (if isReversed then map Segment.reverse walk else walk)
+                === if isReversed
+                  then -1
+                  else 1
     -- The bug: an arc that counts like its chord.
-    prop "is that of a chain of many chords (catches the bow of an arc forgotten, or on the wrong side)" $
-      forAll closedCase $ \c -> forAll ((,,,) <$> choose (0, 1000) <*> choose (0, 1) <*> choose (-8, 8) <*> choose (-8, 8)) $ \(k, t, a, b) ->
-        let segments = NonEmpty.toList (Polyarc.segments (contour c))
-            p = Vec.shift (Vec.vec a b) (Segment.at t (segments !! (k `mod` length segments)))
-            chords = concatMap (chorded 64) segments
-            away = minimum (map (Distance.toPoint p) segments)
-         in away > Mm 0.5 ==> WindingNumber.about p segments === WindingNumber.about p chords
+    prop
+      "is that of a chain of many chords (catches the bow of an arc forgotten, or on the wrong \
+      \side)"
+      $ forAll closedCase $ \c ->
+        forAll
+          ((,,,) <$> choose (0, 1000) <*> choose (0, 1) <*> choose (-8, 8) <*> choose (-8, 8))
+          $ \(k, t, a, b) ->
+            let segments = NonEmpty.toList (Polyarc.segments (contour c))
+                p = Vec.shift (Vec.vec a b) (Segment.at t (segments !! (k `mod` length segments)))
+                chords = concatMap (chorded 64) segments
+                away = minimum (map (Distance.toPoint p) segments)
+             in away > Mm 0.5 ==> WindingNumber.about p segments === WindingNumber.about p chords
   where
-    starts p = map (Segment.start . Part.segment . NonEmpty.head . Part.elements) (Part.contour (Part.wall p) : Part.islands p)
+    starts p =
+      map
+        (Segment.start . Part.segment . NonEmpty.head . Part.elements)
+        (Part.contour (Part.wall p) : Part.islands p)
     turn = Transformation.rotation (Rad 0.3) (Vec.point 10 20)
     transformed p = case Transformation.operation turn (Pocket (Located (Region 0 0) p)) of
       Pocket (Located _ q) -> q
       _ -> p
-    asked m = (let Located _ side = Part.side m in side, Part.levels m, Part.allowances m, (\(Located _ s) -> s) <$> Part.sense m, Part.rest m)
+    asked m =
+      ( let Located _ side = Part.side m in side,
+        Part.levels m,
+        Part.allowances m,
+        (\(Located _ s) -> s) <$> Part.sense m,
+        Part.rest m
+      )
 
 -- | A segment as so many straight ones.
 chorded :: Int -> Segment -> [Segment]
@@ -84,9 +138,10 @@ pocketOf statements = case [p | Pocket (Located _ p) <- operations statements] o
   _ -> Nothing
 
 operations :: [Text] -> [Operation]
-operations statements = case Compile.evaluated [] (Compile.alone "pocket.part" (Text.unlines (start <> statements))) of
-  Result {errors = [], output = Just (_, part)} -> Part.operations part
-  _ -> []
+operations statements =
+  case Compile.evaluated [] (Compile.alone "pocket.part" (Text.unlines (start <> statements))) of
+    Result {errors = [], output = Just (_, part)} -> Part.operations part
+    _ -> []
   where
     start =
       [ "part tray",

@@ -1,6 +1,6 @@
--- | The words that choose one of several answers choose the same answer when the drawing is turned and
--- moved, and the other side in a mirror. Random drawings are built in the language itself, as they are and as
--- an image; the program compares the answers, and the reports are the same.
+-- | The words that choose one of several answers choose the same answer when the drawing is turned
+-- and moved, and the other side in a mirror. Random drawings are built in the language itself, as
+-- they are and as an image; the program compares the answers, and the reports are the same.
 module Part.SelectionSpec (spec) where
 
 import Base.Result qualified as Result
@@ -15,19 +15,27 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  describe "an answer turns and moves with the drawing; in a mirror left and right change places (catches a choice that looks at the axes)" $
-    mapM_ law groups
+  describe
+    "an answer turns and moves with the drawing; in a mirror left and right change places (catches \
+    \a choice that looks at the axes)"
+    $ mapM_ law groups
   where
     law (group, kind, calls) =
-      it group . property . forAll ((,,,) <$> drawing <*> turning <*> mirroring <*> elements calls) $ \(plain, turn, mirror, expression) ->
-        let first = answer 0 expression
-            sound = null (codesOf [plain, first])
-            agrees n image call = codesOf ([plain, image, answer n call] <> if sound then [first, same kind n] else []) === codesOf [plain, first]
-         in checkCoverage . cover 20 sound "sound" $
-              conjoin
-                [ counterexample "turned" (agrees 1 (images 1 turn) expression),
-                  counterexample "mirrored" (agrees 2 (images 2 mirror) (exchanged expression))
-                ]
+      it group
+        . property
+        . forAll ((,,,) <$> drawing <*> turning <*> mirroring <*> elements calls)
+        $ \(plain, turn, mirror, expression) ->
+          let first = answer 0 expression
+              sound = null (codesOf [plain, first])
+              agrees n image call =
+                codesOf
+                  ([plain, image, answer n call] <> if sound then [first, same kind n] else [])
+                  === codesOf [plain, first]
+           in checkCoverage . cover 20 sound "sound" $
+                conjoin
+                  [ counterexample "turned" (agrees 1 (images 1 turn) expression),
+                    counterexample "mirrored" (agrees 2 (images 2 mirror) (exchanged expression))
+                  ]
 
 -- | What a construction gives.
 data Kind = Points | Lines | Circles
@@ -35,13 +43,58 @@ data Kind = Points | Lines | Circles
 -- | Constructions of one kind, by what they construct. Things of the drawing end with #.
 groups :: [(String, Kind, [Text])]
 groups =
-  [ ("intersection, with every choice", Points, ["intersection(" <> a <> ", " <> b <> choice <> ")" | (a, b) <- pairs, choice <- choices <> ranks a b]),
-    ("tangency", Points, ["tangency(p#, " <> side <> "c#)" | side <- sides] <> ["tangency(l#, circle(p#, l#))", "tangency(c#, line(p#, left c#))", "tangency(c#, concentric(circle(r, outside c#, p#, near q#), 0))"]),
-    ("foot_of, midpoint, centre_of", Points, ["foot_of(p#, l#)", "midpoint(p#, q#)", "centre_of(c#)", "item_of(row(p#, q# - p#, 3), 3)", "item_of(grid(p#, q# - p#, 2, s# - p#, 2), 4)"]),
-    ("line, with sides", Lines, ["line(" <> a <> ", " <> b <> ")" | a <- ["p#"] <> map (<> "c#") sides, b <- ["q#"] <> map (<> "d#") sides]),
-    ("parallel, perpendicular, reversed", Lines, ["perpendicular(l#, p#)", "parallel(l#, left r)", "parallel(l#, right r)", "parallel(l#, p#)", "reversed(l#)"]),
-    ("circle of a radius, with every side and choice", Circles, ["circle(r, " <> a <> ", " <> b <> choice <> ")" | a <- touched "l#" "c#" "p#", b <- touched "k#" "d#" "q#", choice <- choices <> [", near p#", ", near q#", ", near s#"]]),
-    ("circle, concentric", Circles, ["circle(p#, l#)", "circle(p#, q#, s#)", "concentric(c#, r)", "circle(p#, r)"])
+  [ ( "intersection, with every choice",
+      Points,
+      [ "intersection(" <> a <> ", " <> b <> choice <> ")"
+        | (a, b) <- pairs,
+          choice <- choices <> ranks a b
+      ]
+    ),
+    ( "tangency",
+      Points,
+      ["tangency(p#, " <> side <> "c#)" | side <- sides]
+        <> [ "tangency(l#, circle(p#, l#))",
+             "tangency(c#, line(p#, left c#))",
+             "tangency(c#, concentric(circle(r, outside c#, p#, near q#), 0))"
+           ]
+    ),
+    ( "foot_of, midpoint, centre_of",
+      Points,
+      [ "foot_of(p#, l#)",
+        "midpoint(p#, q#)",
+        "centre_of(c#)",
+        "item_of(row(p#, q# - p#, 3), 3)",
+        "item_of(grid(p#, q# - p#, 2, s# - p#, 2), 4)"
+      ]
+    ),
+    ( "line, with sides",
+      Lines,
+      [ "line(" <> a <> ", " <> b <> ")"
+        | a <- ["p#"] <> map (<> "c#") sides,
+          b <- ["q#"] <> map (<> "d#") sides
+      ]
+    ),
+    ( "parallel, perpendicular, reversed",
+      Lines,
+      [ "perpendicular(l#, p#)",
+        "parallel(l#, left r)",
+        "parallel(l#, right r)",
+        "parallel(l#, p#)",
+        "reversed(l#)"
+      ]
+    ),
+    ( "circle of a radius, with every side and choice",
+      Circles,
+      [ "circle(r, " <> a <> ", " <> b <> choice <> ")"
+        | a <- touched "l#" "c#" "p#",
+          b <- touched "k#" "d#" "q#",
+          choice <- choices <> [", near p#", ", near q#", ", near s#"]
+      ]
+    ),
+    ( "circle, concentric",
+      Circles,
+      ["circle(p#, l#)", "circle(p#, q#, s#)", "concentric(c#, r)", "circle(p#, r)"]
+    )
   ]
   where
     pairs = [("l#", "k#"), ("l#", "c#"), ("c#", "l#"), ("c#", "d#")]
@@ -58,34 +111,62 @@ drawing = do
   r <- radius
   pure . Text.unlines $
     zipWith (\n p -> "let " <> n <> "0 = " <> p) ["p", "q", "s"] ps
-      <> zipWith3 (\n a b -> "let " <> n <> "0 = line(" <> a <> ", " <> b <> ")") ["l", "k", "m1"] (drop 3 ps) (drop 6 ps)
-      <> zipWith3 (\n a r' -> "let " <> n <> "0 = circle(" <> a <> ", " <> tenths r' <> ")") ["c", "d", "e"] (drop 9 ps) rs
+      <> zipWith3
+        (\n a b -> "let " <> n <> "0 = line(" <> a <> ", " <> b <> ")")
+        ["l", "k", "m1"]
+        (drop 3 ps)
+        (drop 6 ps)
+      <> zipWith3
+        (\n a r' -> "let " <> n <> "0 = circle(" <> a <> ", " <> tenths r' <> ")")
+        ["c", "d", "e"]
+        (drop 9 ps)
+        rs
       <> ["let r = " <> tenths r <> " mm"]
   where
     radius = choose (2, 250)
-    point = (\x y -> "(" <> tenths x <> ", " <> tenths y <> ")") <$> choose (-300, 300) <*> choose (-300, 300)
+    point =
+      (\x y -> "(" <> tenths x <> ", " <> tenths y <> ")")
+        <$> choose (-300, 300) <*> choose (-300, 300)
 
 -- | A turn about (0, 0) and a move, as a call.
 turning :: Gen Text
-turning = (\a x y -> "moved(rotated(x, " <> tenths a <> " deg), (" <> tenths x <> ", " <> tenths y <> "))") <$> choose (0, 3600) <*> choose (-500, 500) <*> choose (-500, 500)
+turning =
+  (\a x y -> "moved(rotated(x, " <> tenths a <> " deg), (" <> tenths x <> ", " <> tenths y <> "))")
+    <$> choose (0, 3600) <*> choose (-500, 500) <*> choose (-500, 500)
 
 -- | A mirror, as a call.
 mirroring :: Gen Text
-mirroring = (\a x -> "mirrored(x, line((" <> tenths x <> ", 0), " <> tenths a <> " deg))") <$> choose (0, 3600) <*> choose (-500, 500)
+mirroring =
+  (\a x -> "mirrored(x, line((" <> tenths x <> ", 0), " <> tenths a <> " deg))")
+    <$> choose (0, 3600) <*> choose (-500, 500)
 
 -- | The image of a drawing.
 images :: Int -> Text -> Text
-images n call = Text.unlines (("let image" <> number n <> "(x) = " <> call) : ["let " <> name <> number n <> " = image" <> number n <> "(" <> name <> "0)" | name <- ["p", "q", "s", "l", "k", "m1", "c", "d", "e"]])
+images n call =
+  Text.unlines
+    ( ("let image" <> number n <> "(x) = " <> call) :
+        [ "let " <> name <> number n <> " = image" <> number n <> "(" <> name <> "0)"
+          | name <- ["p", "q", "s", "l", "k", "m1", "c", "d", "e"]
+        ]
+    )
 
 number :: Int -> Text
 number = Text.pack . show
 
 tenths :: Int -> Text
-tenths n = (if n < 0 then "-" else "") <> Text.pack (show (abs n `div` 10)) <> "." <> Text.pack (show (abs n `mod` 10))
+tenths n =
+  (if n < 0 then "-" else "")
+    <> Text.pack (show (abs n `div` 10))
+    <> "."
+    <> Text.pack (show (abs n `mod` 10))
 
 -- | For the drawing in the mirror; a perpendicular is turned to the left there as well.
 exchanged :: Text -> Text
-exchanged = Text.replace "perpendicular(l#, p#)" "reversed(perpendicular(l#, p#))" . Text.replace "LEFT" "left" . Text.replace "left" "right" . Text.replace "right" "LEFT"
+exchanged =
+  Text.replace "perpendicular(l#, p#)" "reversed(perpendicular(l#, p#))"
+    . Text.replace "LEFT" "left"
+    . Text.replace "left" "right"
+    . Text.replace "right" "LEFT"
 
 answer :: Int -> Text -> Text
 answer n e = "let answer" <> number n <> " = " <> Text.replace "#" (number n) e
@@ -95,7 +176,11 @@ same :: Kind -> Int -> Text
 same kind n = Text.unlines $ case kind of
   Points -> ["assert distance(" <> there <> ", " <> image <> ") < 0.0001"]
   Lines ->
-    [ "assert distance(foot_of((0, 0), " <> there <> "), foot_of((0, 0), " <> image <> ")) < 0.0001",
+    [ "assert distance(foot_of((0, 0), "
+        <> there
+        <> "), foot_of((0, 0), "
+        <> image
+        <> ")) < 0.0001",
       "assert cos(direction_of(" <> there <> ") - direction_of(" <> image <> ")) > 0.999999",
       "assert length_of(" <> there <> ") = length_of(" <> image <> ") within 0.0001"
     ]

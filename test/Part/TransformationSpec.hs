@@ -1,4 +1,5 @@
--- | The laws of transformations: what is machined on the transformed part is the transformed machining.
+-- | The laws of transformations: what is machined on the transformed part is the transformed
+-- machining.
 module Part.TransformationSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -33,59 +34,129 @@ spec = do
     it "one behind the other are one (catches angles added where a mirror stands between)" $
       property $
         forAll ((,,) <$> similarity <*> similarity <*> somePoint) $ \(a, b, p) ->
-          Transformation.point b (Transformation.point a p) `shouldBeNear` Transformation.point (Transformation.after b a) p
+          Transformation.point b (Transformation.point a p)
+            `shouldBeNear` Transformation.point (Transformation.after b a) p
     it "move the middle of an arc with it (catches an arc that keeps its sense in a mirror)" $
       property $
         forAll ((,) <$> similarity <*> Generate.closedCase) $ \(s, c) ->
-          conjoin [Segment.at t (Transformation.segment s g) `shouldBeNear` Transformation.point s (Segment.at t g) | g <- segmentsOf c, t <- [0.2, 0.5, 0.9]]
+          conjoin
+            [ Segment.at t (Transformation.segment s g)
+                `shouldBeNear` Transformation.point s (Segment.at t g)
+              | g <- segmentsOf c,
+                t <- [0.2, 0.5, 0.9]
+            ]
   describe "the path" $ do
-    it "of a milling transformed is the path transformed (catches a side that a mirror does not swap, a lead on the other side)" $
-      property $
-        forAll ((,) <$> motion <*> (Generate.settings <*> (millingOf <$> Generate.closedCase))) $ \(s, job) ->
-          case (laid job, laidOperation (Transformation.point s (beginning job)) (Transformation.operation s (Mill (here job)))) of
-            (Just before, Just after) -> conjoin (zipWith (sameMove s) before after) .&&. length before === length after
-            (Nothing, Nothing) -> property True
-            (a, b) -> counterexample (show (fmap length a, fmap length b)) False
+    it
+      "of a milling transformed is the path transformed (catches a side that a mirror does not \
+      \swap, a lead on the other side)"
+      $ property $
+        forAll ((,) <$> motion <*> (Generate.settings <*> (millingOf <$> Generate.closedCase))) $
+          \(s, job) ->
+            case ( laid job,
+                   laidOperation
+                     (Transformation.point s (beginning job))
+                     (Transformation.operation s (Mill (here job)))
+                 ) of
+              (Just before, Just after) ->
+                conjoin (zipWith (sameMove s) before after) .&&. length before === length after
+              (Nothing, Nothing) -> property True
+              (a, b) -> counterexample (show (fmap length a, fmap length b)) False
     it "with an allowance is that of a larger cutter (catches an allowance taken off)" $
       property $
         forAll ((,) <$> Generate.closedCase <*> choose (0.01, 0.4)) $ \(c, d) ->
           let job = millingOf c
               Mm r = Part.radius job
-           in fmap (map Toolpath.segment) (laid job {Part.allowances = Mm d :| []}) === fmap (map Toolpath.segment) (laid job {Part.radius = Mm (r + d)})
-    it "climbs with the material on the right, whichever way the contour is walked (catches the senses exchanged)" $
-      property $
+           in fmap (map Toolpath.segment) (laid job {Part.allowances = Mm d :| []})
+                === fmap (map Toolpath.segment) (laid job {Part.radius = Mm (r + d)})
+    it
+      "climbs with the material on the right, whichever way the contour is walked (catches the \
+      \senses exchanged)"
+      $ property $
         forAll Generate.closedCase $ \c ->
-          let job = (millingOf c) {Part.sense = Just (here Part.Climb), Part.side = here (if isOutside c then Part.Outside else Part.Inside)}
+          let job =
+                (millingOf c)
+                  { Part.sense = Just (here Part.Climb),
+                    Part.side = here (if isOutside c then Part.Outside else Part.Inside)
+                  }
            in case laid job of
                 Nothing -> property Discard
-                Just moves -> let g = Toolpath.segment (longest moves) in counterexample (show g) (materialRight c g)
+                Just moves ->
+                  let g =
+                        Toolpath.segment (longest moves)
+                   in counterexample (show g) (materialRight c g)
   describe "a contour" $ do
     it "begun elsewhere is the same contour (catches a piece lost or walked twice)" $
       property $
         forAll ((,) <$> Generate.closedCase <*> somePoint) $ \(c, p) ->
           let before = Part.contour (millingOf c)
               after = ContourElement.startingNear p before
-              total k = sum [l | e <- NonEmpty.toList (Part.elements k), let Mm l = Segment.length (Part.segment e)]
+              total k =
+                sum
+                  [ l
+                    | e <- NonEmpty.toList (Part.elements k),
+                      let Mm l = Segment.length (Part.segment e)
+                  ]
               begin = Segment.start (Part.segment (NonEmpty.head (Part.elements after)))
-              joined = and [Vec.near (Segment.end (Part.segment a)) (Segment.start (Part.segment b)) | (a, b) <- zip es (drop 1 es <> take 1 es)]
+              joined =
+                and
+                  [ Vec.near (Segment.end (Part.segment a)) (Segment.start (Part.segment b))
+                    | (a, b) <- zip es (drop 1 es <> take 1 es)
+                  ]
               es = NonEmpty.toList (Part.elements after)
               Mm reached = Vec.distance p begin
-              nearest = minimum [d | g <- segmentsOf c, k <- [0 .. 200 :: Int], let Mm d = Vec.distance p (Segment.at (fromIntegral k / 200) g)]
-           in counterexample (show (begin, reached, nearest)) (abs (total before - total after) < 1e-6 && joined && reached <= nearest + 1e-6)
-    it "built on transformed points is the contour transformed (catches a construction that looks at the axes)" $
-      property $
+              nearest =
+                minimum
+                  [ d
+                    | g <- segmentsOf c,
+                      k <- [0 .. 200 :: Int],
+                      let Mm d = Vec.distance p (Segment.at (fromIntegral k / 200) g)
+                  ]
+           in counterexample
+                (show (begin, reached, nearest))
+                (abs (total before - total after) < 1e-6 && joined && reached <= nearest + 1e-6)
+    it
+      "built on transformed points is the contour transformed (catches a construction that looks \
+      \at the axes)"
+      $ property $
         forAll ((,) <$> angles <*> corners) $ \((a, x, y), ps) ->
           let plain = contourOf id ps
-              turned = contourOf (\p -> "rotated(moved(" <> p <> ", (" <> number x <> ", " <> number y <> ")), " <> number a <> " deg)") ps
-              s = Transformation.after (Transformation.rotation (Rad (a * pi / 180)) (Vec.point 0 0)) (Transformation.translation (Vec.vec x y))
-           in counterexample (Text.unpack (program turned)) $ case (elementsOf (program plain), elementsOf (program turned), elementsOf (program plain <> moved a x y)) of
-                (Just before, Just after, Just after') ->
-                  conjoin (zipWith (sameSegment s) before after)
-                    .&&. length before === length after
-                    .&&. conjoin (zipWith (sameSegment s) before (drop (length before) after'))
-                (b, t, _) -> fmap length b === fmap length t
+              turned =
+                contourOf
+                  ( \p ->
+                      "rotated(moved("
+                        <> p
+                        <> ", ("
+                        <> number x
+                        <> ", "
+                        <> number y
+                        <> ")), "
+                        <> number a
+                        <> " deg)"
+                  )
+                  ps
+              s =
+                Transformation.after
+                  (Transformation.rotation (Rad (a * pi / 180)) (Vec.point 0 0))
+                  (Transformation.translation (Vec.vec x y))
+           in counterexample (Text.unpack (program turned)) $
+                case ( elementsOf (program plain),
+                       elementsOf (program turned),
+                       elementsOf (program plain <> moved a x y)
+                     ) of
+                  (Just before, Just after, Just after') ->
+                    conjoin (zipWith (sameSegment s) before after)
+                      .&&. length before === length after
+                      .&&. conjoin (zipWith (sameSegment s) before (drop (length before) after'))
+                  (b, t, _) -> fmap length b === fmap length t
   where
-    moved a x y = "contour d open { rotated(moved(k, (" <> number x <> ", " <> number y <> ")), " <> number a <> " deg) }\n"
+    moved a x y =
+      "contour d open { rotated(moved(k, ("
+        <> number x
+        <> ", "
+        <> number y
+        <> ")), "
+        <> number a
+        <> " deg) }\n"
 
 here :: a -> Located a
 here = Located (Region 0 0)
@@ -109,7 +180,12 @@ motion =
     ]
 
 similarity :: Gen Transformation
-similarity = oneof [motion, Transformation.scaling <$> choose (0.2, 4) <*> somePoint, Transformation.after <$> motion <*> (Transformation.scaling <$> choose (0.2, 4) <*> somePoint)]
+similarity =
+  oneof
+    [ motion,
+      Transformation.scaling <$> choose (0.2, 4) <*> somePoint,
+      Transformation.after <$> motion <*> (Transformation.scaling <$> choose (0.2, 4) <*> somePoint)
+    ]
 
 -- Millings
 
@@ -128,7 +204,10 @@ beginning job = Segment.start (Part.segment (NonEmpty.head (Part.elements (Part.
 
 -- | The cuts and leads of an operation; ways in that cut are no concern here.
 laidOperation :: Point -> Operation -> Maybe [Toolpath.Move]
-laidOperation at operation = fmap (concatMap cuts . Toolpath.blocks) (Result.output (FromPart.lay (Generate.partOf at operation)))
+laidOperation at operation =
+  fmap
+    (concatMap cuts . Toolpath.blocks)
+    (Result.output (FromPart.lay (Generate.partOf at operation)))
   where
     cuts b = case b of
       Toolpath.Cutting {Toolpath.cut, Toolpath.retract} -> NonEmpty.toList cut <> retract
@@ -138,7 +217,9 @@ sameMove :: Transformation -> Toolpath.Move -> Toolpath.Move -> Property
 sameMove s a b = sameSegment s (Toolpath.segment a) (Toolpath.segment b)
 
 sameSegment :: Transformation -> Segment -> Segment -> Property
-sameSegment s a b = conjoin [Segment.at t b `shouldBeNear` Transformation.point s (Segment.at t a) | t <- [0, 0.3, 0.7, 1]]
+sameSegment s a b =
+  conjoin
+    [Segment.at t b `shouldBeNear` Transformation.point s (Segment.at t a) | t <- [0, 0.3, 0.7, 1]]
 
 -- | Whether the cutter stands outside of the contour.
 isOutside :: Case -> Bool
@@ -154,7 +235,16 @@ materialRight :: Case -> Segment -> Bool
 materialRight c g = Vec.cross (Segment.directionAt 0.5 g) (Vec.to middle foot) < 0
   where
     middle = Segment.at 0.5 g
-    foot = snd (minimum' [(d, q) | h <- segmentsOf c, k <- [0 .. 400 :: Int], let q = Segment.at (fromIntegral k / 400) h, let Mm d = Vec.distance middle q])
+    foot =
+      snd
+        ( minimum'
+            [ (d, q)
+              | h <- segmentsOf c,
+                k <- [0 .. 400 :: Int],
+                let q = Segment.at (fromIntegral k / 400) h,
+                let Mm d = Vec.distance middle q
+            ]
+        )
     minimum' = foldr1 (\a b -> if fst a <= fst b then a else b)
 
 -- Programs
@@ -174,7 +264,8 @@ corners = do
     corner n k = do
       r <- choose (60, 70)
       j <- choose (0, 0.3)
-      link <- elements ["", " fillet -4", " fillet -9.5", " chamfer 3", " feed 30 fillet -2", " slow"]
+      link <-
+        elements ["", " fillet -4", " fillet -9.5", " chamfer 3", " feed 30 fillet -2", " slow"]
       let a = 2 * pi * (fromIntegral k + j) / fromIntegral n
       pure (r * cos a, r * sin a, link)
 
@@ -183,7 +274,9 @@ contourOf :: (Text -> Text) -> [(Double, Double, Text)] -> Text
 contourOf write ps =
   Text.unlines
     ( ["contour k open {"]
-        <> ["  line(" <> at p <> ", " <> at q <> ")" <> (if k + 1 < length edges then link else "") | (k, (p, q@(_, _, link))) <- zip [0 ..] edges]
+        <> [ "  line(" <> at p <> ", " <> at q <> ")" <> (if k + 1 < length edges then link else "")
+             | (k, (p, q@(_, _, link))) <- zip [0 ..] edges
+           ]
         <> ["}"]
     )
   where
@@ -193,7 +286,11 @@ contourOf write ps =
 number :: Double -> Text
 number x = Text.pack (if x < 0 then '-' : digits (-x) else digits x)
   where
-    digits d = let n = round (d * 1e6) :: Integer; (w, f) = n `divMod` 1000000 in show w <> "." <> replicate (6 - length (show f)) '0' <> show f
+    digits d =
+      let n =
+            round (d * 1e6) :: Integer
+          (w, f) = n `divMod` 1000000
+       in show w <> "." <> replicate (6 - length (show f)) '0' <> show f
 
 program :: Text -> Text
 program text = "part p\n" <> text
@@ -201,5 +298,8 @@ program text = "part p\n" <> text
 -- | The elements of all contours of a program.
 elementsOf :: Text -> Maybe [Segment]
 elementsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
-  r | null (Result.errors r) -> concatMap (map Part.segment . NonEmpty.toList . Part.elements) . Part.contours . Compile.part <$> Result.output r
+  r
+    | null (Result.errors r) ->
+      concatMap (map Part.segment . NonEmpty.toList . Part.elements) . Part.contours . Compile.part
+        <$> Result.output r
   _ -> Nothing

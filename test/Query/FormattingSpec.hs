@@ -12,12 +12,14 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  prop "the change makes the new text of the old one" . forAll ((,) <$> text' <*> text') $ \(old, new) ->
-    maybe old (applied old) (Formatting.change old new) === new
+  prop "the change makes the new text of the old one" . forAll ((,) <$> text' <*> text') $
+    \(old, new) ->
+      maybe old (applied old) (Formatting.change old new) === new
   prop "there is no change between a text and itself" . forAll text' $ \text ->
     Formatting.change text text === Nothing
   it "only the lines that differ change" $
-    Formatting.change "a\nb  \nc\n" "a\nb\nc\n" `shouldBe` Just Change {place = Region 2 6, put = "b\n"}
+    Formatting.change "a\nb  \nc\n" "a\nb\nc\n"
+      `shouldBe` Just Change {place = Region 2 6, put = "b\n"}
 
 applied :: Text -> Change -> Text
 applied old (Change (Region from to) new) = Text.take from old <> new <> Text.drop to old

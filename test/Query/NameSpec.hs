@@ -25,7 +25,8 @@ spec = do
       hovered "let f(x) = ^x\n" `shouldBe` Just ("x", Nothing)
       hovered "let b = ^sqrt(4)\n" `shouldBe` Just ("sqrt", Nothing)
     it "says nothing of numbers, words of the language and unknown names" $
-      map hovered ["let b = ^4\n", "^let b = 4\n", "let b = ^c\n"] `shouldBe` [Nothing, Nothing, Nothing]
+      map hovered ["let b = ^4\n", "^let b = 4\n", "let b = ^c\n"]
+        `shouldBe` [Nothing, Nothing, Nothing]
   describe "definition" $ do
     it "leads from a use to the name that is defined" $
       defined "let a = 1\nlet b = ^a\n" `shouldBe` Just "a@4"
@@ -33,14 +34,16 @@ spec = do
       defined "let a = 1\nlet f(a) = ^a\n" `shouldBe` Just "a@16"
       defined "let f(a) = a\nlet a = 1\nlet b = ^a\n" `shouldBe` Just "a@17"
     it "leads into the list of a repetition" $
-      defined "contour k closed {\n  for a in [1] {\n    cw circle((^a, 0), 1)\n  }\n}\n" `shouldBe` Just "a@25"
+      defined "contour k closed {\n  for a in [1] {\n    cw circle((^a, 0), 1)\n  }\n}\n"
+        `shouldBe` Just "a@25"
     it "names of the language have none" $
       defined "let b = ^pi\n" `shouldBe` Nothing
   describe "while the text is broken" $ do
     it "a definition that cannot be read is what it was" $ do
       let sound = header <> "let aa = 41 mm\nlet b = aa\n"
           text = header <> "let aa = (41 mm\nlet b = aa\n"
-      (Name.hover (look text) (Just (look sound)) (offsetOf "= aa" text + 2) >>= value) `shouldBe` Just "41 mm"
+      (Name.hover (look text) (Just (look sound)) (offsetOf "= aa" text + 2) >>= value)
+        `shouldBe` Just "41 mm"
     it "the last sound text answers for names that lie outside the change" $ do
       let sound = header <> "let aa = 1\nlet f(x) = x + aa\nlet c = 2\n"
           text = header <> "let aa = 1\nlet f(x = x + aa\nlet c = 2\n"
@@ -48,7 +51,9 @@ spec = do
       fmap region asked `shouldBe` Just (Region (offsetOf "aa" text) (offsetOf "aa" text + 2))
 
 header :: Text
-header = "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, 0)\n"
+header =
+  "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, \
+  \0)\n"
 
 look :: Text -> Snapshot
 look = Snapshot.take (Cli.checked []) . Compile.alone "a.part"
@@ -58,11 +63,14 @@ offsetOf word = Text.length . fst . Text.breakOn word
 
 -- | The name and the value at the place that is marked.
 hovered :: Text -> Maybe (Text, Maybe Text)
-hovered marked = (\h -> (name h, value h)) <$> Name.hover (look (Text.replace "^" "" marked)) Nothing (offsetOf "^" marked)
+hovered marked =
+  (\h -> (name h, value h))
+    <$> Name.hover (look (Text.replace "^" "" marked)) Nothing (offsetOf "^" marked)
 
 -- | The definition of the name at the place that is marked: its text and its offset.
 defined :: Text -> Maybe Text
 defined marked = said . region <$> Name.definition (look text) Nothing (offsetOf "^" marked)
   where
     text = Text.replace "^" "" marked
-    said (Region from to) = Text.take (to - from) (Text.drop from text) <> "@" <> Text.pack (show from)
+    said (Region from to) =
+      Text.take (to - from) (Text.drop from text) <> "@" <> Text.pack (show from)

@@ -11,20 +11,26 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  prop "what is carried forward holds the same text" . forAll ((,) <$> text' <*> text') $ \(old, new) ->
-    forAll (stretch old) $ \region -> case RegionMap.forward (RegionMap.between old new) region of
-      Nothing -> property True
-      Just there -> slice new there === slice old region
+  prop "what is carried forward holds the same text" . forAll ((,) <$> text' <*> text') $
+    \(old, new) ->
+      forAll (stretch old) $ \region -> case RegionMap.forward (RegionMap.between old new) region of
+        Nothing -> property True
+        Just there -> slice new there === slice old region
   prop "back undoes forward" . forAll ((,) <$> text' <*> text') $ \(old, new) ->
-    forAll (stretch old) $ \(Region from to) -> case RegionMap.forward (RegionMap.between old new) (Region from to) of
-      Just (Region there _) | from < to -> RegionMap.back (RegionMap.between old new) there === Just from
-      _ -> property True
+    forAll (stretch old) $ \(Region from to) ->
+      case RegionMap.forward (RegionMap.between old new) (Region from to) of
+        Just (Region there _)
+          | from < to ->
+            RegionMap.back (RegionMap.between old new) there === Just from
+        _ -> property True
   prop "in the same text everything stays" . forAll text' $ \text ->
-    forAll (stretch text) $ \region -> RegionMap.forward (RegionMap.between text text) region === Just region
+    forAll (stretch text) $ \region ->
+      RegionMap.forward (RegionMap.between text text) region === Just region
   it "a word that grows is another word" $
     RegionMap.forward (RegionMap.between "let ab = 1" "let abc = 1") (Region 4 6) `shouldBe` Nothing
   it "the words beside it are the same" $
-    RegionMap.forward (RegionMap.between "let ab = cd" "let abc = cd") (Region 9 11) `shouldBe` Just (Region 10 12)
+    RegionMap.forward (RegionMap.between "let ab = cd" "let abc = cd") (Region 9 11)
+      `shouldBe` Just (Region 10 12)
 
 text' :: Gen Text
 text' = Text.pack <$> listOf (elements "ab 🙂\n")

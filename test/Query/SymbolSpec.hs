@@ -27,7 +27,8 @@ spec = do
     map name (outline "part p\nlet a = (1,\nlet b = 2\n") `shouldBe` ["p", "a", "b"]
   it "every name lies within its statement" $ do
     text <- readText "examples/flange.part"
-    [s | s <- outline text, let { Region from to = selection s }, from < start (whole s) || to > end (whole s)] `shouldBe` []
+    [s | s <- outline text, let Region from to = selection s, from < start (whole s) || to > end (whole s)]
+      `shouldBe` []
 
 outline :: Text -> [DocumentSymbol]
 outline text = Symbol.symbols (Snapshot.take (Cli.checked []) (Compile.alone "a.part" text))

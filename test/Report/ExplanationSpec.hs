@@ -28,11 +28,84 @@ raisedElsewhere :: [(String, [Text])]
 raisedElsewhere =
   [ ("a program that no page holds", ["E0116"]),
     ("a tape", ["E0601"]),
-    ("an input sheet", ["E0901", "E0902", "E0903", "E0904", "E0905", "E0906", "E0907", "E0908", "E0909", "E0910", "E0911", "E0912", "E0913", "E0914"]),
-    ("a program that is to become a sheet", ["E0921", "E0922", "E0923", "E0924", "E0925", "E0926", "E0927"]),
-    ("the description of a machine", ["E1001", "E1002", "E1003", "E1004", "E1005", "E1006", "E1007", "E1008", "E1009", "E1010", "E1011", "E1012", "E1013", "E1014"]),
-    ("a tape and its program", ["E0701", "E0702", "E0703", "E0704", "E0705", "E0706", "E0707", "E0708", "E0709", "E0710", "E0711", "E0712", "E0713", "E0714", "E0715"]),
-    ("files and the command line", ["E0112", "E0113", "E0114", "E0115", "E0117", "E0118", "E0119", "E0801", "E0802", "E0803", "E0804", "E0805", "E0806", "E0807", "E0808", "E0809", "E0810", "E0811", "E0812", "W0801"])
+    ( "an input sheet",
+      [ "E0901",
+        "E0902",
+        "E0903",
+        "E0904",
+        "E0905",
+        "E0906",
+        "E0907",
+        "E0908",
+        "E0909",
+        "E0910",
+        "E0911",
+        "E0912",
+        "E0913",
+        "E0914"
+      ]
+    ),
+    ( "a program that is to become a sheet",
+      ["E0921", "E0922", "E0923", "E0924", "E0925", "E0926", "E0927"]
+    ),
+    ( "the description of a machine",
+      [ "E1001",
+        "E1002",
+        "E1003",
+        "E1004",
+        "E1005",
+        "E1006",
+        "E1007",
+        "E1008",
+        "E1009",
+        "E1010",
+        "E1011",
+        "E1012",
+        "E1013",
+        "E1014"
+      ]
+    ),
+    ( "a tape and its program",
+      [ "E0701",
+        "E0702",
+        "E0703",
+        "E0704",
+        "E0705",
+        "E0706",
+        "E0707",
+        "E0708",
+        "E0709",
+        "E0710",
+        "E0711",
+        "E0712",
+        "E0713",
+        "E0714",
+        "E0715"
+      ]
+    ),
+    ( "files and the command line",
+      [ "E0112",
+        "E0113",
+        "E0114",
+        "E0115",
+        "E0117",
+        "E0118",
+        "E0119",
+        "E0801",
+        "E0802",
+        "E0803",
+        "E0804",
+        "E0805",
+        "E0806",
+        "E0807",
+        "E0808",
+        "E0809",
+        "E0810",
+        "E0811",
+        "E0812",
+        "W0801"
+      ]
+    )
   ]
 
 -- | Where the Minsk-22 system stopped, an explanation says so just as the report does.
@@ -47,16 +120,22 @@ spec = do
     it "explains every code that there is, and no other" $ do
       codes <- Codes.inSources
       let explained = Set.fromList (map (Text.pack . dropExtension) names)
-      ["the code " <> c <> " lacks an explanation: write explain/" <> c <> ".md" | c <- Set.toList (Set.difference codes explained)] `shouldBe` []
-      ["no report has the code " <> c <> ": explain/" <> c <> ".md explains nothing" | c <- Set.toList (Set.difference explained codes)] `shouldBe` []
-    it "has one form: # CODE: title, paragraphs, a block of ```part wrong or ```text wrong, and one with right" $
-      [file <> " is not of this form" | file <- lefts found] `shouldBe` []
+      ["the code " <> c <> " lacks an explanation: write explain/" <> c <> ".md" | c <- Set.toList (Set.difference codes explained)]
+        `shouldBe` []
+      ["no report has the code " <> c <> ": explain/" <> c <> ".md explains nothing" | c <- Set.toList (Set.difference explained codes)]
+        `shouldBe` []
+    it
+      "has one form: # CODE: title, paragraphs, a block of ```part wrong or ```text wrong, and one \
+      \with right"
+      $ [file <> " is not of this form" | file <- lefts found] `shouldBe` []
     it "is in the program as it is" $ do
       contents <- traverse (ByteString.readFile . ("explain" </>)) names
       sort (map fst Embedded.files) `shouldBe` names
-      [file | (file, content) <- zip names contents, lookup file Embedded.files /= Just content] `shouldBe` []
+      [file | (file, content) <- zip names contents, lookup file Embedded.files /= Just content]
+        `shouldBe` []
     it "fits a terminal of 80 columns" $
-      [(code e, l) | e <- rights found, l <- Text.lines (Explanation.render e), Text.length l > 80] `shouldBe` []
+      [(code e, l) | e <- rights found, l <- Text.lines (Explanation.render e), Text.length l > 80]
+        `shouldBe` []
   describe "explanations" $
     forM_ (rights found) $ \e -> do
       let ReportCode c = code e
@@ -68,20 +147,24 @@ spec = do
             let reports = reportsOn (wrong e)
             nub (map Report.code reports) `shouldBe` [code e]
             map Report.place reports `shouldSatisfy` all isInSource
-            [stop | stop <- controlStops, any (any (Text.isInfixOf stop) . Report.message) reports /= Text.isInfixOf stop (prose e)] `shouldBe` []
+            [stop | stop <- controlStops, any (any (Text.isInfixOf stop) . Report.message) reports /= Text.isInfixOf stop (prose e)]
+              `shouldBe` []
             -- Whoever drills hears on this machine that its source tells of no moves in z.
-            [Report.title r | r <- reportsOn (right e), Report.isError r || Report.code r == code e || Report.code r `notElem` ["W0503", "W0504"]] `shouldBe` []
+            [Report.title r | r <- reportsOn (right e), Report.isError r || Report.code r == code e || Report.code r `notElem` ["W0503", "W0504"]]
+              `shouldBe` []
   describe "find" $ do
     let codes = [c | e <- Explanation.everything, let ReportCode c = code e]
         asked word = [c | e <- Explanation.find word, let ReportCode c = code e]
     it "finds every code as a report writes it" $
       [c | c <- codes, asked c /= [c] || asked ("error[" <> c <> "]") /= [c]] `shouldBe` []
     it "does not mind small letters, missing zeros and spaces" $
-      map asked ["e0314", " E314 ", "314", "w501", "0314"] `shouldBe` [["E0314"], ["E0314"], ["E0314"], ["W0501"], ["E0314"]]
+      map asked ["e0314", " E314 ", "314", "w501", "0314"]
+        `shouldBe` [["E0314"], ["E0314"], ["E0314"], ["W0501"], ["E0314"]]
     it "finds both when only the letter tells them apart" $
       asked "501" `shouldBe` ["E0501", "W0501"]
     it "finds nothing in other words" $
-      map asked ["", "E", "E9999", "EE314", "E03l4", "E31415", "E00000314 5"] `shouldBe` replicate 7 []
+      map asked ["", "E", "E9999", "EE314", "E03l4", "E31415", "E00000314 5"]
+        `shouldBe` replicate 7 []
   describe "near" $ do
     it "exchanges digits" $
       take 1 (Explanation.near "E0250") `shouldBe` ["E0205"]
@@ -92,7 +175,8 @@ spec = do
     it "offers nothing for what is no code" $
       map Explanation.near ["", "tangent", "E9999"] `shouldBe` [[], [], []]
   where
-    readOne file = maybe (Left file) Right . Explanation.parse file <$> readText ("explain" </> file)
+    readOne file =
+      maybe (Left file) Right . Explanation.parse file <$> readText ("explain" </> file)
     languageOf (Example language _) = language
     reportsOn (Example _ text) = Reports.onProgram (Region.fromText "example" text)
     isInSource place = case place of

@@ -14,7 +14,14 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Report.Explanation (Example (..))
 import Report.Explanation qualified as Explanation
-import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..), report)
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode (..),
+    ReportPlace (..),
+    Severity (..),
+    report,
+  )
 import Report.Sarif (Filed (Filed))
 import Report.Sarif qualified as Sarif
 import Reports qualified
@@ -47,29 +54,60 @@ spec = do
           ids = [i | r <- items rules, Just i <- [textAt r "id"]]
           results = items (log' `at` "runs" `at` "results")
       length ids `shouldSatisfy` (> 60)
-      [textAt r "ruleId" | r <- results] `shouldBe` [Just (ids !! i) | r <- results, Aeson.Success i <- [Aeson.fromJSON (r `at` "ruleIndex")]]
+      [textAt r "ruleId" | r <- results]
+        `shouldBe` [ Just (ids !! i)
+                     | r <- results,
+                       Aeson.Success i <- [Aeson.fromJSON (r `at` "ruleIndex")]
+                   ]
     it "counts columns in characters, and ends behind the last one" $
-      let region = head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "locations" `at` "physicalLocation" `at` "region"
-       in region `shouldBe` object ["startLine" .= (2 :: Int), "startColumn" .= (5 :: Int), "endLine" .= (2 :: Int), "endColumn" .= (8 :: Int)]
+      let region =
+            head (items (decoded (logged [inProgram]) `at` "runs" `at` "results"))
+              `at` "locations"
+              `at` "physicalLocation"
+              `at` "region"
+       in region
+            `shouldBe` object
+              [ "startLine" .= (2 :: Int),
+                "startColumn" .= (5 :: Int),
+                "endLine" .= (2 :: Int),
+                "endColumn" .= (8 :: Int)
+              ]
     it "has the row of a tape as a byte of it" $
-      head (items (decoded (logged [onTape]) `at` "runs" `at` "results")) `at` "locations" `at` "physicalLocation"
-        `shouldBe` object ["artifactLocation" .= object ["uri" .= ("x.tape" :: Text)], "region" .= object ["byteOffset" .= (299 :: Int), "byteLength" .= (1 :: Int)]]
+      head (items (decoded (logged [onTape]) `at` "runs" `at` "results"))
+        `at` "locations"
+        `at` "physicalLocation"
+        `shouldBe` object
+          [ "artifactLocation" .= object ["uri" .= ("x.tape" :: Text)],
+            "region" .= object ["byteOffset" .= (299 :: Int), "byteLength" .= (1 :: Int)]
+          ]
     it "has no place when there is no file" $
-      head (items (decoded (logged [onNothing]) `at` "runs" `at` "results")) `at` "locations" `shouldBe` Aeson.toJSON ([] :: [Value])
+      head (items (decoded (logged [onNothing]) `at` "runs" `at` "results"))
+        `at` "locations" `shouldBe` Aeson.toJSON ([] :: [Value])
     it "doubles braces, which would be placeholders" $
       head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "message"
-        `shouldBe` object ["text" .= ("found ‘{{’\nOne sentence.\nhint: mill c outside {{ }}" :: Text)]
+        `shouldBe` object
+          ["text" .= ("found ‘{{’\nOne sentence.\nhint: mill c outside {{ }}" :: Text)]
     it "has the other places with their words" $
-      items (head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "relatedLocations")
+      items
+        ( head (items (decoded (logged [inProgram]) `at` "runs" `at` "results"))
+            `at` "relatedLocations"
+        )
         `shouldSatisfy` \case
           [one] -> one `at` "message" == object ["text" .= ("the part" :: Text)]
           _ -> False
   describe "uri" $ do
     it "leaves plain relative paths" $
-      map Sarif.uri ["flange.part", "a/b-1_c~.part", "./x/y.part", "../x.part"] `shouldBe` ["flange.part", "a/b-1_c~.part", "x/y.part", "../x.part"]
+      map Sarif.uri ["flange.part", "a/b-1_c~.part", "./x/y.part", "../x.part"]
+        `shouldBe` ["flange.part", "a/b-1_c~.part", "x/y.part", "../x.part"]
     it "encodes what has a meaning in a reference, and all that is not ASCII" $
       map Sarif.uri ["my part.part", "50%.part", "a#b?.part", "c:d.part", "<stdin>", "фланец.part"]
-        `shouldBe` ["my%20part.part", "50%25.part", "a%23b%3F.part", "c%3Ad.part", "%3Cstdin%3E", "%D1%84%D0%BB%D0%B0%D0%BD%D0%B5%D1%86.part"]
+        `shouldBe` [ "my%20part.part",
+                     "50%25.part",
+                     "a%23b%3F.part",
+                     "c%3Ad.part",
+                     "%3Cstdin%3E",
+                     "%D1%84%D0%BB%D0%B0%D0%BD%D0%B5%D1%86.part"
+                   ]
     it "makes absolute paths references to files" $
       Sarif.uri "/tmp/my part.part" `shouldBe` "file:///tmp/my%20part.part"
 
@@ -130,7 +168,11 @@ items value = case value of
 validated :: Text -> IO (ExitCode, String)
 validated text = withSystemTempDirectory "partc" $ \folder -> do
   ByteString.writeFile (folder </> "log.sarif") (Encoding.encodeUtf8 text)
-  (code, _, err) <- readProcessWithExitCode "python3" ["-c", program, "test/data/sarif-2.1.0-rtm.5.json", folder </> "log.sarif"] ""
+  (code, _, err) <-
+    readProcessWithExitCode
+      "python3"
+      ["-c", program, "test/data/sarif-2.1.0-rtm.5.json", folder </> "log.sarif"]
+      ""
   pure (code, err)
   where
     program =

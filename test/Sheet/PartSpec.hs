@@ -38,13 +38,14 @@ spec = do
   rib <- runIO (readText "examples/spar.sheet")
   describe "a sheet with one number changed" $ do
     -- Catches a shift that is taken for data, and a fault of ours on strange data.
-    forM_ [("left out", const []), ("doubled", \w -> [w, w]), ("an end mark", const ["-0"])] $ \(what, change) ->
-      it ("is refused, or is another sound program: " <> what) $
-        forM_ (variants change (Text.words rib)) $ \(n, text) -> do
-          result <- judged "x.sheet" text
-          case result of
-            Right _ -> (n, meaning text) `shouldNotBe` (n, meaning rib)
-            Left codes -> (n, codes) `shouldSatisfy` (not . null . snd)
+    forM_ [("left out", const []), ("doubled", \w -> [w, w]), ("an end mark", const ["-0"])] $
+      \(what, change) ->
+        it ("is refused, or is another sound program: " <> what) $
+          forM_ (variants change (Text.words rib)) $ \(n, text) -> do
+            result <- judged "x.sheet" text
+            case result of
+              Right _ -> (n, meaning text) `shouldNotBe` (n, meaning rib)
+              Left codes -> (n, codes) `shouldSatisfy` (not . null . snd)
     it "stops as the Minsk-22 did where points or data of a piece are shifted" $ do
       let left = variants (const []) (Text.words rib)
           codesOf (n, text) = (n, fromLeft [] (fromTextCodes text))
@@ -61,9 +62,23 @@ spec = do
       forAll Generate.cut $ \s ->
         let text = ToText.write s
          in counterexample (Text.unpack text) $
-              classify (not (null (fst (exported "x.sheet" text)))) "without a part" $ case exported "x.sheet" text of
-                ([], again) -> again === Just text
-                (codes, _) -> counterexample (show codes) (all (`notElem` codes) [ReportCode "E0921", ReportCode "E0922", ReportCode "E0923", ReportCode "E0924", ReportCode "E0925", ReportCode "E0926", ReportCode "E0927"])
+              classify (not (null (fst (exported "x.sheet" text)))) "without a part" $
+                case exported "x.sheet" text of
+                  ([], again) -> again === Just text
+                  (codes, _) ->
+                    counterexample
+                      (show codes)
+                      ( all
+                          (`notElem` codes)
+                          [ ReportCode "E0921",
+                            ReportCode "E0922",
+                            ReportCode "E0923",
+                            ReportCode "E0924",
+                            ReportCode "E0925",
+                            ReportCode "E0926",
+                            ReportCode "E0927"
+                          ]
+                      )
     -- Catches a program whose text says something else than the sheet.
     modifyMaxSuccess (const 10) . prop "sheet, program, sheet: the frames are the same" $
       forAll Generate.cut $ \s ->
@@ -85,18 +100,29 @@ spec = do
         text <- readText file
         (file, exported "x.sheet" text) `shouldBe` (file, ([], meaning text))
         tape' <- judged "x.sheet" text
-        again <- traverse (judged "x.part" . ToSurface.text) (output (FromText.read text :: Result () Error Sheet))
+        again <-
+          traverse
+            (judged "x.part" . ToSurface.text)
+            (output (FromText.read text :: Result () Error Sheet))
         again `shouldBe` Just tape'
-    it "asks of a blade that it swivels as the cipher says, wherever the spline of that goes (catches bevels that only have to lie between those of the points)" $ do
-      blade <- readText "test/programs/sheet/good/blade.sheet"
-      let steep = Text.replace "\n50 4 1.5 8\n" "\n20 4 1.5 8\n" blade
-          programOf text = ToSurface.text <$> output (FromText.read text :: Result () Error Sheet)
-      steep `shouldNotBe` blade
-      forM_ [blade, steep] $ \sheet -> fmap (exported "x.part") (programOf sheet) `shouldBe` Just ([], meaning sheet)
-      forM_ ["bevel 2", "bevel mu / 2", "bevel 1.2 * mu"] $ \other ->
-        (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade)) `shouldBe` (other, Just [ReportCode "E0924"])
+    it
+      "asks of a blade that it swivels as the cipher says, wherever the spline of that goes \
+      \(catches bevels that only have to lie between those of the points)"
+      $ do
+        blade <- readText "test/programs/sheet/good/blade.sheet"
+        let steep = Text.replace "\n50 4 1.5 8\n" "\n20 4 1.5 8\n" blade
+            programOf text = ToSurface.text <$> output (FromText.read text :: Result () Error Sheet)
+        steep `shouldNotBe` blade
+        forM_ [blade, steep] $ \sheet ->
+          fmap (exported "x.part") (programOf sheet) `shouldBe` Just ([], meaning sheet)
+        forM_ ["bevel 2", "bevel mu / 2", "bevel 1.2 * mu"] $ \other ->
+          (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade))
+            `shouldBe` (other, Just [ReportCode "E0924"])
     it "takes a cone without a bevel for a cylinder" $ do
-      let program = "part p\nmachine lkp-01f\ntool cone(diameter 12 mm, bevel 0 deg, height 8 mm)\nfeed 60\ntolerance 0.1\nfrom (0, 0, 0)\ncontour c open { polyline([(10, 10), (60, 10)]) }\nmill c left { approach (10, 30) feed 60  retract (60, 30) feed 60 }\n"
+      let program =
+            "part p\nmachine lkp-01f\ntool cone(diameter 12 mm, bevel 0 deg, height 8 mm)\nfeed \
+            \60\ntolerance 0.1\nfrom (0, 0, 0)\ncontour c open { polyline([(10, 10), (60, 10)]) \
+            \}\nmill c left { approach (10, 30) feed 60  retract (60, 30) feed 60 }\n"
       case exported "x.part" program of
         ([], Just sheet) -> exported "x.sheet" sheet `shouldBe` ([], Just sheet)
         other -> expectationFailure (show other)
@@ -105,10 +131,16 @@ spec = do
     forM_ files $ \file -> it file $ do
       text <- readText ("test/unfit" </> file)
       let loaded = Compile.alone (Text.pack file) text
-          outcome = Compile.evaluated [] loaded `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart)
+          outcome =
+            Compile.evaluated [] loaded
+              `Result.thenSound` ( Result.mapErrors id Unsupported.toReport
+                                     . uncurry FromPart.fromPart
+                                 )
           rendered r = Human.render Human.Plain (Text.pack file) (Compile.source loaded) r <> "\n"
       errors outcome `shouldNotBe` []
-      expected (("test/unfit" </> file) -<.> "report") (Text.concat (map rendered (Report.sorted (errors outcome))))
+      expected
+        (("test/unfit" </> file) -<.> "report")
+        (Text.concat (map rendered (Report.sorted (errors outcome))))
   where
     meaning text = fmap ToText.write (output (FromText.read text :: Result () Error Sheet))
 
@@ -122,18 +154,30 @@ fromTextCodes text = case FromText.read text :: Result () Error Sheet of
 exported :: Text -> Text -> ([ReportCode], Maybe Text)
 exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.settled outcome)
   where
-    outcome = Compile.evaluated [] (Compile.alone path' text) `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart) :: Result Report Report Sheet
+    outcome =
+      Compile.evaluated [] (Compile.alone path' text)
+        `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart) ::
+        Result Report Report Sheet
 
 -- | Each word that the change concerns changed once, with its number.
 variants :: (Text -> [Text]) -> [Text] -> [(Int, Text)]
-variants change words' = [(n, Text.unwords (before <> change w <> after)) | n <- [1 .. length words'], (before, w : after) <- [splitAt (n - 1) words'], change w /= [w]]
+variants change words' =
+  [ (n, Text.unwords (before <> change w <> after))
+    | n <- [1 .. length words'],
+      (before, w : after) <- [splitAt (n - 1) words'],
+      change w /= [w]
+  ]
 
 -- | The codes of the errors, or the tape.
 judged :: Text -> Text -> IO (Either [ReportCode] Tape)
 judged path' text = case Result.settled outcome of
-  Nothing -> Left (map Report.code (errors outcome)) <$ evaluate (sum (map (Text.length . shown) (errors outcome)))
+  Nothing ->
+    Left (map Report.code (errors outcome))
+      <$ evaluate (sum (map (Text.length . shown) (errors outcome)))
   Just p -> Right (tape p) <$ evaluate (let Tape bytes = tape p in ByteString.length bytes)
   where
     loaded = Compile.alone path' text
-    outcome = Compile.analyse [] loaded `Result.thenSound` \a -> Compile.punch lkp01f (path a) :: Result Report Report Punched
+    outcome =
+      Compile.analyse [] loaded `Result.thenSound` \a ->
+        Compile.punch lkp01f (path a) :: Result Report Report Punched
     shown = Human.render Human.Plain path' (Compile.source loaded)

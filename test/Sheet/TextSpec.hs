@@ -27,12 +27,15 @@ spec = do
       forAll Generate.sheet $ \s ->
         let text = ToText.write s
             Result {errors, output} = FromText.read text :: Result () Error Sheet
-         in counterexample (Text.unpack text) $ errors === [] .&&. fmap ToText.write output === Just text
+         in counterexample (Text.unpack text) $
+              errors === [] .&&. fmap ToText.write output === Just text
     -- Catches a meaning that depends on how the sheet is laid out.
     prop "spaces and line ends are one" $
       forAll Generate.sheet $ \s ->
         let text = ToText.write s
-         in meaning (Text.unwords (Text.words text)) === meaning text .&&. meaning (Text.intercalate "\r\n\t " (Text.words text)) === meaning text
+         in meaning (Text.unwords (Text.words text))
+              === meaning text .&&. meaning (Text.intercalate "\r\n\t " (Text.words text))
+              === meaning text
   describe "a sheet as a program" $ do
     -- Catches a number that the program rounds, a name or a sign that is read otherwise.
     prop "the text of the program is the program that the sheet stands for" $
@@ -40,9 +43,14 @@ spec = do
         let text = ToSurface.text s
             Result {errors, output} = Parser.parse 0 text :: Result () Surface.Error Surface.Program
          in counterexample (Text.unpack text) $
-              errors === [] .&&. fmap (Unlocated.statements . Surface.statements) output === Just (Unlocated.statements (Surface.statements (ToSurface.program s)))
+              errors
+                === [] .&&. fmap (Unlocated.statements . Surface.statements) output
+                === Just (Unlocated.statements (Surface.statements (ToSurface.program s)))
     prop "is in the canonical layout" $
-      forAll Generate.sheet $ \s -> let text = ToSurface.text s in Formatter.format text === Just text
+      forAll Generate.sheet $ \s ->
+        let text =
+              ToSurface.text s
+         in Formatter.format text === Just text
   where
     meaning :: Text -> Maybe Text
     meaning t = fmap ToText.write (output (FromText.read t :: Result () Error Sheet))

@@ -25,7 +25,8 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "printing" . modifyMaxSuccess (const 300) $ do
-    -- The bug: a bracket that is missing, a word that is forgotten, a line break that ends a statement too early.
+    -- The bug: a bracket that is missing, a word that is forgotten, a line break that ends a
+    -- statement too early.
     prop "print, then parse: the same tree" $
       forAllShow Generate.program shown $ \p ->
         tree (PrintProgram.program p) === Just (Unlocated.statements (statements p))
@@ -40,23 +41,36 @@ spec = do
     prop "a text that is laid out stays as it is" $
       forAllShow written Text.unpack $ \text ->
         let new = Formatter.layout text in (new >>= Formatter.layout) === new
-    -- The bug: a comment that is lost or doubled or overtakes another; a bracket dropped that was needed.
+    -- The bug: a comment that is lost or doubled or overtakes another; a bracket dropped that was
+    -- needed.
     prop "the tree and the comments stay" $
       forAllShow written Text.unpack $ \text ->
         let new = Formatter.layout text
          in counterexample (maybe "not read" Text.unpack new) $
-              (new >>= meaning) === meaning (Text.replace "\r" "\n" (Text.replace "\r\n" "\n" (Text.dropWhile (== '\xFEFF') text)))
+              (new >>= meaning)
+                === meaning
+                  ( Text.replace
+                      "\r"
+                      "\n"
+                      (Text.replace "\r\n" "\n" (Text.dropWhile (== '\xFEFF') text))
+                  )
     -- The bug: traces of the old layout in the new one.
     prop "the layout of a text without comments and blank lines is what printing its tree gives" $
       forAllShow Generate.program shown $ \p ->
         Formatter.layout (PrintProgram.program p) === Just (PrintProgram.program p)
-    -- The bug: blank lines that pile up, spaces at the ends of lines, ends of lines of other systems.
-    prop "no two blank lines in a row, none at an end, no spaces at the end of a line, no CR, no mark of the byte order" $
-      forAllShow written Text.unpack $ \text ->
+    -- The bug: blank lines that pile up, spaces at the ends of lines, ends of lines of other
+    -- systems.
+    prop
+      "no two blank lines in a row, none at an end, no spaces at the end of a line, no CR, no mark \
+      \of the byte order"
+      $ forAllShow written Text.unpack $ \text ->
         let new = maybe [] Text.lines (Formatter.layout text)
          in conjoin
-              [ filter (\l -> Text.stripEnd l /= l || Text.any (`elem` ['\r', '\xFEFF']) l) new === [],
-                counterexample "blank lines" (and (zipWith (\a b -> not (Text.null a && Text.null b)) new (drop 1 new))),
+              [ filter (\l -> Text.stripEnd l /= l || Text.any (`elem` ['\r', '\xFEFF']) l) new
+                  === [],
+                counterexample
+                  "blank lines"
+                  (and (zipWith (\a b -> not (Text.null a && Text.null b)) new (drop 1 new))),
                 counterexample "an end" (not (any Text.null (take 1 new <> take 1 (reverse new))))
               ]
     it "a text with mistakes has none" $
@@ -72,14 +86,17 @@ spec = do
     programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
     forM_ programs $ \file ->
       it (file <> " keeps its meaning") (readText file >>= keeps)
-    documents <- runIO (("README.md" :) . sort . filter ((== ".md") . takeExtension) <$> walk "docs")
+    documents <-
+      runIO (("README.md" :) . sort . filter ((== ".md") . takeExtension) <$> walk "docs")
     forM_ documents $ \file -> do
       blocks <- runIO (fences <$> readText file)
       forM_ (zip [1 :: Int ..] blocks) $ \(n, text) ->
         it (file <> ": program " <> show n <> " keeps its meaning") (keeps text)
   describe "comments" $ do
     it "in lists break them; elsewhere they go behind the line, or above it" $
-      Formatter.format "let a = [1, -- one\n -- above\n 2 ] -- end\nlet b = (1 -- c\n + 2)\nlet c = 1 + -- d\n 2 -- e\n"
+      Formatter.format
+        "let a = [1, -- one\n -- above\n 2 ] -- end\nlet b = (1 -- c\n + 2)\nlet c = 1 + -- d\n 2 \
+        \-- e\n"
         `shouldBe` Just
           ( Text.unlines
               [ "let a = [",
@@ -93,7 +110,8 @@ spec = do
               ]
           )
     it "open empty blocks, and stand in them" $
-      Formatter.format "contour a closed { -- nothing\n-- yet\n}" `shouldBe` Just "contour a closed {                     -- nothing\n  -- yet\n}\n"
+      Formatter.format "contour a closed { -- nothing\n-- yet\n}"
+        `shouldBe` Just "contour a closed {                     -- nothing\n  -- yet\n}\n"
   where
     shown = Text.unpack . PrintProgram.program
 
@@ -125,13 +143,24 @@ fences text = [fst (Text.breakOn "```" rest) | rest <- drop 1 (Text.splitOn "```
 
 -- | The constructors that a module declares in the style of this project, but for what is broken.
 declared :: Text -> [Text]
-declared source = Set.toList (Set.fromList (concatMap constructors (concatMap sums (Text.splitOn "\ndata " source))))
+declared source =
+  Set.toList
+    (Set.fromList (concatMap constructors (concatMap sums (Text.splitOn "\ndata " source))))
   where
     -- One declaration, up to its @deriving@.
-    sums block = [Text.drop 1 rest | let rest = snd (Text.breakOn "=" (fst (Text.breakOn "\n  deriving" block))), not (Text.null rest)]
+    sums block =
+      [ Text.drop 1 rest
+        | let rest = snd (Text.breakOn "=" (fst (Text.breakOn "\n  deriving" block))),
+          not (Text.null rest)
+      ]
     constructors body = mapMaybe leading (Text.splitOn "|" (withoutComments body))
     leading alternative = case Text.words alternative of
-      word : _ | Text.any (`elem` ['A' .. 'Z']) (Text.take 1 word) && not (ignored word) -> Just word
+      word : _
+        | Text.any (`elem` ['A' .. 'Z']) (Text.take 1 word) && not (ignored word) ->
+          Just word
       _ -> Nothing
     withoutComments = Text.unlines . map (fst . Text.breakOn "--") . Text.lines
-    ignored word = "Broken" `Text.isPrefixOf` word || word `elem` ["Token", "Word", "Number", "Text", "Symbol", "BadNumber", "OpenText", "Stray"]
+    ignored word =
+      "Broken" `Text.isPrefixOf` word
+        || word
+          `elem` ["Token", "Word", "Number", "Text", "Symbol", "BadNumber", "OpenText", "Stray"]

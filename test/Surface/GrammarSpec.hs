@@ -22,14 +22,18 @@ spec :: Spec
 spec = do
   manual <- runIO (readText "docs/language.md")
   let grammar = Grammar.fromText (Text.unlines (block "```ebnf" (Text.lines manual)))
-  -- The bug: a rule that is used but nowhere given, or given but not used; a grammar that is not read to its end.
+  -- The bug: a rule that is used but nowhere given, or given but not used; a grammar that is not
+  -- read to its end.
   it "is whole" $
     Grammar.loose grammar `shouldBe` []
   describe "in the manual" . modifyMaxSuccess (const 300) $ do
     -- The bug: a rule of the manual that the parser does not know, or knows otherwise.
     prop "every sentence of it is read without a mistake" $
       forAllShow (Grammar.sentence grammar) Text.unpack $ \text ->
-        map (Report.title . Error.toReport) (Result.errors (Parser.parse 0 text :: Result.Result () Error Program)) === []
+        map
+          (Report.title . Error.toReport)
+          (Result.errors (Parser.parse 0 text :: Result.Result () Error Program))
+          === []
     -- The bug: a rule that no sentence ever uses.
     it "every word of it stands in some sentence" $ do
       texts <- generate (vectorOf 6000 (Grammar.sentence grammar))
@@ -41,10 +45,24 @@ spec = do
         Grammar.recognises grammar (fst (Lexer.tokens 0 (PrintProgram.program p)))
     -- The bug: a recogniser that says yes to everything.
     it "tells what is no sentence" $
-      map (Grammar.recognises grammar . fst . Lexer.tokens 0) ["let a = 1", "let a 1", "part", "coolant on off", "let in = 3", "aux (1, 2, 3)", "aux (1, 2, 3, 4)"]
+      map
+        (Grammar.recognises grammar . fst . Lexer.tokens 0)
+        [ "let a = 1",
+          "let a 1",
+          "part",
+          "coolant on off",
+          "let in = 3",
+          "aux (1, 2, 3)",
+          "aux (1, 2, 3, 4)"
+        ]
         `shouldBe` [True, False, False, False, False, True, False]
   it "the manual lists the words that cannot be names" $
-    concatMap Text.words (takeWhile ("    " `Text.isPrefixOf`) (drop 2 (dropWhile (/= "These words cannot be names:") (Text.lines manual))))
+    concatMap
+      Text.words
+      ( takeWhile
+          ("    " `Text.isPrefixOf`)
+          (drop 2 (dropWhile (/= "These words cannot be names:") (Text.lines manual)))
+      )
       `shouldBe` Keyword.reservedWords
   where
     block fence = takeWhile (/= "```") . drop 1 . dropWhile (/= fence)

@@ -18,10 +18,14 @@ spec = do
   describe "brackets nested a hundred thousand deep are one mistake" $
     mapM_
       nested
-      [ ("parentheses", "part p\nlet a = " <> Text.replicate 100000 "(" <> "1" <> Text.replicate 100000 ")"),
+      [ ( "parentheses",
+          "part p\nlet a = " <> Text.replicate 100000 "(" <> "1" <> Text.replicate 100000 ")"
+        ),
         ("open lists", "part p\nlet a = " <> Text.replicate 100000 "["),
         ("blocks", "part p\n" <> Text.replicate 100000 "for a in [1] {\n"),
-        ("blocks of a contour", "part p\ncontour c closed {\n" <> Text.replicate 100000 "for a in [1] {\n"),
+        ( "blocks of a contour",
+          "part p\ncontour c closed {\n" <> Text.replicate 100000 "for a in [1] {\n"
+        ),
         ("signs", "part p\nlet a = " <> Text.replicate 100000 "- " <> "1"),
         ("conditions", "part p\nlet a = " <> Text.replicate 100000 "if true then 1 else " <> "1"),
         ("negations", "part p\nlet a = " <> Text.replicate 100000 "not " <> "true")
@@ -37,13 +41,26 @@ spec = do
     withMaxSuccess 300 . property $
       forAllShow noise Text.unpack $ \text ->
         let places = [r | Report.Report {Report.place = InSource r} <- reports text]
-         in all (\r -> Region.start r >= 0 && Region.end r <= Text.length text + 1) places .&&. not (null (reports text))
-  it "the same program with other line ends and a mark of the byte order has its mistakes at the same places" $
-    property $
+         in all (\r -> Region.start r >= 0 && Region.end r <= Text.length text + 1) places
+              .&&. not (null (reports text))
+  it
+    "the same program with other line ends and a mark of the byte order has its mistakes at the \
+    \same places"
+    $ property $
       forAllShow noise Text.unpack $ \text ->
         let unix = Text.replace "\r" "" text
-            placed t = sort [(line, column, c) | r <- reports t, InSource at <- [Report.place r], let Region.Position {Region.line, Region.column} = Region.position (Region.fromText "" t) (Region.start at); ReportCode c = Report.code r]
-         in placed (Text.replace "\n" "\r\n" unix) === placed unix .&&. placed (Text.replace "\n" "\r" unix) === placed unix
+            placed t =
+              sort
+                [ (line, column, c)
+                  | r <- reports t,
+                    InSource at <- [Report.place r],
+                    let Region.Position {Region.line, Region.column} =
+                          Region.position (Region.fromText "" t) (Region.start at)
+                        ReportCode c = Report.code r
+                ]
+         in placed (Text.replace "\n" "\r\n" unix)
+              === placed unix .&&. placed (Text.replace "\n" "\r" unix)
+              === placed unix
   where
     nested (name, text) = it name $ codes text `shouldBe` ["E0110"]
 
@@ -55,7 +72,18 @@ codes text = [c | ReportCode c <- map Report.code (reports text)]
 
 -- | Words, signs and characters in any order, on lines.
 noise :: Gen Text
-noise = Text.concat <$> listOf (frequency [(6, (<> " ") <$> elements words'), (3, elements signs), (1, Text.singleton <$> arbitrary), (1, pure "\n")])
+noise =
+  Text.concat
+    <$> listOf
+      ( frequency
+          [ (6, (<> " ") <$> elements words'),
+            (3, elements signs),
+            (1, Text.singleton <$> arbitrary),
+            (1, pure "\n")
+          ]
+      )
   where
-    words' = Keyword.reservedWords <> ["a", "b", "рука", "12", "3.5", "7 mm", "45 deg", "circle(", "line(", "\"text\"", "--"]
+    words' =
+      Keyword.reservedWords
+        <> ["a", "b", "рука", "12", "3.5", "7 mm", "45 deg", "circle(", "line(", "\"text\"", "--"]
     signs = map Text.singleton "(){}[],=+-*/<>.\"%#;"

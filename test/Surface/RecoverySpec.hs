@@ -17,7 +17,10 @@ spec =
   describe "one mistake gives one report" $
     forM_ cases $ \(what, text, title) ->
       it what $
-        map (Report.title . Error.toReport) (Result.errors (Parser.parse 0 (Text.unlines text) :: Result.Result () Error Program)) `shouldBe` [title]
+        map
+          (Report.title . Error.toReport)
+          (Result.errors (Parser.parse 0 (Text.unlines text) :: Result.Result () Error Program))
+          `shouldBe` [title]
 
 cases :: [(String, [Text], Text)]
 cases =

@@ -1,5 +1,5 @@
--- | The table of docs/machines.md: which share of all single holes, one more or one less, reading a tape of the flange
--- finds. With PARTC_RECORD set the table is written anew.
+-- | The table of docs/machines.md: which share of all single holes, one more or one less, reading a
+-- tape of the flange finds. With PARTC_RECORD set the table is written anew.
 module Tape.FlangeHolesSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -22,17 +22,26 @@ import Test.Hspec
 
 spec :: Spec
 spec = describe "docs/machines.md" $
-  it "says which share of single holes reading finds, for the flange on every machine (catches a code that finds less)" $ do
-    let rows = map row Machines.known
-    page <- Text.lines <$> readText file
-    let now = replaced (concat rows) page
-    recording <- lookupEnv "PARTC_RECORD"
-    case recording of
-      Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 (Text.unlines now))
-      Nothing -> page `shouldBe` now
+  it
+    "says which share of single holes reading finds, for the flange on every machine (catches a \
+    \code that finds less)"
+    $ do
+      let rows = map row Machines.known
+      page <- Text.lines <$> readText file
+      let now = replaced (concat rows) page
+      recording <- lookupEnv "PARTC_RECORD"
+      case recording of
+        Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 (Text.unlines now))
+        Nothing -> page `shouldBe` now
   where
     file = "docs/machines.md"
-    replaced rows page = let (above, rest) = break (== heading) page in above <> (if null rest then [] else [heading, rule]) <> rows <> dropWhile (Text.isPrefixOf "|") rest
+    replaced rows page =
+      let (above, rest) =
+            break (== heading) page
+       in above
+            <> (if null rest then [] else [heading, rule])
+            <> rows
+            <> dropWhile (Text.isPrefixOf "|") rest
     heading = "| machine | single holes | found by reading | read as other frames |"
     rule = "|---|--:|--:|--:|"
 
@@ -41,9 +50,21 @@ row :: Machine -> [Text]
 row machine = case Machine.pitch (Machine.medium machine) of
   Nothing -> []
   Just _ ->
-    [ "| `" <> name <> "` | " <> Decimal.whole (tried s) <> " | " <> Decimal.fixed 2 (100 * fromIntegral (found s) / fromIntegral (tried s)) <> " % | " <> Decimal.whole (length (unseen s)) <> " |"
+    [ "| `"
+        <> name
+        <> "` | "
+        <> Decimal.whole (tried s)
+        <> " | "
+        <> Decimal.fixed 2 (100 * fromIntegral (found s) / fromIntegral (tried s))
+        <> " % | "
+        <> Decimal.whole (length (unseen s))
+        <> " |"
     ]
   where
     MachineName name = Machine.name machine
     punched = Flange.expect (Compile.punch machine (path Flange.analysis))
-    s = Holes.share machine (Frame.start (program punched)) (map Frame.frame (Frame.planned (program punched)))
+    s =
+      Holes.share
+        machine
+        (Frame.start (program punched))
+        (map Frame.frame (Frame.planned (program punched)))

@@ -10,7 +10,8 @@ import Machine.Machine qualified as Machine
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape (..))
 
--- | Of so many single holes so many are found, and these are read as other frames: row from 1 and track. The rest changes nothing.
+-- | Of so many single holes so many are found, and these are read as other frames: row from 1 and
+-- track. The rest changes nothing.
 data Share = Share {tried :: Int, found :: Int, unseen :: [(Int, Int)]}
   deriving stock (Eq, Show)
 
@@ -23,7 +24,10 @@ share machine start frames =
       unseen = [place | (place, Right fs) <- results, fs /= frames]
     }
   where
-    results = [(place, Punch.read machine start t) | (place, t) <- changes machine (Punch.write machine start frames)]
+    results =
+      [ (place, Punch.read machine start t)
+        | (place, t) <- changes machine (Punch.write machine start frames)
+      ]
 
 -- | Every tape that differs in one hole on one of its tracks, with its row from 1 and the track.
 changes :: Machine -> Tape -> [((Int, Int), Tape)]

@@ -1,4 +1,5 @@
--- | Frames that every machine can be told: round a plate, with arcs, rapid moves and commands where it has them.
+-- | Frames that every machine can be told: round a plate, with arcs, rapid moves and commands where
+-- it has them.
 module Tape.Journey (machines, start, journey) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -8,7 +9,15 @@ import Data.Map.Strict qualified as Map
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
-import Machine.Machine (Arcs (..), Axis (..), Content (..), FeedCode (..), FeedCodes (..), Machine, Service (..))
+import Machine.Machine
+  ( Arcs (..),
+    Axis (..),
+    Content (..),
+    FeedCode (..),
+    FeedCodes (..),
+    Machine,
+    Service (..),
+  )
 import Machine.Machine qualified as Machine
 import Machines qualified
 
@@ -21,22 +30,74 @@ start = Pulses3 500 (-200) 100
 
 -- | Frames that keep the invariants of a machine; the same way round for all.
 journey :: Machine -> [Frame]
-journey machine = filter (null . Frame.invariants machine . pure) (concat [commands, concat (zipWith3 leg feeds braked ways), [Frame.still o | o <- take 1 singles]])
+journey machine =
+  filter
+    (null . Frame.invariants machine . pure)
+    ( concat
+        [commands, concat (zipWith3 leg feeds braked ways), [Frame.still o | o <- take 1 singles]]
+    )
   where
-    ways = [(1200, -340), (2075, 0), (0, 3100), (-17, 1), (-2058, 440), (-1200, -3201), (100, 100), (-6, -90), (1, 0), (905, -777)]
+    ways =
+      [ (1200, -340),
+        (2075, 0),
+        (0, 3100),
+        (-17, 1),
+        (-2058, 440),
+        (-1200, -3201),
+        (100, 100),
+        (-6, -90),
+        (1, 0),
+        (905, -777)
+      ]
     feeds = cycle (twice (feedCodes machine))
     twice cs = concat [[c, c] | c <- cs]
     braked = cycle [False, False, True]
     singles = [[(o, v)] | o <- orderNames, v <- [1, 3], Machine.canOrder machine o v]
-    orderNames = [o | w <- Machine.wordsOf machine, o <- [o | Command o <- [Machine.content w]] <> take 1 [o | OrderBit o _ <- Machine.service (Machine.form w)]]
+    orderNames =
+      [ o
+        | w <- Machine.wordsOf machine,
+          o <-
+            [o | Command o <- [Machine.content w]]
+              <> take 1 [o | OrderBit o _ <- Machine.service (Machine.form w)]
+      ]
     commands = map Frame.still singles
     leg code slow (x, y) =
       [rapid x y | Machine.hasRapidMotion machine, x > 1000]
-        <> [Frame {motion = Straightway, increment = Pulses3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0), centre = 0, speed = code, braking = slow && holed, orders = if y == 0 then concat (take 1 singles) else []}]
-        <> [Frame {motion = Round turn, increment = Pulses3 (Pulses x) (Pulses y) 0, centre = c, speed = code, braking = slow && holed, orders = []} | Machine.arcs machine /= NoArcs, (turn, c) <- arcs x y]
-    rapid x y = Frame {motion = Rapid, increment = Pulses3 (Pulses x) (Pulses y) 0, centre = 0, speed = FeedCode 0, braking = False, orders = []}
-    arcs x y = [(turn, Pulses2 (Pulses x) 0) | abs x == abs y, turn <- [Clockwise, CounterClockwise]] <> [(Clockwise, Pulses2 (Pulses x) 0) | x > 0, y > 0] <> [(CounterClockwise, Pulses2 0 (Pulses y)) | x < 0, y < 0]
-    holed = or [s == BrakingHole | w <- Machine.wordsOf machine, s <- Machine.service (Machine.form w)]
+        <> [ Frame
+               { motion = Straightway,
+                 increment = Pulses3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0),
+                 centre = 0,
+                 speed = code,
+                 braking = slow && holed,
+                 orders = if y == 0 then concat (take 1 singles) else []
+               }
+           ]
+        <> [ Frame
+               { motion = Round turn,
+                 increment = Pulses3 (Pulses x) (Pulses y) 0,
+                 centre = c,
+                 speed = code,
+                 braking = slow && holed,
+                 orders = []
+               }
+             | Machine.arcs machine /= NoArcs,
+               (turn, c) <- arcs x y
+           ]
+    rapid x y =
+      Frame
+        { motion = Rapid,
+          increment = Pulses3 (Pulses x) (Pulses y) 0,
+          centre = 0,
+          speed = FeedCode 0,
+          braking = False,
+          orders = []
+        }
+    arcs x y =
+      [(turn, Pulses2 (Pulses x) 0) | abs x == abs y, turn <- [Clockwise, CounterClockwise]]
+        <> [(Clockwise, Pulses2 (Pulses x) 0) | x > 0, y > 0]
+        <> [(CounterClockwise, Pulses2 0 (Pulses y)) | x < 0, y < 0]
+    holed =
+      or [s == BrakingHole | w <- Machine.wordsOf machine, s <- Machine.service (Machine.form w)]
     hasZ = Machine.capacity machine Z > 0
 
 -- | Some codes from low to high.

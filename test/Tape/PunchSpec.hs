@@ -18,7 +18,17 @@ import Frame.Frame qualified as Frame
 import Generate.Machine qualified as Generate
 import Geometry.Carrier (Sense (..))
 import Machine.FromText qualified as FromText
-import Machine.Machine (Arcs (..), AxisForm (..), AxisMeasure (..), CommandName (..), FeedCode (..), LayoutItem (..), Machine, Presence (..), Spare (..))
+import Machine.Machine
+  ( Arcs (..),
+    AxisForm (..),
+    AxisMeasure (..),
+    CommandName (..),
+    FeedCode (..),
+    LayoutItem (..),
+    Machine,
+    Presence (..),
+    Spare (..),
+  )
 import Machine.Machine qualified as Machine
 import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
 import Report.Report qualified as Report
@@ -45,57 +55,121 @@ spec = do
 
 randomMachines :: Spec
 randomMachines = do
-  it "a tape that was punched is read as its own frames or refused (catches a machine whose frames may be read in two ways)" $ do
-    machine <- machineOf "test/machines/two-readings.machine"
-    let own fs = either (Left . Punch.reason) Right (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
-    own [along 1000 0, along 2000 1000] `shouldBe` Right [along 1000 0, along 2000 1000]
-    own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
-  it "frames may end with a word that mostly is left out (catches a frame that is taken for finished before it)" $ do
-    machine <- machineOf "test/machines/no-end.machine"
-    let fs = [along 1000 0, (along 0 1000) {orders = [(CommandName "M", 8)]}, along 1000 1000]
-    Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
-  it "decode after encode gives the frames (catches a word that writer and reader see differently)" $
-    checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+  it
+    "a tape that was punched is read as its own frames or refused (catches a machine whose frames \
+    \may be read in two ways)"
+    $ do
+      machine <- machineOf "test/machines/two-readings.machine"
+      let own fs =
+            either
+              (Left . Punch.reason)
+              Right
+              (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
+      own [along 1000 0, along 2000 1000] `shouldBe` Right [along 1000 0, along 2000 1000]
+      own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
+  it
+    "frames may end with a word that mostly is left out (catches a frame that is taken for \
+    \finished before it)"
+    $ do
+      machine <- machineOf "test/machines/no-end.machine"
+      let fs = [along 1000 0, (along 0 1000) {orders = [(CommandName "M", 8)]}, along 1000 1000]
+      Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
+  it
+    "decode after encode gives the frames (catches a word that writer and reader see differently)"
+    $ checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)
-  it "a tape is read back as it is read, whatever frames should stand on it (catches frames that are taken for those on the tape)" $
-    checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) -> forAll (wantedFor fs) $ \wanted -> forAll (oneof [pure Nothing, Just <$> ((,) <$> choose (1, 200) <*> arbitrary)]) $ \change ->
-      let t = Tape (maybe id (\(k, w) -> changed k (const w)) change (rowsOf (Punch.write m at fs)))
-       in cover 20 (Punch.read m at t == Right wanted) "just these" $
-            cover 20 (Punch.read m at t /= Right wanted) "others" $
-              Punch.readBack m at wanted t === Punch.read m at t
+  it
+    "a tape is read back as it is read, whatever frames should stand on it (catches frames that \
+    \are taken for those on the tape)"
+    $ checkCoverage . forAll Generate.machine $ \m ->
+      forAll (Generate.frames m) $ \(at, fs) ->
+        forAll (wantedFor fs) $ \wanted ->
+          forAll (oneof [pure Nothing, Just <$> ((,) <$> choose (1, 200) <*> arbitrary)]) $
+            \change ->
+              let t =
+                    Tape
+                      ( maybe
+                          id
+                          (\(k, w) -> changed k (const w))
+                          change
+                          (rowsOf (Punch.write m at fs))
+                      )
+               in cover 20 (Punch.read m at t == Right wanted) "just these" $
+                    cover 20 (Punch.read m at t /= Right wanted) "others" $
+                      Punch.readBack m at wanted t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       ByteString.pack (map RowMeaning.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
-  it "one row changed is refused or gives frames that are written just so (catches a reader that guesses)" $
-    withMaxSuccess 5000 . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      let rows = rowsOf (Punch.write m at fs)
-       in not (ByteString.null rows) ==> forAll (choose (0, ByteString.length rows - 1)) $ \k ->
-            forAll (oneof [arbitrary, elements [0, 0xFF], elements (ByteString.unpack rows)]) $ \w ->
-              let rows' = changed (k + 1) (const w) rows
-               in case Punch.read m at (Tape rows') of
-                    Left d -> counterexample (show d) (1 <= Punch.row d && Punch.row d <= ByteString.length rows)
-                    Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
-  it "frames that go straight are read in one go as they are word by word (catches a shortcut that reads something else)" $
-    checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) -> forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
-      let plan = Layout.fromMachine m
-          states = scanl (Layout.after plan) (ModalState.first (ModalState.rising fs) at) fs
-          rowsFor state f = map Layout.holes (Layout.frameMarks plan state f)
-          readBoth state rows = (FastFrameReader.readFrame plan state (Short.pack rows) 0, FrameReader.wordByWord plan state (Short.pack rows) 0)
-          isRead state f = case readBoth state (rowsFor state f) of
-            (FastFrameReader.Read g end, slowly) -> Layout.isPlain plan && slowly == Right (g, end) && g == f
-            (FastFrameReader.NotBare, _) -> not (Layout.isPlain plan && ModalState.isBare f && Frame.isMoving f)
-          isSame state rows = case readBoth state rows of
-            (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
-            (FastFrameReader.NotBare, _) -> True
-          changedRow rows = take k rows <> [w] <> drop (k + 1) rows
-          -- As if nothing had been said before.
-          unsaid state = (ModalState.first (ModalState.rising fs) (ModalState.place state)) {ModalState.ordinal = ModalState.ordinal state}
-       in cover 20 (Layout.isPlain plan && any (\f -> ModalState.isBare f && Frame.isMoving f) fs) "frames that go straight" $
-            conjoin [counterexample (show f) (isRead state f && isSame state (changedRow (rowsFor state f)) && isSame state (rowsFor (unsaid state) f)) | (state, f) <- zip states fs]
-  it "an axis that points the other way turns its numbers and the arcs about (catches a sign that is forgotten)" $
-    forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      let turned = m {Machine.axes = fmap (\f -> if axis f == Machine.X then f {reversed = not (reversed f)} else f) (Machine.axes m)}
-       in isJust (Machine.axisForm m Machine.X) ==> Punch.write turned (mirroredPlace at) (map mirroredFrame fs) === Punch.write m at fs
+  it
+    "one row changed is refused or gives frames that are written just so (catches a reader that \
+    \guesses)"
+    $ withMaxSuccess 5000 . forAll Generate.machine $ \m ->
+      forAll (Generate.frames m) $ \(at, fs) ->
+        let rows = rowsOf (Punch.write m at fs)
+         in not (ByteString.null rows) ==> forAll (choose (0, ByteString.length rows - 1)) $ \k ->
+              forAll (oneof [arbitrary, elements [0, 0xFF], elements (ByteString.unpack rows)]) $
+                \w ->
+                  let rows' = changed (k + 1) (const w) rows
+                   in case Punch.read m at (Tape rows') of
+                        Left d ->
+                          counterexample
+                            (show d)
+                            (1 <= Punch.row d && Punch.row d <= ByteString.length rows)
+                        Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
+  it
+    "frames that go straight are read in one go as they are word by word (catches a shortcut that \
+    \reads something else)"
+    $ checkCoverage . forAll Generate.machine $ \m ->
+      forAll (Generate.frames m) $ \(at, fs) ->
+        forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
+          let plan = Layout.fromMachine m
+              states = scanl (Layout.after plan) (ModalState.first (ModalState.rising fs) at) fs
+              rowsFor state f = map Layout.holes (Layout.frameMarks plan state f)
+              readBoth state rows =
+                ( FastFrameReader.readFrame plan state (Short.pack rows) 0,
+                  FrameReader.wordByWord plan state (Short.pack rows) 0
+                )
+              isRead state f = case readBoth state (rowsFor state f) of
+                (FastFrameReader.Read g end, slowly) ->
+                  Layout.isPlain plan && slowly == Right (g, end) && g == f
+                (FastFrameReader.NotBare, _) ->
+                  not (Layout.isPlain plan && ModalState.isBare f && Frame.isMoving f)
+              isSame state rows = case readBoth state rows of
+                (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
+                (FastFrameReader.NotBare, _) -> True
+              changedRow rows = take k rows <> [w] <> drop (k + 1) rows
+              -- As if nothing had been said before.
+              unsaid state =
+                (ModalState.first (ModalState.rising fs) (ModalState.place state))
+                  { ModalState.ordinal =
+                      ModalState.ordinal state
+                  }
+           in cover
+                20
+                (Layout.isPlain plan && any (\f -> ModalState.isBare f && Frame.isMoving f) fs)
+                "frames that go straight"
+                $ conjoin
+                  [ counterexample
+                      (show f)
+                      ( isRead state f
+                          && isSame state (changedRow (rowsFor state f))
+                          && isSame state (rowsFor (unsaid state) f)
+                      )
+                    | (state, f) <- zip states fs
+                  ]
+  it
+    "an axis that points the other way turns its numbers and the arcs about (catches a sign that \
+    \is forgotten)"
+    $ forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
+      let turned =
+            m
+              { Machine.axes =
+                  fmap
+                    (\f -> if axis f == Machine.X then f {reversed = not (reversed f)} else f)
+                    (Machine.axes m)
+              }
+       in isJust (Machine.axisForm m Machine.X)
+            ==> Punch.write turned (mirroredPlace at) (map mirroredFrame fs) === Punch.write m at fs
 
 -- | Blank and erased rows, where the reader passes over them, do not count.
 spared :: Machine -> ByteString -> ByteString
@@ -114,7 +188,10 @@ covered m fs =
     . cover 10 (not (null [() | Frame {motion = Rapid} <- fs])) "rapid moves"
     . cover 20 (not (all (null . orders) fs)) "commands"
     . cover 1 (any Frame.braking fs) "braking"
-    . cover 20 (not (null [() | CheckDigit _ <- NonEmpty.toList (Machine.items (Machine.layout m))])) "check digits"
+    . cover
+      20
+      (not (null [() | CheckDigit _ <- NonEmpty.toList (Machine.items (Machine.layout m))]))
+      "check digits"
     . cover 10 (isJust (Machine.evenTrack (Machine.code m))) "parity"
     . cover 20 (Machine.spare (Machine.medium m) == Skipped) "spare rows"
     . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
@@ -124,7 +201,12 @@ mirroredPlace :: Pulses3 -> Pulses3
 mirroredPlace (Pulses3 x y z) = Pulses3 (negate x) y z
 
 mirroredFrame :: Frame -> Frame
-mirroredFrame f = f {increment = mirroredPlace (increment f), centre = Pulses2 (negate i) j, motion = turnedBack (motion f)}
+mirroredFrame f =
+  f
+    { increment = mirroredPlace (increment f),
+      centre = Pulses2 (negate i) j,
+      motion = turnedBack (motion f)
+    }
   where
     Pulses2 i j = centre f
     turnedBack m = case m of
@@ -139,26 +221,63 @@ along :: Pulses -> Pulses -> Frame
 along x y = (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
 
 machineOf :: FilePath -> IO Machine
-machineOf file = readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
+machineOf file =
+  readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
 
 pages :: Spec
 pages = do
   it "5121: four digits, four, three and one, signs and commands in the service track" $
     written lkp01f [straight (-1234) 56 (-7) 5 [(CommandName "aux", 5)]]
-      `shouldBe` blank 25 <> [0x11, 0x15, 0x06, 0x17] <> [0x00, 0x00, 0x08, 0x09] <> [0x10, 0x00, 0x0A] <> [0x18] <> blank 3 <> blank 25
+      `shouldBe` blank 25
+        <> [0x11, 0x15, 0x06, 0x17]
+        <> [0x00, 0x00, 0x08, 0x09]
+        <> [0x10, 0x00, 0x0A]
+        <> [0x18]
+        <> blank 3
+        <> blank 25
   it "5121: two blank rows stand before every even frame" $
-    [k | (k, 0x11) <- zip [0 :: Int ..] (written lkp01f (replicate 3 (straight 1 0 0 1 [])))] `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
+    [k | (k, 0x11) <- zip [0 :: Int ..] (written lkp01f (replicate 3 (straight 1 0 0 1 [])))]
+      `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
   it "a marker, the kind, increments, centre, feed with the braking hole, check digit" $
     written lkiU [(straight 12 0 (-3) 40 []) {Frame.braking = True}]
-      `shouldBe` blank 25 <> [0x1F, 1] <> [0, 0, 0, 0, 1, 5] <> blank 6 <> [0x10, 0, 0, 0, 0, 6] <> blank 12 <> [0x17, 0] <> [0xF] <> blank 3 <> blank 25
+      `shouldBe` blank 25
+        <> [0x1F, 1]
+        <> [0, 0, 0, 0, 1, 5]
+        <> blank 6
+        <> [0x10, 0, 0, 0, 0, 6]
+        <> blank 12
+        <> [0x17, 0]
+        <> [0xF]
+        <> blank 3
+        <> blank 25
   it "БЦК-5: the frame that is printed" $
-    take 14 (drop 25 (written kontur3p [(straight 0 6000 0 27 []) {orders = [(CommandName "spindle", 8)]}]))
+    take
+      14
+      ( drop
+          25
+          (written kontur3p [(straight 0 6000 0 27 []) {orders = [(CommandName "spindle", 8)]}])
+      )
       `shouldBe` [9, 18, 5, 6, 0, 0, 0, 21, 2, 7, 22, 0, 8, 16]
   it "ISO-7bit: X has holes 4 5 7 8, 3 has 1 2 5 6, + has 1 2 4 6" $
-    [w | w <- written n55 [straight 3 0 0 60 []], w `elem` [0xD8, 0x33, 0x2B]] `shouldBe` [0xD8, 0x2B, 0x33]
+    [w | w <- written n55 [straight 3 0 0 60 []], w `elem` [0xD8, 0x33, 0x2B]]
+      `shouldBe` [0xD8, 0x2B, 0x33]
   it "a text: positions in mm, each when it changes or was not said yet" $
-    text iso6983 (Pulses3 100 200 300) [straight 5000 0 0 60 [], straight 0 (-200) 0 60 [], (straight 10 10 0 70 []) {motion = Round Clockwise, centre = Pulses2 10 0}, Frame.still [(CommandName "release", 0)]]
-      `shouldBe` ["%", "G21 G17 G90 G94 G40 G49 G80", "G1 X5.100 Y0.200 F60", "G1 Y0.000", "G2 X5.110 Y0.010 I0.010 J0.000 F70", "G40", "%"]
+    text
+      iso6983
+      (Pulses3 100 200 300)
+      [ straight 5000 0 0 60 [],
+        straight 0 (-200) 0 60 [],
+        (straight 10 10 0 70 []) {motion = Round Clockwise, centre = Pulses2 10 0},
+        Frame.still [(CommandName "release", 0)]
+      ]
+      `shouldBe` [ "%",
+                   "G21 G17 G90 G94 G40 G49 G80",
+                   "G1 X5.100 Y0.200 F60",
+                   "G1 Y0.000",
+                   "G2 X5.110 Y0.010 I0.010 J0.000 F70",
+                   "G40",
+                   "%"
+                 ]
   it "a tape has metres, a text has none" $ do
     Tape.metres lkp01f (Tape (ByteString.replicate 1000 0)) `shouldBe` Just 2.54
     Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
@@ -167,30 +286,60 @@ pages = do
 wantedFor :: [Frame] -> Gen [Frame]
 wantedFor fs = do
   k <- choose (0, length fs)
-  elements [fs, fs, fs, take k fs, drop k fs, fs <> take 1 fs, [f {increment = increment f * sign k} | f <- fs]]
+  elements
+    [ fs,
+      fs,
+      fs,
+      take k fs,
+      drop k fs,
+      fs <> take 1 fs,
+      [f {increment = increment f * sign k} | f <- fs]
+    ]
   where
     sign k = if even k then Pulses3 1 1 0 else Pulses3 1 1 (-1)
 
 oneHole :: Spec
 oneHole = do
-  it "is refused or gives frames that are written just so, on every machine (catches a reader that guesses)" $
-    [ (Machine.name m, place) | m <- machines, (place, t) <- Holes.changes m (tapeOf m), Right fs <- [Punch.read m start t], Punch.write m start fs /= t
-    ]
+  it
+    "is refused or gives frames that are written just so, on every machine (catches a reader that \
+    \guesses)"
+    $ [ (Machine.name m, place)
+        | m <- machines,
+          (place, t) <- Holes.changes m (tapeOf m),
+          Right fs <- [Punch.read m start t],
+          Punch.write m start fs /= t
+      ]
       `shouldBe` []
-  it "is refused wherever it is, by check digits with weights and by parity (catches two digits that count the same)" $
-    [(Machine.name m, Holes.unseen s) | m <- [kontur2p, kontur3p, n55], let { s = Holes.share m start (journey m) }, Holes.found s /= Holes.tried s] `shouldBe` []
-  it "is refused on a tape with check digits, but for signs and marks in the service track (catches a check digit that is not looked at)" $
-    [(Machine.name m, row, track) | m <- [lkiU, lkiUn], (row, track) <- Holes.unseen (Holes.share m start (journey m)), track /= 5] `shouldBe` []
-  it "is blamed on its frame, or on the next one where that depends on it (catches rows that are counted wrong)" $
-    [ (Machine.name m, place, d)
-      | m <- machines,
-        let lengths = frameRows m,
-        (place@(row, _), t) <- Holes.changes m (tapeOf m),
-        Left d <- [Punch.read m start t],
-        Just n <- [frameAt lengths row],
-        k <- [frameAt lengths (Punch.row d)],
-        k /= Just n && k /= Just (n + 1)
-    ]
+  it
+    "is refused wherever it is, by check digits with weights and by parity (catches two digits \
+    \that count the same)"
+    $ [ (Machine.name m, Holes.unseen s)
+        | m <- [kontur2p, kontur3p, n55],
+          let s = Holes.share m start (journey m),
+          Holes.found s /= Holes.tried s
+      ]
+      `shouldBe` []
+  it
+    "is refused on a tape with check digits, but for signs and marks in the service track (catches \
+    \a check digit that is not looked at)"
+    $ [ (Machine.name m, row, track)
+        | m <- [lkiU, lkiUn],
+          (row, track) <- Holes.unseen (Holes.share m start (journey m)),
+          track /= 5
+      ]
+      `shouldBe` []
+  it
+    "is blamed on its frame, or on the next one where that depends on it (catches rows that are \
+    \counted wrong)"
+    $ [ (Machine.name m, place, d)
+        | m <- machines,
+          let lengths = frameRows m,
+          (place@(row, _), t) <- Holes.changes m (tapeOf m),
+          Left d <- [Punch.read m start t],
+          Just n <- [frameAt lengths row],
+          k <- [frameAt lengths (Punch.row d)],
+          k /= Just n && k /= Just (n + 1)
+      ]
       `shouldBe` []
 
 -- | The frame of every row of a machine's journey.
@@ -204,25 +353,31 @@ frameAt frames row = case drop (row - 1) frames of
 
 damage :: Spec
 damage = do
-  it "of 5121: a lost marker, a hole in a gap, a digit that is none, a foreign track, minus zero, an unknown speed" $ do
-    let at = reasonAt lkp01f [straight 10 0 0 5 [], straight 1 2 3 5 []]
-    at 37 (const 0x08) `shouldBe` Just MarkerMissing
-    at 39 (const 1) `shouldBe` Just GapNotBlank
-    at 31 (const 2) `shouldBe` Just (NoDigit 5 2)
-    at 31 (const 0x30) `shouldBe` Just ForeignTrack
-    at 31 (const 0x10) `shouldBe` Just ServiceHole
-    at 30 (const 0x10) `shouldBe` Just MinusZero
-    at 41 (const 1) `shouldBe` Just ShiftNotBlank
-    at 37 (const 0x10) `shouldBe` Just MoveWithoutSpeed
-    at 28 (const 0) `shouldBe` Nothing
-    at 3 (const 1) `shouldBe` Just (LeaderNotBlank 25)
+  it
+    "of 5121: a lost marker, a hole in a gap, a digit that is none, a foreign track, minus zero, \
+    \an unknown speed"
+    $ do
+      let at = reasonAt lkp01f [straight 10 0 0 5 [], straight 1 2 3 5 []]
+      at 37 (const 0x08) `shouldBe` Just MarkerMissing
+      at 39 (const 1) `shouldBe` Just GapNotBlank
+      at 31 (const 2) `shouldBe` Just (NoDigit 5 2)
+      at 31 (const 0x30) `shouldBe` Just ForeignTrack
+      at 31 (const 0x10) `shouldBe` Just ServiceHole
+      at 30 (const 0x10) `shouldBe` Just MinusZero
+      at 41 (const 1) `shouldBe` Just ShiftNotBlank
+      at 37 (const 0x10) `shouldBe` Just MoveWithoutSpeed
+      at 28 (const 0) `shouldBe` Nothing
+      at 3 (const 1) `shouldBe` Just (LeaderNotBlank 25)
   it "of a lettered frame: its sum, its priority, its order" $ do
     let at = reasonAt kontur3p [straight 0 6000 0 27 []]
     at 26 (const 0) `shouldBe` Just (AddsTo 27 10)
     at 28 (const 6) `shouldBe` Just (AddsTo 31 10)
-    faultOf kontur3p (blank 25 <> [4, 18, 1, 6, 0, 0, 0, 21, 2, 7, 16]) `shouldBe` Just (AddsTo 27 10)
-    faultOf kontur3p (blank 25 <> lettered [18, 1, 6, 0, 0, 0, 21, 2, 7, 16]) `shouldBe` Just (WrongPriority 1 5)
-    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16]) `shouldBe` Just (WordOutOfPlace 'Е')
+    faultOf kontur3p (blank 25 <> [4, 18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
+      `shouldBe` Just (AddsTo 27 10)
+    faultOf kontur3p (blank 25 <> lettered [18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
+      `shouldBe` Just (WrongPriority 1 5)
+    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16])
+      `shouldBe` Just (WordOutOfPlace 'Е')
     faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 16]) `shouldBe` Just MoveWithoutSpeed
     faultOf kontur3p (blank 25 <> lettered [16]) `shouldBe` Just IdleFrame
   it "of lines: a feed said twice, a frame number, an unknown motion, parity, a missing sign" $ do
@@ -244,33 +399,61 @@ damage = do
     reasonOf lkp01f (rows <> "\0") `shouldBe` Just (TrailerLength 26 25)
     reasonOf lkp01f "" `shouldBe` Just (NoFrames 25)
     reasonOf n55 "" `shouldBe` Just (NoFrames 25)
-    either (\d -> Just (Punch.row d, Punch.reason d)) (const Nothing) (Punch.read iso6983 start (Tape "")) `shouldBe` Just (1, NoFrames 0)
-    reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines') `shouldBe` Just (NoClosing "%\n")
+    either
+      (\d -> Just (Punch.row d, Punch.reason d))
+      (const Nothing)
+      (Punch.read iso6983 start (Tape ""))
+      `shouldBe` Just (1, NoFrames 0)
+    reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines')
+      `shouldBe` Just (NoClosing "%\n")
   it "does not lie in blank rows between frames or in erased ones, where they are passed over" $ do
     let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
         (front, behind) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
     Punch.read n55 start (Tape (spread n55 0xFF)) `shouldBe` Right (journey n55)
     Punch.read n55 start (Tape (spread n55 0)) `shouldBe` Right (journey n55)
-    Punch.read lkiU start (Tape (front <> ByteString.replicate 7 0 <> behind <> ByteString.replicate 7 0)) `shouldBe` Right (journey lkiU)
+    Punch.read
+      lkiU
+      start
+      (Tape (front <> ByteString.replicate 7 0 <> behind <> ByteString.replicate 7 0))
+      `shouldBe` Right (journey lkiU)
   it "is told with its row, its frame and its word" $
-    Report.title (Punch.toReport (Damage 31 (Just 1) (Just (Machine.Along Machine.Y)) (NoDigit 5 2))) `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
+    Report.title
+      (Punch.toReport (Damage 31 (Just 1) (Just (Machine.Along Machine.Y)) (NoDigit 5 2)))
+      `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
 
 -- | A frame with a check digit in front and a gap behind.
 lettered :: [Word8] -> [Word8]
-lettered ws = fromIntegral ((10 - sum (map ((`mod` 16) . fromIntegral) ws :: [Int]) `mod` 10) `mod` 10) : ws
+lettered ws =
+  fromIntegral ((10 - sum (map ((`mod` 16) . fromIntegral) ws :: [Int]) `mod` 10) `mod` 10) : ws
 
 -- | Why a lettered tape is refused that ends with this frame.
 faultOf :: Machine -> [Word8] -> Maybe Reason
-faultOf m rows = either (Just . Punch.reason) (const Nothing) (Punch.read m start (Tape (ByteString.pack (rows <> blank 28))))
+faultOf m rows =
+  either
+    (Just . Punch.reason)
+    (const Nothing)
+    (Punch.read m start (Tape (ByteString.pack (rows <> blank 28))))
 
 -- | Why lines of characters are refused.
 faultLine :: Text.Text -> Maybe Reason
-faultLine lines' = faultOf n55 (blank 25 <> map even' (ByteString.unpack (Encoding.encodeUtf8 ("%\n" <> lines' <> "\n"))))
+faultLine lines' =
+  faultOf
+    n55
+    (blank 25 <> map even' (ByteString.unpack (Encoding.encodeUtf8 ("%\n" <> lines' <> "\n"))))
   where
-    even' w = if odd (length [() | k <- [0 .. 6 :: Int], w `div` (2 ^ k) `mod` 2 == 1]) then w + 128 else w
+    even' w =
+      if odd (length [() | k <- [0 .. 6 :: Int], w `div` (2 ^ k) `mod` 2 == 1]) then w + 128 else w
 
 straight :: Int -> Int -> Int -> Int -> [(CommandName, Int)] -> Frame
-straight x y z s given = Frame {motion = Straightway, increment = Pulses3 (Pulses x) (Pulses y) (Pulses z), centre = 0, speed = FeedCode s, braking = False, orders = given}
+straight x y z s given =
+  Frame
+    { motion = Straightway,
+      increment = Pulses3 (Pulses x) (Pulses y) (Pulses z),
+      centre = 0,
+      speed = FeedCode s,
+      braking = False,
+      orders = given
+    }
 
 tapeOf :: Machine -> Tape
 tapeOf m = Punch.write m start (journey m)
@@ -295,9 +478,10 @@ changed n f rows = case ByteString.splitAt (n - 1) rows of
 
 -- | The reason that is reported in a row when that row, from 1, is changed.
 reasonAt :: Machine -> [Frame] -> Int -> (Word8 -> Word8) -> Maybe Reason
-reasonAt m fs n f = case Punch.read m start (Tape (changed n f (rowsOf (Punch.write m start fs)))) of
-  Left d | Punch.row d == n || isSum (Punch.reason d) -> Just (Punch.reason d)
-  _ -> Nothing
+reasonAt m fs n f =
+  case Punch.read m start (Tape (changed n f (rowsOf (Punch.write m start fs)))) of
+    Left d | Punch.row d == n || isSum (Punch.reason d) -> Just (Punch.reason d)
+    _ -> Nothing
   where
     isSum r = case r of
       AddsTo _ _ -> True

@@ -1,6 +1,8 @@
--- | The law of the edge that a control is sent: what the control makes of it is the path that is proven.
+-- | The law of the edge that a control is sent: what the control makes of it is the path that is
+-- proven.
 --
--- The control is modelled on what LinuxCNC does, move by move as it reads them, and shares nothing with the equidistant.
+-- The control is modelled on what LinuxCNC does, move by move as it reads them, and shares nothing
+-- with the equidistant.
 module Toolpath.CompensationSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -25,24 +27,45 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec =
   describe "a control" $ do
-    it "makes of the edge that it is sent the path that is proven (catches an edge that does not begin where the control meets it, a lead of the wrong radius, a last corner that is not gone round)" $
-      property $
+    it
+      "makes of the edge that it is sent the path that is proven (catches an edge that does not \
+      \begin where the control meets it, a lead of the wrong radius, a last corner that is not \
+      \gone round)"
+      $ property $
         forAll cases $ \(c, job) -> case sentOf job of
           Nothing -> property Discard
           Just _ | turnsIn c -> property Discard
           Just (r, sent, moves) ->
-            let made = unbroken (map Toolpath.segment (Toolpath.before sent) <> control r sent <> map Toolpath.segment (Toolpath.behind sent))
+            let made =
+                  unbroken
+                    ( map Toolpath.segment (Toolpath.before sent)
+                        <> control r sent
+                        <> map Toolpath.segment (Toolpath.behind sent)
+                    )
                 proven = unbroken (map Toolpath.segment moves)
-             in counterexample (show (made, proven, side c)) (length made === length proven .&&. conjoin (zipWith same made proven))
-    it "gets a straight way in that is longer than the cutter's radius (catches one measured from the path)" $
-      property $
+             in counterexample
+                  (show (made, proven, side c))
+                  (length made === length proven .&&. conjoin (zipWith same made proven))
+    it
+      "gets a straight way in that is longer than the cutter's radius (catches one measured from \
+      \the path)"
+      $ property $
         forAll ((,) <$> cases <*> choose (0.1, 3)) $ \((_, job), share) ->
           case sentOf (nearer share job) of
             Nothing -> property Discard
-            Just (r, sent, _) -> let Mm l = Segment.length (Toolpath.segment (Toolpath.entry sent)) in counterexample (show (l, r)) (l > r)
+            Just (r, sent, _) ->
+              let Mm l =
+                    Segment.length (Toolpath.segment (Toolpath.entry sent))
+               in counterexample (show (l, r)) (l > r)
 
 same :: Segment -> Segment -> Property
-same a b = conjoin [let Mm d = Vec.distance (Segment.at t a) (Segment.at t b) in counterexample (show (t, a, b)) (d < 1e-5) | t <- [0, 0.3, 0.7, 1]]
+same a b =
+  conjoin
+    [ let Mm d =
+            Vec.distance (Segment.at t a) (Segment.at t b)
+       in counterexample (show (t, a, b)) (d < 1e-5)
+      | t <- [0, 0.3, 0.7, 1]
+    ]
 
 -- The control
 
@@ -54,7 +77,12 @@ control r sent = onto : go entered (NonEmpty.toList edges)
     edges = fmap Toolpath.segment (Toolpath.edge sent)
     entry = Toolpath.segment (Toolpath.entry sent)
     first = NonEmpty.head edges
-    entered = meeting (beside (Segment.startDirection entry) (Segment.end entry)) (Segment.startDirection entry) (beside (Segment.startDirection first) (Segment.start first)) (Segment.startDirection first)
+    entered =
+      meeting
+        (beside (Segment.startDirection entry) (Segment.end entry))
+        (Segment.startDirection entry)
+        (beside (Segment.startDirection first) (Segment.start first))
+        (Segment.startDirection first)
     onto = Straight (Segment.start entry) entered
     beside d p = Vec.shift (Vec.scale (left * r) (Vec.left d)) p
     go at es = case es of
@@ -69,13 +97,23 @@ control r sent = onto : go entered (NonEmpty.toList edges)
                 | Rad t <- Vec.turn (Segment.endDirection e) (Segment.startDirection next),
                   abs t > 1e-6 ->
                   let out = beside (Segment.startDirection next) (Segment.start next)
-                   in Segment.arc (if left > 0 then Clockwise else CounterClockwise) (Segment.end e) finish out : go out rest
+                   in Segment.arc
+                        (if left > 0 then Clockwise else CounterClockwise)
+                        (Segment.end e)
+                        finish
+                        out :
+                      go out rest
               _ -> go finish rest
 
--- | Whether somewhere the contour turns slightly towards the cutter. A control goes straight on there, the path to where the
--- ways meet: less than 'Geometry.Tolerance.slightRest' apart.
+-- | Whether somewhere the contour turns slightly towards the cutter. A control goes straight on
+-- there, the path to where the ways meet: less than 'Geometry.Tolerance.slightRest' apart.
 turnsIn :: Case -> Bool
-turnsIn c = or [t * left > 1e-7 | (_, a, b) <- Polyarc.joints (contour c), let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b)]
+turnsIn c =
+  or
+    [ t * left > 1e-7
+      | (_, a, b) <- Polyarc.joints (contour c),
+        let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+    ]
   where
     left = if side c == LeftOf then 1 else -1
 
@@ -89,26 +127,46 @@ unbroken = foldr join [] . filter long
   where
     long s = let Mm l = Segment.length s in l > 1e-6
     join s rest = case (s, rest) of
-      (Straight a b, Straight _ c : more) | Rad t <- Vec.turn (Vec.to a b) (Vec.to b c), abs t < 1e-6 -> Straight a c : more
+      (Straight a b, Straight _ c : more)
+        | Rad t <- Vec.turn (Vec.to a b) (Vec.to b c),
+          abs t < 1e-6 ->
+          Straight a c : more
       _ -> s : rest
 
 -- Millings
 
 -- | The way in at a share of its length in radii.
 nearer :: Double -> Milling -> Milling
-nearer share job = case (firstAndLast job {Part.byControl = Nothing, Part.approach = [], Part.retract = []}, Part.approach job) of
-  (Just (begin, _), [s]) ->
-    let Mm r = Part.radius job
-        p = Segment.start begin
-        v = Vec.unit (Vec.to p (value (Part.place s)))
-     in job {Part.approach = [s {Part.place = Located nowhere (Vec.shift (Vec.scale (share * r) v) p)}]}
-  _ -> job
+nearer share job =
+  case ( firstAndLast job {Part.byControl = Nothing, Part.approach = [], Part.retract = []},
+         Part.approach job
+       ) of
+    (Just (begin, _), [s]) ->
+      let Mm r = Part.radius job
+          p = Segment.start begin
+          v = Vec.unit (Vec.to p (value (Part.place s)))
+       in job
+            { Part.approach =
+                [ s
+                    { Part.place =
+                        Located
+                          nowhere
+                          (Vec.shift (Vec.scale (share * r) v) p)
+                    }
+                ]
+            }
+    _ -> job
 
--- | The radius, what is sent, and the moves that are proven; nothing where the control would refuse it.
+-- | The radius, what is sent, and the moves that are proven; nothing where the control would refuse
+-- it.
 sentOf :: Milling -> Maybe (Double, Sent, [Toolpath.Move])
-sentOf job = case laid (maybe (beginning job) (value . Part.place) (listToMaybe (Part.approach job))) job of
-  Just [b@Toolpath.Cutting {Toolpath.sent = Just s}] -> let Mm r = Part.radius job in Just (r, s, Toolpath.moves b)
-  _ -> Nothing
+sentOf job =
+  case laid (maybe (beginning job) (value . Part.place) (listToMaybe (Part.approach job))) job of
+    Just [b@Toolpath.Cutting {Toolpath.sent = Just s}] ->
+      let Mm r =
+            Part.radius job
+       in Just (r, s, Toolpath.moves b)
+    _ -> Nothing
 
 nowhere :: Region
 nowhere = Region 0 0

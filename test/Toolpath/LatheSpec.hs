@@ -14,17 +14,30 @@ import Test.Hspec
 
 spec :: Spec
 spec =
-  it "moves towards the axis are positive on Контур, with a profile to be turned and without (catches a lathe that is known by its profiles only)" $ do
-    moves <- readText "test/programs/turn/good/facing-by-moves.part"
-    profile <- readText "test/programs/turn/good/outside.part"
-    concat <$> traverse depthOf [moves, profile] `shouldReturn` [1000, 2400]
+  it
+    "moves towards the axis are positive on Контур, with a profile to be turned and without \
+    \(catches a lathe that is known by its profiles only)"
+    $ do
+      moves <- readText "test/programs/turn/good/facing-by-moves.part"
+      profile <- readText "test/programs/turn/good/outside.part"
+      concat <$> traverse depthOf [moves, profile] `shouldReturn` [1000, 2400]
   where
     -- The first increment in y of the tape, as the control sees it.
     depthOf text = do
       punched <- punchedFrom text
-      pure (take 1 [y | Right fs <- [Punch.read kontur3p 0 (tape punched)], f <- fs, let Pulses3 _ y _ = increment f, y /= 0])
+      pure
+        ( take
+            1
+            [ y
+              | Right fs <- [Punch.read kontur3p 0 (tape punched)],
+                f <- fs,
+                let Pulses3 _ y _ = increment f,
+                y /= 0
+            ]
+        )
 
 punchedFrom :: Text -> IO Punched
 punchedFrom text =
   maybe (fail "the program has errors") pure . Result.settled $
-    Compile.analyse [] (Compile.alone "lathe.part" text) `Result.thenSound` \a -> Compile.punch (Compile.onMachine (path a) kontur3p) (path a)
+    Compile.analyse [] (Compile.alone "lathe.part" text) `Result.thenSound` \a ->
+      Compile.punch (Compile.onMachine (path a) kontur3p) (path a)

@@ -28,38 +28,72 @@ import Toolpath.Pocket qualified as Pocket
 spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
   describe "the passes in a pocket" $ do
-    prop "sweep every place that the cutter can reach (catches corners, nooks and middles left between passes)" $
-      forAll Generate.pocket $ \p -> let way = cleared p in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+    prop
+      "sweep every place that the cutter can reach (catches corners, nooks and middles left \
+      \between passes)"
+      $ forAll Generate.pocket $ \p ->
+        let way =
+              cleared p
+         in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
     prop "cut into no wall (catches a link straight through an island)" $
-      forAll Generate.pocket $ \p -> conjoin [deepEnough p s | s <- concatMap Pocket.segments (cleared p)]
-    prop "begin where the one before ends (catches a loop entered elsewhere than it is begun)" $
-      forAll Generate.pocket $ \p -> let way = cleared p in conjoin (zipWith joined way (drop 1 way))
-    prop "go with the free space on the left, or all the other way (catches a trip that is not turned)" $
       forAll Generate.pocket $ \p ->
+        conjoin [deepEnough p s | s <- concatMap Pocket.segments (cleared p)]
+    prop "begin where the one before ends (catches a loop entered elsewhere than it is begun)" $
+      forAll Generate.pocket $ \p ->
+        let way =
+              cleared p
+         in conjoin (zipWith joined way (drop 1 way))
+    prop
+      "go with the free space on the left, or all the other way (catches a trip that is not turned)"
+      $ forAll Generate.pocket $ \p ->
         let way = cleared p
             back = Pocket.clear (Generate.roomOf p) {turned = True} (step p) Nothing
          in counterexample "joined" (conjoin (zipWith joined back (drop 1 back)))
-              .&&. counterexample (show (area way, area back)) (abs (area way + area back) <= 1e-6 * abs (area way))
+              .&&. counterexample
+                (show (area way, area back))
+                (abs (area way + area back) <= 1e-6 * abs (area way))
     prop "of a rectangle come nearer and nearer to the wall (catches passes from the outside in)" $
-      forAll Generate.rectangle $ \p -> let ds = [d | Round d _ <- cleared p] in ds === reverse (sorted ds)
-    prop "of a rectangle are linked by ways no longer than the step (catches a loop entered anywhere)" $
-      forAll Generate.rectangle $ \p -> [leg | leg <- cleared p, isOver leg || isLong p leg] === []
+      forAll Generate.rectangle $ \p ->
+        let ds =
+              [d | Round d _ <- cleared p]
+         in ds === reverse (sorted ds)
+    prop
+      "of a rectangle are linked by ways no longer than the step (catches a loop entered anywhere)"
+      $ forAll Generate.rectangle $ \p ->
+        [leg | leg <- cleared p, isOver leg || isLong p leg] === []
     prop "come behind those that lie in them (catches the first part of two left for the end)" $
       forAll (Generate.pocket `suchThat` (null . NonEmpty.tail . loops)) $ \p ->
         let rounds = [(d, ss) | Round d ss <- cleared p]
-         in [(d, d') | (d, ss) : later <- tails rounds, Vec.near (Segment.start (NonEmpty.head ss)) (Segment.end (NonEmpty.last ss)), (d', s :| _) <- later, d' > plus d (Mm 1e-3), WindingNumber.about (Segment.start s) ss /= 0] === []
+         in [ (d, d')
+              | (d, ss) : later <- tails rounds,
+                Vec.near (Segment.start (NonEmpty.head ss)) (Segment.end (NonEmpty.last ss)),
+                (d', s :| _) <- later,
+                d' > plus d (Mm 1e-3),
+                WindingNumber.about (Segment.start s) ss /= 0
+            ]
+              === []
     it "take trips aside and lifts now and then" $ do
       ways <- map cleared <$> generate (vectorOf 100 Generate.pocket)
-      [length (filter (any isAside) ways) > 5, length (filter (any isOver) ways) > 5] `shouldBe` [True, True]
+      [length (filter (any isAside) ways) > 5, length (filter (any isOver) ways) > 5]
+        `shouldBe` [True, True]
     it "begin at the place given" $
-      fmap Pocket.begins (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20)))) `shouldBe` [Vec.point 30 20]
+      fmap
+        Pocket.begins
+        (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20))))
+        `shouldBe` [Vec.point 30 20]
     it "of a pocket into which the cutter does not fit are none" $
       Pocket.clear (Generate.roomOf plain {cutter = Mm 21}) (Mm 5) Nothing `shouldBe` []
   describe "the passes by the kernel" $ do
-    prop "sweep every place that the cutter can reach (catches a loop that the kernel and the passes see differently)" $
-      forAll Generate.pocket $ \p -> let way = byKernel p in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+    prop
+      "sweep every place that the cutter can reach (catches a loop that the kernel and the passes \
+      \see differently)"
+      $ forAll Generate.pocket $ \p ->
+        let way =
+              byKernel p
+         in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
     prop "cut into no wall (catches walls with the free space on the wrong side)" $
-      forAll Generate.pocket $ \p -> conjoin [deepEnough p s | s <- concatMap Pocket.segments (byKernel p)]
+      forAll Generate.pocket $ \p ->
+        conjoin [deepEnough p s | s <- concatMap Pocket.segments (byKernel p)]
   describe "the passes along the walls" $
     prop "sweep what was left at them (catches a pass too few)" $
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
@@ -69,7 +103,10 @@ spec = modifyMaxSuccess (const 60) $ do
          in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
   where
     plain = Pocket {loops = rectangle 60 40 :| [], cutter = Mm 5, left = Mm 0, step = Mm 5}
-    rectangle w h = let ps = [Vec.point 0 0, Vec.point w 0, Vec.point w h, Vec.point 0 h] in NonEmpty.fromList (zipWith Segment.Straight ps (drop 1 ps <> take 1 ps))
+    rectangle w h =
+      let ps =
+            [Vec.point 0 0, Vec.point w 0, Vec.point w h, Vec.point 0 h]
+       in NonEmpty.fromList (zipWith Segment.Straight ps (drop 1 ps <> take 1 ps))
     sorted = foldr insert []
     insert x xs = let (a, b) = span (< x) xs in a <> [x] <> b
     -- What the passes go round, counter-clockwise.
@@ -77,7 +114,10 @@ spec = modifyMaxSuccess (const 60) $ do
     part s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2 + bow s
     bow s = case s of
       Segment.Straight _ _ -> 0
-      Segment.Arc {Segment.start = a, Segment.centre, Segment.sweep = Rad w} -> let Mm r = Segment.radius centre a in r * r * (w - sin w) / 2
+      Segment.Arc {Segment.start = a, Segment.centre, Segment.sweep = Rad w} ->
+        let Mm r =
+              Segment.radius centre a
+         in r * r * (w - sin w) / 2
     origin = Vec.point 0 0
 
 -- | Whether it is a loop, a part of one, or a trip aside.
@@ -96,7 +136,14 @@ isLong p leg = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [leg
 
 -- | As 'cleared', with walls that are walked any way, and the loops of the kernel.
 byKernel :: Pocket -> [PocketMove]
-byKernel p = Pocket.clear (Generate.roomOf p) {offsetBy = Inset.inset (Inset.oriented outline islands), further = Inset.further} (step p) Nothing
+byKernel p =
+  Pocket.clear
+    (Generate.roomOf p)
+      { offsetBy = Inset.inset (Inset.oriented outline islands),
+        further = Inset.further
+      }
+    (step p)
+    Nothing
   where
     outline :| islands = fmap (Polyarc.reverse . Polyarc Closed) (loops p)
 
@@ -111,29 +158,46 @@ isOver leg = case leg of
   Across _ -> False
 
 joined :: PocketMove -> PocketMove -> Property
-joined a b = counterexample (show (a, b)) (Vec.distance (Pocket.finishes a) (Pocket.begins b) <= Mm 1e-5)
+joined a b =
+  counterexample (show (a, b)) (Vec.distance (Pocket.finishes a) (Pocket.begins b) <= Mm 1e-5)
 
 -- | The cutter's centre keeps its distance.
 deepEnough :: Pocket -> Segment -> Property
-deepEnough p s = conjoin [counterexample (show (s, w, d)) (d >= plus nearest (Mm (-2e-5))) | w <- NonEmpty.toList (walls (Generate.roomOf p)), let ClosestPoint d _ = Distance.segments s w]
+deepEnough p s =
+  conjoin
+    [ counterexample (show (s, w, d)) (d >= plus nearest (Mm (-2e-5)))
+      | w <- NonEmpty.toList (walls (Generate.roomOf p)),
+        let ClosestPoint d _ = Distance.segments s w
+    ]
   where
     nearest = plus (cutter p) (left p)
 
 -- | Places all over the pocket, and some beside the ends of segments, where passes turn.
 places :: Pocket -> [PocketMove] -> Gen [Point]
-places p way = (<>) <$> vectorOf 150 anywhere <*> (if null ends then pure [] else vectorOf 300 beside)
+places p way =
+  (<>) <$> vectorOf 150 anywhere <*> (if null ends then pure [] else vectorOf 300 beside)
   where
-    BoundingBox l b r t = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
+    BoundingBox l b r t =
+      foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
     anywhere = Vec.point <$> choose (l, r) <*> choose (b, t)
     ends = [Segment.end s | leg <- way, s <- Pocket.segments leg]
     Mm far = step p
-    beside = (\q d a -> Vec.shift (Vec.polar (Mm d) (Rad a)) q) <$> elements ends <*> choose (0, far) <*> choose (0, 2 * pi)
+    beside =
+      (\q d a -> Vec.shift (Vec.polar (Mm d) (Rad a)) q)
+        <$> elements ends <*> choose (0, far) <*> choose (0, 2 * pi)
 
 -- | Whether a place is out of reach or swept.
 swept :: Pocket -> [PocketMove] -> Point -> Property
-swept p way q = counterexample (show (q, distanceToWay)) (not reachable || distanceToWay <= plus (cutter p) (Mm 1e-4))
+swept p way q =
+  counterexample
+    (show (q, distanceToWay))
+    (not reachable || distanceToWay <= plus (cutter p) (Mm 1e-4))
   where
     room = Generate.roomOf p
     borders = concatMap NonEmpty.toList (offsetBy room (plus (cutter p) (left p)))
-    reachable = WindingNumber.about q borders > 0 || any (\s -> Distance.toPoint q s <= plus (cutter p) (Mm (-1e-4))) borders
-    distanceToWay = minimum (Mm (1 / 0) : [Distance.toPoint q s | leg <- way, isPass leg, s <- Pocket.segments leg])
+    reachable =
+      WindingNumber.about q borders > 0
+        || any (\s -> Distance.toPoint q s <= plus (cutter p) (Mm (-1e-4))) borders
+    distanceToWay =
+      minimum
+        (Mm (1 / 0) : [Distance.toPoint q s | leg <- way, isPass leg, s <- Pocket.segments leg])

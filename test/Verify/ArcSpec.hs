@@ -1,4 +1,5 @@
--- | The proof of tapes with arcs: the flange and random contours on machines that walk arcs, and every change of theirs.
+-- | The proof of tapes with arcs: the flange and random contours on machines that walk arcs, and
+-- every change of theirs.
 module Verify.ArcSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -41,48 +42,107 @@ spec :: Spec
 spec = do
   describe "the flange" $
     mapM_ flange ["lki-u", "lki-fm", "lki-un", "n55", "iso6983"]
-  it "random contours of lines and arcs are proven in frames with arcs (catches an arc that is looked at by its chord)" $
-    property $
-      forAll ((,) <$> elements ["lki-u", "lki-fm", "lki-un", "n55"] <*> (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf))) $ \(name, c) ->
-        case Generate.milled (Mm 0.02) c of
-          Nothing -> discard
-          Just path -> let program = Arcs.quantise (quick name) path in findings (quick name) path program (own program) === []
-  it "of random contours no change that cuts too deep or leaves too much is proven (catches a stroke whose middle alone is measured)" $
-    property $
-      withMaxSuccess 300 $
-        forAll ((,) <$> elements ["lki-u", "lki-fm", "lki-un"] <*> (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf))) $ \(name, c) ->
+  it
+    "random contours of lines and arcs are proven in frames with arcs (catches an arc that is \
+    \looked at by its chord)"
+    $ property $
+      forAll
+        ( (,)
+            <$> elements ["lki-u", "lki-fm", "lki-un", "n55"]
+              <*> (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf))
+        )
+        $ \(name, c) ->
           case Generate.milled (Mm 0.02) c of
             Nothing -> discard
-            Just path -> let program = Arcs.quantise (quick name) path in changed (quick name) path program (NonEmpty.toList (segments (contour c))) (Generate.radiusOf c)
+            Just path ->
+              let program =
+                    Arcs.quantise (quick name) path
+               in findings (quick name) path program (own program) === []
+  it
+    "of random contours no change that cuts too deep or leaves too much is proven (catches a \
+    \stroke whose middle alone is measured)"
+    $ property $
+      withMaxSuccess 300 $
+        forAll
+          ( (,)
+              <$> elements ["lki-u", "lki-fm", "lki-un"]
+                <*> (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf))
+          )
+          $ \(name, c) ->
+            case Generate.milled (Mm 0.02) c of
+              Nothing -> discard
+              Just path ->
+                let program =
+                      Arcs.quantise (quick name) path
+                 in changed
+                      (quick name)
+                      path
+                      program
+                      (NonEmpty.toList (segments (contour c)))
+                      (Generate.radiusOf c)
   describe "a full circle in one frame" $ do
     it "is proven, inside and outside" $
-      [s | (s, (path, program)) <- rounds, findings uncut path program (own program) /= []] `shouldBe` []
-    it "lost, it leaves the circle standing; so it does the other way round (catches a circle dropped as a frame without a way)" $ do
-      [s | (s, (path, program)) <- rounds, not (any isExcess (findings uncut path program (filter (not . isCircle) (own program))))] `shouldBe` []
-      [s | (s, (path, program)) <- rounds, not (any isNotFollowed (findings uncut path program (map mirrored (own program))))] `shouldBe` []
-    it "with another centre it gouges or leaves material, also where its ends do not tell (catches a circle taken for a point)" $
-      [ (s, d)
-        | (s, (path, program)) <- rounds,
-          d <- [Pulses2 5 0, Pulses2 (-5) 0, Pulses2 0 5, Pulses2 0 (-5)],
-          not (any (\f -> isGouge f || isExcess f) (findings uncut path program [if isCircle f then f {centre = centre f + d} else f | f <- own program]))
-      ]
+      [s | (s, (path, program)) <- rounds, findings uncut path program (own program) /= []]
         `shouldBe` []
-    it "on the way in or out it is a gouge where it meets the part (catches ways that are looked at between their ends)" $
-      [ s
-        | (s, (path, program)) <- rounds,
-          f : fs <- [own program],
-          let loop = Frame {motion = Round Clockwise, increment = 0, centre = Pulses2 (-1000) 0, speed = speed f, braking = False, orders = []},
-          not (any isGouge (findings uncut path program (loop : f : fs)))
-      ]
+    it
+      "lost, it leaves the circle standing; so it does the other way round (catches a circle \
+      \dropped as a frame without a way)"
+      $ do
+        [s | (s, (path, program)) <- rounds, not (any isExcess (findings uncut path program (filter (not . isCircle) (own program))))]
+          `shouldBe` []
+        [s | (s, (path, program)) <- rounds, not (any isNotFollowed (findings uncut path program (map mirrored (own program))))]
+          `shouldBe` []
+    it
+      "with another centre it gouges or leaves material, also where its ends do not tell (catches \
+      \a circle taken for a point)"
+      $ [ (s, d)
+          | (s, (path, program)) <- rounds,
+            d <- [Pulses2 5 0, Pulses2 (-5) 0, Pulses2 0 5, Pulses2 0 (-5)],
+            not
+              ( any
+                  (\f -> isGouge f || isExcess f)
+                  ( findings
+                      uncut
+                      path
+                      program
+                      [if isCircle f then f {centre = centre f + d} else f | f <- own program]
+                  )
+              )
+        ]
+        `shouldBe` []
+    it
+      "on the way in or out it is a gouge where it meets the part (catches ways that are looked at \
+      \between their ends)"
+      $ [ s
+          | (s, (path, program)) <- rounds,
+            f : fs <- [own program],
+            let loop =
+                  Frame
+                    { motion = Round Clockwise,
+                      increment = 0,
+                      centre = Pulses2 (-1000) 0,
+                      speed = speed f,
+                      braking = False,
+                      orders = []
+                    },
+            not (any isGouge (findings uncut path program (loop : f : fs)))
+        ]
         `shouldBe` []
   describe "frames that the control would refuse" $ do
-    it "are arcs whose radii differ by more than 2 pulses, without a centre, without a sweep; no others" $
-      [(what, refusals uncut f) | (what, expected, f) <- arcs, refusals uncut f /= expected] `shouldBe` []
-    it "are arcs that leave their quadrant on a machine of quadrants, and any on one without arcs" $ do
-      [refusals (quick "lki-fm") f | f <- [quarter, half, long]] `shouldBe` [[], ["motion"], ["motion"]]
-      refusals (quick "lkp-01f") quarter `shouldBe` ["motion"]
-  it "a gouge is found on either way between which a control goes when the radii of an arc differ (catches a proof for one of them)" $
-    property $
+    it
+      "are arcs whose radii differ by more than 2 pulses, without a centre, without a sweep; no \
+      \others"
+      $ [(what, refusals uncut f) | (what, expected, f) <- arcs, refusals uncut f /= expected]
+        `shouldBe` []
+    it "are arcs that leave their quadrant on a machine of quadrants, and any on one without arcs" $
+      do
+        [refusals (quick "lki-fm") f | f <- [quarter, half, long]]
+          `shouldBe` [[], ["motion"], ["motion"]]
+        refusals (quick "lkp-01f") quarter `shouldBe` ["motion"]
+  it
+    "a gouge is found on either way between which a control goes when the radii of an arc differ \
+    \(catches a proof for one of them)"
+    $ property $
       forAll (elements [Clockwise, CounterClockwise]) $ \turn ->
         forAll ((,) <$> arbitrary <*> elements [-2, -1, 1, 2]) $ \(atStart, d) ->
           let found = findingsBeside turn atStart d
@@ -92,7 +152,20 @@ spec = do
     own program = map Frame.frame (Frame.planned program)
     rounds = [(s, circle s) | s <- [LeftOf, RightOf]]
     circle s =
-      let path = laid (if s == LeftOf then Vec.point 0 0 else Vec.point 60 0) (Mm 0.02) s (Polyarc Closed (Segment.fullCircle CounterClockwise (Circle (Vec.point 0 0) (Mm 20)) (Vec.point 20 0) :| []))
+      let path =
+            laid
+              (if s == LeftOf then Vec.point 0 0 else Vec.point 60 0)
+              (Mm 0.02)
+              s
+              ( Polyarc
+                  Closed
+                  ( Segment.fullCircle
+                      CounterClockwise
+                      (Circle (Vec.point 0 0) (Mm 20))
+                      (Vec.point 20 0)
+                      :| []
+                  )
+              )
        in (path, Arcs.quantise uncut path)
     isCircle f = increment f == 0
     mirrored f = case motion f of
@@ -111,7 +184,24 @@ findings machine path program fs = Proof.findings (Verify.prove machine path pro
 -- | A contour milled with a cutter of radius 5, from a point straight to its beginning.
 laid :: Point -> Mm -> Side -> Polyarc -> Toolpath
 laid from tolerance side walked = case Equidistant.equidistant side (Mm 5) walked of
-  Right pieces | Just path <- Result.output (Toolpath.lay (Generate.partOf from (Part.Mill (Located (Region 0 0) (Generate.job Case {contour = walked, side, radius = Mm 5, pieces}) {Part.tolerance = Part.OnPath tolerance})))) -> path
+  Right pieces
+    | Just path <-
+        Result.output
+          ( Toolpath.lay
+              ( Generate.partOf
+                  from
+                  ( Part.Mill
+                      ( Located
+                          (Region 0 0)
+                          (Generate.job Case {contour = walked, side, radius = Mm 5, pieces})
+                            { Part.tolerance =
+                                Part.OnPath tolerance
+                            }
+                      )
+                  )
+              )
+          ) ->
+      path
   _ -> error "no path"
 
 -- | The flange: its own frames are proven, and its changes are found.
@@ -119,13 +209,19 @@ flange :: Text -> Spec
 flange name = describe (Text.unpack name) $ do
   it "its own frames are proven" $
     findings machine path' program (map Frame.frame (Frame.planned program)) `shouldBe` []
-  it "every change that cuts too deep or leaves too much is found (catches an arc that is measured at its ends)" $
-    property $ withMaxSuccess 200 $ changed machine path' program contour 10
+  it
+    "every change that cuts too deep or leaves too much is found (catches an arc that is measured \
+    \at its ends)"
+    $ property $ withMaxSuccess 200 $ changed machine path' program contour 10
   where
     machine = quick name
     path' = path Flange.analysis
     program = Arcs.quantise machine path'
-    contour = concat [map Part.segment (NonEmpty.toList (Part.elements (Part.contour m))) | Toolpath.Cutting {Toolpath.job = Located _ m} <- Toolpath.blocks path']
+    contour =
+      concat
+        [ map Part.segment (NonEmpty.toList (Part.elements (Part.contour m)))
+          | Toolpath.Cutting {Toolpath.job = Located _ m} <- Toolpath.blocks path'
+        ]
 
 -- | A change that sampling shows to cut too deep is a gouge, one that leaves too much an excess.
 changed :: Machine -> Toolpath -> FrameProgram -> [Segment] -> Double -> Property
@@ -136,12 +232,15 @@ changed machine path program contour radius =
         gouges = deepest > allowed + 0.001
         leaves = most > allowed + 0.001 + 0.01 / (2 * radius)
      in counterexample (show (deepest, most, found)) $
-          tabulate "change" [takeWhile (/= '(') what] . classify (not gouges && not leaves) "within" . classify (null found) "proven" $
-            (not gouges || any isGouge found) && (not leaves || any isExcess found)
+          tabulate "change" [takeWhile (/= '(') what]
+            . classify (not gouges && not leaves) "within"
+            . classify (null found) "proven"
+            $ (not gouges || any isGouge found) && (not leaves || any isExcess found)
   where
     allowed = 0.02 + (let Mm pulse = Machine.pulse machine in pulse)
 
--- | An arc without sweep or radius of its own, an arc of a quarter, of a half, of three quarters, and what is wrong with each.
+-- | An arc without sweep or radius of its own, an arc of a quarter, of a half, of three quarters,
+-- and what is wrong with each.
 arcs :: [(String, [String], Frame)]
 arcs =
   [ ("a quarter", [], quarter),
@@ -155,17 +254,40 @@ arcs =
     ("the end at the centre", ["sweep"], quarter {increment = Pulses3 (-1000) 0 0}),
     ("the end beyond the beginning", ["sweep"], quarter {increment = Pulses3 1 0 0}),
     ("an arc that rises", ["motion"], quarter {increment = Pulses3 (-1000) 1000 1}),
-    ("a straight frame that goes nowhere", ["motion"], quarter {motion = Straightway, centre = 0, increment = 0})
+    ( "a straight frame that goes nowhere",
+      ["motion"],
+      quarter {motion = Straightway, centre = 0, increment = 0}
+    )
   ]
 
 quarter, half, long :: Frame
-quarter = Frame {motion = Round CounterClockwise, increment = Pulses3 (-1000) 1000 0, centre = Pulses2 (-1000) 0, speed = FeedCode 1, braking = False, orders = []}
+quarter =
+  Frame
+    { motion = Round CounterClockwise,
+      increment = Pulses3 (-1000) 1000 0,
+      centre = Pulses2 (-1000) 0,
+      speed = FeedCode 1,
+      braking = False,
+      orders = []
+    }
 half = quarter {increment = Pulses3 (-2000) 0 0}
 long = quarter {increment = Pulses3 (-1000) (-1000) 0}
 
 -- | Why a frame is refused.
 refusals :: Machine -> Frame -> [String]
-refusals machine f = [why r | Refused r <- findings machine (Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [] False) (Frame.FrameProgram 0 []) [f]]
+refusals machine f =
+  [ why r
+    | Refused r <-
+        findings
+          machine
+          ( Toolpath.Toolpath
+              (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
+              []
+              False
+          )
+          (Frame.FrameProgram 0 [])
+          [f]
+  ]
   where
     why r = case r of
       UnequalRadii _ _ -> "radii"
@@ -175,20 +297,34 @@ refusals machine f = [why r | Refused r <- findings machine (Toolpath.Toolpath (
       ByRule other -> show other
       NotKept _ -> "compensation"
 
--- | What is found of an arc of radius 25 from one axis to the other with a cutter of radius 5, beside the middle of an arc of
--- radius 20: its beginning or its end is so many pulses further out than it should be.
+-- | What is found of an arc of radius 25 from one axis to the other with a cutter of radius 5,
+-- beside the middle of an arc of radius 20: its beginning or its end is so many pulses further out
+-- than it should be.
 findingsBeside :: Sense -> Bool -> Int -> [Finding]
 findingsBeside turn atStart d = findings machine path (Arcs.quantise machine path) [f]
   where
     machine = quick "lki-u"
-    path = laid (Vec.point (fromIntegral sx * 0.02) (fromIntegral sy * 0.02)) (Mm 0.001) RightOf (Polyarc Open (middle :| []))
+    path =
+      laid
+        (Vec.point (fromIntegral sx * 0.02) (fromIntegral sy * 0.02))
+        (Mm 0.001)
+        RightOf
+        (Polyarc Open (middle :| []))
     middle = Segment.arc CounterClockwise (Vec.point 0 0) (on (pi / 6)) (on (pi / 3))
     on a = Vec.shift (Vec.polar (Mm 20) (Rad a)) (Vec.point 0 0)
     off here = Pulses (1250 + if here then d else 0)
     ((sx, sy), (ex, ey)) = case turn of
       CounterClockwise -> ((off atStart, 0), (0, off (not atStart)))
       Clockwise -> ((0, off atStart), (off (not atStart), 0))
-    f = Frame {motion = Round turn, increment = Pulses3 (ex - sx) (ey - sy) 0, centre = Pulses2 (-sx) (-sy), speed = FeedCode 1, braking = False, orders = []}
+    f =
+      Frame
+        { motion = Round turn,
+          increment = Pulses3 (ex - sx) (ey - sy) 0,
+          centre = Pulses2 (-sx) (-sy),
+          speed = FeedCode 1,
+          braking = False,
+          orders = []
+        }
 
 isGouge, isExcess, isNotFollowed :: Finding -> Bool
 isGouge f = case f of

@@ -1,4 +1,5 @@
--- | The proof of tapes under which the control keeps the cutter beside the contour: the compiler's own, and changed ones.
+-- | The proof of tapes under which the control keeps the cutter beside the contour: the compiler's
+-- own, and changed ones.
 module Verify.CompensationSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -34,42 +35,74 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = do
-  it "random contours with leads are proven in what the control makes of the edge (catches a proof of the frames alone, an edge that begins in a wrong place)" $
-    property $
+  it
+    "random contours with leads are proven in what the control makes of the edge (catches a proof \
+    \of the frames alone, an edge that begins in a wrong place)"
+    $ property $
       forAll (tolerant =<< ByControl.cases) $ \job -> case made job of
         Nothing -> property Discard
         Just (path, program) -> findings path program (own program) === []
   describe "of random contours" $ do
     changes "the other side" $ \_ fs -> [[f {orders = map exchanged (orders f)} | f <- fs]]
-    changes "a diameter of one unit more or less" $ \_ fs -> [[f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]} | f <- fs] | d <- [1, -1]]
-    changes "a lost order to keep the cutter beside the contour" $ \_ fs -> [[f {orders = filter (not . isKeep . fst) (orders f)} | f <- fs]]
-    changes "a lost release" $ \_ fs -> [[f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- fs]]
-    changes "a lost frame along the edge" $ \ps fs -> [take n fs <> drop (n + 1) fs | n <- cutting ps]
-  it "of random contours every change is found by which the control cuts too deep or leaves too much (catches a proof of what the frames say, a corner that is not looked at)" $
-    property $
+    changes "a diameter of one unit more or less" $ \_ fs ->
+      [ [f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]} | f <- fs]
+        | d <- [1, -1]
+      ]
+    changes "a lost order to keep the cutter beside the contour" $ \_ fs ->
+      [[f {orders = filter (not . isKeep . fst) (orders f)} | f <- fs]]
+    changes "a lost release" $ \_ fs ->
+      [[f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- fs]]
+    changes "a lost frame along the edge" $ \ps fs ->
+      [take n fs <> drop (n + 1) fs | n <- cutting ps]
+  it
+    "of random contours every change is found by which the control cuts too deep or leaves too \
+    \much (catches a proof of what the frames say, a corner that is not looked at)"
+    $ property $
       withMaxSuccess 150 $
         forAll (tolerant =<< ByControl.cases) $ \job -> case made job of
           Nothing -> property Discard
           Just (path, program) -> forAll (Arcs.change (own program)) $ \(what, fs) ->
-            let centre = concatMap (NonEmpty.toList . Compensation.legs) (fst (Compensation.run iso6983 (const (Mm 0)) (Frame.start program) fs))
+            let centre =
+                  concatMap
+                    (NonEmpty.toList . Compensation.legs)
+                    (fst (Compensation.run iso6983 (const (Mm 0)) (Frame.start program) fs))
                 (deepest, most) = deviation centre job
                 found = findings path program fs
                 gouges = deepest > 0.022
                 leaves = most > 0.022 + 0.01 / (2 * let Mm r = Part.radius job in r)
              in tabulate "change" [takeWhile (/= '(') what] $
                   classify (not gouges && not leaves) "within" $
-                    counterexample (show (what, deepest, most, found)) ((not gouges || any isGouge found) && (not leaves || any (\f -> isExcess f || isNeverBegun f) found))
-  it "a wrong diameter is found by what it does, too, to the tolerance (catches a proof with the diameter that was meant)" $
-    property $
-      forAll (tolerant =<< ByControl.cases) $ \job -> forAll (elements [60, -60]) $ \d -> case made job of
-        Nothing -> property Discard
-        Just (path, program) ->
-          let found = findings path program [f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]} | f <- own program]
-           in counterexample (show found) (any (\f -> if d > 0 then isExcessOrRefused f else isGouge f || isLost f) found)
-  describe "programs" $ mapM_ program' ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
+                    counterexample
+                      (show (what, deepest, most, found))
+                      ( (not gouges || any isGouge found)
+                          && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
+                      )
+  it
+    "a wrong diameter is found by what it does, too, to the tolerance (catches a proof with the \
+    \diameter that was meant)"
+    $ property $
+      forAll (tolerant =<< ByControl.cases) $ \job ->
+        forAll (elements [60, -60]) $ \d -> case made job of
+          Nothing -> property Discard
+          Just (path, program) ->
+            let found =
+                  findings
+                    path
+                    program
+                    [ f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]}
+                      | f <- own program
+                    ]
+             in counterexample
+                  (show found)
+                  (any (\f -> if d > 0 then isExcessOrRefused f else isGouge f || isLost f) found)
+  describe "programs" $
+    mapM_
+      program'
+      ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
   it "a lost release is refused by the control" $ do
     (path, program) <- compiled "flange"
-    [n | Refused (NotKept (NeverReleased n)) <- findings path program [f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- own program]] `shouldBe` [length (own program)]
+    [n | Refused (NotKept (NeverReleased n)) <- findings path program [f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- own program]]
+      `shouldBe` [length (own program)]
   where
     program' name = it (name <> " is proven") $ do
       (path, program) <- compiled name
@@ -82,7 +115,12 @@ changes what change =
     property $
       forAll (tolerant =<< ByControl.cases) $ \job -> case made job of
         Nothing -> property Discard
-        Just (path, program) -> conjoin [counterexample (show fs) (findings path program fs /= []) | fs <- change (Frame.planned program) (own program), fs /= own program]
+        Just (path, program) ->
+          conjoin
+            [ counterexample (show fs) (findings path program fs /= [])
+              | fs <- change (Frame.planned program) (own program),
+                fs /= own program
+            ]
 
 own :: FrameProgram -> [Frame]
 own program = map Frame.frame (Frame.planned program)
@@ -91,16 +129,25 @@ own program = map Frame.frame (Frame.planned program)
 cutting :: [Planned] -> [Int]
 cutting ps = [n | (n, p) <- zip [0 ..] ps, Cutting _ <- [Frame.role p]]
 
--- | The deepest cut of the cutter's centre into a contour and the most that it leaves standing, by points close to one another on both.
+-- | The deepest cut of the cutter's centre into a contour and the most that it leaves standing, by
+-- points close to one another on both.
 deviation :: [Segment] -> Milling -> (Double, Double)
-deviation centre job = (r - minimum [nearest on p | p <- walked], maximum [nearest walked q | q <- on] - r)
+deviation centre job =
+  (r - minimum [nearest on p | p <- walked], maximum [nearest walked q | q <- on] - r)
   where
     Mm r = Part.radius job
     on = concatMap (dense 0.4 . Part.segment) (NonEmpty.toList (Part.elements (Part.contour job)))
     walked = concatMap (dense 0.2) centre
     -- Short arcs may turn by much.
-    dense apart s = let Mm l = Segment.length s; n = max 16 (ceiling (l / apart)) :: Int in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
-    nearest ps q = sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps]) :: Double
+    dense apart s =
+      let Mm l =
+            Segment.length s
+          n = max 16 (ceiling (l / apart)) :: Int
+       in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
+    nearest ps q =
+      sqrt
+        (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps]) ::
+        Double
 
 exchanged :: (CommandName, Int) -> (CommandName, Int)
 exchanged (o, v)
@@ -136,8 +183,8 @@ findings path program fs = Proof.findings (Verify.prove iso6983 path program fs)
 tolerant :: (Generate.Case, Milling) -> Gen Milling
 tolerant (_, job) = pure job {Part.tolerance = Part.OnPath (Mm 0.02)}
 
--- | A milling by a control, where the one without is proven, to a little less: a way in or out that goes through the part, or grazes it, is
--- no matter of the control's.
+-- | A milling by a control, where the one without is proven, to a little less: a way in or out that
+-- goes through the part, or grazes it, is no matter of the control's.
 made :: Milling -> Maybe (Toolpath, FrameProgram)
 made job = do
   (plainly, frames) <- laid job {Part.byControl = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
@@ -152,6 +199,9 @@ made job = do
 compiled :: String -> IO (Toolpath, FrameProgram)
 compiled name = do
   text <- readText ("test/programs/mill/good/compensation-" <> name <> ".part") :: IO Text
-  case Result.settled (Compile.analyse [] (Compile.alone "p.part" text) `Result.thenSound` \a -> (,) (path a) . Compile.program <$> Compile.punch iso6983 (path a)) of
+  case Result.settled
+    ( Compile.analyse [] (Compile.alone "p.part" text) `Result.thenSound` \a ->
+        (,) (path a) . Compile.program <$> Compile.punch iso6983 (path a)
+    ) of
     Just both -> pure both
     Nothing -> fail "the program has errors"

@@ -27,42 +27,66 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = do
-  it "closed curves are proven, whatever the tolerance (catches the two sides of a band exchanged)" $
-    property $
+  it
+    "closed curves are proven, whatever the tolerance (catches the two sides of a band exchanged)"
+    $ property $
       forAll ((,) <$> Curve.curveCase <*> accuracy) $ \(c, tolerance) ->
-        punched (Generate.begin c) ((Curve.jobAlong c) {Part.tolerance = tolerance}) $ \path program ->
-          proven path program
-  it "curves between lines and arcs are proven, and have about the frames of the arcs that they stand for (catches a run that takes in its neighbours)" $
-    property $
+        punched (Generate.begin c) ((Curve.jobAlong c) {Part.tolerance = tolerance}) $
+          \path program ->
+            proven path program
+  it
+    "curves between lines and arcs are proven, and have about the frames of the arcs that they \
+    \stand for (catches a run that takes in its neighbours)"
+    $ property $
       forAll (Generate.smoothCase >>= \c -> (c,) <$> vectorOf 60 (choose (1, 40))) $ \(c, counts) ->
         let job = (Generate.job c) {Part.tolerance = Part.OnPath (Mm 0.02)}
          in punched (Generate.begin c) job $ \_ plain ->
               punched (Generate.begin c) (inParts counts job) $ \path program ->
                 counterexample (show (frameCount plain, frameCount program)) $
                   proven path program
-                    .&&. abs (frameCount plain - frameCount program) <= length (Part.elements (Part.contour job))
-  it "backwards, a curve is not the one of the program (catches a curve that is not measured as a whole)" $
-    property $
+                    .&&. abs (frameCount plain - frameCount program)
+                      <= length (Part.elements (Part.contour job))
+  it
+    "backwards, a curve is not the one of the program (catches a curve that is not measured as a \
+    \whole)"
+    $ property $
       forAll Curve.curveCase $ \c ->
         punched (Generate.begin c) (Curve.jobAlong c) $ \path program ->
-          let back = reverse [f {increment = negate (increment f)} | f <- map Frame.frame (Frame.planned program)]
-           in counterexample (show (findings path program back)) (not (null [() | NotFollowed _ <- findings path program back]))
-  it "a chord that cuts across a curve by more than is allowed is refused (catches a deviation that is not measured between the ends)" $
-    property $
+          let back =
+                reverse
+                  [ f {increment = negate (increment f)}
+                    | f <- map Frame.frame (Frame.planned program)
+                  ]
+           in counterexample
+                (show (findings path program back))
+                (not (null [() | NotFollowed _ <- findings path program back]))
+  it
+    "a chord that cuts across a curve by more than is allowed is refused (catches a deviation that \
+    \is not measured between the ends)"
+    $ property $
       forAll ((,,) <$> Curve.curveCase <*> choose (0, 1) <*> choose (2, 400)) $ \(c, from, count) ->
         punched (Generate.begin c) (Curve.jobAlong c) $ \path program ->
           let (across, off) = shortened program from count
            in off > 0.07 ==> counterexample (show off) (not (null (findings path program across)))
-  it "a tape that leaves a curve out, or ends on it, is refused (catches a slack as long as the curve)" $
-    property $
+  it
+    "a tape that leaves a curve out, or ends on it, is refused (catches a slack as long as the \
+    \curve)"
+    $ property $
       forAll ((,) <$> Curve.curveCase <*> choose (0.1, 0.9)) $ \(c, share) ->
         punched (Generate.begin c) (Curve.jobAlong c) $ \path program ->
           let fs = map Frame.frame (Frame.planned program)
               some = take (max 1 (floor (share * fromIntegral (length fs) :: Double))) fs
-           in not (null (findings path program [])) .&&. not (null (findings path program some)) .&&. not (null (findings path program (drop (length some) fs)))
+           in not (null (findings path program []))
+                .&&. not (null (findings path program some))
+                .&&. not (null (findings path program (drop (length some) fs)))
   where
-    accuracy = oneof [Part.OnPath . Mm <$> elements [0.005, 0.02, 0.1], Part.Band <$> (Mm <$> elements [0.01, 0.03]) <*> (Mm <$> elements [0.01, 0.06])]
-    proven path program = let found = findings path program (map Frame.frame (Frame.planned program)) in found === []
+    accuracy =
+      oneof
+        [ Part.OnPath . Mm <$> elements [0.005, 0.02, 0.1],
+          Part.Band <$> (Mm <$> elements [0.01, 0.03]) <*> (Mm <$> elements [0.01, 0.06])
+        ]
+    proven path program =
+      let found = findings path program (map Frame.frame (Frame.planned program)) in found === []
     findings path program fs = Proof.findings (Verify.prove lkp01f path program fs)
     frameCount = length . Frame.planned
 
@@ -71,28 +95,46 @@ lkp01f = Machines.named "lkp-01f"
 
 -- | What holds for the path and the frames of a milling from a point.
 punched :: Testable p => Point -> Milling -> (Toolpath -> FrameProgram -> p) -> Property
-punched begin job holds = case Toolpath.lay (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
-  Result.Result _ [] (Just path) -> case Result.output (FromToolpath.quantise lkp01f path) of
-    Just program -> property (holds path program)
-    Nothing -> counterexample "no frames" False
-  r -> counterexample (show (Result.errors r)) False
+punched begin job holds =
+  case Toolpath.lay (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
+    Result.Result _ [] (Just path) -> case Result.output (FromToolpath.quantise lkp01f path) of
+      Just program -> property (holds path program)
+      Nothing -> counterexample "no frames" False
+    r -> counterexample (show (Result.errors r)) False
 
 -- | With every arc cut into so many that continue one another.
 inParts :: [Int] -> Milling -> Milling
-inParts counts job = job {Part.contour = (Part.contour job) {Part.elements = NonEmpty.fromList (Curve.elements (zipWith cut counts (NonEmpty.toList (Part.elements (Part.contour job)))))}}
+inParts counts job =
+  job
+    { Part.contour =
+        (Part.contour job)
+          { Part.elements =
+              NonEmpty.fromList
+                ( Curve.elements
+                    (zipWith cut counts (NonEmpty.toList (Part.elements (Part.contour job))))
+                )
+          }
+    }
   where
     cut n e = case Part.segment e of
       Straight _ _ -> [Part.segment e]
       Arc {} -> Curve.parts n (Part.segment e)
 
--- | The frames with so many of them, from a share of all on, made one; and how far it is from where they went.
+-- | The frames with so many of them, from a share of all on, made one; and how far it is from where
+-- they went.
 shortened :: FrameProgram -> Double -> Int -> ([Frame], Double)
-shortened program from count = (earlier <> [f {increment = sum (map increment (f : more))} | f : more <- [away]] <> behind, maximum (0 : map off positions))
+shortened program from count =
+  ( earlier <> [f {increment = sum (map increment (f : more))} | f : more <- [away]] <> behind,
+    maximum (0 : map off positions)
+  )
   where
     frames = map Frame.frame (Frame.planned program)
     (earlier, others) = splitAt (floor (from * fromIntegral (length frames - 1))) frames
     (away, behind) = splitAt count others
     start = Frame.start program + sum (map increment earlier)
     positions = map (Frame.position lkp01f) (scanl (+) start (map increment away))
-    chord = Straight (Frame.position lkp01f start) (Frame.position lkp01f (start + sum (map increment away)))
+    chord =
+      Straight
+        (Frame.position lkp01f start)
+        (Frame.position lkp01f (start + sum (map increment away)))
     off p = let Mm d = Distance.toPoint p chord in d

@@ -1,4 +1,5 @@
--- | The proof of feeds: frame by frame, along contours on foreign tapes, and whether the machine can brake in time.
+-- | The proof of feeds: frame by frame, along contours on foreign tapes, and whether the machine
+-- can brake in time.
 module Verify.FeedSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -6,7 +7,13 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.List.NonEmpty (NonEmpty (..))
-import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (FrameProgram), Planned (Planned), Role (..))
+import Frame.Frame
+  ( Frame (..),
+    FrameMotion (..),
+    FrameProgram (FrameProgram),
+    Planned (Planned),
+    Role (..),
+  )
 import Frame.Frame qualified as Frame
 import Generate (Case (..))
 import Generate qualified
@@ -32,18 +39,30 @@ spec :: Spec
 spec = do
   describe "braking" $ do
     -- 1000 mm/min are 16.667 mm/s, 10 are 0.167: 27.775 mm to come down at 5 mm/s².
-    it "has to come before the end of the tape, early enough (catches a law that looks at frames only)" $
-      [tooFast [go 40 100, slower 0 mm] | mm <- [27.84, 27.7, 27]] `shouldBe` [[], [1], [1]]
-    it "has to come before a slower frame, over frames between as well (catches a law that looks at the next frame only)" $ do
-      tooFast [go 40 100, go 20 5, slower 0 60] `shouldBe` [1]
-      tooFast [go 40 100, slower 20 28, go 20 5, slower 0 60] `shouldBe` []
-      tooFast [go 40 100, slower 20 5, slower 20 23, go 20 5, slower 0 60] `shouldBe` []
-      tooFast [go 40 100, slower 20 5, go 20 23, slower 0 60] `shouldBe` [1]
-    it "is not needed to become faster, nor on machines that brake by themselves (catches the law the wrong way round)" $ do
-      tooFast [go 0 10, go 20 10, go 40 100, slower 0 28] `shouldBe` []
-      [n | TooFast n _ _ <- prove (Machines.named "n55") resting [] [go 900 10, go 10 10]] `shouldBe` []
+    it
+      "has to come before the end of the tape, early enough (catches a law that looks at frames \
+      \only)"
+      $ [tooFast [go 40 100, slower 0 mm] | mm <- [27.84, 27.7, 27]] `shouldBe` [[], [1], [1]]
+    it
+      "has to come before a slower frame, over frames between as well (catches a law that looks at \
+      \the next frame only)"
+      $ do
+        tooFast [go 40 100, go 20 5, slower 0 60] `shouldBe` [1]
+        tooFast [go 40 100, slower 20 28, go 20 5, slower 0 60] `shouldBe` []
+        tooFast [go 40 100, slower 20 5, slower 20 23, go 20 5, slower 0 60] `shouldBe` []
+        tooFast [go 40 100, slower 20 5, go 20 23, slower 0 60] `shouldBe` [1]
+    it
+      "is not needed to become faster, nor on machines that brake by themselves (catches the law \
+      \the wrong way round)"
+      $ do
+        tooFast [go 0 10, go 20 10, go 40 100, slower 0 28] `shouldBe` []
+        [n | TooFast n _ _ <- prove (Machines.named "n55") resting [] [go 900 10, go 10 10]]
+          `shouldBe` []
     it "says how fast the cutter is and may be" $
-      [(round v, round most) | TooFast _ (Feed v) (Feed most) <- prove lki resting [] [go 40 100, slower 0 10]] `shouldBe` [(1000, 601 :: Int) :: (Int, Int)]
+      [ (round v, round most)
+        | TooFast _ (Feed v) (Feed most) <- prove lki resting [] [go 40 100, slower 0 10]
+      ]
+        `shouldBe` [(1000, 601 :: Int) :: (Int, Int)]
   describe "the program's own frames" $
     it "are compared by code, by braking and by rapid motion" $
       [ [n | WrongFeed n _ _ _ <- prove machine resting [f] [g]]
@@ -56,42 +75,97 @@ spec = do
       ]
         `shouldBe` [[], [1], [1], [1]]
   describe "a foreign tape" $ do
-    it "has along a contour the code of the feed asked, or brakes (catches a tape that cuts in rapid)" $
-      [[n | WrongFeed n _ _ _ <- prove lki along [] [f]] | f <- [cut 15, cut 14, cut 40, (cut 14) {braking = True}, (cut 16) {braking = True}]] `shouldBe` [[], [1], [1], [], [1]]
-    it "has the frequency of the leading axis where the machine counts that: v/60·n/L (catches the feed along the path taken for it)" $ do
-      -- 60 mm/min along (3, 4) mm of 5 mm: 80 Hz of 0.01 mm; straight along x 100 Hz.
-      [[n | WrongFeed n _ _ _ <- prove kontur slanted [] [f]] | f <- [aslant 42, aslant 43, aslant 41]] `shouldBe` [[], [1], [1]]
-      [[n | WrongFeed n _ _ _ <- prove kontur along [] [f]] | f <- [ahead 43, ahead 42]] `shouldBe` [[], [1]]
-    it "goes down into the material as the program does (catches a plunge in rapid on a tape with another number of frames)" $
-      [[n | WrongFeed n _ _ _ <- prove lki resting [over, down 15, up] fs] | fs <- [[over, down 15, up], halves <> [down 15, up], halves <> [down 40, up], halves <> [down 15, up, down 40, up]]]
+    it
+      "has along a contour the code of the feed asked, or brakes (catches a tape that cuts in \
+      \rapid)"
+      $ [ [n | WrongFeed n _ _ _ <- prove lki along [] [f]]
+          | f <- [cut 15, cut 14, cut 40, (cut 14) {braking = True}, (cut 16) {braking = True}]
+        ]
+        `shouldBe` [[], [1], [1], [], [1]]
+    it
+      "has the frequency of the leading axis where the machine counts that: v/60·n/L (catches the \
+      \feed along the path taken for it)"
+      $ do
+        -- 60 mm/min along (3, 4) mm of 5 mm: 80 Hz of 0.01 mm; straight along x 100 Hz.
+        [[n | WrongFeed n _ _ _ <- prove kontur slanted [] [f]] | f <- [aslant 42, aslant 43, aslant 41]]
+          `shouldBe` [[], [1], [1]]
+        [[n | WrongFeed n _ _ _ <- prove kontur along [] [f]] | f <- [ahead 43, ahead 42]]
+          `shouldBe` [[], [1]]
+    it
+      "goes down into the material as the program does (catches a plunge in rapid on a tape with \
+      \another number of frames)"
+      $ [ [n | WrongFeed n _ _ _ <- prove lki resting [over, down 15, up] fs]
+          | fs <-
+              [ [over, down 15, up],
+                halves <> [down 15, up],
+                halves <> [down 40, up],
+                halves <> [down 15, up, down 40, up]
+              ]
+        ]
         `shouldBe` [[], [], [3], []]
   describe "commands" $ do
-    it "are compared one after the other on a tape with another number of frames (catches places that are counted in frames)" $
-      [ [(n, o, a, b) | WrongCommand n (CommandName o) a b <- prove (Machines.named "n55") resting [go 60 10, Frame.still [(CommandName "M", 2)]] fs]
-        | fs <-
-            [ [go 60 5, go 60 5, Frame.still [(CommandName "M", 2)]],
-              [go 60 5, go 60 5, Frame.still [(CommandName "M", 3)]],
-              [go 60 5, go 60 5, go 60 1],
-              [go 60 5, Frame.still [(CommandName "M", 2)], go 60 5]
-            ]
-      ]
-        `shouldBe` [[], [(3, "M", Just 3, Just 2)], [(3, "M", Nothing, Just 2)], [(2, "M", Just 2, Nothing)]]
-    it "are compared word by word, also those that are missing at the end (catches a lost word of the last frame)" $
-      [ [(n, o, a, b) | WrongCommand n (CommandName o) a b <- prove (Machines.named "n55") resting [go 60 10, Frame.still [(CommandName "M", 2)]] fs]
-        | fs <-
-            [ [go 60 10, Frame.still [(CommandName "M", 2)]],
-              [go 60 10, Frame.still [(CommandName "M", 3)]],
-              [go 60 10],
-              [(go 60 10) {orders = [(CommandName "S", 4), (CommandName "T", 2)]}, Frame.still [(CommandName "M", 2)]]
-            ]
-      ]
-        `shouldBe` [[], [(2, "M", Just 3, Just 2)], [(2, "M", Nothing, Just 2)], [(1, "S", Just 4, Nothing), (1, "T", Just 2, Nothing)]]
+    it
+      "are compared one after the other on a tape with another number of frames (catches places \
+      \that are counted in frames)"
+      $ [ [ (n, o, a, b)
+            | WrongCommand n (CommandName o) a b <-
+                prove
+                  (Machines.named "n55")
+                  resting
+                  [go 60 10, Frame.still [(CommandName "M", 2)]]
+                  fs
+          ]
+          | fs <-
+              [ [go 60 5, go 60 5, Frame.still [(CommandName "M", 2)]],
+                [go 60 5, go 60 5, Frame.still [(CommandName "M", 3)]],
+                [go 60 5, go 60 5, go 60 1],
+                [go 60 5, Frame.still [(CommandName "M", 2)], go 60 5]
+              ]
+        ]
+        `shouldBe` [ [],
+                     [(3, "M", Just 3, Just 2)],
+                     [(3, "M", Nothing, Just 2)],
+                     [(2, "M", Just 2, Nothing)]
+                   ]
+    it
+      "are compared word by word, also those that are missing at the end (catches a lost word of \
+      \the last frame)"
+      $ [ [ (n, o, a, b)
+            | WrongCommand n (CommandName o) a b <-
+                prove
+                  (Machines.named "n55")
+                  resting
+                  [go 60 10, Frame.still [(CommandName "M", 2)]]
+                  fs
+          ]
+          | fs <-
+              [ [go 60 10, Frame.still [(CommandName "M", 2)]],
+                [go 60 10, Frame.still [(CommandName "M", 3)]],
+                [go 60 10],
+                [ (go 60 10) {orders = [(CommandName "S", 4), (CommandName "T", 2)]},
+                  Frame.still [(CommandName "M", 2)]
+                ]
+              ]
+        ]
+        `shouldBe` [ [],
+                     [(2, "M", Just 3, Just 2)],
+                     [(2, "M", Nothing, Just 2)],
+                     [(1, "S", Just 4, Nothing), (1, "T", Just 2, Nothing)]
+                   ]
   where
     lki = Machines.named "lki-u"
     kontur = Machines.named "kontur-3p"
     tooFast fs = [n | TooFast n _ _ <- prove lki resting [] fs]
     -- So many mm of pulses of 0.02.
-    go code mm = Frame {motion = Straightway, increment = Pulses3 (Pulses (round (mm / 0.02 :: Double))) 0 0, centre = 0, speed = FeedCode code, braking = False, orders = []}
+    go code mm =
+      Frame
+        { motion = Straightway,
+          increment = Pulses3 (Pulses (round (mm / 0.02 :: Double))) 0 0,
+          centre = 0,
+          speed = FeedCode code,
+          braking = False,
+          orders = []
+        }
     over = go 40 10
     halves = [go 40 5, go 40 5]
     down code = (go code 0) {increment = Pulses3 0 0 (-200)}
@@ -105,7 +179,14 @@ spec = do
 
 -- | What is found of a tape on a path, with a program of some frames.
 prove :: Machine -> Toolpath -> [Frame] -> [Frame] -> [Finding]
-prove machine path own fs = Proof.findings (Verify.prove machine path (FrameProgram begin [Planned f Travelling (Region 0 0) (Mm 0) | f <- own]) fs)
+prove machine path own fs =
+  Proof.findings
+    ( Verify.prove
+        machine
+        path
+        (FrameProgram begin [Planned f Travelling (Region 0 0) (Mm 0) | f <- own])
+        fs
+    )
   where
     Located _ (Part.SpacePoint p _) = Toolpath.start path
     Mm pulse = Machine.pulse machine
@@ -115,10 +196,21 @@ prove machine path own fs = Proof.findings (Verify.prove machine path (FrameProg
 resting :: Toolpath
 resting = Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [] False
 
--- | An edge from (0, 0) to a point with a cutter of radius 5 on its left, from where the cut begins.
+-- | An edge from (0, 0) to a point with a cutter of radius 5 on its left, from where the cut
+-- begins.
 edge :: Point -> Toolpath
 edge end = case Equidistant.equidistant LeftOf (Mm 5) contour of
-  Right pieces | c <- Case {contour, side = LeftOf, radius = Mm 5, pieces}, Just path <- Result.output (Toolpath.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c))))) -> path
+  Right pieces
+    | c <- Case {contour, side = LeftOf, radius = Mm 5, pieces},
+      Just path <-
+        Result.output
+          ( Toolpath.lay
+              ( Generate.partOf
+                  (Generate.begin c)
+                  (Part.Mill (Located (Region 0 0) (Generate.job c)))
+              )
+          ) ->
+      path
   _ -> error "no path"
   where
     contour = Polyarc Open (Straight (Vec.point 0 0) end :| [])

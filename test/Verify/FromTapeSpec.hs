@@ -32,8 +32,11 @@ spec :: Spec
 spec = do
   it "the flange's own frames are proven" $
     findings (proofOf Flange.frames) `shouldBe` []
-  it "every change of a legal digit that moves the path is found, its frame named, and said to leave the band where it does" $
-    [(n, f, findings p) | (n, f, fs) <- changes, let { p = proofOf fs }, not (isFound n f p)] `shouldBe` []
+  it
+    "every change of a legal digit that moves the path is found, its frame named, and said to \
+    \leave the band where it does"
+    $ [(n, f, findings p) | (n, f, fs) <- changes, let p = proofOf fs, not (isFound n f p)]
+      `shouldBe` []
   it "every change of a speed code is a wrong feed in its frame" $
     [ (n, s)
       | (n, f) <- zip [1 ..] Flange.frames,
@@ -45,89 +48,201 @@ spec = do
   it "a frame left out, doubled or swapped with the next is found" $
     [ (n, what)
       | n <- [3, 17, 60, 111, 139],
-        (what, fs) <- [("left out" :: String, without n), ("doubled", doubled n), ("swapped", swapped n)],
+        (what, fs) <-
+          [("left out" :: String, without n), ("doubled", doubled n), ("swapped", swapped n)],
         fs /= Flange.frames,
         Proof.isProven (proofOf fs)
     ]
       `shouldBe` []
-  it "a program whose own frames end elsewhere than its path is refused, frame by frame as its tape is (catches an end that is compared with the frames)" $
-    let (analysis, own) = punched "contour l open { line((-10, 0), (10, 0)) }\nmill l on { depth 1 }"
-        further = own {Frame.planned = Frame.planned own <> take 1 (reverse (filter (Frame.isMoving . Frame.frame) (Frame.planned own)))}
-     in findings (Verify.prove lkp01f (path analysis) further (map Frame.frame (Frame.planned further))) `shouldSatisfy` any isOpen
+  it
+    "a program whose own frames end elsewhere than its path is refused, frame by frame as its tape \
+    \is (catches an end that is compared with the frames)"
+    $ let (analysis, own) =
+            punched "contour l open { line((-10, 0), (10, 0)) }\nmill l on { depth 1 }"
+          further =
+            own
+              { Frame.planned =
+                  Frame.planned own
+                    <> take 1 (reverse (filter (Frame.isMoving . Frame.frame) (Frame.planned own)))
+              }
+       in findings
+            (Verify.prove lkp01f (path analysis) further (map Frame.frame (Frame.planned further)))
+            `shouldSatisfy` any isOpen
   it "two lobes that are never cut, although the path closes, are an excess" $
     findings (proofOf shortcut) `shouldSatisfy` any isExcess
-  it "half of a circle that is never cut is an excess, also where the cutter runs on the circle itself (catches a way taken for all of the circle on which it lies)" $
-    case Compile.analyse [] (Compile.alone "p.part" "part p\ntool mill(diameter 10 mm)\nfeed 60\ntolerance 0.02\nfrom (30, 0)\ncontour c closed { ccw circle((0, 0), 20) }\nmill c on { }\n") of
+  it
+    "half of a circle that is never cut is an excess, also where the cutter runs on the circle \
+    \itself (catches a way taken for all of the circle on which it lies)"
+    $ case Compile.analyse
+      []
+      ( Compile.alone
+          "p.part"
+          "part p\ntool mill(diameter 10 mm)\nfeed 60\ntolerance 0.02\nfrom (30, 0)\ncontour c \
+          \closed { ccw circle((0, 0), 20) }\nmill c on { }\n"
+      ) of
       r
         | Just a <- Result.settled r,
           Just program <- Result.output (FromToolpath.quantise iso6983 (path a)) ->
           let fs = map Frame.frame (Frame.planned program)
               halves = [n | (n, f) <- zip [0 ..] fs, Frame.centre f /= 0]
-           in [any isExcess (findings (Verify.prove iso6983 (path a) program (take n fs <> drop (n + 1) fs))) | n <- halves] `shouldBe` [True, True]
+           in [ any
+                  isExcess
+                  (findings (Verify.prove iso6983 (path a) program (take n fs <> drop (n + 1) fs)))
+                | n <- halves
+              ]
+                `shouldBe` [True, True]
         | otherwise -> expectationFailure (show (Result.errors r))
   it "the contour walked backwards is not the one of the program" $
     findings (proofOf backwards) `shouldSatisfy` any isNotFollowed
-  it "a command that the program does not give is found, also when the frames cannot be compared one by one" $
-    findings (proofOf (commanded (doubledFirst Flange.frames))) `shouldSatisfy` any isCommand
-  it "random contours with random cutters are proven; for a tolerance that their chords exceed they are not (catches a proof that looks at nodes only)" $
-    property $
-      forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c -> case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
-        (Just rough, Just fine) -> case Result.output (FromToolpath.quantise lkp01f rough) of
-          Just program ->
-            let fs = map Frame.frame (Frame.planned program)
-                coarse = any ((> 0.06) . chordError) (cutSegments rough)
-             in classify coarse "with coarse chords" $
-                  findings (Verify.prove lkp01f rough program fs) === []
-                    .&&. (null (findings (Verify.prove lkp01f fine program fs)) === not coarse .||. property (not coarse))
-          Nothing -> counterexample "no frames" False
-        _ -> counterexample "no path" False
-
-  it "a tape that drills deeper or elsewhere, or mills deeper, than its program is not proven (catches a hole that only has to be deep enough)" $
-    [ (tape, program)
-      | (tape, program) <-
-          [ ("drill at (0, 0) depth 25", "drill at (0, 0) depth 4"),
-            ("drill at [(0, 0), (10, 0)] depth 4", "drill at (0, 0) depth 4"),
-            ("mill k inside { depth 9 step 4.5 }", "mill k inside { depth 4.5 }"),
-            ("mill k inside { depth 2 }\nmove (0, 0, -2)\nmove (0, 0, 3)", "mill k inside { depth 2 }\nmove (0, 0, 3)")
-          ],
-        Proof.isProven (against tape program)
-    ]
-      `shouldBe` []
-  it "leads, corners, several passes and depths are proven (catches a pass that is looked for at another height or distance)" $
-    property $
-      forAll ((,,) <$> (Generate.settings <*> (Generate.job <$> Generate.closedCase)) <*> elements [[], [Mm (-1)], [Mm (-1.5), Mm (-3)]] <*> elements [Part.OnPath (Mm 0.05), Part.Band (Mm 0.02) (Mm 0.06)]) $ \(settled, levels, tolerance) ->
-        let job = settled {Part.levels = levels, Part.clearance = Just (Mm 5), Part.tolerance = tolerance, Part.approach = []}
-            pieces = maybe [] ways (Result.output (Toolpath.lay (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))))
-         in case pieces of
-              [] -> discard
-              entry : _ -> case Toolpath.lay (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
-                Result.Result _ [] (Just laid) -> case Result.output (FromToolpath.quantise lkp01f laid) of
-                  Nothing -> discard
-                  Just program -> counterexample (show (Part.corners job, Part.leadIn job, Part.leadOut job, Part.allowances job, Part.radius job, levels, tolerance)) $ Proof.toReports lkp01f (Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))) === []
-                _ -> discard
-  it "with a tolerance of 0 inside no chord gouges but by a pulse (catches chords that cut the corner of the band)" $
-    property $
+  it
+    "a command that the program does not give is found, also when the frames cannot be compared \
+    \one by one"
+    $ findings (proofOf (commanded (doubledFirst Flange.frames))) `shouldSatisfy` any isCommand
+  it
+    "random contours with random cutters are proven; for a tolerance that their chords exceed they \
+    \are not (catches a proof that looks at nodes only)"
+    $ property $
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
-        case Result.output (Toolpath.lay (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = Part.Band (Mm 0) (Mm 0.1)})))) of
+        case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
+          (Just rough, Just fine) -> case Result.output (FromToolpath.quantise lkp01f rough) of
+            Just program ->
+              let fs = map Frame.frame (Frame.planned program)
+                  coarse = any ((> 0.06) . chordError) (cutSegments rough)
+               in classify coarse "with coarse chords" $
+                    findings (Verify.prove lkp01f rough program fs) === []
+                      .&&. ( null (findings (Verify.prove lkp01f fine program fs))
+                               === not coarse .||. property (not coarse)
+                           )
+            Nothing -> counterexample "no frames" False
+          _ -> counterexample "no path" False
+
+  it
+    "a tape that drills deeper or elsewhere, or mills deeper, than its program is not proven \
+    \(catches a hole that only has to be deep enough)"
+    $ [ (tape, program)
+        | (tape, program) <-
+            [ ("drill at (0, 0) depth 25", "drill at (0, 0) depth 4"),
+              ("drill at [(0, 0), (10, 0)] depth 4", "drill at (0, 0) depth 4"),
+              ("mill k inside { depth 9 step 4.5 }", "mill k inside { depth 4.5 }"),
+              ( "mill k inside { depth 2 }\nmove (0, 0, -2)\nmove (0, 0, 3)",
+                "mill k inside { depth 2 }\nmove (0, 0, 3)"
+              )
+            ],
+          Proof.isProven (against tape program)
+      ]
+      `shouldBe` []
+  it
+    "leads, corners, several passes and depths are proven (catches a pass that is looked for at \
+    \another height or distance)"
+    $ property $
+      forAll
+        ( (,,)
+            <$> (Generate.settings <*> (Generate.job <$> Generate.closedCase))
+              <*> elements [[], [Mm (-1)], [Mm (-1.5), Mm (-3)]]
+              <*> elements [Part.OnPath (Mm 0.05), Part.Band (Mm 0.02) (Mm 0.06)]
+        )
+        $ \(settled, levels, tolerance) ->
+          let job =
+                settled
+                  { Part.levels = levels,
+                    Part.clearance = Just (Mm 5),
+                    Part.tolerance = tolerance,
+                    Part.approach = []
+                  }
+              pieces =
+                maybe
+                  []
+                  ways
+                  ( Result.output
+                      ( Toolpath.lay
+                          (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))
+                      )
+                  )
+           in case pieces of
+                [] -> discard
+                entry : _ ->
+                  case Toolpath.lay
+                    (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
+                    Result.Result _ [] (Just laid) ->
+                      case Result.output (FromToolpath.quantise lkp01f laid) of
+                        Nothing -> discard
+                        Just program ->
+                          counterexample
+                            ( show
+                                ( Part.corners job,
+                                  Part.leadIn job,
+                                  Part.leadOut job,
+                                  Part.allowances job,
+                                  Part.radius job,
+                                  levels,
+                                  tolerance
+                                )
+                            )
+                            $ Proof.toReports
+                              lkp01f
+                              ( Verify.prove
+                                  lkp01f
+                                  laid
+                                  program
+                                  (map Frame.frame (Frame.planned program))
+                              )
+                              === []
+                    _ -> discard
+  it
+    "with a tolerance of 0 inside no chord gouges but by a pulse (catches chords that cut the \
+    \corner of the band)"
+    $ property $
+      forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
+        case Result.output
+          ( Toolpath.lay
+              ( Generate.partOf
+                  (Generate.begin c)
+                  ( Part.Mill
+                      ( Located
+                          (Region 0 0)
+                          (Generate.job c) {Part.tolerance = Part.Band (Mm 0) (Mm 0.1)}
+                      )
+                  )
+              )
+          ) of
           Nothing -> discard
           Just laid -> case Result.output (FromToolpath.quantise lkp01f laid) of
             Nothing -> discard
             Just program ->
               let p = Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))
-               in findings p === [] .&&. conjoin [counterexample (show w) (Proof.amount w <= Mm 0.0201) | Just w <- map Proof.gouge (Proof.passages p)]
+               in findings p
+                    === []
+                      .&&. conjoin
+                        [ counterexample (show w) (Proof.amount w <= Mm 0.0201)
+                          | Just w <- map Proof.gouge (Proof.passages p)
+                        ]
   where
     -- The tape of one program held against another.
     against tape program' =
       let (tapeAnalysis, tapeProgram) = punched tape
           (analysis, own) = punched program'
-       in tapeAnalysis `seq` Verify.prove lkp01f (path analysis) own (map Frame.frame (Frame.planned tapeProgram))
+       in tapeAnalysis
+            `seq` Verify.prove
+              lkp01f
+              (path analysis)
+              own
+              (map Frame.frame (Frame.planned tapeProgram))
     punched text = case Compile.analyse [] (Compile.alone "p.part" (deepHead <> text <> "\n")) of
       r
-        | Just a <- Result.settled r, Just p <- Result.output (FromToolpath.quantise lkp01f (path a)) -> (a, p)
+        | Just a <- Result.settled r,
+          Just p <- Result.output (FromToolpath.quantise lkp01f (path a)) ->
+          (a, p)
         | otherwise -> error (show (Result.errors r))
-    deepHead = "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\nfrom (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
+    deepHead =
+      "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\n\
+      \from (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
     -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
-    ways laid = [Segment.end (Toolpath.segment m) | b <- take 1 (Toolpath.blocks laid), m <- Toolpath.moves b, Segment.length (Toolpath.segment m) > Mm 0]
+    ways laid =
+      [ Segment.end (Toolpath.segment m)
+        | b <- take 1 (Toolpath.blocks laid),
+          m <- Toolpath.moves b,
+          Segment.length (Toolpath.segment m) > Mm 0
+      ]
 
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
@@ -147,15 +262,23 @@ chordError s = case s of
      in r * (1 - cos (abs a / fromIntegral (FromToolpath.chordCount lkp01f (Mm 0.3) s) / 2))
 
 cutSegments :: Toolpath -> [Segment]
-cutSegments p = [Toolpath.segment m | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks p, m <- NonEmpty.toList cut]
+cutSegments p =
+  [ Toolpath.segment m
+    | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks p,
+      m <- NonEmpty.toList cut
+  ]
 
--- | Tapes that differ in one digit or one sign and are legal: the frame's number, the changed frame, all frames.
+-- | Tapes that differ in one digit or one sign and are legal: the frame's number, the changed
+-- frame, all frames.
 changes :: [(Int, Frame, [Frame])]
 changes =
   [ (n, f', replaceFrame n f')
     | (n, f) <- zip [1 ..] Flange.frames,
       Pulses3 x y z <- [increment f],
-      d <- [Pulses3 x' y z | x' <- digitChanges 4 x] <> [Pulses3 x y' z | y' <- digitChanges 4 y] <> [Pulses3 x y z' | z' <- digitChanges 3 z],
+      d <-
+        [Pulses3 x' y z | x' <- digitChanges 4 x]
+          <> [Pulses3 x y' z | y' <- digitChanges 4 y]
+          <> [Pulses3 x y z' | z' <- digitChanges 3 z],
       d /= 0,
       let f' = f {increment = d}
   ]
@@ -163,7 +286,12 @@ changes =
 -- | One digit changed to any other, or the sign.
 digitChanges :: Int -> Pulses -> [Pulses]
 digitChanges count (Pulses v) =
-  [Pulses (signum' v * changed) | k <- [0 .. count - 1], step <- [1 .. 9], let changed = turned k step, changed /= abs v]
+  [ Pulses (signum' v * changed)
+    | k <- [0 .. count - 1],
+      step <- [1 .. 9],
+      let changed = turned k step,
+      changed /= abs v
+  ]
     <> [Pulses (-v) | v /= 0]
   where
     signum' n = if n < 0 then -1 else 1
@@ -177,11 +305,17 @@ replaceFrame n f = take (n - 1) Flange.frames <> [f] <> drop n Flange.frames
 without, doubled, swapped :: Int -> [Frame]
 without n = take (n - 1) Flange.frames <> drop n Flange.frames
 doubled n = take n Flange.frames <> drop (n - 1) Flange.frames
-swapped n = take (n - 1) Flange.frames <> [Flange.frames !! n, Flange.frames !! (n - 1)] <> drop (n + 1) Flange.frames
+swapped n =
+  take (n - 1) Flange.frames
+    <> [Flange.frames !! n, Flange.frames !! (n - 1)]
+    <> drop (n + 1) Flange.frames
 
 -- | The path with all but its beginning and end replaced by one straight frame.
 shortcut :: [Frame]
-shortcut = take 10 Flange.frames <> [(Flange.frames !! 10) {increment = sum (map increment (take 120 (drop 10 Flange.frames)))}] <> drop 130 Flange.frames
+shortcut =
+  take 10 Flange.frames
+    <> [(Flange.frames !! 10) {increment = sum (map increment (take 120 (drop 10 Flange.frames)))}]
+    <> drop 130 Flange.frames
 
 -- | The same ways in and out, and between them the contour the other way round.
 backwards :: [Frame]
@@ -195,7 +329,8 @@ backwards = wayIn <> reverse [f {increment = negate (increment f)} | f <- along]
 -- | The first frame in two halves.
 doubledFirst :: [Frame] -> [Frame]
 doubledFirst fs = case fs of
-  f : rest -> [f {increment = half (increment f)}, f {increment = increment f - half (increment f)}] <> rest
+  f : rest ->
+    [f {increment = half (increment f)}, f {increment = increment f - half (increment f)}] <> rest
   [] -> []
   where
     half (Pulses3 x y z) = Pulses3 (x `div` 2) (y `div` 2) (z `div` 2)
@@ -216,18 +351,23 @@ isCommand finding = case finding of
   WrongCommand {} -> True
   _ -> False
 
--- | The frame is named as the first that differs. A change within the contour of more than the allowance lets
--- the path leave the band in this frame or later; a path that stays in it misses its end.
+-- | The frame is named as the first that differs. A change within the contour of more than the
+-- allowance lets the path leave the band in this frame or later; a path that stays in it misses its
+-- end.
 isFound :: Int -> Frame -> Proof -> Bool
 isFound n f p =
   firstDifference p == Just n
     && closure p /= 0
-    && any (\finding -> isOpen finding || leavesBandFrom (if cutting then n else 1) finding) (findings p)
+    && any
+      (\finding -> isOpen finding || leavesBandFrom (if cutting then n else 1) finding)
+      (findings p)
     && (not cutting || moved <= 3 || any (leavesBandFrom n) (findings p))
   where
     Pulses3 (Pulses x) (Pulses y) _ = increment f - increment (Flange.frames !! (n - 1))
     moved = max (abs x) (abs y)
-    cutting = Frame.role (Frame.planned Flange.program !! (n - 1)) == Frame.Cutting 0 && n < length Flange.frames - 12
+    cutting =
+      Frame.role (Frame.planned Flange.program !! (n - 1)) == Frame.Cutting 0
+        && n < length Flange.frames - 12
 
 -- | A gouge or an excess in a frame from this one on.
 leavesBandFrom :: Int -> Finding -> Bool

@@ -40,78 +40,153 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
-  prop "random pockets are proven, on arcs and on chords (catches a rim or a floor that is asked where no cutter fits)" $
-    forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $ \(p, first, m) ->
-      forAllPath (Generate.pocketing first p) $ \path ->
-        Proof.toReports m (proofOf m path) === []
-  prop "places that the cutter can reach lie within its radius of the frames (catches a proof of nothing)" $
-    forAll ((,) <$> Generate.pocket <*> Test.QuickCheck.elements machines) $ \(p, m) ->
+  prop
+    "random pockets are proven, on arcs and on chords (catches a rim or a floor that is asked \
+      \where no cutter fits)"
+    $ forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $
+      \(p, first, m) ->
+        forAllPath (Generate.pocketing first p) $ \path ->
+          Proof.toReports m (proofOf m path) === []
+  prop
+    "places that the cutter can reach lie within its radius of the frames (catches a proof of \
+      \nothing)"
+    $ forAll ((,) <$> Generate.pocket <*> Test.QuickCheck.elements machines) $ \(p, m) ->
       forAllPath (Generate.pocketing [] p) $ \path ->
         forAllBlind (vectorOf 200 (anywhere p)) $ \ps -> conjoin (map (swept p (cuts m path)) ps)
-  prop "passes further apart than the cutter is wide are found (catches a floor that is not looked at)" $
-    forAll (Generate.rectangle `suchThat` \p -> roomy (cutter p) p) $ \p ->
+  prop
+    "passes further apart than the cutter is wide are found (catches a floor that is not looked at)"
+    $ forAll (Generate.rectangle `suchThat` \p -> roomy (cutter p) p) $ \p ->
       forAllPath (Generate.pocketing [] p {step = times 3.5 (cutter p)}) $ \path ->
         map kind (findings (proofOf iso path)) === ["floor"]
-  prop "a loop that is left out is found, on the floor or at the walls (catches strokes that count where they do not run)" $
-    forAll (Generate.rectangle `suchThat` \p -> roomy (times 1.6 (cutter p)) p) $ \p -> forAll (Test.QuickCheck.elements [0, 1]) $ \k ->
-      let asked = Generate.pocketing [] p {step = times 1.6 (cutter p)}
-       in forAllPath asked $ \path ->
-            let short = without (plus (plus (cutter p) (left p)) (times (1.6 * fromIntegral (k :: Int)) (cutter p))) p path
-             in case (framesOf iso path, framesOf iso short) of
-                  (Just program, Just fewer) -> counterexample (show k) (property (any ((`elem` ["floor", "excess"]) . kind) (findings (Verify.prove iso path program (bare fewer)))))
-                  _ -> property False
+  prop
+    "a loop that is left out is found, on the floor or at the walls (catches strokes that count \
+      \where they do not run)"
+    $ forAll (Generate.rectangle `suchThat` \p -> roomy (times 1.6 (cutter p)) p) $ \p ->
+      forAll (Test.QuickCheck.elements [0, 1]) $ \k ->
+        let asked = Generate.pocketing [] p {step = times 1.6 (cutter p)}
+         in forAllPath asked $ \path ->
+              let short =
+                    without
+                      ( plus
+                          (plus (cutter p) (left p))
+                          (times (1.6 * fromIntegral (k :: Int)) (cutter p))
+                      )
+                      p
+                      path
+               in case (framesOf iso path, framesOf iso short) of
+                    (Just program, Just fewer) ->
+                      counterexample
+                        (show k)
+                        ( property
+                            ( any
+                                ((`elem` ["floor", "excess"]) . kind)
+                                (findings (Verify.prove iso path program (bare fewer)))
+                            )
+                        )
+                    _ -> property False
   prop "a frame left out, doubled, or shifted is found (catches a proof by the number of frames)" $
-    forAll Generate.rectangle $ \p -> forAllPath (Generate.pocketing [] p) $ \path -> case framesOf iso path of
-      Nothing -> property False
-      Just program ->
-        let fs = bare program
-         in forAll (choose (0, length fs - 2)) $ \n ->
-              let (done, rest) = splitAt n fs
-                  spoilt = case rest of
-                    f : next : behind -> [("left out", done <> (next : behind)), ("doubled", done <> (f : f : next : behind))] <> [("shifted", done <> (moved 300 f : moved (-300) next : behind)) | isAside path (Frame.start program + sum (map increment (done <> [moved 300 f])))]
-                    _ -> []
-               in conjoin [counterexample (what <> show n) (not (Proof.isProven (Verify.prove iso path program fs'))) | (what, fs') <- spoilt]
-  prop "the depths of a pocket in another order are found (catches a proof that only looks at what is left)" $
     forAll Generate.rectangle $ \p ->
+      forAllPath (Generate.pocketing [] p) $ \path -> case framesOf iso path of
+        Nothing -> property False
+        Just program ->
+          let fs = bare program
+           in forAll (choose (0, length fs - 2)) $ \n ->
+                let (done, rest) = splitAt n fs
+                    spoilt = case rest of
+                      f : next : behind ->
+                        [ ("left out", done <> (next : behind)),
+                          ("doubled", done <> (f : f : next : behind))
+                        ]
+                          <> [ ("shifted", done <> (moved 300 f : moved (-300) next : behind))
+                               | isAside
+                                   path
+                                   ( Frame.start program
+                                       + sum (map increment (done <> [moved 300 f]))
+                                   )
+                             ]
+                      _ -> []
+                 in conjoin
+                      [ counterexample
+                          (what <> show n)
+                          (not (Proof.isProven (Verify.prove iso path program fs')))
+                        | (what, fs') <- spoilt
+                      ]
+  prop
+    "the depths of a pocket in another order are found (catches a proof that only looks at what is \
+      \left)"
+    $ forAll Generate.rectangle $ \p ->
       let asked = Generate.pocketing [] p
           at zs = Generate.laid asked {Part.wall = (Part.wall asked) {Part.levels = map Mm zs}}
        in case (at [-1, -2], at [-2, -1]) of
             (Just path, Just other) -> case (framesOf iso path, framesOf iso other) of
-              (Just program, Just turned) -> filter (== "order") (map kind (findings (Verify.prove iso path program (bare turned)))) === ["order"]
+              (Just program, Just turned) ->
+                filter
+                  (== "order")
+                  (map kind (findings (Verify.prove iso path program (bare turned))))
+                  === ["order"]
               _ -> property False
             _ -> discard
-  prop "a pocket whose walls are a little further out is found to be left too small (catches a tolerance that grows)" $
-    forAll Generate.rectangle $ \p -> case (Generate.laid (Generate.pocketing [] p), Generate.laid (Generate.pocketing [] p {left = plus (left p) (Mm 0.08)})) of
-      (Just wide, Just narrow) -> case (framesOf iso wide, framesOf iso narrow) of
-        (Just program, Just other) ->
-          let less = map kind (findings (Verify.prove iso wide program (bare other)))
-              deeper = map kind (findings (Verify.prove iso narrow other (bare program)))
-           in counterexample (show (less, deeper)) ("excess" `elem` less && (length (bare other) /= length (bare program) || "gouge" `elem` deeper))
-        _ -> property False
-      _ -> discard
-  it "of several pockets each is looked at by itself (catches strokes that are taken for those of another one)" $ do
-    let asked = three (replicate 3 right)
-        wrong k what = three [if j == k then what else right | j <- [0 .. 2 :: Int]]
-        found other = case (framesOf iso asked, framesOf iso other) of
-          (Just program, Just others) -> map kind (findings (Verify.prove iso asked program (bare others)))
-          _ -> ["no frames"]
-    found asked `shouldBe` []
-    [filter (== "order") (found (wrong k "pocket c step 3 { depth 2 }\n pocket c step 3 { depth 1 }")) | k <- [0 .. 2]] `shouldBe` replicate 3 ["order"]
-    [take 1 (filter (`elem` ["floor", "excess"]) (found (wrong k "pocket smaller step 3 { depth 2 step 1 }"))) | k <- [0 .. 2]] `shouldBe` replicate 3 ["excess"]
-    [take 1 (filter (== "gouge") (found (wrong k "pocket larger step 3 { depth 2 step 1 }"))) | k <- [0 .. 2]] `shouldBe` replicate 3 ["gouge"]
+  prop
+    "a pocket whose walls are a little further out is found to be left too small (catches a \
+      \tolerance that grows)"
+    $ forAll Generate.rectangle $ \p ->
+      case ( Generate.laid (Generate.pocketing [] p),
+             Generate.laid (Generate.pocketing [] p {left = plus (left p) (Mm 0.08)})
+           ) of
+        (Just wide, Just narrow) -> case (framesOf iso wide, framesOf iso narrow) of
+          (Just program, Just other) ->
+            let less = map kind (findings (Verify.prove iso wide program (bare other)))
+                deeper = map kind (findings (Verify.prove iso narrow other (bare program)))
+             in counterexample
+                  (show (less, deeper))
+                  ( "excess" `elem` less
+                      && (length (bare other) /= length (bare program) || "gouge" `elem` deeper)
+                  )
+          _ -> property False
+        _ -> discard
+  it
+    "of several pockets each is looked at by itself (catches strokes that are taken for those of \
+      \another one)"
+    $ do
+      let asked = three (replicate 3 right)
+          wrong k what = three [if j == k then what else right | j <- [0 .. 2 :: Int]]
+          found other = case (framesOf iso asked, framesOf iso other) of
+            (Just program, Just others) ->
+              map kind (findings (Verify.prove iso asked program (bare others)))
+            _ -> ["no frames"]
+      found asked `shouldBe` []
+      [filter (== "order") (found (wrong k "pocket c step 3 { depth 2 }\n pocket c step 3 { depth \
+        \1 }")) | k <- [0 .. 2]]
+        `shouldBe` replicate 3 ["order"]
+      [take 1 (filter (`elem` ["floor", "excess"]) (found (wrong k "pocket smaller step 3 { depth \
+        \2 step 1 }"))) | k <- [0 .. 2]]
+        `shouldBe` replicate 3 ["excess"]
+      [take 1 (filter (== "gouge") (found (wrong k "pocket larger step 3 { depth 2 step 1 }"))) | k <- [0 .. 2]]
+        `shouldBe` replicate 3 ["gouge"]
   where
     right = "pocket c step 3 { depth 2 step 1 }"
     more = oneof [pure [], pure [Mm 0.5], pure [Mm 2, Mm 0.3]]
-    anywhere p = let BoundingBox l b r t = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p))) in Vec.point <$> choose (l, r) <*> choose (b, t)
+    anywhere p =
+      let BoundingBox l b r t =
+            foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
+       in Vec.point <$> choose (l, r) <*> choose (b, t)
     -- There is more in it than a loop at the walls and what it sweeps.
-    roomy d p = let BoundingBox l b r t = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p))) in Mm (min (r - l) (t - b)) > plus (times 4 (cutter p)) (plus (times 2 (left p)) (times 2 (plus d (Mm 2))))
-    -- Below the top of the part and beside all that is to be cut: a frame shifted along its neighbour does no harm.
-    isAside path at = Frame.height iso at < Mm 0 && all (\s -> Distance.toPoint (Frame.position iso at) s > Mm 0.1) (cuts iso path)
+    roomy d p =
+      let BoundingBox l b r t =
+            foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
+       in Mm (min (r - l) (t - b))
+            > plus (times 4 (cutter p)) (plus (times 2 (left p)) (times 2 (plus d (Mm 2))))
+    -- Below the top of the part and beside all that is to be cut: a frame shifted along its
+    -- neighbour does no harm.
+    isAside path at =
+      Frame.height iso at < Mm 0
+        && all (\s -> Distance.toPoint (Frame.position iso at) s > Mm 0.1) (cuts iso path)
     moved k f = f {increment = increment f + Pulses3 k k 0}
 
 -- | Three pockets beside one another, by what is asked in each.
 three :: [Text] -> Toolpath
-three pockets = maybe (error "no path") path (Result.output (Compile.analyse [] (Compile.alone "p.part" text)))
+three pockets =
+  maybe (error "no path") path (Result.output (Compile.analyse [] (Compile.alone "p.part" text)))
   where
     text =
       Text.unlines
@@ -125,7 +200,9 @@ three pockets = maybe (error "no path") path (Result.output (Compile.analyse [] 
             "contour smaller closed { ccw circle((0, 0), 9.5) }",
             "contour larger closed { ccw circle((0, 0), 10.5) }"
           ]
-            <> ["with moved((" <> Decimal.whole (22 * k) <> ", 0)) {\n" <> p <> "\n}" | (k, p) <- zip [0 ..] pockets]
+            <> [ "with moved((" <> Decimal.whole (22 * k) <> ", 0)) {\n" <> p <> "\n}"
+                 | (k, p) <- zip [0 ..] pockets
+               ]
         )
 
 machines :: [Machine]
@@ -144,7 +221,11 @@ bare :: FrameProgram -> [Frame]
 bare = map Frame.frame . Frame.planned
 
 proofOf :: Machine -> Toolpath -> Proof
-proofOf m path = maybe (error "no frames") (\program -> Verify.prove m path program (bare program)) (framesOf m path)
+proofOf m path =
+  maybe
+    (error "no frames")
+    (\program -> Verify.prove m path program (bare program))
+    (framesOf m path)
 
 kind :: Finding -> String
 kind f = case f of
@@ -158,22 +239,38 @@ kind f = case f of
 cuts :: Machine -> Toolpath -> [Segment]
 cuts m path = case framesOf m path of
   Nothing -> []
-  Just program -> [Frame.segment m at f | (at, f) <- zip (scanl (+) (Frame.start program) (map increment (bare program))) (bare program), let Pulses3 _ _ dz = increment f, dz == 0, Frame.height m at < Mm 0]
+  Just program ->
+    [ Frame.segment m at f
+      | (at, f) <-
+          zip (scanl (+) (Frame.start program) (map increment (bare program))) (bare program),
+        let Pulses3 _ _ dz = increment f,
+        dz == 0,
+        Frame.height m at < Mm 0
+    ]
 
 swept :: Pocket -> [Segment] -> Point -> Property
-swept p way q = counterexample (show q) (not reachable || minimum (map (Distance.toPoint q) way) <= plus (cutter p) (Mm 0.06))
+swept p way q =
+  counterexample
+    (show q)
+    (not reachable || minimum (map (Distance.toPoint q) way) <= plus (cutter p) (Mm 0.06))
   where
     room = Generate.roomOf p
     borders = concatMap NonEmpty.toList (offsetBy room (plus (cutter p) (left p)))
-    reachable = WindingNumber.about q borders > 0 || any (\s -> Distance.toPoint q s <= minus (cutter p) (Mm 1e-4)) borders
+    reachable =
+      WindingNumber.about q borders > 0
+        || any (\s -> Distance.toPoint q s <= minus (cutter p) (Mm 1e-4)) borders
 
 -- | A path without the loop at a distance from the walls.
 without :: Mm -> Pocket -> Toolpath -> Toolpath
 without away p path = path {Toolpath.blocks = map emptied (Toolpath.blocks path)}
   where
     emptied b = case b of
-      Toolpath.Clearing {Toolpath.cleared = first :| others} -> b {Toolpath.cleared = first :| filter (not . isThere) others}
+      Toolpath.Clearing {Toolpath.cleared = first :| others} ->
+        b {Toolpath.cleared = first :| filter (not . isThere) others}
       _ -> b
-    isThere m = all (\k -> abs' (minus (fromWalls (Segment.at k (Toolpath.segment m))) away) < Mm 0.01) [0.1, 0.5, 0.9]
+    isThere m =
+      all
+        (\k -> abs' (minus (fromWalls (Segment.at k (Toolpath.segment m))) away) < Mm 0.01)
+        [0.1, 0.5, 0.9]
     fromWalls q = minimum (fmap (Distance.toPoint q) (walls (Generate.roomOf p)))
     abs' (Mm x) = Mm (abs x)

@@ -31,28 +31,47 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = describe "a nose without radius" $ do
-  it "lies on the contour, outside and inside, walked either way (catches strokes on the contour that do not count as beside it)" $
-    [(side, back) | side <- [Part.Outside, Part.Inside], back <- [False, True], let { path = turned side back; program = Arcs.quantise machine path }, found path program (own program) /= []] `shouldBe` []
-  it "so far on the side of the material gouges, so far on the other side leaves material (catches a contour taken for one that is milled on)" $
-    [ (side, back, d, map kind fs)
-      | side <- [Part.Outside, Part.Inside],
-        back <- [False, True],
-        d <- [-10, -5, 5, 10],
-        let path = turned side back
-            program = Arcs.quantise machine path
-            fs = found path program (shifted d (own program)),
-        -- The tool is outside at a greater distance from the axis.
-        let deep = (d < 0) == (side == Part.Outside),
-        any isGouge fs /= deep || any isExcess fs == deep
-    ]
+  it
+    "lies on the contour, outside and inside, walked either way (catches strokes on the contour \
+    \that do not count as beside it)"
+    $ [ (side, back)
+        | side <- [Part.Outside, Part.Inside],
+          back <- [False, True],
+          let path = turned side back; program = Arcs.quantise machine path,
+          found path program (own program) /= []
+      ]
+      `shouldBe` []
+  it
+    "so far on the side of the material gouges, so far on the other side leaves material (catches \
+    \a contour taken for one that is milled on)"
+    $ [ (side, back, d, map kind fs)
+        | side <- [Part.Outside, Part.Inside],
+          back <- [False, True],
+          d <- [-10, -5, 5, 10],
+          let path = turned side back
+              program = Arcs.quantise machine path
+              fs = found path program (shifted d (own program)),
+          -- The tool is outside at a greater distance from the axis.
+          let deep = (d < 0) == (side == Part.Outside),
+          any isGouge fs /= deep || any isExcess fs == deep
+      ]
       `shouldBe` []
   it "says how deep: of a profile shifted by 10 pulses all of them" $
-    [round (amount worst `inPulses` machine) | path <- [turned Part.Outside False], let { program = Arcs.quantise machine path }, Gouge _ worst _ <- found path program (shifted (-10) (own program))] `shouldBe` [10 :: Int]
+    [ round (amount worst `inPulses` machine)
+      | path <- [turned Part.Outside False],
+        let program = Arcs.quantise machine path,
+        Gouge _ worst _ <- found path program (shifted (-10) (own program))
+    ]
+      `shouldBe` [10 :: Int]
   it "does not cross the profile on its way (catches a way that is no nearer than nothing)" $
     [ map kind fs
       | let path = turned Part.Outside False
             program = Arcs.quantise machine path
-            fs = found path program (own program <> map dip [Pulses3 4000 0 0, Pulses3 0 (-3000) 0, Pulses3 0 3000 0]),
+            fs =
+              found
+                path
+                program
+                (own program <> map dip [Pulses3 4000 0 0, Pulses3 0 (-3000) 0, Pulses3 0 3000 0]),
         not (any isGouge fs)
     ]
       `shouldBe` []
@@ -61,9 +80,21 @@ spec = describe "a nose without radius" $ do
     found path program fs = Proof.findings (Verify.prove machine path program fs)
     -- The profile between its first and its last frame so many pulses further out.
     shifted d fs = case fs of
-      f : rest | final : _ <- reverse rest -> f {increment = increment f + Pulses3 0 d 0} : init rest <> [final {increment = increment final - Pulses3 0 d 0}]
+      f : rest
+        | final : _ <- reverse rest ->
+          f {increment = increment f + Pulses3 0 d 0} :
+          init rest
+            <> [final {increment = increment final - Pulses3 0 d 0}]
       _ -> fs
-    dip d = Frame {motion = Straightway, increment = d, Frame.centre = 0, speed = Machine.rapidCode machine, braking = False, orders = []}
+    dip d =
+      Frame
+        { motion = Straightway,
+          increment = d,
+          Frame.centre = 0,
+          speed = Machine.rapidCode machine,
+          braking = False,
+          orders = []
+        }
     Mm a `inPulses` m = let Mm p = Machine.pulse m in a / p
     kind f = takeWhile (/= ' ') (show f)
     isGouge f = case f of
@@ -78,21 +109,47 @@ machine = m {Machine.braking = (Machine.braking m) {deceleration = 1e12}}
   where
     m = Machines.named "lki-u"
 
--- | A shaft with a cone, a shoulder and a round of radius 12 beside the axis y = 0, turned by a tool without radius.
+-- | A shaft with a cone, a shoulder and a round of radius 12 beside the axis y = 0, turned by a
+-- tool without radius.
 turned :: Part.Side -> Bool -> Toolpath
-turned side back = case Result.output (Toolpath.lay (Generate.partOf (Vec.point (if back then -100 else 10) 80) (Part.Mill (Located (Region 0 0) job)))) of
-  Just path -> path
-  Nothing -> error "no path"
+turned side back =
+  case Result.output
+    ( Toolpath.lay
+        ( Generate.partOf
+            (Vec.point (if back then -100 else 10) 80)
+            (Part.Mill (Located (Region 0 0) job))
+        )
+    ) of
+    Just path -> path
+    Nothing -> error "no path"
   where
-    profile = Straight (p 0 20) (p (-15) 20) :| [Straight (p (-15) 20) (p (-30) 26), Straight (p (-30) 26) (p (-30) 30), Segment.arc CounterClockwise (p (-42) 30) (p (-30) 30) (p (-42) 42), Straight (p (-42) 42) (p (-60) 42)]
+    profile =
+      Straight (p 0 20) (p (-15) 20)
+        :| [ Straight (p (-15) 20) (p (-30) 26),
+             Straight (p (-30) 26) (p (-30) 30),
+             Segment.arc CounterClockwise (p (-42) 30) (p (-30) 30) (p (-42) 42),
+             Straight (p (-42) 42) (p (-60) 42)
+           ]
     p = Vec.point
     walk = if back then NonEmpty.reverse (fmap Segment.reverse profile) else profile
     begin' = Segment.start (NonEmpty.head walk)
     job =
-      (Generate.job Case {contour = Polyarc Open walk, side = LeftOf, radius = Mm 0, pieces = Equidistant.OffsetSegment (Equidistant.Along 0) (NonEmpty.head walk) :| []})
+      ( Generate.job
+          Case
+            { contour = Polyarc Open walk,
+              side = LeftOf,
+              radius = Mm 0,
+              pieces = Equidistant.OffsetSegment (Equidistant.Along 0) (NonEmpty.head walk) :| []
+            }
+      )
         { Part.work = Part.Turned,
           Part.side = Located (Region 0 0) side,
           Part.radius = Mm 0,
           Part.approach = [Part.Stop (Located (Region 0 0) begin') Nothing Part.Rapid],
-          Part.retract = [Part.Stop (Located (Region 0 0) (Vec.point (if back then 40 else -100) 80)) Nothing Part.Rapid]
+          Part.retract =
+            [ Part.Stop
+                (Located (Region 0 0) (Vec.point (if back then 40 else -100) 80))
+                Nothing
+                Part.Rapid
+            ]
         }

@@ -1,12 +1,15 @@
 -- | Biarcs: two arcs that go over into one another smoothly, with given ends and directions there.
 --
--- In the complex plane of the chord (from 0 to 1), let the walk set out at the angle α and arrive at the angle
--- β. An arc's chord halves the angle between its ends' directions, so with the direction γ at the joint and the
--- chords @c@ and @r·c@ of the two arcs, @c·e^{i(α+γ)/2} + r·c·e^{i(γ+β)/2} = 1@. Hence with
+-- In the complex plane of the chord (from 0 to 1), let the walk set out at the angle α and arrive
+-- at the angle β. An arc's chord halves the angle between its ends' directions, so with the
+-- direction γ at the joint and the chords @c@ and @r·c@ of the two arcs, @c·e^{i(α+γ)/2} +
+-- r·c·e^{i(γ+β)/2} = 1@. Hence with
 -- @w = e^{iα/2} + r·e^{iβ/2}@: @γ = −2·arg w@, @c = 1/|w|@, and the joint is
--- @(1 + r·e^{i(α−β)/2}) / |w|²@. For α and β in (−π, π) there is one for every ratio r; equal chords are the
--- rule. (Equal tangent lengths, the other usual choice, have no answer where the two directions are parallel
--- and square to the chord, and differ from equal chords by terms of the third order in the angles.)
+-- @(1 + r·e^{i(α−β)/2}) / |w|²@. For α and β in (−π, π) there is one for every ratio r; equal
+--  chords are the
+-- rule. (Equal tangent lengths, the other usual choice, have no answer where the two directions are
+-- parallel and square to the chord, and differ from equal chords by terms of the third order in the
+-- angles.)
 module Geometry.ArcFitting.Biarc
   ( -- * Between two ends
     join,
@@ -33,10 +36,11 @@ import Geometry.Vec qualified as Vec
 
 -- Between two ends ------------------------------------------------------------------------------
 
--- | The biarc from one point and direction (of length 1) to another: two segments, or one where a straight
--- line or a single arc does it. The arcs have equal chords, unless a curve that bends to one side would be given
--- a bend to the other side; then the chord at the end that leans less to the whole chord is up to
--- four times as long. Nothing where the points are one point or an arc would turn by more than half a turn.
+-- | The biarc from one point and direction (of length 1) to another: two segments, or one where a
+-- straight line or a single arc does it. The arcs have equal chords, unless a curve that bends to
+-- one side would be given a bend to the other side; then the chord at the end that leans less to
+-- the whole chord is up to four times as long. Nothing where the points are one point or an arc
+-- would turn by more than half a turn.
 join :: (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 join from to = joinWith (ratio from to) from to
 
@@ -54,10 +58,17 @@ joinWith r from@(p, _) to@(q, _) = do
     -- w|²
     square = 1 + r * r + 2 * r * cos opening
     chord = Vec.to p q
-    joint = Vec.shift (Vec.add (Vec.scale ((1 + r * cos opening) / square) chord) (Vec.scale (r * sin opening / square) (Vec.left chord))) p
+    joint =
+      Vec.shift
+        ( Vec.add
+            (Vec.scale ((1 + r * cos opening) / square) chord)
+            (Vec.scale (r * sin opening / square) (Vec.left chord))
+        )
+        p
     result
       | most alpha Tolerance.straight && most beta Tolerance.straight = Straight p q :| []
-      | most (alpha + beta) Tolerance.oneArc && most (beta - alpha) Tolerance.halfTurn = bent p q (beta - alpha) :| []
+      | most (alpha + beta) Tolerance.oneArc && most (beta - alpha) Tolerance.halfTurn =
+        bent p q (beta - alpha) :| []
       | otherwise = bent p joint (gamma - alpha) :| [bent joint q (beta - gamma)]
 
 -- | Whether an angle is no larger than a limit, to either side.
@@ -71,8 +82,8 @@ lean (p, s) (q, t) = (a, b)
     Rad a = Vec.turn (Vec.to p q) s
     Rad b = Vec.turn (Vec.to p q) t
 
--- | The ratio of the chords that 'join' takes: 1, or what keeps a curve bent to one side: the joint's direction stays
--- at least half of either end's angle away from that end's direction.
+-- | The ratio of the chords that 'join' takes: 1, or what keeps a curve bent to one side: the
+-- joint's direction stays at least half of either end's angle away from that end's direction.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
   | alpha * beta >= 0 || held == gamma = 1
@@ -89,16 +100,17 @@ bent p q sweep
   | otherwise = Segment.arc (if sweep > 0 then CounterClockwise else Clockwise) centre p q
   where
     chord = Vec.to p q
-    centre = Vec.shift (Vec.scale (1 / (2 * tan (sweep / 2))) (Vec.left chord)) (Vec.between 0.5 p q)
+    centre =
+      Vec.shift (Vec.scale (1 / (2 * tan (sweep / 2))) (Vec.left chord)) (Vec.between 0.5 p q)
 
 -- Through points --------------------------------------------------------------------------------
 
--- | A smooth chain of arcs and lines through points in order; a closed one comes back to the first. The direction
--- at a point is that of the circle through it and its neighbours, at the ends of an open chain that of the
--- circle through the first or last three. Where that circle would turn by more than half a turn between
--- two of them (a sharp turn of the points), it halves the angle instead. Two points are joined by a
--- line, or, closed, by the circle about them. Points that follow at the same place count once; a single one gives a
--- line without length.
+-- | A smooth chain of arcs and lines through points in order; a closed one comes back to the first.
+-- The direction at a point is that of the circle through it and its neighbours, at the ends of an
+-- open chain that of the circle through the first or last three. Where that circle would turn by
+-- more than half a turn between two of them (a sharp turn of the points), it halves the angle
+-- instead. Two points are joined by a line, or, closed, by the circle about them. Points that
+-- follow at the same place count once; a single one gives a line without length.
 through :: Ends -> NonEmpty Point -> NonEmpty Segment
 through ends points = case distinct ends points of
   p :| [] -> Straight p p :| []
@@ -129,19 +141,21 @@ distinct ends (first :| others) = first :| back (onward first others)
       Open -> ps
       Closed -> reverse (dropWhile (Vec.near first) (reverse ps))
 
--- | The directions at three or more points of an open chain; the end's one is the neighbour's in the mirror of
--- the perpendicular bisector, so that the last piece is one arc.
+-- | The directions at three or more points of an open chain; the end's one is the neighbour's in
+-- the mirror of the perpendicular bisector, so that the last piece is one arc.
 openDirections :: [Point] -> [Vec]
 openDirections ps = case (ps, reverse ps) of
   (a : b : _, z : y : _) ->
     let inner = zipWith3 passing ps (drop 1 ps) (drop 2 ps)
-     in [mirrored a b t | t <- take 1 inner] <> inner <> [mirrored y z t | t <- take 1 (reverse inner)]
+     in [mirrored a b t | t <- take 1 inner]
+          <> inner
+          <> [mirrored y z t | t <- take 1 (reverse inner)]
   _ -> []
   where
     mirrored a b t = Vec.rotate (Vec.turn t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
--- | The direction at the middle one of three points. On the circle, the angles from the first chord to it and from it
--- to the second one are those of the triangle at the far ends.
+-- | The direction at the middle one of three points. On the circle, the angles from the first chord
+-- to it and from it to the second one are those of the triangle at the far ends.
 passing :: Point -> Point -> Point -> Vec
 passing a b c
   | not (Vec.near a c) && Vec.dot round' ab >= 0 && Vec.dot round' bc >= 0 = round'

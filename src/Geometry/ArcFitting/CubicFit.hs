@@ -3,13 +3,16 @@
 
 -- | Biarcs along cubic spans, with a bound of their distance in closed form.
 --
--- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the curvature k is where
--- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away from it at most. On a
--- cubic F is a polynomial of degree 6; Chebyshev's polynomials bring it down to the third degree, whose greatest value is known, but for
--- a small remainder.
+-- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the
+-- curvature k is where
+-- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away
+--  from it at most. On a
+-- cubic F is a polynomial of degree 6; Chebyshev's polynomials bring it down to the third degree,
+-- whose greatest value is known, but for a small remainder.
 --
--- That covers one way. As long as the curve goes forwards as seen from both ends of the arc, its feet on the arc go without a
--- jump from the beginning to the end, so that every point of the arc is as near to the curve.
+-- That covers one way. As long as the curve goes forwards as seen from both ends of the arc, its
+-- feet on the arc go without a jump from the beginning to the end, so that every point of the arc
+-- is as near to the curve.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
@@ -30,8 +33,8 @@ import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Arcs and lines that stay within a distance of the curve with these spans in x and y, both ways, as 'Track.approximate' gives
--- them. The spans move at their ends.
+-- | Arcs and lines that stay within a distance of the curve with these spans in x and y, both ways,
+-- as 'Track.approximate' gives them. The spans move at their ends.
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
@@ -45,8 +48,20 @@ approximate (Mm tolerance) xs ys = runST $ do
               LongestBiarc.along
                 vertices
                 aim
-                ParameterRange {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
-                Spans {seek = \_ u -> truncate u, pose = poseWithin xs ys from to, LongestBiarc.off = apart xs ys, other = sharp to, hopeless = \_ _ _ _ _ _ _ -> False, patient = False}
+                ParameterRange
+                  { inSpan = from,
+                    begin = fromIntegral from,
+                    final = fromIntegral to,
+                    step = 1
+                  }
+                Spans
+                  { seek = \_ u -> truncate u,
+                    pose = poseWithin xs ys from to,
+                    LongestBiarc.off = apart xs ys,
+                    other = sharp to,
+                    hopeless = \_ _ _ _ _ _ _ -> False,
+                    patient = False
+                  }
           stretches to
       endOf k
         | k >= n || cornered xs ys k = k
@@ -57,7 +72,14 @@ approximate (Mm tolerance) xs ys = runST $ do
   Builder.outline vertices
   where
     n = Spline.count xs
-    sharp to u = let i = max 0 (min (to - 1) (truncate u)) in ParametricFit.further (Mm tolerance) (trackOf xs ys i (min to (i + 64))) (fromIntegral (min to (i + 64))) u
+    sharp to u =
+      let i =
+            max 0 (min (to - 1) (truncate u))
+       in ParametricFit.further
+            (Mm tolerance)
+            (trackOf xs ys i (min to (i + 64)))
+            (fromIntegral (min to (i + 64)))
+            u
     aim = tolerance * (1 - Tolerance.roundingShare)
 
 -- | Whether a span between two corners is a line.
@@ -66,7 +88,8 @@ isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
 -- | Whether the curve has a corner at the beginning of a span, behind another.
 cornered :: Cubics -> Cubics -> Int -> Bool
-cornered xs ys k = not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
+cornered xs ys k =
+  not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
   where
     a = placed xs ys (k - 1) 1
     b = placed xs ys k 0
@@ -83,7 +106,8 @@ placed xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
     v = sqrt (vx * vx + vy * vy)
 {-# INLINE placed #-}
 
--- | The place and the direction at a parameter of a stretch, given its span; where spans meet the mean of both directions.
+-- | The place and the direction at a parameter of a stretch, given its span; where spans meet the
+-- mean of both directions.
 poseWithin :: Cubics -> Cubics -> Int -> Int -> Int -> Double -> Pose
 poseWithin xs ys from to i u
   | i >= to = placed xs ys (to - 1) 1
@@ -97,10 +121,28 @@ poseWithin xs ys from to i u
           s = sqrt (sx * sx + sy * sy)
        in b {dx = sx / s, dy = sy / s}
 
--- | How far a biarc is from the curve between two parameters; of what is further than a limit only that it is so.
-apart :: Cubics -> Cubics -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off
+-- | How far a biarc is from the curve between two parameters; of what is further than a limit only
+-- that it is so.
+apart ::
+  Cubics ->
+  Cubics ->
+  Double ->
+  Int ->
+  Double ->
+  Pose ->
+  Int ->
+  Double ->
+  Pose ->
+  FastBiarc ->
+  Off
 apart xs ys most first u from _ v to pair
-  | single pair = if forwards one then let Reached _ _ d = onward xs ys most v True one start in Off d d else unknown
+  | single pair =
+    if forwards one
+      then
+        let Reached _ _ d =
+              onward xs ys most v True one start
+         in Off d d
+      else unknown
   | forwards one && forwards two = case onward xs ys most v False one start of
     Reached i a d1 | d1 <= most -> case onward xs ys most v True two (Reached i a 0) of
       Reached _ _ d2 -> Off d1 d2
@@ -121,7 +163,8 @@ onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
   where
     go i a d
       | d > most = Reached i a d
-      | final = if whole then Reached i b (worse d (bound a b)) else go (i + 1) 0 (worse d (bound a b))
+      | final =
+        if whole then Reached i b (worse d (bound a b)) else go (i + 1) 0 (worse d (bound a b))
       | ahead b < 0 = if whole then Reached i b (1 / 0) else go (i + 1) 0 (worse d (bound a b))
       | otherwise = let c = crossing in Reached i c (worse d (bound a c))
       where
@@ -130,7 +173,9 @@ onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
         x = Spline.at xs i
         y = Spline.at ys i
         -- How far the curve is beyond the normal at the arc's end.
-        ahead t = (Spline.value x t - px (limit f)) * dx (limit f) + (Spline.value y t - py (limit f)) * dy (limit f)
+        ahead t =
+          (Spline.value x t - px (limit f)) * dx (limit f)
+            + (Spline.value y t - py (limit f)) * dy (limit f)
         faster t = Spline.rate x t * dx (limit f) + Spline.rate y t * dy (limit f)
         crossing =
           let from = ahead a
@@ -140,10 +185,15 @@ onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
         bound = beside f x y
     worse d e = if e <= d then d else e
 
--- | How far a cubic between two parameters can be from an arc; infinite where it may not go forwards.
+-- | How far a cubic between two parameters can be from an arc; infinite where it may not go
+-- forwards.
 beside :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
 beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
-  | forwardsFrom x1 y1 && forwardsFrom (x1 + x2) (y1 + y2) && forwardsFrom (x1 + 2 * x2 + 3 * x3) (y1 + 2 * y2 + 3 * y3) && k * d < 0.2 = d * (1 + k * d)
+  | forwardsFrom x1 y1
+      && forwardsFrom (x1 + x2) (y1 + y2)
+      && forwardsFrom (x1 + 2 * x2 + 3 * x3) (y1 + 2 * y2 + 3 * y3)
+      && k * d < 0.2 =
+    d * (1 + k * d)
   | otherwise = 1 / 0
   where
     w = b - a
@@ -176,8 +226,9 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     c4 = -(h * (x2 * x2 + y2 * y2 + 2 * (x1 * x3 + y1 * y3)))
     c5 = -(2 * h * (x2 * x3 + y2 * y3))
     c6 = -(h * (x3 * x3 + y3 * y3))
-    -- Between 0 and 1, within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² + 9/256·t − 1/2048; within 1/512:
-    -- t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within 1/128: t⁴ = 2·t³ − 5/4·t² + t/4 − 1/128.
+    -- Between 0 and 1, within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² + 9/256·t − 1/2048;
+    -- within 1/512: t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within 1/128: t⁴ = 2·t³ −
+    -- 5/4·t² + t/4 − 1/128.
     e5 = c5 + 3 * c6
     e4 = c4 - 3.375 * c6 + 2.5 * e5
     e3 = c3 + 1.75 * c6 - 2.1875 * e5 + 2 * e4
@@ -187,7 +238,8 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     d = greatest e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
     forwardsFrom vx vy = vx > 0 && vx * cosine f + vy * sine f > 0
 
--- | The greatest absolute value of a cubic between 0 and 1: at an end or where the slope @c₁ + 2·c₂·t + 3·c₃·t²@ is 0.
+-- | The greatest absolute value of a cubic between 0 and 1: at an end or where the slope @c₁ +
+-- 2·c₂·t + 3·c₃·t²@ is 0.
 greatest :: Double -> Double -> Double -> Double -> Double
 greatest c0 c1 c2 c3
   | square <= 0 = ends
@@ -199,11 +251,22 @@ greatest c0 c1 c2 c3
     q = if c2 > 0 then -(c2 + sqrt square) else sqrt square - c2
     inside t d = if t > 0 && t < 1 then greater d (abs (c0 + t * (c1 + t * (c2 + t * c3)))) else d
 
--- | Some of the spans, from one to before another, as a track: no more than is needed where the bound says nothing.
+-- | Some of the spans, from one to before another, as a track: no more than is needed where the
+-- bound says nothing.
 trackOf :: Cubics -> Cubics -> Int -> Int -> ParametricCurve
-trackOf xs ys from to = ParametricCurve {ParametricFit.place = place, ParametricFit.direction = direction, ParametricFit.begin = fromIntegral from, ParametricFit.breaks = fromIntegral (from + 1) :| map fromIntegral [from + 2 .. to]}
+trackOf xs ys from to =
+  ParametricCurve
+    { ParametricFit.place = place,
+      ParametricFit.direction = direction,
+      ParametricFit.begin = fromIntegral from,
+      ParametricFit.breaks = fromIntegral (from + 1) :| map fromIntegral [from + 2 .. to]
+    }
   where
-    place u = let i = held (truncate u); t = u - fromIntegral i in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
+    place u =
+      let i =
+            held (truncate u)
+          t = u - fromIntegral i
+       in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
     direction side u = case side of
       Arriving -> heading (-1) (held (ceiling u - 1)) u
       Leaving -> heading 1 (held (truncate u)) u

@@ -1,7 +1,7 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | The walk along a stretch of a curve without corners in biarcs that go as far as they may: what all curves share whose
--- deviation from a biarc is known in closed form.
+-- | The walk along a stretch of a curve without corners in biarcs that go as far as they may: what
+-- all curves share whose deviation from a biarc is known in closed form.
 module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
@@ -24,10 +24,15 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
 -- | From one parameter, the span that begins there, to another, and a first step to try.
-data ParameterRange = ParameterRange {inSpan :: Int, begin :: Double, final :: Double, step :: Double}
+data ParameterRange = ParameterRange
+  { inSpan :: Int,
+    begin :: Double,
+    final :: Double,
+    step :: Double
+  }
 
--- | How far the two arcs of a biarc are from a curve: no less than the true distances either way, infinite where none is
--- known.
+-- | How far the two arcs of a biarc are from a curve: no less than the true distances either way,
+-- infinite where none is known.
 data Off = Off Double Double
 
 -- | A curve of spans, the parameters at which spans meet belonging to the one behind.
@@ -36,100 +41,171 @@ data Spans = Spans
     seek :: Int -> Double -> Int,
     -- | the pose at a parameter, given its span; where spans meet the mean of both directions
     pose :: Int -> Double -> Pose,
-    -- | how far a biarc is from the curve between two parameters, each given with its span and pose; of what is further than
-    -- the first argument only that it is so
+    -- | how far a biarc is from the curve between two parameters, each given with its span and
+    -- pose; of what is further than the first argument only that it is so
     off :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off,
     -- | a biarc from a pose by other means, with a step to try
     other :: Double -> (Point, Vec) -> Double -> Further,
-    -- | whether no biarc between two parameters, each given with its span and pose, stays within a distance
+    -- | whether no biarc between two parameters, each given with its span and pose, stays within a
+    -- distance
     hopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
-    -- | whether longer biarcs with other ratios are looked for where the curvature does not change evenly: fewer by a tenth,
-    -- where there are few
+    -- | whether longer biarcs with other ratios are looked for where the curvature does not change
+    -- evenly: fewer by a tenth, where there are few
     patient :: Bool
   }
 
--- | The biarcs along a stretch, each as far as it stays within a distance. The vertices up to the last but one are
--- written; the last one begins what follows.
+-- | The biarcs along a stretch, each as far as it stays within a distance. The vertices up to the
+-- last but one are written; the last one begins what follows.
 along :: Vertices s -> Double -> ParameterRange -> Spans -> ST s ()
-along vertices aim ParameterRange {inSpan, begin, final, step = first} Spans {seek, pose, off, other, hopeless, patient} = go inSpan begin (pose inSpan begin) first 0
-  where
-    go !i !u !from !step !bending
-      | u >= final = pure ()
-      | otherwise = search tries i u from (Last step bending) Held {reach = u, chords = 1} (1 / 0) 1 (if final - u <= 1.5 * step then final else u + step)
-    -- Between the biarc that held and reached furthest (u when none has) and the nearest parameter that was missed.
-    search !left !i !u !from before !held !missed !r !v
-      | v <= u || left <= 0 = settled i u from before held
-      | d <= aim =
-        if v >= final || d >= enough * aim || missed - v <= narrow * (v - u)
-          then longer i u from before j v to pair ((v - u) * grown)
-          else search (left - 1) i u from before (Held v r) missed balanced (closer v missed (u + (v - u) * grown))
-      | reach held > u && v - reach held <= narrow * (reach held - u) = settled i u from before held
-      | otherwise = search (left - 1) i u from before held v balanced (closer (reach held) v (u + (v - u) * shrunk))
-      where
-        j = seek i v
-        to = pose j v
-        pair = FastBiarc.joined r from to
-        Off d1 d2 = off (1e6 * aim) i u from j v to pair
-        d = if d1 > d2 then d1 else d2
-        known = d < 1e5 * aim
-        -- The arc that is further off is made shorter, until both are equally far off.
-        uneven = if known && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
-        balanced = max 0.4 (min 2.5 (r * cubeRoot uneven))
-        expected = if uneven > 1 then d / sqrt uneven else d * sqrt uneven
-        -- The deviation grows with the third power of the step where the curve is smooth.
-        grown = if 60 * expected <= aim then 4 else max 1.02 (cubeRoot (0.97 * aim / expected))
-        shrunk = if known then max 0.1 (min 0.97 (cubeRoot (0.97 * aim / expected))) else 0.4
-        closer low high w
-          | low <= u = w
-          | high > final = min final w
-          | otherwise = max (low + 0.1 * (high - low)) (min (high - 0.1 * (high - low)) w)
-    settled i u from before held
-      | reach held > u = let j = seek i (reach held); to = pose j (reach held); pair = FastBiarc.joined (chords held) from to in longer i u from before j (reach held) to pair (reach held - u)
-      | otherwise = case other u (Vec.point (px from) (py from), Vec.vec (dx from) (dy from)) (if final - u <= 4 * lastStep before then final - u else lastStep before) of
-        Further v segments
-          | v > u -> mapM_ written (NonEmpty.toList segments) >> (let j = seek i v in go j v (pose j v) (v - u) 0)
-          | otherwise -> pure ()
-    -- Where the curvature does not change evenly, longer biarcs can hold where shorter ones do not.
-    longer !i !u !from before !j !v !to !pair !step
-      | not patient || v >= final || single pair || abs (rate - lastRate before) <= even' * abs rate = taken j from v to pair step rate
-      | otherwise = beyond 0
-      where
-        rate = (bend2 pair - bend1 pair) / (v - u)
-        -- Longer ones first, with several ratios of the chords each.
-        beyond k
-          | k >= 5 = taken j from v to pair step rate
-          | w >= final = beyond (k + 1 :: Int)
-          | hopeless aim i u from l w at = beyond (k + 1)
-          | otherwise = divided 0
-          where
-            w = u + (v - u) * (case k of 0 -> 2.2; 1 -> 1.8; 2 -> 1.5; 3 -> 1.25; _ -> 1.1)
-            l = seek i w
-            at = pose l w
-            biarcs = FastBiarc.between from at
-            divided tried
-              | tried >= 7 = beyond (k + 1)
-              | d1 <= aim && d2 <= aim = longer i u from before l w at pair' (w - u)
-              | otherwise = divided (tried + 1 :: Int)
-              where
-                pair' = FastBiarc.among (case tried of 0 -> 1; 1 -> 0.7; 2 -> 1.4; 3 -> 0.5; 4 -> 2; 5 -> 0.35; _ -> 2.8) biarcs
-                Off d1 d2 = off aim i u from l w at pair'
-    taken !j !from !v !to !pair !step !rate = do
-      Builder.push vertices (px from) (py from) (bulge1 pair)
-      if single pair then pure () else Builder.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
-      go j v to step rate
-    written s = let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
-    bulgeOf s = case s of
-      Straight _ _ -> 0
-      Arc {sweep = Rad a} -> tan (a / 4)
+along
+  vertices
+  aim
+  ParameterRange {inSpan, begin, final, step = first}
+  Spans {seek, pose, off, other, hopeless, patient} =
+    go inSpan begin (pose inSpan begin) first 0
+    where
+      go !i !u !from !step !bending
+        | u >= final = pure ()
+        | otherwise =
+          search
+            tries
+            i
+            u
+            from
+            (Last step bending)
+            Held {reach = u, chords = 1}
+            (1 / 0)
+            1
+            (if final - u <= 1.5 * step then final else u + step)
+      -- Between the biarc that held and reached furthest (u when none has) and the nearest
+      -- parameter that was missed.
+      search !left !i !u !from before !held !missed !r !v
+        | v <= u || left <= 0 = settled i u from before held
+        | d <= aim =
+          if v >= final || d >= enough * aim || missed - v <= narrow * (v - u)
+            then longer i u from before j v to pair ((v - u) * grown)
+            else
+              search
+                (left - 1)
+                i
+                u
+                from
+                before
+                (Held v r)
+                missed
+                balanced
+                (closer v missed (u + (v - u) * grown))
+        | reach held > u && v - reach held <= narrow * (reach held - u) =
+          settled i u from before held
+        | otherwise =
+          search
+            (left - 1)
+            i
+            u
+            from
+            before
+            held
+            v
+            balanced
+            (closer (reach held) v (u + (v - u) * shrunk))
+        where
+          j = seek i v
+          to = pose j v
+          pair = FastBiarc.joined r from to
+          Off d1 d2 = off (1e6 * aim) i u from j v to pair
+          d = if d1 > d2 then d1 else d2
+          known = d < 1e5 * aim
+          -- The arc that is further off is made shorter, until both are equally far off.
+          uneven = if known && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
+          balanced = max 0.4 (min 2.5 (r * cubeRoot uneven))
+          expected = if uneven > 1 then d / sqrt uneven else d * sqrt uneven
+          -- The deviation grows with the third power of the step where the curve is smooth.
+          grown = if 60 * expected <= aim then 4 else max 1.02 (cubeRoot (0.97 * aim / expected))
+          shrunk = if known then max 0.1 (min 0.97 (cubeRoot (0.97 * aim / expected))) else 0.4
+          closer low high w
+            | low <= u = w
+            | high > final = min final w
+            | otherwise = max (low + 0.1 * (high - low)) (min (high - 0.1 * (high - low)) w)
+      settled i u from before held
+        | reach held > u =
+          let j =
+                seek i (reach held)
+              to = pose j (reach held)
+              pair = FastBiarc.joined (chords held) from to
+           in longer i u from before j (reach held) to pair (reach held - u)
+        | otherwise =
+          case other
+            u
+            (Vec.point (px from) (py from), Vec.vec (dx from) (dy from))
+            (if final - u <= 4 * lastStep before then final - u else lastStep before) of
+            Further v segments
+              | v > u ->
+                mapM_ written (NonEmpty.toList segments)
+                  >> (let j = seek i v in go j v (pose j v) (v - u) 0)
+              | otherwise -> pure ()
+      -- Where the curvature does not change evenly, longer biarcs can hold where shorter ones do
+      -- not.
+      longer !i !u !from before !j !v !to !pair !step
+        | not patient
+            || v >= final
+            || single pair
+            || abs (rate - lastRate before) <= even' * abs rate =
+          taken j from v to pair step rate
+        | otherwise = beyond 0
+        where
+          rate = (bend2 pair - bend1 pair) / (v - u)
+          -- Longer ones first, with several ratios of the chords each.
+          beyond k
+            | k >= 5 = taken j from v to pair step rate
+            | w >= final = beyond (k + 1 :: Int)
+            | hopeless aim i u from l w at = beyond (k + 1)
+            | otherwise = divided 0
+            where
+              w = u + (v - u) * (case k of 0 -> 2.2; 1 -> 1.8; 2 -> 1.5; 3 -> 1.25; _ -> 1.1)
+              l = seek i w
+              at = pose l w
+              biarcs = FastBiarc.between from at
+              divided tried
+                | tried >= 7 = beyond (k + 1)
+                | d1 <= aim && d2 <= aim = longer i u from before l w at pair' (w - u)
+                | otherwise = divided (tried + 1 :: Int)
+                where
+                  pair' =
+                    FastBiarc.among
+                      ( case tried of
+                          0 ->
+                            1
+                          1 -> 0.7
+                          2 -> 1.4
+                          3 -> 0.5
+                          4 -> 2
+                          5 -> 0.35
+                          _ -> 2.8
+                      )
+                      biarcs
+                  Off d1 d2 = off aim i u from l w at pair'
+      taken !j !from !v !to !pair !step !rate = do
+        Builder.push vertices (px from) (py from) (bulge1 pair)
+        if single pair
+          then pure ()
+          else Builder.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
+        go j v to step rate
+      written s = let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
+      bulgeOf s = case s of
+        Straight _ _ -> 0
+        Arc {sweep = Rad a} -> tan (a / 4)
 {-# INLINE along #-}
 
--- | A biarc that stays near enough: the parameter at its end, and how many times longer than usual its second chord is.
+-- | A biarc that stays near enough: the parameter at its end, and how many times longer than usual
+-- its second chord is.
 data Held = Held {reach :: Double, chords :: Double}
 
--- | The biarc before: how far it went, and how fast the curvature changed by it; both by the parameter.
+-- | The biarc before: how far it went, and how fast the curvature changed by it; both by the
+-- parameter.
 data Last = Last {lastStep :: Double, lastRate :: Double}
 
--- | The curvature changes evenly where how fast it does differs by less than this share from one biarc to the next.
+-- | The curvature changes evenly where how fast it does differs by less than this share from one
+-- biarc to the next.
 even' :: Double
 even' = 0.25
 

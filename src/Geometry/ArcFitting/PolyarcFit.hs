@@ -4,13 +4,17 @@
 
 -- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
 --
--- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the curvature k is where
--- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away from it at most. Along a line
--- or an arc F has one extremum at most as long as that turns by less than a quarter turn; there its slope
+-- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the
+-- curvature k is where
+-- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away
+--  from it at most. Along a line
+-- or an arc F has one extremum at most as long as that turns by less than a quarter turn; there its
+-- slope
 -- @F′ = d_y − k·(x·d_x + y·d_y)@ is 0, which goes nearly evenly from one end to the other.
 --
--- As long as the chain goes forwards as seen from both ends of the arc, its feet on the arc go without a jump from the
--- beginning to the end, so that every point of the arc is as near to the chain.
+-- As long as the chain goes forwards as seen from both ends of the arc, its feet on the arc go
+-- without a jump from the beginning to the end, so that every point of the arc is as near to the
+-- chain.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -40,12 +44,13 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | A chain by its length in mm: where each piece begins along it and, at the very last, where it ends; seven numbers for each
--- piece: the place where it begins, the directions at its beginning and at its end, the curvature (1/mm).
+-- | A chain by its length in mm: where each piece begins along it and, at the very last, where it
+-- ends; seven numbers for each piece: the place where it begins, the directions at its beginning
+-- and at its end, the curvature (1/mm).
 data Chain = Chain {stations :: Vector Double, pieces :: Vector Double}
 
--- | Arcs and lines that stay within a distance of a chain, both ways, in as few biarcs as going as far as possible each time
--- gives; corners stay. Every segment has a length.
+-- | Arcs and lines that stay within a distance of a chain, both ways, in as few biarcs as going as
+-- far as possible each time gives; corners stay. Every segment has a length.
 approximate :: Mm -> NonEmpty Segment -> FlatPolyarc
 approximate (Mm tolerance) segments = runST $ do
   vertices <- Builder.new
@@ -57,8 +62,20 @@ approximate (Mm tolerance) segments = runST $ do
           LongestBiarc.along
             vertices
             aim
-            ParameterRange {inSpan = from, begin = station chain from, final, step = final - station chain from}
-            Spans {seek = seekFrom chain to, pose = poseWithin chain from to, LongestBiarc.off = apart chain, other = sharp to, hopeless = astray chain, patient = True}
+            ParameterRange
+              { inSpan = from,
+                begin = station chain from,
+                final,
+                step = final - station chain from
+              }
+            Spans
+              { seek = seekFrom chain to,
+                pose = poseWithin chain from to,
+                LongestBiarc.off = apart chain,
+                other = sharp to,
+                hopeless = astray chain,
+                patient = True
+              }
           stretches to
       endOf k
         | k >= n || cornered chain k = k
@@ -72,10 +89,18 @@ approximate (Mm tolerance) segments = runST $ do
     end = Segment.end (NonEmpty.last segments)
     aim = tolerance * (1 - Tolerance.roundingShare)
     -- Of a stretch that goes on to the end of a piece no more than is needed is looked at.
-    sharp to u = let i = min (to - 1) (BinarySearch.lastBelow n u (stations chain)) in ParametricFit.further (Mm tolerance) (trackOf chain i (min to (i + 64))) (station chain (min to (i + 64))) u
+    sharp to u =
+      let i =
+            min (to - 1) (BinarySearch.lastBelow n u (stations chain))
+       in ParametricFit.further
+            (Mm tolerance)
+            (trackOf chain i (min to (i + 64)))
+            (station chain (min to (i + 64)))
+            u
 
--- | A chain that turns at corners only and stays within a distance of another one: the other itself, neighbours on one circle as one arc;
--- but for stretches between corners with kinks, for which others stand as 'approximate' gives them.
+-- | A chain that turns at corners only and stays within a distance of another one: the other
+-- itself, neighbours on one circle as one arc; but for stretches between corners with kinks, for
+-- which others stand as 'approximate' gives them.
 smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
 smoothed tolerance (first :| others) = gathered (first :| []) first False others
   where
@@ -84,18 +109,33 @@ smoothed tolerance (first :| others) = gathered (first :| []) first False others
       next : more
         | jump > Tolerance.kink -> settled kinked before <> gathered (next :| []) next False more
         | jump > Tolerance.smoothAngle -> gathered (NonEmpty.cons next before) next True more
-        | otherwise -> gathered (maybe (NonEmpty.cons next before) (:| earlier) (together b next)) next kinked more
+        | otherwise ->
+          gathered
+            (maybe (NonEmpty.cons next before) (:| earlier) (together b next))
+            next
+            kinked
+            more
         where
-          jump = let Rad a = Vec.turn (Segment.endDirection s) (Segment.startDirection next) in Rad (abs a)
+          jump =
+            let Rad a =
+                  Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+             in Rad (abs a)
     settled kinked before
-      | kinked = MeasuredPolyarc.segments (MeasuredPolyarc.fromOutline (approximate tolerance (NonEmpty.reverse before)))
+      | kinked =
+        MeasuredPolyarc.segments
+          (MeasuredPolyarc.fromOutline (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
--- | An arc and the next one as one arc of half a turn at most, if the circle of the first is that of the next as far as doubles tell.
+-- | An arc and the next one as one arc of half a turn at most, if the circle of the first is that
+-- of the next as far as doubles tell.
 together :: Segment -> Segment -> Maybe Segment
 together s next = case (s, next) of
   (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})
-    | signum a == signum b && abs (a + b) <= pi && all (onCircle centre (Segment.radius centre start)) [Segment.at 0.5 next, end] && Rad (abs (bend both)) <= Tolerance.oneArc -> Just both
+    | signum a == signum b
+        && abs (a + b) <= pi
+        && all (onCircle centre (Segment.radius centre start)) [Segment.at 0.5 next, end]
+        && Rad (abs (bend both)) <= Tolerance.oneArc ->
+      Just both
     where
       both = Segment.arc (if a > 0 then CounterClockwise else Clockwise) centre start end
   _ -> Nothing
@@ -104,7 +144,17 @@ together s next = case (s, next) of
     bend both = let Rad t = Vec.turn (Segment.endDirection next) (Segment.endDirection both) in t
 
 chainOf :: NonEmpty Segment -> Chain
-chainOf segments = Chain {stations = Unboxed.scanl' (+) 0 (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)), pieces = Unboxed.create (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (numbers array) 0 list)}
+chainOf segments =
+  Chain
+    { stations =
+        Unboxed.scanl'
+          (+)
+          0
+          (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)),
+      pieces =
+        Unboxed.create
+          (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (numbers array) 0 list)
+    }
   where
     n = NonEmpty.length segments
     list = NonEmpty.toList segments
@@ -116,7 +166,11 @@ numbers array i s = case s of
   Arc {start, end, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
         k = signum a / r
-     in written start (Vec.scale k (Vec.left (Vec.to centre start))) (Vec.scale k (Vec.left (Vec.to centre end))) k
+     in written
+          start
+          (Vec.scale k (Vec.left (Vec.to centre start)))
+          (Vec.scale k (Vec.left (Vec.to centre end)))
+          k
   where
     written p (Vec.Vec sx sy) (Vec.Vec ex ey) k = do
       put 0 (Vec.x p) >> put 1 (Vec.y p) >> put 2 sx >> put 3 sy >> put 4 ex >> put 5 ey >> put 6 k
@@ -134,7 +188,8 @@ beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
 
 -- | The direction at the end of a piece.
 ending :: Chain -> Int -> (Double, Double)
-ending chain i = (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
+ending chain i =
+  (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
 {-# INLINE ending #-}
 
 -- | The curvature of a piece.
@@ -181,7 +236,8 @@ advanced k (Pose x y ux uy) s
     n = sin (0.5 * k * s)
     chord = 2 * n / k
 
--- | The place and the direction at a place of a stretch, given its piece; where pieces meet the mean of both directions.
+-- | The place and the direction at a place of a stretch, given its piece; where pieces meet the
+-- mean of both directions.
 poseWithin :: Chain -> Int -> Int -> Int -> Double -> Pose
 poseWithin chain from to i u
   | u >= station chain to = arriving (to - 1)
@@ -189,19 +245,38 @@ poseWithin chain from to i u
   | otherwise = mean (arriving (i - 1)) (beginning chain i)
   where
     s = u - station chain i
-    arriving j = let (ex, ey) = ending chain j in (advanced (curvature chain j) (beginning chain j) (station chain (j + 1) - station chain j)) {dx = ex, dy = ey}
+    arriving j =
+      let (ex, ey) =
+            ending chain j
+       in ( advanced
+              (curvature chain j)
+              (beginning chain j)
+              (station chain (j + 1) - station chain j)
+          )
+            { dx = ex,
+              dy = ey
+            }
     mean a b =
       let sx = dx a + dx b
           sy = dy a + dy b
           l = sqrt (sx * sx + sy * sy)
        in b {dx = sx / l, dy = sy / l}
 
--- | How far a biarc is from the chain between two places, given the pieces of both; of what is further than a limit only that it is so.
+-- | How far a biarc is from the chain between two places, given the pieces of both; of what is
+-- further than a limit only that it is so.
 apart :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off
 apart chain most first u from final v to pair
   -- Most of what is too far off is so at one of a few places.
   | if final - first >= 4 then stray 1 || stray 2 || stray 3 else strayed (first + 1) = unknown
-  | single pair = let one = frame from (bend1 pair) to in if forwards one then let Reached _ _ _ d = onward chain most v to True one start in Off d d else unknown
+  | single pair =
+    let one =
+          frame from (bend1 pair) to
+     in if forwards one
+          then
+            let Reached _ _ _ d =
+                  onward chain most v to True one start
+             in Off d d
+          else unknown
   | one <- frame from (bend1 pair) (joint pair),
     two <- frame (joint pair) (bend2 pair) to,
     forwards one && forwards two = case onward chain most v to False one start of
@@ -211,24 +286,47 @@ apart chain most first u from final v to pair
   | otherwise = unknown
   where
     -- With the chain's own direction, not the mean of two where pieces meet.
-    start = Reached first u (if u > station chain first then from else let b = beginning chain first in from {dx = dx b, dy = dy b}) 0
+    start =
+      Reached
+        first
+        u
+        ( if u > station chain first
+            then from
+            else
+              let b =
+                    beginning chain first
+               in from {dx = dx b, dy = dy b}
+        )
+        0
     unknown = Off (1 / 0) (1 / 0)
     stray k
-      | single pair || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair) < 0 = abs (above (bend1 pair) from p) > most
+      | single pair
+          || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
+            < 0 =
+        abs (above (bend1 pair) from p) > most
       | otherwise = abs (above (bend2 pair) (joint pair) p) > most
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
-    -- Where pieces meet, from one of them on: at first beside the first arc, and once beyond its end beside the second one.
+    -- Where pieces meet, from one of them on: at first beside the first arc, and once beyond its
+    -- end beside the second one.
     strayed i
       | i > final = False
-      | single pair || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair) < 0 = abs (above (bend1 pair) from p) > most || strayed (i + 1)
+      | single pair
+          || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
+            < 0 =
+        abs (above (bend1 pair) from p) > most || strayed (i + 1)
       | otherwise = abs (above (bend2 pair) (joint pair) p) > most || strayedBehind (i + 1)
       where
         !p = beginning chain i
-    strayedBehind i = i <= final && (abs (above (bend2 pair) (joint pair) (beginning chain i)) > most || strayedBehind (i + 1))
+    strayedBehind i =
+      i <= final
+        && ( abs (above (bend2 pair) (joint pair) (beginning chain i)) > most
+               || strayedBehind (i + 1)
+           )
 
--- | Whether a place between two others, given with their pieces and poses, is further than a distance from any biarc between these: all of
--- them lie between two circles through both places, one with the direction at the first and one with that at the final.
+-- | Whether a place between two others, given with their pieces and poses, is further than a
+-- distance from any biarc between these: all of them lie between two circles through both places,
+-- one with the direction at the first and one with that at the final.
 astray :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
 astray chain most first _ from final _ to = max (abs bendA) (abs bendB) * most < slack / 2 && go 1
   where
@@ -260,17 +358,22 @@ data Reached = Reached Int Double Pose Double
 
 -- | Past one arc: to the normal at its end or, on the last one, to a place with its pose.
 onward :: Chain -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
-onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) = go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
+onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) =
+  go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
   where
     -- The pose in bare numbers, and F there, and the greatest so far: there are many.
     go !i !u !x !y !hx !hy !here !most'
       | end >= v = lastly i u (Pose x y hx hy) (worse d0 (distant f most'))
       | otherwise = case beginning chain (i + 1) of
         Pose nx ny kx ky
-          | not final && beyond f arriving >= 0 -> across i u end p arriving (worse d0 (distant f most'))
+          | not final && beyond f arriving >= 0 ->
+            across i u end p arriving (worse d0 (distant f most'))
           | not (ahead f p && ahead f arriving) -> Reached (i + 1) end arriving (1 / 0)
           -- Seldom can there be more between them.
-          | abs here + 1.5 * abs m * (end - u) > greater, e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u), e > greater -> onto e
+          | abs here + 1.5 * abs m * (end - u) > greater,
+            e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u),
+            e > greater ->
+            onto e
           | otherwise -> onto greater
           where
             p = Pose x y hx hy
@@ -296,7 +399,10 @@ onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) = go i0 u0 (px beg
         s = newton (held ((u - w) * from / (beyond f q - from)))
         c = advanced (curvature chain i) p s
         from = beyond f p
-        newton a = let b = advanced (curvature chain i) p a in held (a - beyond f b / (dx b * dx (limit f) + dy b * dy (limit f)))
+        newton a =
+          let b =
+                advanced (curvature chain i) p a
+           in held (a - beyond f b / (dx b * dx (limit f) + dy b * dy (limit f)))
         held a = if a > 0 then if a < w - u then a else w - u else 0
     {-# NOINLINE across #-}
     worse d e = if e <= d then d else e
@@ -319,10 +425,17 @@ above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
     uy = py p - py from
 {-# INLINE above #-}
 
--- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite where it may not go forwards.
+-- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite
+-- where it may not go forwards.
 beside :: FastArc -> Pose -> Pose -> Double -> Double
 beside f p q l
-  | ahead f p && ahead f q = distant f (greater (extreme from (slope f p) (slope f q) (dx p * dy q - dy p * dx q) l) (greater (abs from) (abs to)))
+  | ahead f p && ahead f q =
+    distant
+      f
+      ( greater
+          (extreme from (slope f p) (slope f q) (dx p * dy q - dy p * dx q) l)
+          (greater (abs from) (abs to))
+      )
   | otherwise = 1 / 0
   where
     from = level f p
@@ -338,18 +451,22 @@ distant f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
 
 -- | Whether a pose goes forwards as seen from both ends of an arc.
 ahead :: FastArc -> Pose -> Bool
-ahead f p = along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
+ahead f p =
+  along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
   where
     along = dx p * dx (origin f) + dy p * dy (origin f)
 {-# INLINE ahead #-}
 
 -- | How fast F changes along a pose.
 slope :: FastArc -> Pose -> Double
-slope f p = (dy p * dx (origin f) - dx p * dy (origin f)) - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
+slope f p =
+  (dy p * dx (origin f) - dx p * dy (origin f))
+    - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
 {-# INLINE slope #-}
 
--- | What F comes to between two places a length apart: given it at the first, its slopes at both, and the sine of what the piece turns by; by
--- its square the extremum is not quite a parabola's. 0 where there is none, and never more than @|F| + 3/2·|slope|·length@.
+-- | What F comes to between two places a length apart: given it at the first, its slopes at both,
+-- and the sine of what the piece turns by; by its square the extremum is not quite a parabola's. 0
+-- where there is none, and never more than @|F| + 3/2·|slope|·length@.
 extreme :: Double -> Double -> Double -> Double -> Double -> Double
 extreme from m n turned l
   | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * turned * turned))
@@ -358,12 +475,23 @@ extreme from m n turned l
 
 -- | Some of the pieces, from one to before another, as a track by the chain's length.
 trackOf :: Chain -> Int -> Int -> ParametricCurve
-trackOf chain from to = ParametricCurve {ParametricFit.place = place, ParametricFit.direction = direction, ParametricFit.begin = station chain from, ParametricFit.breaks = station chain (from + 1) :| map (station chain) [from + 2 .. to]}
+trackOf chain from to =
+  ParametricCurve
+    { ParametricFit.place = place,
+      ParametricFit.direction = direction,
+      ParametricFit.begin = station chain from,
+      ParametricFit.breaks = station chain (from + 1) :| map (station chain) [from + 2 .. to]
+    }
   where
-    place u = let p = poseWithin chain from to (seekFrom chain to from u) u in Vec.point (px p) (py p)
+    place u =
+      let p = poseWithin chain from to (seekFrom chain to from u) u in Vec.point (px p) (py p)
     direction side u =
       let i = seekFrom chain to from u
           p = case side of
-            Arriving | u <= station chain i && i > from -> let (ex, ey) = ending chain (i - 1) in (beginning chain i) {dx = ex, dy = ey}
+            Arriving
+              | u <= station chain i && i > from ->
+                let (ex, ey) =
+                      ending chain (i - 1)
+                 in (beginning chain i) {dx = ex, dy = ey}
             _ -> advanced (curvature chain i) (beginning chain i) (u - station chain i)
        in Vec.vec (dx p) (dy p)

@@ -1,4 +1,5 @@
--- | Where the centres of circles can lie that touch something, and the points that two such lines have in common.
+-- | Where the centres of circles can lie that touch something, and the points that two such lines
+-- have in common.
 module Geometry.Construction.CarrierIntersection
   ( Carrier (..),
     common,

@@ -28,21 +28,48 @@ data Fillet = Fillet {middle :: Point, start :: Point, end :: Point}
 -- | All fillets of a radius and a sense: at most two between lines and circles.
 between :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
 between radius turn a b = case (a, b) of
-  (OnCurve p, OnCurve q) -> apart [f | (s, g) <- pairs p q, f <- simple (ElementCarrier.ofSegment s) (ElementCarrier.ofSegment g), start f `on` s, end f `on` g]
-  (OnCurve p, _) -> apart [f | s <- NonEmpty.toList (MeasuredPolyarc.segments p), f <- simple (ElementCarrier.ofSegment s) b, start f `on` s]
-  (_, OnCurve q) -> apart [f | g <- NonEmpty.toList (MeasuredPolyarc.segments q), f <- simple a (ElementCarrier.ofSegment g), end f `on` g]
+  (OnCurve p, OnCurve q) ->
+    apart
+      [ f
+        | (s, g) <- pairs p q,
+          f <- simple (ElementCarrier.ofSegment s) (ElementCarrier.ofSegment g),
+          start f `on` s,
+          end f `on` g
+      ]
+  (OnCurve p, _) ->
+    apart
+      [ f
+        | s <- NonEmpty.toList (MeasuredPolyarc.segments p),
+          f <- simple (ElementCarrier.ofSegment s) b,
+          start f `on` s
+      ]
+  (_, OnCurve q) ->
+    apart
+      [ f
+        | g <- NonEmpty.toList (MeasuredPolyarc.segments q),
+          f <- simple a (ElementCarrier.ofSegment g),
+          end f `on` g
+      ]
   _ -> simple a b
   where
     simple = ofPair radius turn
     on p s = Distance.toPoint p s <= Tolerance.coincident
     -- Segments near enough to be touched by one circle.
     pairs p q =
-      let index = BoundingBox.index BoundingBox.ofSegment (NonEmpty.toList (MeasuredPolyarc.segments q))
-       in [(s, g) | s <- NonEmpty.toList (MeasuredPolyarc.segments p), g <- BoundingBox.within (BoundingBox.inflate (plus radius radius) (BoundingBox.ofSegment s)) index]
+      let index =
+            BoundingBox.index BoundingBox.ofSegment (NonEmpty.toList (MeasuredPolyarc.segments q))
+       in [ (s, g)
+            | s <- NonEmpty.toList (MeasuredPolyarc.segments p),
+              g <-
+                BoundingBox.within
+                  (BoundingBox.inflate (plus radius radius) (BoundingBox.ofSegment s))
+                  index
+          ]
     -- A fillet that touches where two segments of a curve join is found from both.
     apart fs = case fs of
       [] -> []
-      f : rest -> f : apart (filter (\g -> Vec.distance (middle f) (middle g) > Tolerance.sameFillet) rest)
+      f : rest ->
+        f : apart (filter (\g -> Vec.distance (middle f) (middle g) > Tolerance.sameFillet) rest)
 
 -- | The fillets between two lines or circles.
 ofPair :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
@@ -72,7 +99,8 @@ locus radius@(Mm r) turn walked = case walked of
 touch :: Mm -> Sense -> ElementCarrier -> Point -> Maybe Point
 touch radius turn walked c = case walked of
   OnLine l -> Just (Carrier.foot l c)
-  OnCircle t (Circle o rc@(Mm r)) -> Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
+  OnCircle t (Circle o rc@(Mm r)) ->
+    Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
     where
       -- The smaller circle lies inside; a fillet around the circle touches it on the far side.
       side = if t == turn && radius > rc then -1 else 1

@@ -59,14 +59,17 @@ circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
   | d <= tolerance && abs (r1 - r2) <= tolerance = Same
   | d > r1 + r2 + tolerance = Apart (Mm (d - r1 - r2))
   | d < abs (r1 - r2) - tolerance || d <= tolerance = Apart (Mm (abs (r1 - r2) - d))
-  | abs (d - r1 - r2) <= tolerance || abs (d - abs (r1 - r2)) <= tolerance = Touching (at (signum a * small) 0)
+  | abs (d - r1 - r2) <= tolerance || abs (d - abs (r1 - r2)) <= tolerance =
+    Touching (at (signum a * small) 0)
   | otherwise = Crossing (at a half) (at a (-half))
   where
     Mm tolerance = Tolerance.coincident
     Mm d = Vec.distance c1 c2
     e = Vec.unit (Vec.to c1 c2)
-    -- From the centre of the smaller circle: the other one may be as good as a line, and its centre far away.
-    (from, onwards, small, large) = if r1 <= r2 then (c1, e, r1, r2) else (c2, Vec.scale (-1) e, r2, r1)
+    -- From the centre of the smaller circle: the other one may be as good as a line, and its centre
+    -- far away.
+    (from, onwards, small, large) =
+      if r1 <= r2 then (c1, e, r1, r2) else (c2, Vec.scale (-1) e, r2, r1)
     -- Where the common chord meets the line of centres.
     a = ((d - large) * (d + large) + small * small) / (2 * d)
     half = sqrt (max 0 ((small - a) * (small + a)))

@@ -32,9 +32,11 @@ data Touched
   deriving stock (Eq, Show)
 
 -- | The directed lines that touch two circles from the one to the other; a circle of radius 0 is a
--- point. The senses are those in which a circle may be passed: counter-clockwise, it lies to the left.
+-- point. The senses are those in which a circle may be passed: counter-clockwise, it lies to the
+-- left.
 touchingLines :: ([Sense], Circle) -> ([Sense], Circle) -> [Line]
-touchingLines (ts, a) (us, b) = distinct [l | t <- senses a ts, u <- senses b us, Just l <- [TangentLine.directed (t, a) (u, b)]]
+touchingLines (ts, a) (us, b) =
+  distinct [l | t <- senses a ts, u <- senses b us, Just l <- [TangentLine.directed (t, a) (u, b)]]
   where
     -- A point has no sides.
     senses (Circle _ r) list = if r <= Tolerance.coincident then take 1 list else list
@@ -45,7 +47,12 @@ touchingLines (ts, a) (us, b) = distinct [l | t <- senses a ts, u <- senses b us
 
 -- | The circles of a radius that touch two things: at most two.
 circles :: Mm -> Touched -> Touched -> [Circle]
-circles r a b = [Circle c r | Just la <- [locus r a], Just lb <- [locus r b], c <- CarrierIntersection.common la lb]
+circles r a b =
+  [ Circle c r
+    | Just la <- [locus r a],
+      Just lb <- [locus r b],
+      c <- CarrierIntersection.common la lb
+  ]
 
 -- | Where the centre may lie.
 locus :: Mm -> Touched -> Maybe Carrier

@@ -1,7 +1,9 @@
--- | What a curve is before any shift: spans, one behind the other, each a cubic in both coordinates or an arc.
+-- | What a curve is before any shift: spans, one behind the other, each a cubic in both coordinates
+-- or an arc.
 --
--- The parameter runs from 0 to the number of spans, each span having 1 of it. A base remembers the rows of the table
--- that it came from, so that columns of numbers beside the points can be interpolated in the same way.
+-- The parameter runs from 0 to the number of spans, each span having 1 of it. A base remembers the
+-- rows of the table that it came from, so that columns of numbers beside the points can be
+-- interpolated in the same way.
 module Geometry.Curve.Base
   ( Base (..),
     SpanList (..),
@@ -130,28 +132,41 @@ data CurveFault
 made :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
 made method closed rows course = base
   where
-    base = Base {method, rows, course, closed, measure = ArcLength.measured speed (map fromIntegral [0 .. count base])}
+    base =
+      Base
+        { method,
+          rows,
+          course,
+          closed,
+          measure = ArcLength.measured speed (map fromIntegral [0 .. count base])
+        }
     speed u = let s = spot After u base in speedAt base (number s) (local s)
 
 -- | How fast the place changes, in mm for 1 of the parameter, in a span at its own parameter.
 speedAt :: Base -> Int -> Double -> Double
 speedAt base i t = case course base of
-  Cubical xs ys -> let a = Spline.rate (Spline.at xs i) t; b = Spline.rate (Spline.at ys i) t in sqrt (a * a + b * b)
+  Cubical xs ys ->
+    let a =
+          Spline.rate (Spline.at xs i) t
+        b = Spline.rate (Spline.at ys i) t
+     in sqrt (a * a + b * b)
   Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.jet 1 (parts Vector.! i) t))
 
 -- | The spans one by one.
 spans :: Base -> Vector Span
 spans base = case course base of
-  Cubical xs ys -> Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
+  Cubical xs ys ->
+    Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
 
--- | The arcs and lines of a base, some of them arcs, if it has no other spans. Of neighbours, one ends where the next begins; spans join to a
--- point.
+-- | The arcs and lines of a base, some of them arcs, if it has no other spans. Of neighbours, one
+-- ends where the next begins; spans join to a point.
 asSegments :: Base -> Maybe (NonEmpty Segment)
 asSegments base = case course base of
   Cubical _ _ -> Nothing
   Mixed parts
-    | all (isJust . Span.segment) parts -> NonEmpty.nonEmpty (linked Nothing (mapMaybe Span.segment (Vector.toList parts)))
+    | all (isJust . Span.segment) parts ->
+      NonEmpty.nonEmpty (linked Nothing (mapMaybe Span.segment (Vector.toList parts)))
     | otherwise -> Nothing
   where
     linked before ss = case ss of
@@ -164,7 +179,10 @@ asSegments base = case course base of
 -- | Cubics where all spans are.
 coursed :: Vector Span -> SpanList
 coursed parts = case traverse polynomial parts of
-  Just both -> let part f = Spline.generate (Vector.length both) (\i -> f (both Vector.! i)) in Cubical (part fst) (part snd)
+  Just both ->
+    let part f =
+          Spline.generate (Vector.length both) (\i -> f (both Vector.! i))
+     in Cubical (part fst) (part snd)
   Nothing -> Mixed parts
   where
     polynomial s = case s of
@@ -177,17 +195,26 @@ polyline points = do
   distinct 2 points
   Right (made Polyline (closes points) (numbered points) (Cubical (lines' Vec.x) (lines' Vec.y)))
   where
-    lines' part = Spline.generate (Vector.length points - 1) (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
+    lines' part =
+      Spline.generate
+        (Vector.length points - 1)
+        (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
     {-# INLINE lines' #-}
 
--- | A cubic spline by the chord length from point to point; continuous up to the second derivative by it. At
--- clamped ends the derivative by the chord length is the direction given. The points of a periodic one may or may not
--- repeat the first at the end.
+-- | A cubic spline by the chord length from point to point; continuous up to the second derivative
+-- by it. At clamped ends the derivative by the chord length is the direction given. The points of a
+-- periodic one may or may not repeat the first at the end.
 spline :: EndCondition -> Vector Point -> Either CurveFault Base
 spline ends points = case ends of
   Natural -> do
     distinct 2 points
-    Right (made (Spline ends) (closes points) (numbered points) (cubics Spline.Natural Spline.Natural points))
+    Right
+      ( made
+          (Spline ends)
+          (closes points)
+          (numbered points)
+          (cubics Spline.Natural Spline.Natural points)
+      )
   Clamped from to
     | Vec.norm from <= Tolerance.parallel || Vec.norm to <= Tolerance.parallel -> Left NoDirection
     | otherwise -> do
@@ -195,25 +222,41 @@ spline ends points = case ends of
       let f = Vec.unit from
           t = Vec.unit to
           by part = Spline.Clamped (Vec.dot f part) (Vec.dot t part)
-      Right (made (Spline (Clamped f t)) (closes points) (numbered points) (cubics (by (Vec.vec 1 0)) (by (Vec.vec 0 1)) points))
+      Right
+        ( made
+            (Spline (Clamped f t))
+            (closes points)
+            (numbered points)
+            (cubics (by (Vec.vec 1 0)) (by (Vec.vec 0 1)) points)
+        )
   Periodic -> do
     let once = if closes points then Vector.init points else points
         round' = Vector.snoc once (Vector.head once)
     distinct 3 once
-    Right (made (Spline Periodic) True (numbered points) (cubics Spline.Periodic Spline.Periodic round'))
+    Right
+      ( made
+          (Spline Periodic)
+          True
+          (numbered points)
+          (cubics Spline.Periodic Spline.Periodic round')
+      )
 
 -- | The spans of a spline, from what holds at the ends for x and for y.
 cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> SpanList
 cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
   where
     steps = distances points
-    through boundary part = Spline.interpolate boundary steps (Unboxed.convert (Vector.map part points))
+    through boundary part =
+      Spline.interpolate boundary steps (Unboxed.convert (Vector.map part points))
 
 -- | The distances from point to point, in mm.
 distances :: Vector Point -> Unboxed.Vector Double
-distances points = Unboxed.convert (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
+distances points =
+  Unboxed.convert
+    (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
 
--- | The distances from row to row, in mm; for a closed base whose last row is not the first again, to that too.
+-- | The distances from row to row, in mm; for a closed base whose last row is not the first again,
+-- to that too.
 chords :: Base -> Unboxed.Vector Double
 chords base
   | closed base && not (closes points) = distances (Vector.snoc points (Vector.head points))
@@ -223,21 +266,36 @@ chords base
 
 -- | Where the middle row of each parabola lies, as a fraction of its span.
 fractions :: Base -> Vector Double
-fractions base = Vector.generate (count base) (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
+fractions base =
+  Vector.generate
+    (count base)
+    (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
--- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the template). A span is a
--- parabola; its parameter is proportional to x, which rises or falls all along.
+-- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the
+-- template). A span is a parabola; its parameter is proportional to x, which rises or falls all
+-- along.
 parabola :: Vector Point -> Either CurveFault Base
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)
   | even (Vector.length points) = Left (EvenCount (Vector.length points))
   | otherwise = do
     distinct 3 points
-    maybe (Right ()) (Left . NotMonotone . (+ 1)) (Vector.findIndex (<= 0) (Vector.zipWith advance points (Vector.drop 1 points)))
+    maybe
+      (Right ())
+      (Left . NotMonotone . (+ 1))
+      (Vector.findIndex (<= 0) (Vector.zipWith advance points (Vector.drop 1 points)))
     let middles = Vector.generate (Vector.length points `div` 2) middle
-        row i p = Knot {at = if even i then fromIntegral (i `div` 2) else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2), place = p}
+        row i p =
+          Knot
+            { at =
+                if even i
+                  then fromIntegral (i `div` 2)
+                  else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2),
+              place = p
+            }
         through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
-        across = Spline.generate (Vector.length middles) (\i -> Spline.line (x (2 * i)) (x (2 * i + 2)))
+        across =
+          Spline.generate (Vector.length middles) (\i -> Spline.line (x (2 * i)) (x (2 * i + 2)))
     Right (made Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
   where
     x i = Vec.x (points Vector.! i)
@@ -258,18 +316,36 @@ ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
 ofSpans parts parameters = do
   joined parts
   maybe (Right ()) (Left . Disordered) (find (not . ordered) [1 .. count'])
-  Right base {rows = Vector.map (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spot After u base))}) parameters}
+  Right
+    base
+      { rows =
+          Vector.map
+            (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spot After u base))})
+            parameters
+      }
   where
     base = chain Vector.empty parts
     n = fromIntegral (Vector.length parts)
     count' = Vector.length parameters
-    ordered i = let u = parameters Vector.! (i - 1) in u >= 0 && u <= n && (i >= count' || parameters Vector.! i > u)
+    ordered i =
+      let u =
+            parameters Vector.! (i - 1)
+       in u >= 0 && u <= n && (i >= count' || parameters Vector.! i > u)
 
--- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the chain is closed.
+-- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the
+-- chain is closed.
 ofSegments :: NonEmpty Segment -> Either CurveFault Base
 ofSegments segments = do
   joined parts
-  Right base {rows = numbered (if closed base then starts else Vector.snoc starts (Segment.end (NonEmpty.last segments)))}
+  Right
+    base
+      { rows =
+          numbered
+            ( if closed base
+                then starts
+                else Vector.snoc starts (Segment.end (NonEmpty.last segments))
+            )
+      }
   where
     parts = vector Span.ofSegment segments
     base = chain Vector.empty parts
@@ -294,7 +370,11 @@ chain rows parts = made Joined (Vec.near first final) rows (coursed parts)
 joined :: Vector Span -> Either CurveFault ()
 joined parts
   | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
-  | Just i <- find (\i -> not (Vec.near (snd (Span.ends (span' i))) (fst (Span.ends (span' (i + 1)))))) [1 .. n - 1] = Left (Disjoint i)
+  | Just i <-
+      find
+        (\i -> not (Vec.near (snd (Span.ends (span' i))) (fst (Span.ends (span' (i + 1))))))
+        [1 .. n - 1] =
+    Left (Disjoint i)
   | otherwise = Right ()
   where
     n = Vector.length parts
@@ -304,7 +384,14 @@ joined parts
 distinct :: Int -> Vector Point -> Either CurveFault ()
 distinct needed points
   | Vector.length points < needed = Left (TooFew needed)
-  | otherwise = maybe (Right ()) (Left . Coincident) (find (\i -> Vec.near (points Vector.! (i - 1)) (points Vector.! i)) [1 .. Vector.length points - 1])
+  | otherwise =
+    maybe
+      (Right ())
+      (Left . Coincident)
+      ( find
+          (\i -> Vec.near (points Vector.! (i - 1)) (points Vector.! i))
+          [1 .. Vector.length points - 1]
+      )
 
 closes :: Vector Point -> Bool
 closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
@@ -325,14 +412,20 @@ count base = case course base of
 ruler :: Base -> ArcLength
 ruler = measure
 
--- | A place on a curve: the parameter, the number of its span, the span's own parameter, and the side from which it is
--- reached.
-data SpanPoint = SpanPoint {parameter :: Double, number :: Int, local :: Double, approach :: Approach}
+-- | A place on a curve: the parameter, the number of its span, the span's own parameter, and the
+-- side from which it is reached.
+data SpanPoint = SpanPoint
+  { parameter :: Double,
+    number :: Int,
+    local :: Double,
+    approach :: Approach
+  }
   deriving stock (Eq, Show)
 
 -- | The place with a parameter; beyond the ends, the end.
 spot :: Approach -> Double -> Base -> SpanPoint
-spot approach u base = SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
+spot approach u base =
+  SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
   where
     n = count base
     parameter = max 0 (min (fromIntegral n) u)
@@ -343,14 +436,23 @@ spot approach u base = SpanPoint {parameter, number, local = parameter - fromInt
 -- | The power series of the place up to an order.
 jet :: Int -> Base -> SpanPoint -> TaylorExpansion
 jet n base s = case course base of
-  Cubical xs ys -> TaylorExpansion (Spline.series n (Spline.at xs (number s)) (local s)) (Spline.series n (Spline.at ys (number s)) (local s))
+  Cubical xs ys ->
+    TaylorExpansion
+      (Spline.series n (Spline.at xs (number s)) (local s))
+      (Spline.series n (Spline.at ys (number s)) (local s))
   Mixed parts -> Span.jet n (parts Vector.! number s) (local s)
 
 -- | The same walked from its end.
 reversed :: Base -> Base
-reversed base = made method' (closed base) (Vector.imap back (backwards base (rows base))) (mapped (Vector.map Span.reversed . Vector.reverse) base)
+reversed base =
+  made
+    method'
+    (closed base)
+    (Vector.imap back (backwards base (rows base)))
+    (mapped (Vector.map Span.reversed . Vector.reverse) base)
   where
-    back i row = row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
+    back i row =
+      row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
     method' = case method base of
       Spline (Clamped from to) -> Spline (Clamped (Vec.negate to) (Vec.negate from))
       Spline Natural -> Spline Natural
@@ -369,18 +471,26 @@ backwards base values
   | unrepeated base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
--- | Whether the base is closed and its first row, at the beginning, does not stand at the end a second time.
+-- | Whether the base is closed and its first row, at the beginning, does not stand at the end a
+-- second time.
 unrepeated :: Base -> Bool
-unrepeated base = case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
-  (Just first, Just final) -> closed base && at first == 0 && at final < fromIntegral (count base)
-  _ -> False
+unrepeated base =
+  case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
+    (Just first, Just final) -> closed base && at first == 0 && at final < fromIntegral (count base)
+    _ -> False
 
 -- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
 transformed :: Transformation -> Base -> Base
-transformed s base = made method' (closed base) (Vector.map (\row -> row {place = Transformation.point s (place row)}) (rows base)) (mapped (Vector.map (Span.transformed s)) base)
+transformed s base =
+  made
+    method'
+    (closed base)
+    (Vector.map (\row -> row {place = Transformation.point s (place row)}) (rows base))
+    (mapped (Vector.map (Span.transformed s)) base)
   where
     method' = case method base of
-      Spline (Clamped from to) -> Spline (Clamped (Vec.unit (Span.image s from)) (Vec.unit (Span.image s to)))
+      Spline (Clamped from to) ->
+        Spline (Clamped (Vec.unit (Span.image s from)) (Vec.unit (Span.image s to)))
       Spline Natural -> Spline Natural
       Spline Periodic -> Spline Periodic
       Polyline -> Polyline

@@ -1,8 +1,9 @@
--- | Numbers beside the points of a table, one for every row, interpolated in the same way and on the same parameter as
--- the points: straight between the rows of a polyline, by parabolas where the points are, by splines where they are.
+-- | Numbers beside the points of a table, one for every row, interpolated in the same way and on
+-- the same parameter as the points: straight between the rows of a polyline, by parabolas where the
+-- points are, by splines where they are.
 --
--- On pieces that are put together the numbers are a spline by the true length along them, natural or, on a closed
--- base, periodic: the parameter's speed jumps there from piece to piece.
+-- On pieces that are put together the numbers are a spline by the true length along them, natural
+-- or, on a closed base, periodic: the parameter's speed jumps there from piece to piece.
 module Geometry.Curve.Column
   ( Column (..),
     Interpolation (..),
@@ -43,7 +44,8 @@ data Interpolation
 -- | As many values as the base has rows.
 column :: Base -> Vector Double -> Column
 column base values
-  | Vector.length values /= Vector.length (Base.rows base) = Crash.bug "a column of another length than its table"
+  | Vector.length values /= Vector.length (Base.rows base) =
+    Crash.bug "a column of another length than its table"
   | otherwise = Column {values, course}
   where
     flat = Unboxed.convert values
@@ -52,27 +54,54 @@ column base values
     round' = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
     onceRound = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
     course = case Base.method base of
-      Polyline -> BySpan (Spline.generate (Vector.length values - 1) (\i -> Spline.line (values Vector.! i) (values Vector.! (i + 1))))
+      Polyline ->
+        BySpan
+          ( Spline.generate
+              (Vector.length values - 1)
+              (\i -> Spline.line (values Vector.! i) (values Vector.! (i + 1)))
+          )
       Spline Base.Natural -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
       Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
-      Spline Base.Periodic -> BySpan (Spline.interpolate (if round' then Periodic else Natural) (Base.chords base) onceRound)
+      Spline Base.Periodic ->
+        BySpan
+          (Spline.interpolate (if round' then Periodic else Natural) (Base.chords base) onceRound)
       Parabola -> BySpan (Spline.parabolas (Base.fractions base) flat)
       Joined -> byLength base values
 
--- | The spline by the length along the base. Of two values and more; a single one is the same everywhere.
+-- | The spline by the length along the base. Of two values and more; a single one is the same
+-- everywhere.
 byLength :: Base -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (Base.count base) (const (Cubic 0 0 0 0)))
   [v] -> BySpan (Spline.generate (Base.count base) (const (Cubic v 0 0 0)))
   v : _
-    | Base.unrepeated base -> spline (if Vector.length values >= 3 then Periodic else Natural) (Unboxed.snoc stations whole) (Vector.snoc values v)
+    | Base.unrepeated base ->
+      spline
+        (if Vector.length values >= 3 then Periodic else Natural)
+        (Unboxed.snoc stations whole)
+        (Vector.snoc values v)
     | Base.closed base && aroundOnce && Vector.length values >= 4 -> spline Periodic stations values
     | otherwise -> spline Natural stations values
   where
     Mm whole = ArcLength.total (Base.ruler base)
-    stations = Unboxed.convert (Vector.map (\row -> let Mm s = ArcLength.lengthTo (Base.ruler base) (Base.at row) in s) (Base.rows base))
-    aroundOnce = Unboxed.take 1 stations == Unboxed.singleton 0 && Unboxed.last stations == whole && Vector.take 1 values == Vector.drop (Vector.length values - 1) values
-    spline boundary at vs = ByLength at (Spline.interpolate boundary (Unboxed.zipWith (-) (Unboxed.drop 1 at) at) (Unboxed.fromList (Vector.toList vs)))
+    stations =
+      Unboxed.convert
+        ( Vector.map
+            (\row -> let Mm s = ArcLength.lengthTo (Base.ruler base) (Base.at row) in s)
+            (Base.rows base)
+        )
+    aroundOnce =
+      Unboxed.take 1 stations == Unboxed.singleton 0
+        && Unboxed.last stations == whole
+        && Vector.take 1 values == Vector.drop (Vector.length values - 1) values
+    spline boundary at vs =
+      ByLength
+        at
+        ( Spline.interpolate
+            boundary
+            (Unboxed.zipWith (-) (Unboxed.drop 1 at) at)
+            (Unboxed.fromList (Vector.toList vs))
+        )
 
 -- | The power series of the value up to an order.
 series :: Int -> Base -> Column -> SpanPoint -> PowerSeries
@@ -97,13 +126,15 @@ series n base c spot = case course c of
         _ -> PowerSeries.integral here (TaylorExpansion.speed (Base.jet n base spot))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) run)
 
--- | The parameters of the base at which one cubic follows another, in rising order, but for the ends of its spans.
+-- | The parameters of the base at which one cubic follows another, in rising order, but for the
+-- ends of its spans.
 knots :: Base -> Column -> [Double]
 knots base c = case course c of
   BySpan _ -> []
   ByLength _ _ -> map Base.at (Vector.toList (Base.rows base))
 
--- | The number of the stretch between two of these lengths that a length belongs to, or the outer one on its side.
+-- | The number of the stretch between two of these lengths that a length belongs to, or the outer
+-- one on its side.
 stretchAt :: Double -> Unboxed.Vector Double -> Int
 stretchAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
 

@@ -1,8 +1,9 @@
 -- | A curve as cubic spans: its own, or cubics that stand for a shifted one.
 --
--- Between two places h apart in the parameter, Hermite's cubic has the places P and the derivatives V of both. At a share t of the way it
--- differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …), and in the middle its place tells c/16, its derivative there d/16. Half a span
--- has a sixteenth of c and a thirty-second of d.
+-- Between two places h apart in the parameter, Hermite's cubic has the places P and the derivatives
+-- V of both. At a share t of the way it differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …),
+-- and in the middle its place tells c/16, its derivative there d/16. Half a span has a sixteenth of
+-- c and a thirty-second of d.
 module Geometry.Curve.CubicSpans
   ( along,
   )
@@ -20,8 +21,8 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Tolerance qualified as Tolerance
 
--- | Spans in x and y that stay so near to a curve, and how near; those of a spline are its own. Nothing for a curve with arcs, and for one that
--- stands still somewhere or nearly so.
+-- | Spans in x and y that stay so near to a curve, and how near; those of a spline are its own.
+-- Nothing for a curve with arcs, and for one that stands still somewhere or nearly so.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
   Plain b -> case course b of
@@ -35,7 +36,12 @@ along (Mm tolerance) curve = case curve of
   where
     onStretch (a, b) = refined most (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
     node stretch u = case ShiftedCurve.jetAt 1 curve (PointSearch.within stretch curve u) of
-      TaylorExpansion x y -> Node (PowerSeries.value x) (PowerSeries.value y) (PowerSeries.coefficient 1 x) (PowerSeries.coefficient 1 y)
+      TaylorExpansion x y ->
+        Node
+          (PowerSeries.value x)
+          (PowerSeries.value y)
+          (PowerSeries.coefficient 1 x)
+          (PowerSeries.coefficient 1 y)
     refined left piece@Piece {begin, end, first, inside, final, nodeAt}
       | not (speed first > still && speed final > still && speed inside > still) = Nothing
       | near tolerance piece one other = Just [span' one, span' other]
@@ -61,7 +67,8 @@ speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 data Piece = Piece {begin, end :: Double, first, inside, final :: Node, nodeAt :: Double -> Node}
 
 between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Piece
-between nodeAt begin first end final = Piece {begin, end, first, inside = nodeAt (middle begin end), final, nodeAt}
+between nodeAt begin first end final =
+  Piece {begin, end, first, inside = nodeAt (middle begin end), final, nodeAt}
 
 middle :: Double -> Double -> Double
 middle a b = 0.5 * (a + b)
@@ -77,22 +84,33 @@ span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | Whether the cubics of both halves of a piece stay so near to the curve: by what is to be expected of a half where the whole differs so,
--- with half of it to spare, and by what each differs itself. The even and the odd of a difference are looked at alike, the one in the place in the
+-- | Whether the cubics of both halves of a piece stay so near to the curve: by what is to be
+-- expected of a half where the whole differs so, with half of it to spare, and by what each differs
+-- itself. The even and the odd of a difference are looked at alike, the one in the place in the
 -- middle, the other in the derivative there.
 near :: Double -> Piece -> Piece -> Piece -> Bool
-near tolerance whole one other = place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]
+near tolerance whole one other =
+  place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]
   where
     (place, bend) = difference whole
     itself half = let (e, o) = difference half in e + oddShare * o <= tolerance
-    -- The most of t²(1−t)²(t−½), √5/250 where t is ½ ± √(1/20), by its derivative in the middle, 1/16.
+    -- The most of t²(1−t)²(t−½), √5/250 where t is ½ ± √(1/20), by its derivative in the middle,
+    -- 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | By how much the cubic of a piece differs in the middle: in the place, mm, and in the derivative, mm for the whole piece.
+-- | By how much the cubic of a piece differs in the middle: in the place, mm, and in the
+-- derivative, mm for the whole piece.
 difference :: Piece -> (Double, Double)
-difference Piece {begin, end, first = Node px py vx vy, inside = Node mx my sx sy, final = Node qx qy wx wy} =
-  (off px mx qx vx wx + off py my qy vy wy, bent px sx qx vx wx + bent py sy qy vy wy)
-  where
-    h = end - begin
-    off p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
-    bent p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))
+difference
+  Piece
+    { begin,
+      end,
+      first = Node px py vx vy,
+      inside = Node mx my sx sy,
+      final = Node qx qy wx wy
+    } =
+    (off px mx qx vx wx + off py my qy vy wy, bent px sx qx vx wx + bent py sy qy vy wy)
+    where
+      h = end - begin
+      off p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
+      bent p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))

@@ -1,7 +1,8 @@
 -- | Where two ways cross exactly, from a place near by.
 --
--- Curves cross first as the chains of arcs that stand for them, which are up to 'Tolerance.curve' beside them. From there
--- Newton's steps lead to the curves' own crossing: each goes to where the tangents at both feet cross.
+-- Curves cross first as the chains of arcs that stand for them, which are up to 'Tolerance.curve'
+-- beside them. From there Newton's steps lead to the curves' own crossing: each goes to where the
+-- tangents at both feet cross.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,
@@ -34,8 +35,9 @@ onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
 onCurve :: Curve -> Foot
 onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 
--- | The crossing of two ways near a place that is beside each of them by no more than 'Tolerance.curve'. Where the ways do not
--- cross so near, one ends or both run along one another, it is that place.
+-- | The crossing of two ways near a place that is beside each of them by no more than
+-- 'Tolerance.curve'. Where the ways do not cross so near, one ends or both run along one another,
+-- it is that place.
 exactly :: Foot -> Foot -> Point -> Point
 exactly footA footB place = go (8 :: Int) place
   where
@@ -47,7 +49,8 @@ exactly footA footB place = go (8 :: Int) place
         (a, u) = footA p
         (b, v) = footB p
         sine = Vec.cross u v
-        -- Where ways cross at an angle, so far are the crossings of what is beside them; where they bend, somewhat further.
+        -- Where ways cross at an angle, so far are the crossings of what is beside them; where they
+        -- bend, somewhat further.
         nearby = times (8 / abs sine) Tolerance.curve
     -- Ways that lean less, by this sine, run along one another.
     slightest = 1e-5

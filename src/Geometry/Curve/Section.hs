@@ -1,8 +1,9 @@
--- | Pieces of curves, y over x, through two rows of a table: straight lines, parabolas and circular arcs.
+-- | Pieces of curves, y over x, through two rows of a table: straight lines, parabolas and circular
+-- arcs.
 --
--- Beside its ends, a parabola or an arc has one number t, and y rises with t at
--- every x between the ends. The largest deviation in y over the rows between is therefore least where two rows
--- miss by the same amount to either side, or where t has come to its limit.
+-- Beside its ends, a parabola or an arc has one number t, and y rises with t at every x between the
+-- ends. The largest deviation in y over the rows between is therefore least where two rows miss by
+-- the same amount to either side, or where t has come to its limit.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -57,9 +58,14 @@ data PointTableFault
 -- | A table of points, if x rises or falls strictly.
 table :: [Point] -> Either PointTableFault PointTable
 table points = case points of
-  p : q : _ -> case [k | (k, a, b) <- zip3 [2 ..] points (drop 1 points), not (sameWay (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))] of
-    k : _ -> Left (OutOfOrder k)
-    [] -> Right (PointTable (Vector.fromList (map Vec.x points)) (Vector.fromList (map Vec.y points)))
+  p : q : _ ->
+    case [ k
+           | (k, a, b) <- zip3 [2 ..] points (drop 1 points),
+             not (sameWay (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))
+         ] of
+      k : _ -> Left (OutOfOrder k)
+      [] ->
+        Right (PointTable (Vector.fromList (map Vec.x points)) (Vector.fromList (map Vec.y points)))
   _ -> Left (TooFewRows (length points))
   where
     sameWay a b c d = (b > a && d > c) || (b < a && d < c)
@@ -93,7 +99,8 @@ data SectionShape
   = Line
   | -- | the factor a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
     Parabola Double
-  | -- | the angle between chord and arc at the ends, half of what the arc turns by; positive above the chord
+  | -- | the angle between chord and arc at the ends, half of what the arc turns by; positive above
+    -- the chord
     Arc Rad
   deriving stock (Eq, Show)
 
@@ -153,7 +160,10 @@ flat t = Rad (2 * abs t) <= Tolerance.straight
 
 -- | The centre of an arc: on the perpendicular bisector of its chord.
 centre :: Section -> Double -> Point
-centre p t = Vec.shift (Vec.scale (-(way / (2 * tan t))) (Vec.left (Vec.to (from p) (to p)))) (Vec.between 0.5 (from p) (to p))
+centre p t =
+  Vec.shift
+    (Vec.scale (-(way / (2 * tan t))) (Vec.left (Vec.to (from p) (to p))))
+    (Vec.between 0.5 (from p) (to p))
   where
     Chord w _ = chordOf (from p) (to p)
     way = signum w
@@ -165,7 +175,14 @@ segment p = case curve p of
   Parabola _ -> Nothing
   Arc (Rad t)
     | flat t -> Just (Straight (from p) (to p))
-    | otherwise -> Just (Segment.arc (if (t > 0) == (Vec.x (to p) > Vec.x (from p)) then Clockwise else CounterClockwise) (centre p t) (from p) (to p))
+    | otherwise ->
+      Just
+        ( Segment.arc
+            (if (t > 0) == (Vec.x (to p) > Vec.x (from p)) then Clockwise else CounterClockwise)
+            (centre p t)
+            (from p)
+            (to p)
+        )
 
 -- | From one end of a piece to the other, in x and in y.
 data Chord = Chord Double Double
@@ -180,8 +197,10 @@ rise chord@(Chord w h) c x = case c of
   Parabola a -> x * h / w + a * x * (x - w)
   Arc (Rad t) -> arcRise chord (tan t) x
 
--- | The same for an arc, from the tangent of its angle with the chord. The circles through (0, 0) and (w, h) are
--- @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, μ the tangent; the arc is the root that is on the chord for μ = 0.
+-- | The same for an arc, from the tangent of its angle with the chord. The circles through (0, 0)
+-- and (w, h) are
+-- @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, μ the tangent; the arc is the root that is on the
+--  chord for μ = 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -190,27 +209,43 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
     q = mu * x * (x - w) + x * h
 {-# INLINE arcRise #-}
 
--- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its rows.
+-- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its
+-- rows.
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
--- | The same as far as the deviation is no more than a limit; else one beyond the limit that it is no less than. Two rows that say
--- so are given, and may be tried first where a piece ends a little further on.
-bestWithin :: Double -> Maybe (Int, Int) -> PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape, Maybe (Int, Int))
+-- | The same as far as the deviation is no more than a limit; else one beyond the limit that it is
+-- no less than. Two rows that say so are given, and may be tried first where a piece ends a little
+-- further on.
+bestWithin ::
+  Double ->
+  Maybe (Int, Int) ->
+  PointTable ->
+  SectionKind ->
+  Int ->
+  Int ->
+  (Double, SectionShape, Maybe (Int, Int))
 bestWithin limit known t@(PointTable xs ys) k i j = case k of
   LineKind
-    | Just (p, r) <- known, max (abs (relative Line p)) (abs (relative Line r)) > limit -> (max (abs (relative Line p)) (abs (relative Line r)), Line, known)
-    | otherwise -> let (p, low, r, high) = extremes i j (relative Line) in (max (-low) high, Line, Just (p, r))
+    | Just (p, r) <- known,
+      max (abs (relative Line p)) (abs (relative Line r)) > limit ->
+      (max (abs (relative Line p)) (abs (relative Line r)), Line, known)
+    | otherwise ->
+      let (p, low, r, high) =
+            extremes i j (relative Line)
+       in (max (-low) high, Line, Just (p, r))
   _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0, Nothing)
   ParabolaKind ->
     let q m = let x = across m in x * (x - w)
         off m = relative Line m
-        (worst, s, rows') = least limit known (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
+        (worst, s, rows') =
+          least limit known (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
      in (worst, Parabola s, Just rows')
   ArcKind ->
     let steepest = pi / 2 - atan2 (abs h) (abs w)
         off a m = arcRise chord (tan a) (across m) - up m
-        (worst, s, rows') = least limit known (\p r -> root steepest (\a -> off a p + off a r)) off' i j
+        (worst, s, rows') =
+          least limit known (\p r -> root steepest (\a -> off a p + off a r)) off' i j
         off' a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
      in (worst, Arc (Rad s), Just rows')
   where
@@ -219,7 +254,8 @@ bestWithin limit known t@(PointTable xs ys) k i j = case k of
     up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
     relative c m = rise chord c (across m) - up m
 
--- | The rows strictly between two with the lowest and with the highest value. Without any, the value is 0.
+-- | The rows strictly between two with the lowest and with the highest value. Without any, the
+-- value is 0.
 extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
 extremes i j value
   | j <= i + 1 = (i, 0, i, 0)
@@ -234,12 +270,21 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | The parameter that makes the largest deviation of the rows between two least, that deviation, and the rows that tell. It is where
--- some two rows balance; a row that misses by more takes the place of the one that misses to the same side. The amount by
--- which the two miss rises every time, so there is an end, where it is no longer asked for beyond the limit; it takes about four
--- rounds, or one or two from rows that are nearly right.
-least :: Double -> Maybe (Int, Int) -> (Int -> Int -> Double) -> (Double -> Int -> Double) -> Int -> Int -> (Double, Double, (Int, Int))
-least limit known balance off i j = uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) known)
+-- | The parameter that makes the largest deviation of the rows between two least, that deviation,
+-- and the rows that tell. It is where some two rows balance; a row that misses by more takes the
+-- place of the one that misses to the same side. The amount by which the two miss rises every time,
+-- so there is an end, where it is no longer asked for beyond the limit; it takes about four rounds,
+-- or one or two from rows that are nearly right.
+least ::
+  Double ->
+  Maybe (Int, Int) ->
+  (Int -> Int -> Double) ->
+  (Double -> Int -> Double) ->
+  Int ->
+  Int ->
+  (Double, Double, (Int, Int))
+least limit known balance off i j =
+  uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) known)
   where
     (low0, _, high0, _) = extremes i j (off 0)
     go before found one other
@@ -255,8 +300,9 @@ least limit known balance off i j = uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMa
         worst = max (-vLow) vHigh
 {-# INLINE least #-}
 
--- | Where a rising function is 0, to the last digit or nearly so; the end of the range where it does not come to 0. A secant cuts off
--- what is on one side of the zero; the value of an end that has stayed is halved, so that it moves, too (the Illinois rule).
+-- | Where a rising function is 0, to the last digit or nearly so; the end of the range where it
+-- does not come to 0. A secant cuts off what is on one side of the zero; the value of an end that
+-- has stayed is halved, so that it moves, too (the Illinois rule).
 root :: Double -> (Double -> Double) -> Double
 root limit f
   | f (-limit) >= 0 = -limit
@@ -270,6 +316,12 @@ root limit f
       where
         t = low + (high - low) * (below / (below - above))
         v = f t
-        onward a va b vb = let u = a + (b - a) * (va / (va - vb)) in if abs (u - a) < 1e-16 then u else go (left - 1) a va b (0.5 * vb)
-        back a va b vb = let u = a + (b - a) * (va / (va - vb)) in if abs (b - u) < 1e-16 then u else go (left - 1) a (0.5 * va) b vb
+        onward a va b vb =
+          let u =
+                a + (b - a) * (va / (va - vb))
+           in if abs (u - a) < 1e-16 then u else go (left - 1) a va b (0.5 * vb)
+        back a va b vb =
+          let u =
+                a + (b - a) * (va / (va - vb))
+           in if abs (b - u) < 1e-16 then u else go (left - 1) a (0.5 * va) b vb
 {-# INLINE root #-}

@@ -1,7 +1,7 @@
 -- | How far a curve is shifted, place by place: the ciphers.
 --
--- A distance is known for the curve that it shifts; it may depend on that curve's true length. It is in mm, positive
--- to the side that the shift names.
+-- A distance is known for the curve that it shifts; it may depend on that curve's true length. It
+-- is in mm, positive to the side that the shift names.
 module Geometry.Curve.ShiftDistance
   ( Distance (..),
     Growth (..),
@@ -40,19 +40,21 @@ data Distance
     Bevelled Column Column Mm
   | -- | evenly along the true length (cipher 1)
     Growing Growth
-  | -- | measured square to a surface that stands at the bevel μ (radians): the distance divided by @cos μ@
+  | -- | measured square to a surface that stands at the bevel μ (radians): the distance divided by
+    -- @cos μ@
     Square Column Distance
   | -- | local, zero elsewhere
     Joggled Joggle
   deriving stock (Eq, Show)
 
--- | From one distance to another, over the whole curve or between two parameters of it in rising order; the first
--- distance before them, the second one behind.
+-- | From one distance to another, over the whole curve or between two parameters of it in rising
+-- order; the first distance before them, the second one behind.
 data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
   deriving stock (Eq, Show)
 
--- | Between two parameters, in rising order, the distance is a depth; inside of them it is reached and left on ramps
--- of two arcs of a radius each. The radius is more than half of the depth; a depth below zero goes to the other side.
+-- | Between two parameters, in rising order, the distance is a depth; inside of them it is reached
+-- and left on ramps of two arcs of a radius each. The radius is more than half of the depth; a
+-- depth below zero goes to the other side.
 data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
   deriving stock (Eq, Show)
 
@@ -60,8 +62,8 @@ data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: M
 ramp :: Joggle -> Mm
 ramp Joggle {depth = Mm d, radius = Mm r} = Mm (sqrt (max 0 (abs d * (4 * r - abs d))))
 
--- | Where on the curve that is shifted a distance changes its formula, and the lengths up to where it begins and ends
--- to change.
+-- | Where on the curve that is shifted a distance changes its formula, and the lengths up to where
+-- it begins and ends to change.
 data ShiftInterval = ShiftInterval
   { -- | parameters, in rising order
     marks :: [Double],
@@ -83,7 +85,12 @@ stretch ruler distance = case distance of
   Pointwise _ -> whole
   Bevelled {} -> whole
   Growing Growth {between = Nothing} -> whole
-  Growing Growth {between = Just (a, b)} -> ShiftInterval {marks = [a, b], first = ArcLength.lengthTo ruler a, final = ArcLength.lengthTo ruler b}
+  Growing Growth {between = Just (a, b)} ->
+    ShiftInterval
+      { marks = [a, b],
+        first = ArcLength.lengthTo ruler a,
+        final = ArcLength.lengthTo ruler b
+      }
   Square _ inner -> stretch ruler inner
   Joggled joggle@Joggle {begins, ends} ->
     let first = ArcLength.lengthTo ruler begins
@@ -94,7 +101,8 @@ stretch ruler distance = case distance of
   where
     whole = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total ruler}
 
--- | The parameters of the base, in rising order, at which the third derivative of a distance may jump, but for its marks and the ends of the base's spans.
+-- | The parameters of the base, in rising order, at which the third derivative of a distance may
+-- jump, but for its marks and the ends of the base's spans.
 knots :: Base -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []
@@ -115,19 +123,28 @@ vanishes distance spot = case distance of
   Bevelled {} -> False
   Growing _ -> False
 
--- | What is known of the curve that is shifted: the base under all layers, the way along it (worked out only for
--- distances that depend on it), its place near the spot.
+-- | What is known of the curve that is shifted: the base under all layers, the way along it (worked
+-- out only for distances that depend on it), its place near the spot.
 data Below = Below {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
 
--- | The power series of the distance at a spot up to an order; the place below is known to one order more.
+-- | The power series of the distance at a spot up to an order; the place below is known to one
+-- order more.
 series :: Int -> Below -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
 series n below known distance spot = case distance of
   Constant (Mm h) -> PowerSeries.constant n h
   Pointwise c -> Column.series n (under below) c spot
   Bevelled mu height (Mm delta) ->
-    PowerSeries.plusConstant delta (PowerSeries.multiply (Column.series n (under below) height spot) (PowerSeries.tangent (Column.series n (under below) mu spot)))
+    PowerSeries.plusConstant
+      delta
+      ( PowerSeries.multiply
+          (Column.series n (under below) height spot)
+          (PowerSeries.tangent (Column.series n (under below) mu spot))
+      )
   Growing growth -> grown n below known growth spot
-  Square mu inner -> PowerSeries.divide (series n below known inner spot) (PowerSeries.cosine (Column.series n (under below) mu spot))
+  Square mu inner ->
+    PowerSeries.divide
+      (series n below known inner spot)
+      (PowerSeries.cosine (Column.series n (under below) mu spot))
   Joggled joggle -> joggled n below known joggle spot
 
 -- | @h1 + (h2 − h1)·s/S@ with the length s of S (Kolsanova, cipher 1).
@@ -142,28 +159,49 @@ grown n below known Growth {from = Mm h1, to = Mm h2, between} spot = case betwe
     Mm s1 = first known
     Mm s2 = final known
     inside
-      | s2 > s1 = PowerSeries.plusConstant h1 (PowerSeries.scale ((h2 - h1) / (s2 - s1)) (PowerSeries.plusConstant (-s1) (run n below spot)))
+      | s2 > s1 =
+        PowerSeries.plusConstant
+          h1
+          ( PowerSeries.scale
+              ((h2 - h1) / (s2 - s1))
+              (PowerSeries.plusConstant (-s1) (run n below spot))
+          )
       | otherwise = PowerSeries.constant n h1
 
--- | With t from the ramp's beginning: @r − √(r² − t²)@ up to its middle, then @d − (r − √(r² − (ℓ − t)²))@.
+-- | With t from the ramp's beginning: @r − √(r² − t²)@ up to its middle, then @d − (r − √(r² − (ℓ −
+-- t)²))@.
 joggled :: Int -> Below -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
-joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot = PowerSeries.scale (signum depth) $
-  case passed spot (marks known) of
-    1 -> low (PowerSeries.plusConstant (-s1) here)
-    2 -> high (PowerSeries.plusConstant (-s1) here)
-    3 -> PowerSeries.constant n d
-    4 -> high (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
-    5 -> low (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
-    _ -> PowerSeries.constant n 0
+joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot =
+  PowerSeries.scale (signum depth) $
+    case passed spot (marks known) of
+      1 -> low (PowerSeries.plusConstant (-s1) here)
+      2 -> high (PowerSeries.plusConstant (-s1) here)
+      3 -> PowerSeries.constant n d
+      4 -> high (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
+      5 -> low (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
+      _ -> PowerSeries.constant n 0
   where
     d = abs depth
     here = run n below spot
     Mm s1 = first known
     Mm s2 = final known
     Mm l = ramp joggle
-    sag t = PowerSeries.plusConstant r (PowerSeries.scale (-1) (PowerSeries.power 0.5 (PowerSeries.plusConstant (r * r) (PowerSeries.scale (-1) (PowerSeries.multiply t t)))))
+    sag t =
+      PowerSeries.plusConstant
+        r
+        ( PowerSeries.scale
+            (-1)
+            ( PowerSeries.power
+                0.5
+                ( PowerSeries.plusConstant
+                    (r * r)
+                    (PowerSeries.scale (-1) (PowerSeries.multiply t t))
+                )
+            )
+        )
     low t = sag t
-    high t = PowerSeries.plusConstant d (PowerSeries.scale (-1) (sag (PowerSeries.plusConstant (-l) t)))
+    high t =
+      PowerSeries.plusConstant d (PowerSeries.scale (-1) (sag (PowerSeries.plusConstant (-l) t)))
 
 -- | The true length up to the spot.
 run :: Int -> Below -> SpanPoint -> PowerSeries
@@ -188,10 +226,12 @@ scaled :: Base -> Double -> Distance -> Distance
 scaled on k distance = case distance of
   Constant h -> Constant (times k h)
   Pointwise c -> Pointwise (Column.scaled on k c)
-  Bevelled mu height delta -> Bevelled (Column.scaled on 1 mu) (Column.scaled on k height) (times k delta)
+  Bevelled mu height delta ->
+    Bevelled (Column.scaled on 1 mu) (Column.scaled on k height) (times k delta)
   Growing growth -> Growing growth {from = times k (from growth), to = times k (to growth)}
   Square mu inner -> Square (Column.scaled on 1 mu) (scaled on k inner)
-  Joggled joggle -> Joggled joggle {depth = times k (depth joggle), radius = times k (radius joggle)}
+  Joggled joggle ->
+    Joggled joggle {depth = times k (depth joggle), radius = times k (radius joggle)}
 
 -- | The distance of the curve that is walked from its end: given the base as it was and as it is.
 reversed :: Base -> Base -> Distance -> Distance
@@ -199,7 +239,13 @@ reversed old new distance = case distance of
   Constant h -> Constant h
   Pointwise c -> Pointwise (back c)
   Bevelled mu height delta -> Bevelled (back mu) (back height) delta
-  Growing growth -> Growing Growth {from = to growth, to = from growth, between = fmap (\(a, b) -> (n - b, n - a)) (between growth)}
+  Growing growth ->
+    Growing
+      Growth
+        { from = to growth,
+          to = from growth,
+          between = fmap (\(a, b) -> (n - b, n - a)) (between growth)
+        }
   Square mu inner -> Square (back mu) (reversed old new inner)
   Joggled joggle -> Joggled joggle {begins = n - ends joggle, ends = n - begins joggle}
   where

@@ -42,7 +42,11 @@ data Layer = Layer {side :: Side, distance :: Distance, known :: ~ShiftInterval}
 shifted :: Side -> Distance -> Curve -> Curve
 shifted side distance lower = whole
   where
-    whole = Shifted Layer {side, distance, known = ShiftDistance.stretch (ruler lower) distance} lower (ArcLength.measured speed (merged (breaks whole) (knots whole)))
+    whole =
+      Shifted
+        Layer {side, distance, known = ShiftDistance.stretch (ruler lower) distance}
+        lower
+        (ArcLength.measured speed (merged (breaks whole) (knots whole)))
     speed u = Vec.norm (TaylorExpansion.velocity (jetAt 1 whole (spot After u whole)))
 
 -- | What lies under all shifts.
@@ -59,7 +63,8 @@ layers curve = reverse (outermost curve)
       Plain _ -> []
       Shifted layer lower _ -> (side layer, distance layer) : outermost lower
 
--- | The parameters between which the curve is smooth, in rising order, from its beginning to its end.
+-- | The parameters between which the curve is smooth, in rising order, from its beginning to its
+-- end.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Plain b -> map fromIntegral [0 .. Base.count b]
@@ -67,11 +72,13 @@ breaks curve = case curve of
   where
     inside u = u > 0 && u < domain curve
 
--- | Where a column goes over from one cubic to the next within a span: the curve is smooth there, but a shift of it has no smooth speed.
+-- | Where a column goes over from one cubic to the next within a span: the curve is smooth there,
+-- but a shift of it has no smooth speed.
 knots :: Curve -> [Double]
 knots curve = case curve of
   Plain _ -> []
-  Shifted layer lower _ -> merged (knots lower) (filter inside (ShiftDistance.knots (base lower) (distance layer)))
+  Shifted layer lower _ ->
+    merged (knots lower) (filter inside (ShiftDistance.knots (base lower) (distance layer)))
   where
     inside u = u > 0 && u < domain curve
 
@@ -99,18 +106,29 @@ ruler curve = case curve of
 spot :: Approach -> Double -> Curve -> SpanPoint
 spot approach u curve = Base.spot approach u (base curve)
 
--- | The power series of the place up to an order. Every shift asks the curve under it for one order more, but where there is none.
+-- | The power series of the place up to an order. Every shift asks the curve under it for one order
+-- more, but where there is none.
 jetAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 jetAt n curve s = case curve of
   Plain b -> Base.jet n b s
   Shifted layer lower _
     | ShiftDistance.vanishes (distance layer) s -> jetAt n lower s
-    | otherwise -> let near = jetAt (n + 1) lower s in TaylorExpansion.moved (distanceAt n layer lower near s) near
+    | otherwise ->
+      let near =
+            jetAt (n + 1) lower s
+       in TaylorExpansion.moved (distanceAt n layer lower near s) near
 
--- | The power series of a shift's distance to the left up to an order, given the curve below near the spot.
+-- | The power series of a shift's distance to the left up to an order, given the curve below near
+-- the spot.
 distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> SpanPoint -> PowerSeries
 distanceAt n layer lower near s = case side layer of
   LeftOf -> d
   RightOf -> PowerSeries.scale (-1) d
   where
-    d = ShiftDistance.series n Below {under = base lower, along = ruler lower, near} (known layer) (distance layer) s
+    d =
+      ShiftDistance.series
+        n
+        Below {under = base lower, along = ruler lower, near}
+        (known layer)
+        (distance layer)
+        s

@@ -51,7 +51,9 @@ ofPiece piece = case piece of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
   Quadratic a b c from to ->
     let d = to - from
-     in Polynomial (Spline.line from to) (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
+     in Polynomial
+          (Spline.line from to)
+          (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
   Circular s -> ofSegment s
 
 ofSegment :: Segment -> Span
@@ -62,7 +64,10 @@ ofSegment s = case s of
 -- | Where a span begins and where it ends.
 ends :: Span -> (Point, Point)
 ends s = case s of
-  Polynomial x y -> let place t = Vec.point (Spline.value x t) (Spline.value y t) in (place 0, place 1)
+  Polynomial x y ->
+    let place t =
+          Vec.point (Spline.value x t) (Spline.value y t)
+     in (place 0, place 1)
   Round g -> (Segment.start g, Segment.end g)
 
 -- | The span as a line or an arc, if it is one.
@@ -72,7 +77,8 @@ segment s = case s of
   Polynomial _ _ -> Nothing
   Round g -> Just g
 
--- | Whether a span that was given as a piece has no length. A full circle ends where it begins and has one.
+-- | Whether a span that was given as a piece has no length. A full circle ends where it begins and
+-- has one.
 isPoint :: Span -> Bool
 isPoint s = case s of
   Polynomial _ _ -> let (p, q) = ends s in Vec.near p q

@@ -1,6 +1,8 @@
--- | Interpolation of a table of numbers by piecewise cubics that are continuous up to the second derivative.
+-- | Interpolation of a table of numbers by piecewise cubics that are continuous up to the second
+-- derivative.
 --
--- The system for the second derivatives is tridiagonal and solved in one pass forwards and one backwards.
+-- The system for the second derivatives is tridiagonal and solved in one pass forwards and one
+-- backwards.
 module Geometry.Curve.Spline
   ( -- * One of them
     Cubic (..),
@@ -54,7 +56,12 @@ rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 -- | The power series about a place, up to an order.
 series :: Int -> Cubic -> Double -> PowerSeries
 series n (Cubic a b c d) t =
-  PowerSeries.ofFour n (a + t * (b + t * (c + t * d))) (b + t * (2 * c + 3 * t * d)) (c + 3 * t * d) d
+  PowerSeries.ofFour
+    n
+    (a + t * (b + t * (c + t * d)))
+    (b + t * (2 * c + 3 * t * d))
+    (c + 3 * t * d)
+    d
 
 -- | The same walked from 1 to 0.
 reversed :: Cubic -> Cubic
@@ -102,8 +109,9 @@ data Boundary
     Periodic
   deriving stock (Eq, Show)
 
--- | The cubics between neighbouring values, given the steps of the parameter between them (above zero, one fewer
--- than values, at least one; at least three for a periodic one). Each cubic's own parameter runs from 0 to 1.
+-- | The cubics between neighbouring values, given the steps of the parameter between them (above
+-- zero, one fewer than values, at least one; at least three for a periodic one). Each cubic's own
+-- parameter runs from 0 to 1.
 interpolate :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Cubics
 interpolate boundary steps values = generate (Unboxed.length steps) cubic
   where
@@ -117,20 +125,36 @@ interpolate boundary steps values = generate (Unboxed.length steps) cubic
         m = Unboxed.unsafeIndex second i
         m' = Unboxed.unsafeIndex second (i + 1)
 
--- | One equation: the factors of the unknown before, its own and the one behind, and the right side.
+-- | One equation: the factors of the unknown before, its own and the one behind, and the right
+-- side.
 data Row = Row Double Double Double Double
 
--- | The second derivatives M at all values. With steps h and slopes Δ between neighbours, what makes the first
--- derivative continuous is @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} = 6·(Δ_i − Δ_{i−1})@.
-secondDerivatives :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Unboxed.Vector Double
+-- | The second derivatives M at all values. With steps h and slopes Δ between neighbours, what
+-- makes the first derivative continuous is @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} =
+-- 6·(Δ_i − Δ_{i−1})@.
+secondDerivatives ::
+  Boundary ->
+  Unboxed.Vector Double ->
+  Unboxed.Vector Double ->
+  Unboxed.Vector Double
 secondDerivatives boundary steps values = case boundary of
-  Natural -> Unboxed.concat [Unboxed.singleton 0, tridiagonal (n - 1) (\i -> inner (i + 1)), Unboxed.singleton 0]
+  Natural ->
+    Unboxed.concat
+      [Unboxed.singleton 0, tridiagonal (n - 1) (\i -> inner (i + 1)), Unboxed.singleton 0]
   Clamped from to ->
     tridiagonal (n + 1) $ \i ->
       if i == 0
         then Row 0 (2 * step 0) (step 0) (6 * (rise 0 - from))
-        else if i == n then Row (step (n - 1)) (2 * step (n - 1)) 0 (6 * (to - rise (n - 1))) else inner i
-  Periodic -> let m = cyclic n (\i -> if i == 0 then row (step (n - 1)) (step 0) (rise (n - 1)) (rise 0) else inner i) in Unboxed.snoc m (Unboxed.unsafeIndex m 0)
+        else
+          if i == n
+            then Row (step (n - 1)) (2 * step (n - 1)) 0 (6 * (to - rise (n - 1)))
+            else inner i
+  Periodic ->
+    let m =
+          cyclic
+            n
+            (\i -> if i == 0 then row (step (n - 1)) (step 0) (rise (n - 1)) (rise 0) else inner i)
+     in Unboxed.snoc m (Unboxed.unsafeIndex m 0)
   where
     n = Unboxed.length steps
     step = Unboxed.unsafeIndex steps
@@ -138,8 +162,8 @@ secondDerivatives boundary steps values = case boundary of
     inner i = row (step (i - 1)) (step i) (rise (i - 1)) (rise i)
     row h h' slope slope' = Row h (2 * (h + h')) h' (6 * (slope' - slope))
 
--- | So many equations by their numbers from 0. Elimination without pivoting; the diagonal of a spline's system outweighs
--- the rest of its row.
+-- | So many equations by their numbers from 0. Elimination without pivoting; the diagonal of a
+-- spline's system outweighs the rest of its row.
 tridiagonal :: Int -> (Int -> Row) -> Unboxed.Vector Double
 tridiagonal n row = Unboxed.create $ do
   above <- Mutable.unsafeNew (max 0 n)
@@ -147,7 +171,13 @@ tridiagonal n row = Unboxed.create $ do
   eliminated above solved 0 0 0
   pure solved
   where
-    eliminated :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> Double -> ST s ()
+    eliminated ::
+      Mutable.MVector s Double ->
+      Mutable.MVector s Double ->
+      Int ->
+      Double ->
+      Double ->
+      ST s ()
     eliminated above solved i c' d'
       | i >= n = backwards above solved (n - 1) 0
       | otherwise = case row i of
@@ -169,8 +199,8 @@ tridiagonal n row = Unboxed.create $ do
         backwards above solved (i - 1) m
 {-# INLINE tridiagonal #-}
 
--- | The same where the first row's unknown before is the last one and the last row's unknown behind the first: the
--- two corners are taken out as a matrix of rank one (Sherman and Morrison).
+-- | The same where the first row's unknown before is the last one and the last row's unknown behind
+-- the first: the two corners are taken out as a matrix of rank one (Sherman and Morrison).
 cyclic :: Int -> (Int -> Row) -> Unboxed.Vector Double
 cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
   where
@@ -188,10 +218,11 @@ cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
     factor = weighed plain / (1 + weighed corner)
 {-# INLINE cyclic #-}
 
--- | Parabolas (Lagrange) through values 1–3, 3–5, …, given where between its neighbours each middle value lies, as a
--- fraction of the parameter. The values are odd in number.
+-- | Parabolas (Lagrange) through values 1–3, 3–5, …, given where between its neighbours each middle
+-- value lies, as a fraction of the parameter. The values are odd in number.
 parabolas :: Vector Double -> Unboxed.Vector Double -> Cubics
-parabolas fractions values = generate (Vector.length fractions) (\i -> parabola i (fractions Vector.! i))
+parabolas fractions values =
+  generate (Vector.length fractions) (\i -> parabola i (fractions Vector.! i))
   where
     parabola i f = Cubic p (first - f * second) second 0
       where

@@ -38,13 +38,19 @@ ofPoints p ps = foldl (\box q -> box `union` single q) (single p) ps
 -- | A box that holds a segment; for an arc its chord's box grown by the sagitta, or the circle's.
 ofSegment :: Segment -> BoundingBox
 ofSegment segment = case segment of
-  Straight a b -> BoundingBox (min (Vec.x a) (Vec.x b)) (min (Vec.y a) (Vec.y b)) (max (Vec.x a) (Vec.x b)) (max (Vec.y a) (Vec.y b))
+  Straight a b ->
+    BoundingBox
+      (min (Vec.x a) (Vec.x b))
+      (min (Vec.y a) (Vec.y b))
+      (max (Vec.x a) (Vec.x b))
+      (max (Vec.y a) (Vec.y b))
   Arc {start, end, centre, sweep = Rad s}
     | abs s < pi -> inflate (Segment.bulge segment) (ofPoints start [end])
     | otherwise -> inflate (Segment.radius centre start) (ofPoints centre [])
 
 union :: BoundingBox -> BoundingBox -> BoundingBox
-union (BoundingBox l b r t) (BoundingBox l' b' r' t') = BoundingBox (min l l') (min b b') (max r r') (max t t')
+union (BoundingBox l b r t) (BoundingBox l' b' r' t') =
+  BoundingBox (min l l') (min b b') (max r r') (max t t')
 
 -- | Grown on all sides.
 inflate :: Mm -> BoundingBox -> BoundingBox
@@ -54,14 +60,20 @@ inflate (Mm d) (BoundingBox l b r t) = BoundingBox (l - d) (b - d) (r + d) (t + 
 meets :: BoundingBox -> BoundingBox -> Bool
 meets (BoundingBox l b r t) (BoundingBox l' b' r' t') = l <= r' && l' <= r && b <= t' && b' <= t
 
--- | No point of a box has a smaller distance from something, by the distances of points from it: that of the middle
--- of the box less half of its diagonal.
+-- | No point of a box has a smaller distance from something, by the distances of points from it:
+-- that of the middle of the box less half of its diagonal.
 atLeast :: (Point -> Mm) -> BoundingBox -> Mm
-atLeast distanceTo (BoundingBox l b r t) = minus (distanceTo (Vec.point ((l + r) / 2) ((b + t) / 2))) (Mm (Vec.norm (Vec.vec (r - l) (t - b)) / 2))
+atLeast distanceTo (BoundingBox l b r t) =
+  minus
+    (distanceTo (Vec.point ((l + r) / 2) ((b + t) / 2)))
+    (Mm (Vec.norm (Vec.vec (r - l) (t - b)) / 2))
 
 -- | Things in the order in which they were given, with the boxes of their groups: the order of a
 -- contour is a good order in space.
-data Index a = Empty | Leaf {-# UNPACK #-} BoundingBox a | Node {-# UNPACK #-} BoundingBox (Index a) (Index a)
+data Index a
+  = Empty
+  | Leaf {-# UNPACK #-} BoundingBox a
+  | Node {-# UNPACK #-} BoundingBox (Index a) (Index a)
 
 -- | Build an index of things by their boxes; linear.
 index :: (a -> BoundingBox) -> [a] -> Index a
@@ -97,7 +109,8 @@ around i = case i of
 within :: BoundingBox -> Index a -> [a]
 within box = select (meets box)
 
--- | All things for whose boxes something holds, in order. It holds for a box that holds one for which it does.
+-- | All things for whose boxes something holds, in order. It holds for a box that holds one for
+-- which it does.
 select :: (BoundingBox -> Bool) -> Index a -> [a]
 select holds i = go i []
   where
@@ -118,17 +131,21 @@ pairs i = inside i []
       (Leaf p a, Leaf q b) -> if meets p q then (a, b) : rest else rest
       (Leaf p _, Node q b b') -> if meets p q then across one b (across one b' rest) else rest
       (Node p a a', Leaf q _) -> if meets p q then across a other (across a' other rest) else rest
-      (Node p a a', Node q b b') -> if meets p q then across a b (across a b' (across a' b (across a' b' rest))) else rest
+      (Node p a a', Node q b b') ->
+        if meets p q then across a b (across a b' (across a' b (across a' b' rest))) else rest
       (Empty, _) -> rest
       (_, Empty) -> rest
 
--- | What a measure makes of two things, one of each index, that are nearest to one another; of several it is one of them. The
--- distance that the measure tells is no less than that of their boxes, but for 'Tolerance.coincident': both are rounded.
+-- | What a measure makes of two things, one of each index, that are nearest to one another; of
+-- several it is one of them. The distance that the measure tells is no less than that of their
+-- boxes, but for 'Tolerance.coincident': both are rounded.
 closest :: (a -> b -> c) -> (c -> Mm) -> Index a -> Index b -> Maybe c
 closest measure distanceOf = go Nothing
   where
     go best one other
-      | Just c <- best, minus (apart (around one) (around other)) Tolerance.coincident > distanceOf c = best
+      | Just c <- best,
+        minus (apart (around one) (around other)) Tolerance.coincident > distanceOf c =
+        best
       | otherwise = case (one, other) of
         (Leaf _ a, Leaf _ b) -> better best (measure a b)
         (Leaf _ _, Node _ b b') -> nearer best (one, b) (one, b')
@@ -148,12 +165,14 @@ closest measure distanceOf = go Nothing
 
 -- | The distance of two boxes, none if they meet.
 apart :: BoundingBox -> BoundingBox -> Mm
-apart (BoundingBox l b r t) (BoundingBox l' b' r' t') = Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
+apart (BoundingBox l b r t) (BoundingBox l' b' r' t') =
+  Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
   where
     gap low high low' high' = max 0 (max (low' - high) (low - high'))
 
 -- | The distance of a point from a box, none inside.
 distance :: Point -> BoundingBox -> Mm
-distance p (BoundingBox l b r t) = Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))
+distance p (BoundingBox l b r t) =
+  Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))
   where
     outside low c high = max 0 (max (low - c) (c - high))

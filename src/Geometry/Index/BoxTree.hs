@@ -1,8 +1,8 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Things by their boxes in flat arrays: a box for each, for each eight of them, for each eight of those, and so on. The
--- order in which they are given is the order of a contour or of a walk, and that is a good order in space as a rule: nothing is sorted
--- unless it is asked for.
+-- | Things by their boxes in flat arrays: a box for each, for each eight of them, for each eight of
+-- those, and so on. The order in which they are given is the order of a contour or of a walk, and
+-- that is a good order in space as a rule: nothing is sorted unless it is asked for.
 module Geometry.Index.BoxTree
   ( BoxTree,
     index,
@@ -49,14 +49,17 @@ fan = 8
 index :: (a -> BoundingBox) -> [a] -> BoxTree a
 index box list = indexed box (Vector.fromList list)
 
--- | The same, where it is known how many they are: their array is made at once instead of growing. Of more things the first ones count.
+-- | The same, where it is known how many they are: their array is made at once instead of growing.
+-- Of more things the first ones count.
 indexOf :: Int -> (a -> BoundingBox) -> [a] -> BoxTree a
 indexOf most box list = indexed box (Vector.fromListN most list)
 
--- | The same for things whose order is none in space, such as the rounds of a pocket, each of which lies about the next: sorted by the middles of their
--- boxes, in columns of as many things as a column is wide in boxes. The time has a logarithm more.
+-- | The same for things whose order is none in space, such as the rounds of a pocket, each of which
+-- lies about the next: sorted by the middles of their boxes, in columns of as many things as a
+-- column is wide in boxes. The time has a logarithm more.
 byPlace :: (a -> BoundingBox) -> [a] -> BoxTree a
-byPlace box list = index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
+byPlace box list =
+  index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
   where
     columns things = case splitAt (fan * perColumn) things of
       (column, []) -> [column]
@@ -85,7 +88,14 @@ above :: PrimArray Double -> PrimArray Double
 above level = PrimArray.runPrimArray $ do
   let higher = (count level + fan - 1) `quot` fan
   numbers <- PrimArray.newPrimArray (4 * higher)
-  forM_ [0 .. higher - 1] (\i -> put numbers i (about (fan * i + 1) (min (count level) (fan * (i + 1))) (boxAt level (fan * i))))
+  forM_
+    [0 .. higher - 1]
+    ( \i ->
+        put
+          numbers
+          i
+          (about (fan * i + 1) (min (count level) (fan * (i + 1))) (boxAt level (fan * i)))
+    )
   pure numbers
   where
     about k end b
@@ -108,11 +118,13 @@ boxAt level i = BoundingBox (at 0) (at 1) (at 2) (at 3)
 
 -- | All things whose boxes meet a box, in order.
 within :: BoundingBox -> BoxTree a -> [a]
-within (BoundingBox l b r t) = select (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
+within (BoundingBox l b r t) =
+  select (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 {-# INLINE within #-}
 
--- | For each of some others, by its box, all things whose boxes meet that and for which something holds of both, in order. Others that lie
--- beside one another are asked for together: the boxes of a few things are looked at one by one.
+-- | For each of some others, by its box, all things whose boxes meet that and for which something
+-- holds of both, in order. Others that lie beside one another are asked for together: the boxes of
+-- a few things are looked at one by one.
 each :: (b -> BoundingBox) -> (b -> a -> Bool) -> BoxTree a -> [b] -> [[a]]
 each boxOf holds n = start
   where
@@ -122,20 +134,45 @@ each boxOf holds n = start
     -- So many lie within a box, the last one first; the smallest has so much size.
     gather known least all' boxes found rest = case rest of
       b : more
-        | known < together, box <- boxOf b, both <- BoundingBox.union all' box, smaller <- min least (sizeOf box), sizeOf both <= widest * smaller -> gather (known + 1) smaller both (box : boxes) (b : found) more
-      _ -> let ranks = ranksWithin all' n in answer (if null (drop fewAtMost ranks) then \box b -> among box b ranks else \box b -> filter (holds b) (within box n)) boxes found (start rest)
+        | known < together,
+          box <- boxOf b,
+          both <- BoundingBox.union all' box,
+          smaller <- min least (sizeOf box),
+          sizeOf both <= widest * smaller ->
+          gather (known + 1) smaller both (box : boxes) (b : found) more
+      _ ->
+        let ranks =
+              ranksWithin all' n
+         in answer
+              ( if null (drop fewAtMost ranks)
+                  then \box b ->
+                    among box b ranks
+                  else \box b -> filter (holds b) (within box n)
+              )
+              boxes
+              found
+              (start rest)
     answer ask boxes found behind = case (boxes, found) of
-      (box : boxes', b : found') -> let a = ask box b in a `seq` answer ask boxes' found' (a : behind)
+      (box : boxes', b : found') ->
+        let a =
+              ask box b
+         in a `seq` answer ask boxes' found' (a : behind)
       _ -> behind
     among box b ranks = case ranks of
       [] -> []
       i : more
-        | BoundingBox.meets box (boxAt (lowest n) i), a <- Vector.unsafeIndex (things n) i, holds b a -> let as = among box b more in as `seq` (a : as)
+        | BoundingBox.meets box (boxAt (lowest n) i),
+          a <- Vector.unsafeIndex (things n) i,
+          holds b a ->
+          let as =
+                among box b more
+           in as `seq` (a : as)
         | otherwise -> among box b more
     sizeOf (BoundingBox l b r t) = (r - l) + (t - b)
 {-# INLINE each #-}
 
--- | So many boxes are asked for together, if the box about them is no larger than so many times each.
+-- | So many boxes are asked for together, if the box about them is no larger than so many times
+-- each.
 together :: Int
 together = 8
 
@@ -148,9 +185,11 @@ fewAtMost = 128
 
 -- | The places of all things whose boxes meet a box, in order.
 ranksWithin :: BoundingBox -> BoxTree a -> [Int]
-ranksWithin (BoundingBox l b r t) = selectRanks (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
+ranksWithin (BoundingBox l b r t) =
+  selectRanks (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 
--- | All things for whose boxes something holds, in order. It holds for a box that holds one for which it does.
+-- | All things for whose boxes something holds, in order. It holds for a box that holds one for
+-- which it does.
 select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
 select holds n = selectWith (Vector.unsafeIndex (things n)) holds n
 {-# INLINE select #-}
@@ -170,26 +209,42 @@ selectWith make holds n = case levels n of
       | i < begin = rest
       | holds (boxAt level i) = case below of
         [] -> go level below begin (i - 1) (make i : rest)
-        next : lower -> go level below begin (i - 1) (go next lower (fan * i) (min (count next) (fan * (i + 1)) - 1) rest)
+        next : lower ->
+          go
+            level
+            below
+            begin
+            (i - 1)
+            (go next lower (fan * i) (min (count next) (fan * (i + 1)) - 1) rest)
       | otherwise = go level below begin (i - 1) rest
 {-# INLINE selectWith #-}
 
--- | The thing nearest to a point; of several the first. Its distance is that of its box or more, but for 'Tolerance.coincident':
--- distances of lines, arcs and boxes are computed in different ways, and each is rounded.
+-- | The thing nearest to a point; of several the first. Its distance is that of its box or more,
+-- but for 'Tolerance.coincident': distances of lines, arcs and boxes are computed in different
+-- ways, and each is rounded.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
 closest distanceTo p n = case levels n of
   [] -> Nothing
   top : below -> go top below 0 (count top) Nothing
     where
-      -- Among those of a level from one up to another, if better than the best so far. No more is looked at than has to be:
-      -- first comes what is behind the nearest box.
+      -- Among those of a level from one up to another, if better than the best so far. No more is
+      -- looked at than has to be: first comes what is behind the nearest box.
       bound0 = guess top below 0 (count top)
       go level below' i end best
         | i >= end = best
         | away level i > maybe bound0 fst best = go level below' (i + 1) end best
         | otherwise = case below' of
-          [] -> let a = Vector.unsafeIndex (things n) i in go level below' (i + 1) end (better a (distanceTo a) best)
-          next : lower -> go level below' (i + 1) end (go next lower (fan * i) (min (count next) (fan * (i + 1))) best)
+          [] ->
+            let a =
+                  Vector.unsafeIndex (things n) i
+             in go level below' (i + 1) end (better a (distanceTo a) best)
+          next : lower ->
+            go
+              level
+              below'
+              (i + 1)
+              end
+              (go next lower (fan * i) (min (count next) (fan * (i + 1))) best)
       better a d best = case best of
         Nothing -> if d <= bound0 then Just (d, a) else Nothing
         Just (e, _) -> if d < e then Just (d, a) else best
@@ -200,7 +255,13 @@ closest distanceTo p n = case levels n of
            in case below' of
                 [] -> distanceTo (Vector.unsafeIndex (things n) k)
                 next : lower -> guess next lower (fan * k) (min (count next) (fan * (k + 1)))
-      nearestBox level i end = fst (List.foldl' (\(k, d) j -> let e = away level j in if e < d then (j, e) else (k, d)) (i, away level i) [i + 1 .. end - 1])
+      nearestBox level i end =
+        fst
+          ( List.foldl'
+              (\(k, d) j -> let e = away level j in if e < d then (j, e) else (k, d))
+              (i, away level i)
+              [i + 1 .. end - 1]
+          )
       away level i = minus (BoundingBox.distance p (boxAt level i)) Tolerance.coincident
 
 -- | All things in order.

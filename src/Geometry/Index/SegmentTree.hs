@@ -2,12 +2,13 @@
 {-# LANGUAGE MagicHash #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Boxes around segments in the order of the walk: a box round each run of eight consecutive ones, one round eight such
--- boxes, and so on. A walk's own order is a good order in the plane, so nothing is sorted. Single segments have their boxes
--- computed when they are asked for, which costs less than to keep them.
+-- | Boxes around segments in the order of the walk: a box round each run of eight consecutive ones,
+-- one round eight such boxes, and so on. A walk's own order is a good order in the plane, so
+-- nothing is sorted. Single segments have their boxes computed when they are asked for, which costs
+-- less than to keep them.
 --
--- A run that goes forward in some direction all along its way does not meet itself. So every box knows in which of eight
--- directions all that it holds goes forward.
+-- A run that goes forward in some direction all along its way does not meet itself. So every box
+-- knows in which of eight directions all that it holds goes forward.
 module Geometry.Index.SegmentTree
   ( SegmentTree,
     boxes,
@@ -29,9 +30,17 @@ import GHC.Exts (Double (D#), Int (I#), uncheckedIShiftRL#, (>=##))
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | The chain and the margin of its boxes in mm. Of the boxes, level after level: least x, least y, largest x, largest y; the
--- directions; and where each level begins and how many boxes it has.
-data SegmentTree = SegmentTree {chain :: ClosedPolyarcs, margin :: Double, sides :: PrimArray Double, ways :: PrimArray Word8, begins :: PrimArray Int, counts :: PrimArray Int, highest :: Int}
+-- | The chain and the margin of its boxes in mm. Of the boxes, level after level: least x, least y,
+-- largest x, largest y; the directions; and where each level begins and how many boxes it has.
+data SegmentTree = SegmentTree
+  { chain :: ClosedPolyarcs,
+    margin :: Double,
+    sides :: PrimArray Double,
+    ways :: PrimArray Word8,
+    begins :: PrimArray Int,
+    counts :: PrimArray Int,
+    highest :: Int
+  }
 
 -- | So many segments, or boxes, are in a box.
 fan :: Int
@@ -44,8 +53,8 @@ leaf bs i k = segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx +
     m = margin bs
 {-# INLINE leaf #-}
 
--- | The box of a segment without a margin. An arc of half a turn or less lies in the parallelogram over its chord that its
--- highest point touches.
+-- | The box of a segment without a margin. An arc of half a turn or less lies in the parallelogram
+-- over its chord that its highest point touches.
 segmentBox :: ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBox c i k = k lx ly hx hy
   where
@@ -69,7 +78,8 @@ reaches (D# a) (D# b) = I# (a >=## b)
 
 -- | Whether there is a segment of this number, and not the copy of a first vertex.
 present :: ClosedPolyarcs -> Int -> Bool
-present c i = not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))
+present c i =
+  not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))
 {-# INLINE present #-}
 
 -- | The box of the run of eight to which a segment belongs.
@@ -87,7 +97,12 @@ whole :: SegmentTree -> (Double -> Double -> Double -> Double -> r) -> r
 whole bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
 boxAt :: PrimArray Double -> Int -> (Double -> Double -> Double -> Double -> r) -> r
-boxAt a k next = next (indexPrimArray a (4 * k)) (indexPrimArray a (4 * k + 1)) (indexPrimArray a (4 * k + 2)) (indexPrimArray a (4 * k + 3))
+boxAt a k next =
+  next
+    (indexPrimArray a (4 * k))
+    (indexPrimArray a (4 * k + 1))
+    (indexPrimArray a (4 * k + 2))
+    (indexPrimArray a (4 * k + 3))
 {-# INLINE boxAt #-}
 
 -- | The boxes of a chain, each wider by a margin in mm on every side.
@@ -132,7 +147,13 @@ boxes !m !c = runST $ do
                           a' <- readPrimArray cs (4 * i + 2)
                           b' <- readPrimArray cs (4 * i + 3)
                           w' <- readPrimArray ws i
-                          gather (i + 1) (least lx a) (least ly b) (most hx a') (most hy b') (w .&. fromIntegral w')
+                          gather
+                            (i + 1)
+                            (least lx a)
+                            (least ly b)
+                            (most hx a')
+                            (most hy b')
+                            (w .&. fromIntegral w')
                   gather (o + fan * k) far far (-far) (-far) everyWay
                   node (k + 1)
           node 0
@@ -140,7 +161,12 @@ boxes !m !c = runST $ do
   when (n == 0) $ put 0 far far (-far) (-far) 0
   runs 0
   up 0 lowest
-  SegmentTree c m <$> unsafeFreezePrimArray cs <*> unsafeFreezePrimArray ws <*> pure (primArrayFromList (scanl (+) 0 levels)) <*> pure (primArrayFromList levels) <*> pure (length levels - 1)
+  SegmentTree c m
+    <$> unsafeFreezePrimArray cs
+      <*> unsafeFreezePrimArray ws
+      <*> pure (primArrayFromList (scanl (+) 0 levels))
+      <*> pure (primArrayFromList levels)
+      <*> pure (length levels - 1)
   where
     sizes count = if count == 1 then [1] else count : sizes ((count + fan - 1) `quot` fan)
 
@@ -154,22 +180,35 @@ most a b = if a > b then a else b
 {-# INLINE most #-}
 
 -- | Extend a box over the vertices and arcs of the segments from one to before another one.
-runBox :: ClosedPolyarcs -> Int -> Int -> Double -> Double -> Double -> Double -> (Double -> Double -> Double -> Double -> r) -> r
+runBox ::
+  ClosedPolyarcs ->
+  Int ->
+  Int ->
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  (Double -> Double -> Double -> Double -> r) ->
+  r
 runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
   where
     go !i !lx !ly !hx !hy
       | i >= e = k lx ly hx hy
       | b == 0 = go (i + 1) (least lx x) (least ly y) (most hx x) (most hy y)
-      | otherwise = segmentBox c i (\px py qx qy -> go (i + 1) (least lx px) (least ly py) (most hx qx) (most hy qy))
+      | otherwise =
+        segmentBox
+          c
+          i
+          (\px py qx qy -> go (i + 1) (least lx px) (least ly py) (most hx qx) (most hy qy))
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
         x = indexPrimArray (ClosedPolyarcs.xs c) (i + 1)
         y = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
 {-# INLINE runBox #-}
 
--- | Of eight directions those in which all segments from one to before another one go forward, of the two that are next to
--- the way from the first vertex to the last. As a set of bits. Each segment goes forward by so much more than the margin
--- that those before and behind it cannot meet.
+-- | Of eight directions those in which all segments from one to before another one go forward, of
+-- the two that are next to the way from the first vertex to the last. As a set of bits. Each
+-- segment goes forward by so much more than the margin that those before and behind it cannot meet.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -184,11 +223,15 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
     !enough = 32 * m
     go !i !axis !diagonal
       | axis <= enough && diagonal <= enough = 0
-      | i >= e = (if axis > enough then axisBit else 0) .|. (if diagonal > enough then diagonalBit else 0)
+      | i >= e =
+        (if axis > enough then axisBit else 0) .|. (if diagonal > enough then diagonalBit else 0)
       | ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i) = 0
-      | b == 0 = ClosedPolyarcs.chord c i $ \dx dy -> go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
+      | b == 0 =
+        ClosedPolyarcs.chord c i $ \dx dy ->
+          go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        -- The directions at both ends of an arc, as long as the chord or longer, on either side of it.
+        -- The directions at both ends of an arc, as long as the chord or longer, on either side of
+        -- it.
         let co = 1 - b * b
             si = 2 * b
             forward px py = co * (px * dx + py * dy) - abs (si * (px * dy - py * dx))
@@ -205,10 +248,12 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
 everyWay :: Int
 everyWay = 255
 
--- | Visit every two segments whose boxes overlap and that may meet, the earlier one first, as long as the test allows.
+-- | Visit every two segments whose boxes overlap and that may meet, the earlier one first, as long
+-- as the test allows.
 pairs :: SegmentTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn visit = do
-  -- Of some runs the boxes of the segments, each run in the slot of its number's last digit or in a spare one; and the runs.
+  -- Of some runs the boxes of the segments, each run in the slot of its number's last digit or in a
+  -- spare one; and the runs.
   near <- Near <$> newPrimArray (answer + 1) <*> newPrimArray answer
   held <- newPrimArray (fan + 1)
   setPrimArray held 0 (fan + 1) (-1)
@@ -216,7 +261,9 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
       -- What is in a box of a level, and in two different boxes of one.
       within !l !a
         | way (at l + a) /= 0 = pure ()
-        | l == 0 = load (slot a) a >> amongThem near (slot a) >> found near >>= visits (fan * a) (fan * slot a) (fan * a) (fan * slot a)
+        | l == 0 =
+          load (slot a) a >> amongThem near (slot a) >> found near
+            >>= visits (fan * a) (fan * slot a) (fan * a) (fan * slot a)
         | otherwise = do
           more <- goesOn
           when more (among (l - 1) a)
@@ -224,15 +271,26 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
         | b == a + 1 && way (at l + a) .&. way (at l + b) /= 0 = pure ()
         | l == 0 = do
           load (slot a) a
-          boxAt sides b (\lx ly hx hy -> against near (slot a) (least' (stepX grid lx) (stepY grid ly)) (largest' (stepX grid hx) (stepY grid hy)))
+          boxAt
+            sides
+            b
+            ( \lx ly hx hy ->
+                against
+                  near
+                  (slot a)
+                  (least' (stepX grid lx) (stepY grid ly))
+                  (largest' (stepX grid hx) (stepY grid hy))
+            )
           some <- found near
           when (some /= 0) $ do
             let other = if slot a == slot b then fan else slot b
             load other b
             overlapping near (slot a) some other
             found near >>= visits (fan * a) (fan * slot a) (fan * b) (fan * other)
-        | otherwise = boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
-      -- The boxes of a level that are in one above; those from i to e, and those that are in another one above.
+        | otherwise =
+          boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
+      -- The boxes of a level that are in one above; those from i to e, and those that are in
+      -- another one above.
       among !l !a = go (fan * a)
         where
           !e = min (size l) (fan * a + fan)
@@ -243,18 +301,22 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
       across !l !i !e !b !lx !ly !hx !hy
         | i >= e = pure ()
         | otherwise = do
-          when (overlaps sides (at l + i) lx ly hx hy) $ boxAt sides (at l + i) (follow l i (fan * b) (min (size l) (fan * b + fan)))
+          when (overlaps sides (at l + i) lx ly hx hy) $
+            boxAt sides (at l + i) (follow l i (fan * b) (min (size l) (fan * b + fan)))
           across l (i + 1) e b lx ly hx hy
       follow !l !i !j !e !lx !ly !hx !hy
         | j >= e = pure ()
-        | otherwise = when (overlaps sides (at l + j) lx ly hx hy) (between l i j) >> follow l i (j + 1) e lx ly hx hy
+        | otherwise =
+          when (overlaps sides (at l + j) lx ly hx hy) (between l i j)
+            >> follow l i (j + 1) e lx ly hx hy
       -- Have the boxes of a run's segments in a slot.
       load !s !r = do
         r' <- readPrimArray held s
         when (r' /= r) $ do
           writePrimArray held s r
           fill bs grid near s r
-      -- Of the segments of two runs, from those on whose boxes are in these places, the ones that a set says.
+      -- Of the segments of two runs, from those on whose boxes are in these places, the ones that a
+      -- set says.
       visits !a !p !b !q !set
         | set == 0 = pure ()
         | otherwise = do
@@ -272,9 +334,10 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
     slot r = r .&. (fan - 1)
 {-# INLINE pairs #-}
 
--- | A grid of 2²⁹ steps over the box of everything: half the steps in a mm, and half of what is added to coordinates in steps.
--- Both coordinates of a corner go into one word. The bits above both of them are set in a largest corner: where a least
--- corner is taken from it, those stay that belong to coordinates in which it is no larger.
+-- | A grid of 2²⁹ steps over the box of everything: half the steps in a mm, and half of what is
+-- added to coordinates in steps. Both coordinates of a corner go into one word. The bits above both
+-- of them are set in a largest corner: where a least corner is taken from it, those stay that
+-- belong to coordinates in which it is no larger.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
 -- | Coordinates begin so far above 0 that no rounding takes one below it.
@@ -298,7 +361,8 @@ largest' x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsafeSh
 {-# INLINE least' #-}
 {-# INLINE largest' #-}
 
--- | The least and the largest corners of boxes, in slots of eight; behind the least ones a set of them, as bits.
+-- | The least and the largest corners of boxes, in slots of eight; behind the least ones a set of
+-- them, as bits.
 data Near s = Near (MutablePrimArray s Int) (MutablePrimArray s Int)
 
 -- | The set that was found last, and where it is.
@@ -320,10 +384,11 @@ surely (Near lows highs) !p !q = do
     apart = 0x0000000300000003
 {-# INLINE surely #-}
 
--- | The same of the boxes of two segments to within rounding: twice the boxes, from middle and width, good to a few units in
--- the last place, which are much less than the margin.
+-- | The same of the boxes of two segments to within rounding: twice the boxes, from middle and
+-- width, good to a few units in the last place, which are much less than the margin.
 exactly :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-exactly !m !c !i !j = twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
+exactly !m !c !i !j =
+  twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
   where
     twice k next =
       let !x0 = indexPrimArray (ClosedPolyarcs.xs c) k
@@ -343,9 +408,11 @@ exactly !m !c !i !j = twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= 
     {-# INLINE twice #-}
 {-# NOINLINE exactly #-}
 
--- | Write the corners of the boxes of a run's segments into a slot. What is no segment overlaps nothing.
+-- | Write the corners of the boxes of a run's segments into a slot. What is no segment overlaps
+-- nothing.
 fill :: SegmentTree -> Grid -> Near s -> Int -> Int -> ST s ()
-fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r = go (fan * s) begin (stepsX begin) (stepsY begin)
+fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r =
+  go (fan * s) begin (stepsX begin) (stepsY begin)
   where
     !begin = fan * r
     !e = min (begin + fan) (sizeofPrimArray (ClosedPolyarcs.xs c) - 1)
@@ -366,7 +433,9 @@ fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !low
             !cy = y + y' - oy
             !wx = abs dx + abs ox + twice
             !wy = abs dy + abs oy + twice
-        if present c i then put k (least' (cx - wx) (cy - wy)) (largest' (cx + wx) (cy + wy)) else none k
+        if present c i
+          then put k (least' (cx - wx) (cy - wy)) (largest' (cx + wx) (cy + wy))
+          else none k
         go (k + 1) (i + 1) x' y'
     -- A chain ends with no segment.
     rest !k
@@ -403,11 +472,13 @@ against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
         go (k - 1) (set + set + hit)
 {-# NOINLINE against #-}
 
--- | Which two boxes of a slot overlap, as a set of bits: eight times the first one's number and the second one's.
+-- | Which two boxes of a slot overlap, as a set of bits: eight times the first one's number and the
+-- second one's.
 amongThem :: Near s -> Int -> ST s ()
 amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
   where
-    -- Few numbers are at hand in the loop, so that all of them stay in the processor: slots begin at multiples of eight.
+    -- Few numbers are at hand in the loop, so that all of them stay in the processor: slots begin
+    -- at multiples of eight.
     first !k !set = do
       low <- readPrimArray lows k
       high <- readPrimArray highs k
@@ -415,8 +486,10 @@ amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
             | q > k = do
               hit <- touches lows highs q low high
               second (q - 1) (hits + hits + hit)
-            | k .&. (fan - 1) == 0 = writePrimArray lows answer (set `unsafeShiftL` fan + hits + hits)
-            | otherwise = first (k - 1) (set `unsafeShiftL` fan + hits `unsafeShiftL` ((k .&. (fan - 1)) + 1))
+            | k .&. (fan - 1) == 0 =
+              writePrimArray lows answer (set `unsafeShiftL` fan + hits + hits)
+            | otherwise =
+              first (k - 1) (set `unsafeShiftL` fan + hits `unsafeShiftL` ((k .&. (fan - 1)) + 1))
       second (k .|. (fan - 1)) 0
 {-# NOINLINE amongThem #-}
 
@@ -443,23 +516,34 @@ overlapping (Near !lows !highs) !s !some !other = first some 0
 
 -- | Whether a box overlaps another one. Without a branch up to the answer.
 overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
-overlaps a k lx ly hx hy = boxAt a k (\px py qx qy -> reaches hx px .&. reaches qx lx .&. reaches hy py .&. reaches qy ly /= 0)
+overlaps a k lx ly hx hy =
+  boxAt
+    a
+    k
+    (\px py qx qy -> reaches hx px .&. reaches qx lx .&. reaches hy py .&. reaches qy ly /= 0)
 {-# INLINE overlaps #-}
 
 -- | Gather over the segments whose boxes overlap a box, in order.
 around :: SegmentTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
-around SegmentTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f = go highest 0 start
+around SegmentTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
+  go highest 0 start
   where
     n = sizeofPrimArray (ClosedPolyarcs.xs c)
     go !l !k acc
       | not (overlaps sides (indexPrimArray begins l + k) lx ly hx hy) = acc
       | l == 0 = segments (fan * k) (min n (fan * k + fan)) acc
-      | otherwise = children (l - 1) (fan * k) (min (indexPrimArray counts (l - 1)) (fan * k + fan)) acc
+      | otherwise =
+        children (l - 1) (fan * k) (min (indexPrimArray counts (l - 1)) (fan * k + fan)) acc
     children !l !k !e acc
       | k >= e = acc
       | otherwise = let acc' = go l k acc in acc' `seq` children l (k + 1) e acc'
     segments !i !e acc
       | i >= e = acc
-      | present c i && segmentBox c i (\a b a' b' -> a - m <= hx && lx <= a' + m && b - m <= hy && ly <= b' + m) = let acc' = f acc i in acc' `seq` segments (i + 1) e acc'
+      | present c i
+          && segmentBox
+            c
+            i
+            (\a b a' b' -> a - m <= hx && lx <= a' + m && b - m <= hy && ly <= b' + m) =
+        let acc' = f acc i in acc' `seq` segments (i + 1) e acc'
       | otherwise = segments (i + 1) e acc
 {-# INLINE around #-}

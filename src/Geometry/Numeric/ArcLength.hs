@@ -1,8 +1,9 @@
 -- | How far along a curve its parameter leads: the integral of the speed, kept as a table.
 --
--- The stretches between the places where the speed may jump are halved until each piece's speed is a polynomial of
--- degree 7 through the eight nodes of Gauss and Legendre, to 'Tolerance.arcLength'. The table holds that polynomial
--- in Legendre's form; over a whole piece its integral is Gauss's quadrature, within a piece it is known in closed form.
+-- The stretches between the places where the speed may jump are halved until each piece's speed is
+-- a polynomial of degree 7 through the eight nodes of Gauss and Legendre, to 'Tolerance.arcLength'.
+-- The table holds that polynomial in Legendre's form; over a whole piece its integral is Gauss's
+-- quadrature, within a piece it is known in closed form.
 module Geometry.Numeric.ArcLength
   ( ArcLength,
     measured,
@@ -28,19 +29,21 @@ data ArcLength = ArcLength
     speeds :: Vector Double
   }
 
--- | What is measured tells a ruler from another; two of one curve are equal, and computing them is left until
--- they are read.
+-- | What is measured tells a ruler from another; two of one curve are equal, and computing them is
+-- left until they are read.
 instance Eq ArcLength where
   _ == _ = True
 
 instance Show ArcLength where
   show _ = "Ruler"
 
--- | A piece: where it begins, its width in the parameter, and the coefficients of its speed over the piece.
+-- | A piece: where it begins, its width in the parameter, and the coefficients of its speed over
+-- the piece.
 data Piece = Piece Double Double (Vector Double)
 
--- | The ruler of a speed (mm for 1 of the parameter, not negative) between the first and the last of these places, in
--- rising order; the speed is smooth between neighbours. It is never asked for at the places themselves.
+-- | The ruler of a speed (mm for 1 of the parameter, not negative) between the first and the last
+-- of these places, in rising order; the speed is smooth between neighbours. It is never asked for
+-- at the places themselves.
 measured :: (Double -> Double) -> [Double] -> ArcLength
 measured speed breaks = ArcLength {starts, lengths, speeds}
   where
@@ -53,13 +56,20 @@ measured speed breaks = ArcLength {starts, lengths, speeds}
 measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Piece]
 measuredBetween speed depth a b
   | b <= a = []
-  | missed <= allowed || isNaN missed || isInfinite missed || depth >= deepest = [Piece a (b - a) cs]
-  | otherwise = measuredBetween speed (depth + 1) a middle <> measuredBetween speed (depth + 1) middle b
+  | missed <= allowed || isNaN missed || isInfinite missed || depth >= deepest =
+    [Piece a (b - a) cs]
+  | otherwise =
+    measuredBetween speed (depth + 1) a middle <> measuredBetween speed (depth + 1) middle b
   where
     middle = 0.5 * (a + b)
     half = 0.5 * (b - a)
     sampled = Unboxed.map (\x -> half * speed (middle + half * x)) nodes
-    cs = Unboxed.generate count (\k -> Unboxed.sum (Unboxed.imap (\i f -> f * (analysis Unboxed.! (k * count + i))) sampled))
+    cs =
+      Unboxed.generate
+        count
+        ( \k ->
+            Unboxed.sum (Unboxed.imap (\i f -> f * (analysis Unboxed.! (k * count + i))) sampled)
+        )
     missed = abs (cs Unboxed.! (count - 2)) + abs (cs Unboxed.! (count - 1))
     Mm finest = Tolerance.arcLength
     allowed = max finest (Tolerance.arcLengthShare * Unboxed.head cs)
@@ -85,7 +95,16 @@ parameterAt :: ArcLength -> Mm -> Double
 parameterAt ruler (Mm s)
   | Unboxed.null (speeds ruler) || s <= 0 = Unboxed.head (starts ruler)
   | Mm s >= total ruler = Unboxed.last (starts ruler)
-  | otherwise = from + 0.5 * width * (1 + RootFinding.zero (\x -> let (run, speed) = within ruler p x in (run - missing, speed)) (-1) 1)
+  | otherwise =
+    from
+      + 0.5
+        * width
+        * ( 1
+              + RootFinding.zero
+                (\x -> let (run, speed) = within ruler p x in (run - missing, speed))
+                (-1)
+                1
+          )
   where
     p = lastBelow s (lengths ruler)
     (from, width) = extent ruler p
@@ -93,13 +112,16 @@ parameterAt ruler (Mm s)
 
 -- | Where a piece begins, and its width in the parameter.
 extent :: ArcLength -> Int -> (Double, Double)
-extent ruler p = let from = starts ruler Unboxed.! p in (from, starts ruler Unboxed.! (p + 1) - from)
+extent ruler p =
+  let from = starts ruler Unboxed.! p in (from, starts ruler Unboxed.! (p + 1) - from)
 
--- | The number of the last of these, in rising order, that is not above a number; never that of the very last one.
+-- | The number of the last of these, in rising order, that is not above a number; never that of the
+-- very last one.
 lastBelow :: Double -> Vector Double -> Int
 lastBelow v sorted = BinarySearch.lastBelow (Unboxed.length sorted - 1) v sorted
 
--- | The length from a piece's beginning to a place in it, from −1 to 1, and the speed there (in mm over a half).
+-- | The length from a piece's beginning to a place in it, from −1 to 1, and the speed there (in mm
+-- over a half).
 -- @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre's polynomials.
 within :: ArcLength -> Int -> Double -> (Double, Double)
 within ruler p x = go 1 1 x (c 0 * (x + 1)) (c 0)
@@ -108,7 +130,8 @@ within ruler p x = go 1 1 x (c 0 * (x + 1)) (c 0)
     go :: Int -> Double -> Double -> Double -> Double -> (Double, Double)
     go k before own run speed
       | k >= count = (run, speed)
-      | otherwise = go (k + 1) own behind (run + c k * (behind - before) / (2 * n + 1)) (speed + c k * own)
+      | otherwise =
+        go (k + 1) own behind (run + c k * (behind - before) / (2 * n + 1)) (speed + c k * own)
       where
         n = fromIntegral k
         behind = ((2 * n + 1) * x * own - n * before) / (n + 1)
@@ -119,7 +142,10 @@ count = 8
 
 -- | The nodes of Gauss and Legendre, the zeros of @P_8@, by Newton's steps.
 nodes :: Vector Double
-nodes = Unboxed.generate count (\i -> iterate improved (-cos (pi * (fromIntegral i + 0.75) / (fromIntegral count + 0.5))) !! 8)
+nodes =
+  Unboxed.generate
+    count
+    (\i -> iterate improved (-cos (pi * (fromIntegral i + 0.75) / (fromIntegral count + 0.5))) !! 8)
   where
     improved x = let (p, slope) = legendre count x in x - p / slope
 
@@ -139,4 +165,8 @@ legendre n x = go 0 0 1
   where
     go k before own
       | k >= n = (own, fromIntegral n * (before - x * own) / (1 - x * x))
-      | otherwise = go (k + 1) own (((2 * fromIntegral k + 1) * x * own - fromIntegral k * before) / (fromIntegral k + 1))
+      | otherwise =
+        go
+          (k + 1)
+          own
+          (((2 * fromIntegral k + 1) * x * own - fromIntegral k * before) / (fromIntegral k + 1))

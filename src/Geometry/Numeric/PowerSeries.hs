@@ -1,8 +1,12 @@
--- | Truncated power series: what a function of a parameter is near one place, as the coefficients of
--- @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order. Sums, products, roots and sines of functions are worked
--- out on the coefficients, so that derivatives of whatever is composed of them are exact but for rounding.
+-- | Truncated power series: what a function of a parameter is near one place, as the coefficients
+-- of
+-- @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order. Sums, products, roots and sines of
+--  functions are worked
+-- out on the coefficients, so that derivatives of whatever is composed of them are exact but for
+-- rounding.
 --
--- The k-th coefficient is the k-th derivative divided by k!. What comes of two series is as long as the shorter one.
+-- The k-th coefficient is the k-th derivative divided by k!. What comes of two series is as long as
+-- the shorter one.
 module Geometry.Numeric.PowerSeries
   ( PowerSeries,
     constant,
@@ -42,7 +46,8 @@ constant n c = PowerSeries (Unboxed.generate (n + 1) (\k -> if k == 0 then c els
 
 -- | Four coefficients, up to an order; those behind them are zero.
 ofFour :: Int -> Double -> Double -> Double -> Double -> PowerSeries
-ofFour n a b c d = PowerSeries (Unboxed.generate (n + 1) (\case 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
+ofFour n a b c d =
+  PowerSeries (Unboxed.generate (n + 1) (\case 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
 
 -- | The first coefficients, up to an order; those that are not named are zero.
 fromList :: Int -> [Double] -> PowerSeries
@@ -79,7 +84,8 @@ plusConstant :: Double -> PowerSeries -> PowerSeries
 plusConstant c (PowerSeries a) = PowerSeries (Unboxed.imap (\k v -> if k == 0 then c + v else v) a)
 
 multiply :: PowerSeries -> PowerSeries -> PowerSeries
-multiply (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.generate n (\k -> summed 0 k (\j -> at a j * at b (k - j))))
+multiply (PowerSeries a) (PowerSeries b) =
+  PowerSeries (Unboxed.generate n (\k -> summed 0 k (\j -> at a j * at b (k - j))))
   where
     n = min (Unboxed.length a) (Unboxed.length b)
 
@@ -88,7 +94,8 @@ divide :: PowerSeries -> PowerSeries -> PowerSeries
 divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
   where
     n = min (Unboxed.length a) (Unboxed.length b)
-    next q = let k = Unboxed.length q in (at a k - summed 1 k (\j -> at b j * at q (k - j))) / at b 0
+    next q =
+      let k = Unboxed.length q in (at a k - summed 1 k (\j -> at b j * at q (k - j))) / at b 0
 
 -- | A real power of a series that is above zero at the place. From @w·p′ = α·w′·p@ for @p = w^α@:
 -- @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
@@ -98,7 +105,9 @@ power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w)
     first = root (at w 0)
     next p = case Unboxed.length p of
       0 -> first
-      k -> summed 1 k (\j -> (alpha * fromIntegral j - fromIntegral (k - j)) * at w j * at p (k - j)) / (fromIntegral k * at w 0)
+      k ->
+        summed 1 k (\j -> (alpha * fromIntegral j - fromIntegral (k - j)) * at w j * at p (k - j))
+          / (fromIntegral k * at w 0)
     root v
       | alpha == 0.5 = sqrt v
       | alpha == -0.5 = 1 / sqrt v
@@ -114,7 +123,8 @@ cosine a = let (_, c) = circular a in c
 tangent :: PowerSeries -> PowerSeries
 tangent a = let (s, c) = circular a in divide s c
 
--- | Sine and cosine together: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@, @c_k = −Σ_{j≥1} j·a_j·s_{k−j} / k@.
+-- | Sine and cosine together: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@, @c_k = −Σ_{j≥1} j·a_j·s_{k−j} /
+-- k@.
 circular :: PowerSeries -> (PowerSeries, PowerSeries)
 circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unboxed.map snd both))
   where
@@ -122,10 +132,13 @@ circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unb
     next found = case Unboxed.length found of
       0 -> (sin (at a 0), cos (at a 0))
       k ->
-        let weighted part = summed 1 k (\j -> fromIntegral j * at a j * part (Unboxed.unsafeIndex found (k - j))) / fromIntegral k
+        let weighted part =
+              summed 1 k (\j -> fromIntegral j * at a j * part (Unboxed.unsafeIndex found (k - j)))
+                / fromIntegral k
          in (weighted snd, negate (weighted fst))
 
--- | The derivative, one order less. Of a series of order 0 nothing is known; that has the derivative 0.
+-- | The derivative, one order less. Of a series of order 0 nothing is known; that has the
+-- derivative 0.
 derivative :: PowerSeries -> PowerSeries
 derivative (PowerSeries a)
   | Unboxed.length a <= 1 = PowerSeries (Unboxed.singleton 0)
@@ -133,7 +146,8 @@ derivative (PowerSeries a)
 
 -- | The integral that has this value at the place, one order more.
 integral :: Double -> PowerSeries -> PowerSeries
-integral c (PowerSeries a) = PowerSeries (Unboxed.cons c (Unboxed.imap (\k v -> v / fromIntegral (k + 1)) a))
+integral c (PowerSeries a) =
+  PowerSeries (Unboxed.cons c (Unboxed.imap (\k v -> v / fromIntegral (k + 1)) a))
 
 -- | A polynomial, its coefficients from the constant on, of a series.
 polynomial :: [Double] -> PowerSeries -> PowerSeries

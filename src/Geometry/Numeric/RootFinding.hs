@@ -8,8 +8,9 @@ where
 
 import Geometry.Tolerance qualified as Tolerance
 
--- | The place between two others, at which the signs of the function differ, where it passes zero. The function gives
--- its value and its slope. Newton's steps where they stay between the two places and close in, halving where not.
+-- | The place between two others, at which the signs of the function differ, where it passes zero.
+-- The function gives its value and its slope. Newton's steps where they stay between the two places
+-- and close in, halving where not.
 zero :: (Double -> (Double, Double)) -> Double -> Double -> Double
 zero f from to = go most from to (0.5 * (from + to))
   where

@@ -41,22 +41,33 @@ speed :: TaylorExpansion -> PowerSeries
 speed jet = PowerSeries.power 0.5 (squaredSpeed jet)
 
 squaredSpeed :: TaylorExpansion -> PowerSeries
-squaredSpeed (TaylorExpansion a b) = PowerSeries.add (PowerSeries.multiply a' a') (PowerSeries.multiply b' b')
+squaredSpeed (TaylorExpansion a b) =
+  PowerSeries.add (PowerSeries.multiply a' a') (PowerSeries.multiply b' b')
   where
     a' = PowerSeries.derivative a
     b' = PowerSeries.derivative b
 
--- | The point moved along the left normal by a distance (mm, to the right when negative), one order less:
+-- | The point moved along the left normal by a distance (mm, to the right when negative), one order
+-- less:
 -- @P = C + d·N@, @N = (−y′, x′)/√(x′² + y′²)@. The point does not stand still.
 moved :: PowerSeries -> TaylorExpansion -> TaylorExpansion
-moved d (TaylorExpansion a b) = TaylorExpansion (PowerSeries.subtract a (PowerSeries.multiply e b')) (PowerSeries.add b (PowerSeries.multiply e a'))
+moved d (TaylorExpansion a b) =
+  TaylorExpansion
+    (PowerSeries.subtract a (PowerSeries.multiply e b'))
+    (PowerSeries.add b (PowerSeries.multiply e a'))
   where
     a' = PowerSeries.derivative a
     b' = PowerSeries.derivative b
-    e = PowerSeries.multiply d (PowerSeries.power (-0.5) (PowerSeries.add (PowerSeries.multiply a' a') (PowerSeries.multiply b' b')))
+    e =
+      PowerSeries.multiply
+        d
+        ( PowerSeries.power
+            (-0.5)
+            (PowerSeries.add (PowerSeries.multiply a' a') (PowerSeries.multiply b' b'))
+        )
 
--- | The direction of the motion, of length 1. Where the point stands still it is the limit from the side asked for,
--- by the first derivative that does not vanish.
+-- | The direction of the motion, of length 1. Where the point stands still it is the limit from the
+-- side asked for, by the first derivative that does not vanish.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
 direction approach (TaylorExpansion a b) = case find moves (zip [1 :: Int ..] derivatives) of
   Just (k, v) -> Just (Vec.unit (if even k && approach == Before then Vec.negate v else v))
@@ -67,7 +78,8 @@ direction approach (TaylorExpansion a b) = case find moves (zip [1 :: Int ..] de
 
 -- | The curvature, in 1/mm, positive when the way bends to the left. The order is at least 2.
 curvature :: TaylorExpansion -> Double
-curvature (TaylorExpansion a b) = 2 * (a1 * PowerSeries.coefficient 2 b - b1 * PowerSeries.coefficient 2 a) / (w * sqrt w)
+curvature (TaylorExpansion a b) =
+  2 * (a1 * PowerSeries.coefficient 2 b - b1 * PowerSeries.coefficient 2 a) / (w * sqrt w)
   where
     a1 = PowerSeries.coefficient 1 a
     b1 = PowerSeries.coefficient 1 b
@@ -75,9 +87,13 @@ curvature (TaylorExpansion a b) = 2 * (a1 * PowerSeries.coefficient 2 b - b1 * P
 
 -- | The curvature as a series, two orders less: @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@.
 bending :: TaylorExpansion -> PowerSeries
-bending jet@(TaylorExpansion a b) = PowerSeries.multiply turning (PowerSeries.multiply slow (PowerSeries.multiply slow slow))
+bending jet@(TaylorExpansion a b) =
+  PowerSeries.multiply turning (PowerSeries.multiply slow (PowerSeries.multiply slow slow))
   where
     a' = PowerSeries.derivative a
     b' = PowerSeries.derivative b
-    turning = PowerSeries.subtract (PowerSeries.multiply a' (PowerSeries.derivative b')) (PowerSeries.multiply b' (PowerSeries.derivative a'))
+    turning =
+      PowerSeries.subtract
+        (PowerSeries.multiply a' (PowerSeries.derivative b'))
+        (PowerSeries.multiply b' (PowerSeries.derivative a'))
     slow = PowerSeries.power (-0.5) (squaredSpeed jet)

@@ -3,8 +3,9 @@
 {-# LANGUAGE RankNTypes #-}
 {-# LANGUAGE TypeFamilies #-}
 
--- | The reader for programs without a mistake: it goes straight through the tokens and gives up at the first
--- mistake, of which it says nothing. It gives what the one that explains would give without errors.
+-- | The reader for programs without a mistake: it goes straight through the tokens and gives up at
+-- the first mistake, of which it says nothing. It gives what the one that explains would give
+-- without errors.
 module Surface.Combinator.Fast
   ( Quick,
     run,
@@ -21,17 +22,18 @@ import Surface.TokenStream (Input (..))
 import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
--- | What is left to read, how many tokens may still be read, where the last one ended, how many brackets are open, and how
--- many blocks of statements.
+-- | What is left to read, how many tokens may still be read, where the last one ended, how many
+-- brackets are open, and how many blocks of statements.
 data Ahead = Ahead {left :: [Token], room :: Int, ended :: Int, open :: Int, blocks :: Int}
 
--- | How to go on with what was read; how to go on when it could not be read, by the room that was left at the mistake:
--- another way may be tried only where this one began.
+-- | How to go on with what was read; how to go on when it could not be read, by the room that was
+-- left at the mistake: another way may be tried only where this one began.
 newtype Quick a = Quick (forall r. Ahead -> (a -> Ahead -> r) -> (Int -> r) -> r)
 
 -- | Run a parser over so many tokens at most; nothing when there are more, or a mistake.
 run :: Int -> Quick a -> [Token] -> Maybe a
-run most (Quick p) ts = p Ahead {left = ts, room = most, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
+run most (Quick p) ts =
+  p Ahead {left = ts, room = most, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
 
 -- | A mistake for which no other way may be tried.
 final :: Int
@@ -45,7 +47,8 @@ instance Functor Quick where
 instance Applicative Quick where
   pure !a = Quick (\s ok _ -> ok a s)
   {-# INLINE pure #-}
-  Quick p <*> Quick q = Quick (\s ok no -> p s (\f s' -> q s' (\a s'' -> let !b = f a in ok b s'') no) no)
+  Quick p <*> Quick q =
+    Quick (\s ok no -> p s (\f s' -> q s' (\a s'' -> let !b = f a in ok b s'') no) no)
   {-# INLINE (<*>) #-}
   Quick p *> Quick q = Quick (\s ok no -> p s (\_ s' -> q s' ok no) no)
   {-# INLINE (*>) #-}
@@ -59,7 +62,8 @@ instance Monad Quick where
 instance Alternative Quick where
   empty = Quick (\s _ no -> no (room s))
   {-# INLINE empty #-}
-  Quick p <|> Quick q = Quick (\s ok no -> p s ok (\at -> if at == room s then q s ok no else no at))
+  Quick p <|> Quick q =
+    Quick (\s ok no -> p s ok (\at -> if at == room s then q s ok no else no at))
   {-# INLINE (<|>) #-}
 
 instance MonadPlus Quick
@@ -74,7 +78,8 @@ instance MonadParsec Problem Input Quick where
   try (Quick p) = Quick (\s ok no -> p s ok (\at -> no (if at == final then final else room s)))
   lookAhead (Quick p) = Quick (\s ok no -> p s (\a _ -> ok a s) no)
   {-# INLINE lookAhead #-}
-  notFollowedBy (Quick p) = Quick (\s ok no -> p s (\_ _ -> no (room s)) (\at -> if at == final then no final else ok () s))
+  notFollowedBy (Quick p) =
+    Quick (\s ok no -> p s (\_ _ -> no (room s)) (\at -> if at == final then no final else ok () s))
   withRecovery _ (Quick p) = Quick (\s ok no -> p s ok (\_ -> no final))
   {-# INLINE withRecovery #-}
   observing p = Right <$> p
@@ -87,30 +92,57 @@ instance MonadParsec Problem Input Quick where
   {-# INLINE token #-}
   tokens fits wanted = Quick $ \s ok no ->
     let (taken, rest) = splitAt (length wanted) (left s)
-     in if fits wanted taken then ok taken s {left = rest, room = room s - length taken} else no (room s)
-  takeWhileP _ holds = Quick $ \s ok _ -> let (taken, rest) = span holds (left s) in ok taken s {left = rest, room = room s - length taken}
-  takeWhile1P what holds = takeWhileP what holds >>= \taken -> if null taken then empty else pure taken
+     in if fits wanted taken
+          then ok taken s {left = rest, room = room s - length taken}
+          else no (room s)
+  takeWhileP _ holds =
+    Quick $ \s ok _ ->
+      let (taken, rest) =
+            span holds (left s)
+       in ok taken s {left = rest, room = room s - length taken}
+  takeWhile1P what holds =
+    takeWhileP what holds >>= \taken -> if null taken then empty else pure taken
   takeP _ n = Quick $ \s ok no ->
     let (taken, rest) = splitAt n (left s)
-     in if length taken == max 0 n then ok taken s {left = rest, room = room s - length taken} else no (room s)
+     in if length taken == max 0 n
+          then ok taken s {left = rest, room = room s - length taken}
+          else no (room s)
   getParserState = Quick (\s ok _ -> ok (stateOf s) s)
   {-# INLINE getParserState #-}
   updateParserState f = Quick $ \s ok _ ->
-    let Parsec.State {Parsec.stateInput = Input ts, Parsec.stateOffset} = f (stateOf s) in ok () s {left = ts, room = negate stateOffset}
+    let Parsec.State {Parsec.stateInput = Input ts, Parsec.stateOffset} =
+          f (stateOf s)
+     in ok () s {left = ts, room = negate stateOffset}
 
 -- | The state as megaparsec has it.
 stateOf :: Ahead -> Parsec.State Input Problem
-stateOf s = Parsec.State {Parsec.stateInput = Input (left s), Parsec.stateOffset = negate (room s), Parsec.statePosState = nowhere (left s), Parsec.stateParseErrors = []}
+stateOf s =
+  Parsec.State
+    { Parsec.stateInput = Input (left s),
+      Parsec.stateOffset = negate (room s),
+      Parsec.statePosState = nowhere (left s),
+      Parsec.stateParseErrors = []
+    }
 {-# INLINE stateOf #-}
 
 instance Grammar Quick where
   token _ accept = Quick $ \s ok no -> case left s of
     t : rest
       | room s <= 0 -> no final
-      | Just a <- accept t -> ok a s {left = rest, room = room s - 1, ended = Region.end (Token.place t)}
+      | Just a <- accept t ->
+        ok a s {left = rest, room = room s - 1, ended = Region.end (Token.place t)}
     _ -> no (room s)
   {-# INLINE token #-}
-  several (Quick p) = Quick (\s ok no -> let more as s' = p s' (\a -> more (a : as)) (\at -> if at == room s' then let !all' = reverse as in ok all' s' else no at) in more [] s)
+  several (Quick p) =
+    Quick
+      ( \s ok no ->
+          let more as s' =
+                p
+                  s'
+                  (\a -> more (a : as))
+                  (\at -> if at == room s' then let !all' = reverse as in ok all' s' else no at)
+           in more [] s
+      )
   {-# INLINE several #-}
   blaming _ p = p
   {-# INLINE blaming #-}
@@ -118,18 +150,30 @@ instance Grammar Quick where
   {-# INLINE upcoming #-}
   atOnce whole (Quick p) = Quick $ \s ok no -> case whole (left s) of
     Just (Taken a count rest)
-      | count <= room s && open s < deepest - 2 -> ok a s {left = rest, room = room s - count, ended = Region.end (Region.region a)}
+      | count <= room s && open s < deepest - 2 ->
+        ok a s {left = rest, room = room s - count, ended = Region.end (Region.region a)}
     _ -> p s ok no
   {-# INLINE atOnce #-}
-  wordAhead = Quick (\s ok _ -> ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s)
+  wordAhead =
+    Quick
+      ( \s ok _ ->
+          ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s
+      )
   {-# INLINE wordAhead #-}
   memory = Quick (\s ok _ -> ok (memoryOf s) s)
   {-# INLINE memory #-}
-  remember f = Quick (\s ok _ -> let m = f (memoryOf s) in ok () s {ended = lastEnd m, open = depth m, blocks = within m})
+  remember f =
+    Quick
+      ( \s ok _ ->
+          let m =
+                f (memoryOf s)
+           in ok () s {ended = lastEnd m, open = depth m, blocks = within m}
+      )
   {-# INLINE remember #-}
 
 memoryOf :: Ahead -> Memory
-memoryOf s = Memory {failures = [], lastEnd = ended s, depth = open s, within = blocks s, gaveUp = False}
+memoryOf s =
+  Memory {failures = [], lastEnd = ended s, depth = open s, within = blocks s, gaveUp = False}
 {-# INLINE memoryOf #-}
 
 -- | Lines and columns, which are not counted here.

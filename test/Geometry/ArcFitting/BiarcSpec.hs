@@ -1,5 +1,6 @@
--- | The laws of biarcs. Each says which bug it would catch. Distances are measured here by other means than in the
--- program: to an arc by angles, to the curve by the nearest of many of its points.
+-- | The laws of biarcs. Each says which bug it would catch. Distances are measured here by other
+-- means than in the program: to an arc by angles, to the curve by the nearest of many of its
+-- points.
 module Geometry.ArcFitting.BiarcSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -31,56 +32,84 @@ spec = do
     it "biarc: it has the ends and directions given, and no kink (catches a joint off its place)" $
       property $
         forAll pair joinLaw
-    it "biarc: there is one for all directions less than square to the chord (catches a formula that parallel directions break)" $
-      property $
+    it
+      "biarc: there is one for all directions less than square to the chord (catches a formula \
+      \that parallel directions break)"
+      $ property $
         forAll (mild 1.57) $ \(a, b) -> counterexample "none" (isJust (Biarc.join a b))
     it "biarc: backwards it is the same (catches a ratio that favours one end)" $
       property $
         forAll (mild 1.5) backwardsLaw
-    it "biarc: what bends to one side stays so (catches equal chords where the angles differ much)" $
-      property $
+    it
+      "biarc: what bends to one side stays so (catches equal chords where the angles differ much)"
+      $ property $
         forAll oneSided oneSidedLaw
     it "is one line between ends in line, and one arc between ends of an arc" $ do
       fmap length (Biarc.join (Vec.point 1 2, east) (Vec.point 5 2, east)) `shouldBe` Just 1
-      fmap (fmap Segment.length) (Biarc.join (Vec.point 5 0, Vec.vec 0 1) (Vec.point (-5) 0, Vec.vec 0 (-1))) `shouldSatisfy` \case
-        Just (Mm l :| []) -> abs (l - 5 * pi) < 1e-9
-        _ -> False
+      fmap
+        (fmap Segment.length)
+        (Biarc.join (Vec.point 5 0, Vec.vec 0 1) (Vec.point (-5) 0, Vec.vec 0 (-1)))
+        `shouldSatisfy` \case
+          Just (Mm l :| []) -> abs (l - 5 * pi) < 1e-9
+          _ -> False
     it "is two half circles between parallel ends square to the chord" $
-      fmap (fmap (roundTo . sweepOf)) (Biarc.join (Vec.point 0 0, Vec.vec 0 1) (Vec.point 4 0, Vec.vec 0 1)) `shouldBe` Just (roundTo (-pi) :| [roundTo pi])
+      fmap
+        (fmap (roundTo . sweepOf))
+        (Biarc.join (Vec.point 0 0, Vec.vec 0 1) (Vec.point 4 0, Vec.vec 0 1))
+        `shouldBe` Just (roundTo (-pi) :| [roundTo pi])
     it "is nothing between points that are one, and where it would turn too far" $ do
       Biarc.join (Vec.point 1 1, east) (Vec.point 1 1, east) `shouldBe` Nothing
       Biarc.join (Vec.point 0 0, Vec.vec (-1) 0) (Vec.point 4 0, Vec.vec (-1) 0) `shouldBe` Nothing
   describe "biarcs through points" $ do
-    it "through: in order through every point, without a kink, and closed (catches a direction that a neighbour does not share)" $
-      property $
+    it
+      "through: in order through every point, without a kink, and closed (catches a direction that \
+      \a neighbour does not share)"
+      $ property $
         forAll ((,) <$> elements [Open, Closed] <*> scattered) (uncurry throughLaw)
-    it "through: points of a circle give the circle, points of a line the line (catches a direction that is only nearly the circle's)" $
-      property $
+    it
+      "through: points of a circle give the circle, points of a line the line (catches a direction \
+      \that is only nearly the circle's)"
+      $ property $
         forAll ((,) <$> elements [Open, Closed] <*> onCircle) (uncurry circleLaw)
     it "joins two points by a line, and closed by a circle" $ do
-      Biarc.through Open (Vec.point 0 0 :| [Vec.point 4 0]) `shouldBe` (Straight (Vec.point 0 0) (Vec.point 4 0) :| [])
-      fmap (roundTo . sweepOf) (Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0])) `shouldBe` (roundTo pi :| [roundTo pi])
+      Biarc.through Open (Vec.point 0 0 :| [Vec.point 4 0])
+        `shouldBe` (Straight (Vec.point 0 0) (Vec.point 4 0) :| [])
+      fmap (roundTo . sweepOf) (Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0]))
+        `shouldBe` (roundTo pi :| [roundTo pi])
     it "takes points at one place for one" $
-      Biarc.through Closed (Vec.point 0 0 :| [Vec.point 0 0, Vec.point 4 0, Vec.point 4 3, Vec.point 0 0])
+      Biarc.through
+        Closed
+        (Vec.point 0 0 :| [Vec.point 0 0, Vec.point 4 0, Vec.point 4 3, Vec.point 0 0])
         `shouldBe` Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0, Vec.point 4 3])
   describe "biarcs along a curve" $ do
-    it "approximate: every point of the curve is near the arcs (catches a deviation seen at too few points)" $
-      property $
+    it
+      "approximate: every point of the curve is near the arcs (catches a deviation seen at too few \
+      \points)"
+      $ property $
         forAll tracked curveLaw
-    it "approximate: every point of the arcs is near the curve (catches an arc the long way round)" $
-      property $
+    it
+      "approximate: every point of the arcs is near the curve (catches an arc the long way round)"
+      $ property $
         forAll tracked arcsLaw
-    it "approximate: so it is where the curve turns back within a radius far below the tolerance (catches an arc that overshoots)" $
-      property $
+    it
+      "approximate: so it is where the curve turns back within a radius far below the tolerance \
+      \(catches an arc that overshoots)"
+      $ property $
         forAll turning arcsLaw
-    it "approximate: no kink but at corners, and a group for each stretch between them (catches a small kink taken for a corner)" $
-      property $
+    it
+      "approximate: no kink but at corners, and a group for each stretch between them (catches a \
+      \small kink taken for a corner)"
+      $ property $
         forAll tracked kinkLaw
-    it "approximate: hardly more than the best choice among 64 joints needs (catches a step that stops early)" $
-      property $
+    it
+      "approximate: hardly more than the best choice among 64 joints needs (catches a step that \
+      \stops early)"
+      $ property $
         forAll tracked fewLaw
-    it "along cubics: hardly more than the best choice among 64 joints needs (catches a step that stops early)" $
-      property $
+    it
+      "along cubics: hardly more than the best choice among 64 joints needs (catches a step that \
+      \stops early)"
+      $ property $
         forAll smoothCubic fewOnCubicsLaw
     it "approximate: 10 m at 1e-5 mm (catches distances that lose their digits)" $
       property $
@@ -95,8 +124,12 @@ spec = do
                 cover 20 (doublesBack c) "doubles back" True
     it "comes to an end on curves that are no curves" $ do
       count 0.01 (odd' (\_ -> Vec.point 1 1) (const east)) `shouldBe` 1
-      count 0.01 (odd' (\u -> Vec.point (u * u) (u ** 3)) (\u -> Vec.unit (Vec.vec (2 * u) (3 * u * u)))) `shouldSatisfy` (< 40)
-      count 0.01 (odd' (\u -> Vec.point u (fromIntegral (floor (3 * u) :: Int))) (const east)) `shouldSatisfy` (< 1000)
+      count
+        0.01
+        (odd' (\u -> Vec.point (u * u) (u ** 3)) (\u -> Vec.unit (Vec.vec (2 * u) (3 * u * u))))
+        `shouldSatisfy` (< 40)
+      count 0.01 (odd' (\u -> Vec.point u (fromIntegral (floor (3 * u) :: Int))) (const east))
+        `shouldSatisfy` (< 1000)
       count 0.01 (odd' (Vec.point <*> abs) (const (Vec.vec 0 1))) `shouldSatisfy` (>= 1)
   where
     east = Vec.vec 1 0
@@ -110,7 +143,13 @@ type End = (Point, Vec)
 
 -- | Any two ends, often in special positions.
 pair :: Gen (End, End)
-pair = leaning (oneof [choose (-pi, pi), elements [0, pi / 2, -(pi / 2), pi, 1e-9, -1e-9, 1e-5, pi / 4, -(pi / 4)]])
+pair =
+  leaning
+    ( oneof
+        [ choose (-pi, pi),
+          elements [0, pi / 2, -(pi / 2), pi, 1e-9, -1e-9, 1e-5, pi / 4, -(pi / 4)]
+        ]
+    )
 
 -- | Ends that lean to the chord by less than an angle; parallel and mirrored ones among them.
 mild :: Double -> Gen (End, End)
@@ -119,7 +158,8 @@ mild limit = leaning (oneof [choose (-limit, limit), elements [0, limit, -limit,
 leaning :: Gen Double -> Gen (End, End)
 leaning angles = do
   p <- Vec.point <$> choose (-300, 300) <*> choose (-300, 300)
-  chord <- Vec.polar . Mm <$> oneof [choose (0.01, 1), choose (1, 1000)] <*> (Rad <$> choose (-pi, pi))
+  chord <-
+    Vec.polar . Mm <$> oneof [choose (0.01, 1), choose (1, 1000)] <*> (Rad <$> choose (-pi, pi))
   a <- angles
   b <- oneof [angles, pure a, pure (-a)]
   let u = Vec.unit chord
@@ -133,7 +173,11 @@ joinLaw (from@(p, s), to@(q, t)) = case Biarc.join from to of
      in conjoin (map sound list)
           .&&. Segment.start (NonEmpty.head ss) === p
           .&&. Segment.end (NonEmpty.last ss) === q
-          .&&. counterexample (show list) (aligned s (Segment.startDirection (NonEmpty.head ss)) .&&. aligned (Segment.endDirection (NonEmpty.last ss)) t)
+          .&&. counterexample
+            (show list)
+            ( aligned s (Segment.startDirection (NonEmpty.head ss))
+                .&&. aligned (Segment.endDirection (NonEmpty.last ss)) t
+            )
           .&&. smooth list
 
 -- | The ends of an arc are on its circle, a sweep apart, and the sweep is at most half a turn.
@@ -151,7 +195,12 @@ sound s = case s of
 smooth :: [Segment] -> Property
 smooth ss = conjoin (zipWith joined ss (drop 1 ss))
   where
-    joined a b = counterexample (show (a, b)) (Segment.end a === Segment.start b .&&. aligned (Segment.endDirection a) (Segment.startDirection b))
+    joined a b =
+      counterexample
+        (show (a, b))
+        ( Segment.end a
+            === Segment.start b .&&. aligned (Segment.endDirection a) (Segment.startDirection b)
+        )
 
 -- | One direction, but for the digits that a line in place of an arc that hardly bends costs.
 aligned :: Vec -> Vec -> Property
@@ -163,11 +212,17 @@ sweepOf s = case s of
   Arc {sweep = Rad a} -> a
 
 backwardsLaw :: (End, End) -> Property
-backwardsLaw ((p, s), (q, t)) = case (Biarc.join (p, s) (q, t), Biarc.join (q, Vec.negate t) (p, Vec.negate s)) of
-  (Just there, Just back) ->
-    length there === length back
-      .&&. conjoin [counterexample (show (a, b)) (away (Segment.end a) (Segment.start b) < 1e-9 * (1 + away p q)) | (a, b) <- zip (toList there) (toList (NonEmpty.reverse back))]
-  both -> counterexample (show both) False
+backwardsLaw ((p, s), (q, t)) =
+  case (Biarc.join (p, s) (q, t), Biarc.join (q, Vec.negate t) (p, Vec.negate s)) of
+    (Just there, Just back) ->
+      length there === length back
+        .&&. conjoin
+          [ counterexample
+              (show (a, b))
+              (away (Segment.end a) (Segment.start b) < 1e-9 * (1 + away p q))
+            | (a, b) <- zip (toList there) (toList (NonEmpty.reverse back))
+          ]
+    both -> counterexample (show both) False
 
 -- | Ends of a curve that bends to one side; one leans up to five times as much as the other.
 oneSided :: Gen (End, End)
@@ -177,12 +232,18 @@ oneSided = do
   mirror <- elements [1, -1]
   (small, big) <- elements [(a, times * a), (times * a, a)]
   let q = Vec.point 40 0
-  pure ((Vec.point 0 0, Vec.polar (Mm 1) (Rad (mirror * small))), (q, Vec.polar (Mm 1) (Rad (-(mirror * big)))))
+  pure
+    ( (Vec.point 0 0, Vec.polar (Mm 1) (Rad (mirror * small))),
+      (q, Vec.polar (Mm 1) (Rad (-(mirror * big))))
+    )
 
 oneSidedLaw :: (End, End) -> Property
 oneSidedLaw (a, b) = case Biarc.join a b of
   Nothing -> property False
-  Just ss -> let sweeps = map sweepOf (toList ss) in counterexample (show sweeps) (all (> 0) sweeps || all (< 0) sweeps)
+  Just ss ->
+    let sweeps =
+          map sweepOf (toList ss)
+     in counterexample (show sweeps) (all (> 0) sweeps || all (< 0) sweeps)
 
 -- Through points --------------------------------------------------------------------------------
 
@@ -198,7 +259,9 @@ throughLaw :: Ends -> NonEmpty Point -> Property
 throughLaw ends ps =
   conjoin (map sound list)
     .&&. smooth (list <> closing)
-    .&&. counterexample (show list) (inOrder (toList ps <> oncemore) (map Segment.start list <> [Segment.end (NonEmpty.last ss)]))
+    .&&. counterexample
+      (show list)
+      (inOrder (toList ps <> oncemore) (map Segment.start list <> [Segment.end (NonEmpty.last ss)]))
   where
     ss = Biarc.through ends ps
     list = toList ss
@@ -208,7 +271,8 @@ throughLaw ends ps =
     inOrder wanted found = case (wanted, found) of
       ([], _) -> True
       (w : ws, f : fs)
-        | away w f < 1e-6 -> inOrder (dropWhile ((< 1e-6) . away w) ws) (f : fs) || inOrder ws (f : fs)
+        | away w f < 1e-6 ->
+          inOrder (dropWhile ((< 1e-6) . away w) ws) (f : fs) || inOrder ws (f : fs)
         | otherwise -> inOrder wanted fs
       (_, []) -> False
 
@@ -230,7 +294,12 @@ onCircle = do
 circleLaw :: Ends -> (Maybe (Point, Double), NonEmpty Point) -> Property
 circleLaw ends (shape, ps) = case shape of
   Nothing -> ends == Open ==> conjoin [counterexample (show s) (sweepOf s == 0) | s <- list]
-  Just (c, r) -> conjoin [counterexample (show (s, c, r)) (abs (away c p - r) < 1e-6 * r) | s <- list, p <- [Segment.at 0.3 s, Segment.at 0.8 s]]
+  Just (c, r) ->
+    conjoin
+      [ counterexample (show (s, c, r)) (abs (away c p - r) < 1e-6 * r)
+        | s <- list,
+          p <- [Segment.at 0.3 s, Segment.at 0.8 s]
+      ]
   where
     list = toList (Biarc.through ends ps)
 
@@ -248,7 +317,8 @@ data Curve
   | Lissajous Double Double [Double]
   | -- | factor of the fourth power
     Quartic Double [Double]
-  | -- | nodes: a place, the angle of the direction, how much it changes by there, and the speeds before and behind
+  | -- | nodes: a place, the angle of the direction, how much it changes by there, and the speeds
+    -- before and behind
     Cubic Bool [Node]
   | -- | lines and arcs that go over into one another: lengths and curvatures
     Bends [(Double, Double)]
@@ -262,7 +332,8 @@ tracked :: Gen Tracked
 tracked = Tracked <$> curve 1 <*> ((10 **) <$> choose (-3, 0))
 
 large :: Gen Tracked
-large = Tracked <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> breaking 12) <*> pure 1e-5
+large =
+  Tracked <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> breaking 12) <*> pure 1e-5
 
 turning :: Gen Tracked
 turning = Tracked <$> (Cusp <$> choose (0.05, 3) <*> breaking 3) <*> ((10 **) <$> choose (-2, 0))
@@ -278,10 +349,20 @@ curve :: Double -> Gen Curve
 curve size =
   oneof
     [ Sine <$> choose (size, 30 * size) <*> choose (5 * size, 40 * size) <*> breaking 9,
-      Ellipse <$> choose (10 * size, 80 * size) <*> choose (10 * size, 80 * size) <*> breaking (2 * pi),
-      Lissajous <$> choose (10 * size, 60 * size) <*> choose (10 * size, 60 * size) <*> breaking (2 * pi),
+      Ellipse
+        <$> choose (10 * size, 80 * size) <*> choose (10 * size, 80 * size) <*> breaking (2 * pi),
+      Lissajous
+        <$> choose (10 * size, 60 * size) <*> choose (10 * size, 60 * size) <*> breaking (2 * pi),
       Quartic <$> choose (0.2 * size, 2 * size) <*> breaking 3,
-      Bends <$> resize 6 (listOf1 ((,) <$> oneof [choose (1, 60), choose (0.05, 1)] <*> oneof [pure 0, choose (-0.1, 0.1)])),
+      Bends
+        <$> resize
+          6
+          ( listOf1
+              ( (,)
+                  <$> oneof [choose (1, 60), choose (0.05, 1)]
+                    <*> oneof [pure 0, choose (-0.1, 0.1)]
+              )
+          ),
       cubic size,
       cubic size
     ]
@@ -293,7 +374,8 @@ breaking end = do
   tiny <- elements [[], [0.3, 0.30001, 0.3001]]
   pure (map (* end) (sort (inner <> tiny)) <> [end])
 
--- | Cubic spans between random points: smooth, or with corners or kinks too small to count; often closed.
+-- | Cubic spans between random points: smooth, or with corners or kinks too small to count; often
+-- closed.
 cubic :: Double -> Gen Curve
 cubic size = do
   n <- choose (2, 6)
@@ -318,7 +400,8 @@ closedCurve c = case c of
 -- | The jumps of direction inside the curve.
 jumps :: Curve -> [Double]
 jumps c = case c of
-  Cubic closed nodes -> [j | (_, _, j, _, _) <- drop 1 (if closed then nodes else take (length nodes - 1) nodes)]
+  Cubic closed nodes ->
+    [j | (_, _, j, _, _) <- drop 1 (if closed then nodes else take (length nodes - 1) nodes)]
   _ -> []
 
 corners :: Curve -> Int
@@ -336,15 +419,31 @@ doublesBack c = or (zipWith (<=) xs (drop 1 xs)) && or (zipWith (>) xs (drop 1 x
 trackOf :: Curve -> ParametricCurve
 trackOf c = case c of
   Sine a w bs -> analytic bs (\u -> Vec.point (w * u) (a * sin u)) (\u -> Vec.vec w (a * cos u))
-  Ellipse a b bs -> analytic bs (\u -> Vec.point (a * cos u) (b * sin u)) (\u -> Vec.vec (-(a * sin u)) (b * cos u))
-  Lissajous a b bs -> analytic bs (\u -> Vec.point (a * cos (3 * u)) (b * sin (2 * u))) (\u -> Vec.vec (-(3 * a * sin (3 * u))) (2 * b * cos (2 * u)))
-  Quartic k bs -> analytic bs (\u -> Vec.point (10 * (u - 1.5)) (k * (u - 1.5) ** 4)) (\u -> Vec.vec 10 (4 * k * (u - 1.5) ^ (3 :: Int)))
-  Cusp e bs -> analytic bs (\u -> let v = u - 1.5 in Vec.point (10 * v * v) (5 * v ^ (3 :: Int) + e * v)) (\u -> let v = u - 1.5 in Vec.vec (20 * v) (15 * v * v + e))
+  Ellipse a b bs ->
+    analytic bs (\u -> Vec.point (a * cos u) (b * sin u)) (\u -> Vec.vec (-(a * sin u)) (b * cos u))
+  Lissajous a b bs ->
+    analytic
+      bs
+      (\u -> Vec.point (a * cos (3 * u)) (b * sin (2 * u)))
+      (\u -> Vec.vec (-(3 * a * sin (3 * u))) (2 * b * cos (2 * u)))
+  Quartic k bs ->
+    analytic
+      bs
+      (\u -> Vec.point (10 * (u - 1.5)) (k * (u - 1.5) ** 4))
+      (\u -> Vec.vec 10 (4 * k * (u - 1.5) ^ (3 :: Int)))
+  Cusp e bs ->
+    analytic
+      bs
+      (\u -> let v = u - 1.5 in Vec.point (10 * v * v) (5 * v ^ (3 :: Int) + e * v))
+      (\u -> let v = u - 1.5 in Vec.vec (20 * v) (15 * v * v + e))
   Cubic closed nodes ->
     let spans = zip nodes (drop 1 nodes <> take 1 nodes)
         n = if closed then length nodes else length nodes - 1
         list = IntMap.fromList (zip [0 ..] spans)
-        pick side u = let k = max 0 (min (n - 1) (case side of Arriving -> ceiling u - 1; Leaving -> floor u)) in (list ! k, u - fromIntegral k)
+        pick side u =
+          let k =
+                max 0 (min (n - 1) (case side of Arriving -> ceiling u - 1; Leaving -> floor u))
+           in (list ! k, u - fromIntegral k)
      in ParametricCurve
           { place = \u -> let (s, f) = pick Arriving u in fst (hermite s f),
             direction = \side u -> let (s, f) = pick side u in Vec.unit (snd (hermite s f)),
@@ -354,17 +453,34 @@ trackOf c = case c of
   Bends bends ->
     let poses = scanl (\pose (l, k) -> bend pose l k) (Vec.point 0 0, 0) bends
         spans = IntMap.fromList (zip [0 ..] (zip poses bends))
-        at u = let k = max 0 (min (length bends - 1) (ceiling u - 1)); (pose, (l, curvature)) = spans ! k in bend pose (l * (u - fromIntegral k)) curvature
-     in ParametricCurve {place = fst . at, direction = \_ u -> Vec.polar (Mm 1) (Rad (snd (at u))), begin = 0, breaks = 1 :| map fromIntegral [2 .. length bends]}
+        at u =
+          let k =
+                max 0 (min (length bends - 1) (ceiling u - 1))
+              (pose, (l, curvature)) = spans ! k
+           in bend pose (l * (u - fromIntegral k)) curvature
+     in ParametricCurve
+          { place = fst . at,
+            direction = \_ u -> Vec.polar (Mm 1) (Rad (snd (at u))),
+            begin = 0,
+            breaks = 1 :| map fromIntegral [2 .. length bends]
+          }
   where
     bend (p, a) l k
       | k == 0 = (Vec.shift (Vec.polar (Mm l) (Rad a)) p, a)
-      | otherwise = (Vec.shift (Vec.polar (Mm (2 / k * sin (k * l / 2))) (Rad (a + k * l / 2))) p, a + k * l)
-    analytic bs place d = ParametricCurve {place, direction = \_ u -> Vec.unit (d u), begin = 0, breaks = fromMaybe (1 :| []) (NonEmpty.nonEmpty bs)}
+      | otherwise =
+        (Vec.shift (Vec.polar (Mm (2 / k * sin (k * l / 2))) (Rad (a + k * l / 2))) p, a + k * l)
+    analytic bs place d =
+      ParametricCurve
+        { place,
+          direction = \_ u -> Vec.unit (d u),
+          begin = 0,
+          breaks = fromMaybe (1 :| []) (NonEmpty.nonEmpty bs)
+        }
 
 -- | A cubic span between two nodes: place and derivative.
 hermite :: (Node, Node) -> Double -> (Point, Vec)
-hermite ((p, a, jump, _, out), (q, b, _, into, _)) f = (Vec.shift (combined h10 h01 h11) p, combined g10 g01 g11)
+hermite ((p, a, jump, _, out), (q, b, _, into, _)) f =
+  (Vec.shift (combined h10 h01 h11) p, combined g10 g01 g11)
   where
     chord = Vec.to p q
     long = Vec.norm chord
@@ -378,37 +494,62 @@ samples :: Int -> ParametricCurve -> [Point]
 samples n t = map (place t) (parameters n t)
 
 parameters :: Int -> ParametricCurve -> [Double]
-parameters n t = [begin t + (NonEmpty.last (breaks t) - begin t) * fromIntegral k / fromIntegral n | k <- [0 .. n]]
+parameters n t =
+  [begin t + (NonEmpty.last (breaks t) - begin t) * fromIntegral k / fromIntegral n | k <- [0 .. n]]
 
 chain :: Tracked -> [Segment]
-chain (Tracked c tolerance) = concatMap toList (toList (ParametricFit.approximate (Mm tolerance) (trackOf c)))
+chain (Tracked c tolerance) =
+  concatMap toList (toList (ParametricFit.approximate (Mm tolerance) (trackOf c)))
 
 curveLaw :: Tracked -> Property
 curveLaw w@(Tracked c tolerance) = forAll (vectorOf 200 (choose (0, 1))) $ \fs ->
-  conjoin [counterexample (show (u, d)) (d <= tolerance) | f <- fs, let u = f * NonEmpty.last (breaks t), let d = minimum (map (`apart` place t u) ss)]
+  conjoin
+    [ counterexample (show (u, d)) (d <= tolerance)
+      | f <- fs,
+        let u = f * NonEmpty.last (breaks t),
+        let d = minimum (map (`apart` place t u) ss)
+    ]
   where
     t = trackOf c
     ss = chain w
 
 arcsLaw :: Tracked -> Property
-arcsLaw w@(Tracked c tolerance) = forAll (vectorOf 40 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
-  conjoin [counterexample (show (p, d)) (d <= tolerance + 1e-9) | (k, f) <- picks, let p = Segment.at f (ss !! k), let (d, _) = near p]
+arcsLaw w@(Tracked c tolerance) =
+  forAll (vectorOf 40 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
+    conjoin
+      [ counterexample (show (p, d)) (d <= tolerance + 1e-9)
+        | (k, f) <- picks,
+          let p = Segment.at f (ss !! k),
+          let (d, _) = near p
+      ]
   where
     near = nearest (trackOf c)
     ss = chain w
 
--- | The distance from a point to a curve, and where: about the nearest of many points on each strand nearby, more
--- points; before and behind each corner, too.
+-- | The distance from a point to a curve, and where: about the nearest of many points on each
+-- strand nearby, more points; before and behind each corner, too.
 nearest :: ParametricCurve -> Point -> (Double, Double)
-nearest t = \p -> minimum [closer p (14 :: Int) step (held u) | u <- map snd (take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))) <> besideCorners]
+nearest t =
+  \p ->
+    minimum
+      [ closer p (14 :: Int) step (held u)
+        | u <- map snd (take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))) <> besideCorners
+      ]
   where
     known = map (\u -> (u, place t u)) (parameters 3000 t)
     step = (NonEmpty.last (breaks t) - begin t) / 3000
     besideCorners = concat [[u - step, u + step] | u <- toList (breaks t)]
-    valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
+    valleys ds =
+      take 1 ds
+        <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d]
+        <> take 1 (reverse ds)
     closer p k h u
       | k == 0 = (away p (place t u), u)
-      | otherwise = let (_, v) = minimum [(away p (place t (held x)), held x) | x <- [u - h, u - h / 2, u, u + h / 2, u + h]] in closer p (k - 1) (h / 2) v
+      | otherwise =
+        let (_, v) =
+              minimum
+                [(away p (place t (held x)), held x) | x <- [u - h, u - h / 2, u, u + h / 2, u + h]]
+         in closer p (k - 1) (h / 2) v
     held = max (begin t) . min (NonEmpty.last (breaks t))
 
 kinkLaw :: Tracked -> Property
@@ -416,18 +557,25 @@ kinkLaw (Tracked c tolerance) =
   length groups === corners c + 1
     .&&. conjoin (map (smooth . toList) (toList groups))
     .&&. conjoin (map sound (concatMap toList (toList groups)))
-    .&&. conjoin (zipWith (\a b -> Segment.end (NonEmpty.last a) === Segment.start (NonEmpty.head b)) (toList groups) (NonEmpty.tail groups))
+    .&&. conjoin
+      ( zipWith
+          (\a b -> Segment.end (NonEmpty.last a) === Segment.start (NonEmpty.head b))
+          (toList groups)
+          (NonEmpty.tail groups)
+      )
   where
     groups = ParametricFit.approximate (Mm tolerance) (trackOf c)
 
--- | Against the fewest biarcs of any of some ratios between 65 points of the curve that stay near it, which takes many
--- points to know. One biarc ends and the next
--- begins where a joint has the curve's place and direction. Of lines and arcs the end may be the joint in the middle;
--- there segments are counted, and one biarc more is two of them. In a biarc of almost no length the joint in the middle cannot be told from
--- the ends.
+-- | Against the fewest biarcs of any of some ratios between 65 points of the curve that stay near
+-- it, which takes many points to know. One biarc ends and the next begins where a joint has the
+-- curve's place and direction. Of lines and arcs the end may be the joint in the middle; there
+-- segments are counted, and one biarc more is two of them. In a biarc of almost no length the joint
+-- in the middle cannot be told from the ends.
 fewLaw :: Tracked -> Property
 fewLaw w@(Tracked c tolerance) =
-  corners c == 0 && not (kinks c) && length ss <= 40 ==> fewerLaw found (fewestOf size tolerance t) slack
+  corners c == 0
+    && not (kinks c)
+    && length ss <= 40 ==> fewerLaw found (fewestOf size tolerance t) slack
   where
     ss = chain w
     t = trackOf c
@@ -438,7 +586,9 @@ fewLaw w@(Tracked c tolerance) =
     ends (previous, s) =
       let (_, u) = near (Segment.start s)
           Rad off = Vec.turn (Segment.startDirection s) (direction t Leaving u)
-       in Segment.length previous > Mm 0.1 && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9 && abs off < 5e-6
+       in Segment.length previous > Mm 0.1
+            && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9
+            && abs off < 5e-6
 
 -- | The same where the biarcs have other directions than the curve: segments are counted.
 fewOnCubicsLaw :: Tracked -> Property
@@ -447,8 +597,17 @@ fewOnCubicsLaw (Tracked c tolerance) = case c of
     | length ss <= 60 -> fewerLaw (length ss) (fewestOf length tolerance (trackOf c)) 2
     where
       pairs = zip nodes (drop 1 nodes <> [p | closed, p <- take 1 nodes])
-      part f = let spans = IntMap.fromList (zip [0 ..] pairs) in Spline.generate (length pairs) (\i -> spanOf f (spans ! i))
-      ss = toList (MeasuredPolyarc.segments (MeasuredPolyarc.fromOutline (CubicFit.approximate (Mm tolerance) (part (Vec.vec 1 0)) (part (Vec.vec 0 1)))))
+      part f =
+        let spans =
+              IntMap.fromList (zip [0 ..] pairs)
+         in Spline.generate (length pairs) (\i -> spanOf f (spans ! i))
+      ss =
+        toList
+          ( MeasuredPolyarc.segments
+              ( MeasuredPolyarc.fromOutline
+                  (CubicFit.approximate (Mm tolerance) (part (Vec.vec 1 0)) (part (Vec.vec 0 1)))
+              )
+          )
   _ -> discard
   where
     -- The same cubic as 'hermite', in one coordinate.
@@ -461,7 +620,10 @@ fewOnCubicsLaw (Tracked c tolerance) = case c of
        in Spline.Cubic p0 v (3 * d - 2 * v - w) (v + w - 2 * d)
 
 fewerLaw :: Int -> Int -> Int -> Property
-fewerLaw found fewest slack = counterexample (show (found, fewest)) (fromIntegral found <= (1.3 * fromIntegral fewest + fromIntegral slack :: Double))
+fewerLaw found fewest slack =
+  counterexample
+    (show (found, fewest))
+    (fromIntegral found <= (1.3 * fromIntegral fewest + fromIntegral slack :: Double))
 
 -- | The fewest biarcs by their size.
 fewestOf :: (NonEmpty Segment -> Int) -> Double -> ParametricCurve -> Int
@@ -474,6 +636,15 @@ fewestOf size tolerance t = best ! n
     cheapest i j =
       let from = (place t (us ! i), direction t Leaving (us ! i))
           to = (place t (us ! j), direction t Arriving (us ! j))
-          between = [place t (us ! i + (us ! j - us ! i) * fromIntegral m / parts) | (parts, most) <- [(24, 23), (199, 198)], m <- [1 .. most :: Int]]
-          sizes = [size b | r <- [0.5, 0.7, 1, 1.4, 2], Just b <- [Biarc.joinWith r from to], all (\p -> minimum (fmap (`apart` p) b) <= tolerance) between]
+          between =
+            [ place t (us ! i + (us ! j - us ! i) * fromIntegral m / parts)
+              | (parts, most) <- [(24, 23), (199, 198)],
+                m <- [1 .. most :: Int]
+            ]
+          sizes =
+            [ size b
+              | r <- [0.5, 0.7, 1, 1.4, 2],
+                Just b <- [Biarc.joinWith r from to],
+                all (\p -> minimum (fmap (`apart` p) b) <= tolerance) between
+            ]
        in if null sizes then Nothing else Just (minimum sizes)

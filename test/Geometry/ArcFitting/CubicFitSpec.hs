@@ -1,5 +1,5 @@
--- | The laws of biarcs along cubic spans. Distances are measured by other means than in the program: to an arc by angles, to the
--- curve by the nearest of many of its points.
+-- | The laws of biarcs along cubic spans. Distances are measured by other means than in the
+-- program: to an arc by angles, to the curve by the nearest of many of its points.
 module Geometry.ArcFitting.CubicFitSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -24,11 +24,15 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   describe "biarcs along cubics" $ do
-    it "every point of the curve is near the arcs (catches a maximum between the ends of a span that is left out)" $
-      property $
+    it
+      "every point of the curve is near the arcs (catches a maximum between the ends of a span \
+      \that is left out)"
+      $ property $
         forAll tracked curveLaw
-    it "every point of the arcs is near the curve (catches an arc that overshoots where the curve turns back)" $
-      property $
+    it
+      "every point of the arcs is near the curve (catches an arc that overshoots where the curve \
+      \turns back)"
+      $ property $
         forAll tracked arcsLaw
     it "no kink but at corners (catches a direction at a joint that only one side has)" $
       property $
@@ -37,9 +41,19 @@ spec =
       property $
         forAll tracked fewLaw
     it "a table of points in a line is one line (catches spans that are not looked past)" $
-      fmap length (arcsOf 1e-5 <$> either (const Nothing) Just (Curve.polyline (Vector.fromList [Vec.point k (2 * k) | k <- [0, 1, 3, 4, 7]]))) `shouldBe` Just 1
-    it "the generator reaches corners, sharp turns, kinks and spans that many arcs or a part of one take" $
-      checkCoverage $
+      fmap
+        length
+        ( arcsOf 1e-5
+            <$> either
+              (const Nothing)
+              Just
+              (Curve.polyline (Vector.fromList [Vec.point k (2 * k) | k <- [0, 1, 3, 4, 7]]))
+        )
+        `shouldBe` Just 1
+    it
+      "the generator reaches corners, sharp turns, kinks and spans that many arcs or a part of one \
+      \take"
+      $ checkCoverage $
         forAll tracked $ \(Tracked _ tolerance c) ->
           let n = length (arcsOf tolerance c)
            in cover 10 (cornersOf c > 0) "corners" $
@@ -59,7 +73,12 @@ tracked = do
   (turning, start) <- (,) <$> choose (-0.15, 0.15) <*> choose (-3, 3)
   noise <- vectorOf 60 (choose (-1e-4, 1e-4))
   m <- choose (5, 60)
-  let dense = [Vec.point (10 * sin (start + turning * k / 4) + 0.3 * k + e) (8 * cos (start + turning * k / 3)) | (k, e) <- take m (zip [0 ..] noise)]
+  let dense =
+        [ Vec.point
+            (10 * sin (start + turning * k / 4) + 0.3 * k + e)
+            (8 * cos (start + turning * k / 3))
+          | (k, e) <- take m (zip [0 ..] noise)
+        ]
   tolerance <- (10 **) <$> choose (-5, -0.5)
   (name, points, made) <-
     elements
@@ -67,7 +86,10 @@ tracked = do
         ("dense spline", dense, Curve.spline Curve.Natural),
         ("closed spline", scattered, Curve.spline Curve.Periodic),
         ("clamped spline", scattered, Curve.spline (Curve.Clamped (Vec.vec 1 1) (Vec.vec 0 (-1)))),
-        ("dense clamped spline", dense, Curve.spline (Curve.Clamped (Vec.vec 1 1) (Vec.vec 0 (-1)))),
+        ( "dense clamped spline",
+          dense,
+          Curve.spline (Curve.Clamped (Vec.vec 1 1) (Vec.vec 0 (-1)))
+        ),
         ("polyline", scattered, Curve.polyline),
         ("dense polyline", dense, Curve.polyline)
       ]
@@ -77,7 +99,11 @@ tracked = do
 
 arcsOf :: Double -> Curve -> [Segment]
 arcsOf tolerance c = case Curve.cubics (Mm 1e-9) c of
-  Just (_, xs, ys) -> toList (MeasuredPolyarc.segments (MeasuredPolyarc.fromOutline (CubicFit.approximate (Mm tolerance) xs ys)))
+  Just (_, xs, ys) ->
+    toList
+      ( MeasuredPolyarc.segments
+          (MeasuredPolyarc.fromOutline (CubicFit.approximate (Mm tolerance) xs ys))
+      )
   Nothing -> []
 
 cornersOf :: Curve -> Int
@@ -85,43 +111,87 @@ cornersOf c = length (filter (> 1e-3) (turnsOf c))
 
 -- | By how much the curve turns at each joint of its spans.
 turnsOf :: Curve -> [Double]
-turnsOf c = [abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom Curve.After c u)) | u <- drop 1 (init (Curve.breaks c))]
+turnsOf c =
+  [ abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom Curve.After c u))
+    | u <- drop 1 (init (Curve.breaks c))
+  ]
   where
     angle a b = let Rad t = Vec.turn a b in t
 
--- | Whether a kink that is no corner takes from a fifth to all of the tolerance by itself. An arc across it then has hardly a
--- choice where to lie, and whether one is found that is near for certain is a matter of luck. So it is
--- with a hook between points that are nearer to one another than the tolerance: no arc goes forwards along it.
+-- | Whether a kink that is no corner takes from a fifth to all of the tolerance by itself. An arc
+-- across it then has hardly a choice where to lie, and whether one is found that is near for
+-- certain is a matter of luck. So it is with a hook between points that are nearer to one another
+-- than the tolerance: no arc goes forwards along it.
 tight :: Tracked -> Bool
-tight (Tracked _ tolerance c) = or hooks || or [k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c), let bulge = k * max a b / 8]
+tight (Tracked _ tolerance c) =
+  or hooks
+    || or
+      [ k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge
+        | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c),
+          let bulge = k * max a b / 8
+      ]
   where
     places = map (Curve.at c) (Curve.breaks c)
     chords = zipWith away places (drop 1 places)
-    hooks = [away p q <= tolerance && (turnsBack Curve.After a || turnsBack Curve.Before b) | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c)), let (p, q) = (Curve.at c a, Curve.at c b), let turnsBack side u = Vec.dot (Curve.tangentFrom side c u) (Vec.to p q) < 0]
+    hooks =
+      [ away p q <= tolerance && (turnsBack Curve.After a || turnsBack Curve.Before b)
+        | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c)),
+          let (p, q) = (Curve.at c a, Curve.at c b),
+          let turnsBack side u = Vec.dot (Curve.tangentFrom side c u) (Vec.to p q) < 0
+      ]
 
 curveLaw :: Tracked -> Property
 curveLaw (Tracked _ tolerance c) = forAll (vectorOf 100 (choose (0, 1))) $ \fs ->
-  conjoin [counterexample (show (u, d)) (d <= tolerance) | f <- fs, let u = f * Curve.domain c, let d = minimum (map (`apart` Curve.at c u) ss)]
+  conjoin
+    [ counterexample (show (u, d)) (d <= tolerance)
+      | f <- fs,
+        let u = f * Curve.domain c,
+        let d = minimum (map (`apart` Curve.at c u) ss)
+    ]
   where
     ss = arcsOf tolerance c
 
 arcsLaw :: Tracked -> Property
-arcsLaw (Tracked _ tolerance c) = forAll (vectorOf 30 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
-  conjoin [counterexample (show (p, d)) (d <= tolerance + 1e-8) | (k, f) <- picks, let p = Segment.at f (ss !! k), let d = nearest p]
+arcsLaw (Tracked _ tolerance c) =
+  forAll (vectorOf 30 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
+    conjoin
+      [ counterexample (show (p, d)) (d <= tolerance + 1e-8)
+        | (k, f) <- picks,
+          let p = Segment.at f (ss !! k),
+          let d = nearest p
+      ]
   where
     ss = arcsOf tolerance c
-    -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the other.
+    -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the
+    -- other.
     known = [(span', between 400 span') | span' <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
     between :: Int -> (Double, Double) -> [(Double, Vec.Point)]
-    between count (a, b) = [(u, Curve.at c u) | k <- [0 .. count], let u = a + (b - a) * fromIntegral k / fromIntegral count]
+    between count (a, b) =
+      [ (u, Curve.at c u)
+        | k <- [0 .. count],
+          let u = a + (b - a) * fromIntegral k / fromIntegral count
+      ]
     -- Where it turns sharply the curve may come near twice between two places.
-    nearest p = minimum [closer p (60 :: Int) a b | (_, about) <- take 8 (sort [(d, wider span' about) | (span', us) <- known, (d, about) <- valleys p us]), (_, (a, b)) <- take 3 (sort (valleys p (between 80 about)))]
+    nearest p =
+      minimum
+        [ closer p (60 :: Int) a b
+          | (_, about) <-
+              take
+                8
+                (sort [(d, wider span' about) | (span', us) <- known, (d, about) <- valleys p us]),
+            (_, (a, b)) <- take 3 (sort (valleys p (between 80 about)))
+        ]
     -- In a sharp turn the nearer branch may begin behind the next place.
     wider (from, to) (a, b) = let w = (b - a) / 2 in (max from (a - w), min to (b + w))
     -- About the places of a span that are nearer than those beside them.
     valleys p us =
       let ds = [(away p q, u) | (u, q) <- us]
-       in [(m, (a, b)) | ((l, a), (m, _), (r, b)) <- zip3 (take 1 ds <> ds) ds (drop 1 ds <> take 1 (reverse ds)), m <= l, m <= r]
+       in [ (m, (a, b))
+            | ((l, a), (m, _), (r, b)) <-
+                zip3 (take 1 ds <> ds) ds (drop 1 ds <> take 1 (reverse ds)),
+              m <= l,
+              m <= r
+          ]
     closer p k a b
       | k == 0 = away p (Curve.at c ((a + b) / 2))
       | away p (Curve.at c u) <= away p (Curve.at c v) = closer p (k - 1) a v
@@ -135,11 +205,21 @@ smoothLaw (Tracked _ tolerance c) =
   conjoin (zipWith joined ss (drop 1 ss)) .&&. length (filter (> 2.1e-8) turns) === cornersOf c
   where
     ss = arcsOf tolerance c
-    turns = zipWith (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t) ss (drop 1 ss)
+    turns =
+      zipWith
+        (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t)
+        ss
+        (drop 1 ss)
     joined a b = counterexample (show (a, b)) (Segment.end a === Segment.start b)
 
 fewLaw :: Tracked -> Property
-fewLaw t@(Tracked _ tolerance c) = not (tight t) ==> counterexample (show (length ss, general)) (fromIntegral (length ss) <= (2 * fromIntegral general + 4 * fromIntegral (1 + cornersOf c) :: Double))
+fewLaw t@(Tracked _ tolerance c) =
+  not (tight t)
+    ==> counterexample
+      (show (length ss, general))
+      ( fromIntegral (length ss)
+          <= (2 * fromIntegral general + 4 * fromIntegral (1 + cornersOf c) :: Double)
+      )
   where
     ss = arcsOf tolerance c
     general = NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.track c)))

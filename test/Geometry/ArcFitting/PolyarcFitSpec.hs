@@ -25,23 +25,33 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   describe "biarcs along chains" $ do
-    it "every point of the chain is near the arcs (catches an extremum within a piece that is left out)" $
-      property $
+    it
+      "every point of the chain is near the arcs (catches an extremum within a piece that is left \
+      \out)"
+      $ property $
         forAll tracked chainLaw
-    it "every point of the arcs is near the chain (catches an arc that overshoots where the chain turns back)" $
-      property $
+    it
+      "every point of the arcs is near the chain (catches an arc that overshoots where the chain \
+      \turns back)"
+      $ property $
         forAll tracked arcsLaw
-    it "from the beginning to the end, no kink but at corners (catches a direction that only one side has)" $
-      property $
+    it
+      "from the beginning to the end, no kink but at corners (catches a direction that only one \
+      \side has)"
+      $ property $
         forAll tracked smoothLaw
     it "not many more than in general (catches a bound that is far too large)" $
       property $
         forAll tracked fewLaw
-    it "smoothed, a chain is near itself and turns at its corners only (catches a kink that is left, an arc beyond a corner)" $
-      property $
+    it
+      "smoothed, a chain is near itself and turns at its corners only (catches a kink that is \
+      \left, an arc beyond a corner)"
+      $ property $
         forAll tracked smoothedLaw
-    it "smoothed, a chain without kinks keeps all of its ends that are not within an arc (catches a chain that is put anew)" $
-      property $
+    it
+      "smoothed, a chain without kinks keeps all of its ends that are not within an arc (catches a \
+      \chain that is put anew)"
+      $ property $
         forAll (tracked `suchThat` smoothAlready) keptLaw
     it "the generator reaches corners, and arcs that stand for many or for a part of one" $
       checkCoverage $
@@ -55,50 +65,106 @@ spec =
 data Tracked = Tracked String Double (NonEmpty Segment)
 
 instance Show Tracked where
-  show (Tracked how tolerance pieces) = "within " <> show tolerance <> " " <> how <> " " <> show (toList pieces)
+  show (Tracked how tolerance pieces) =
+    "within " <> show tolerance <> " " <> how <> " " <> show (toList pieces)
 
 tracked :: Gen Tracked
 tracked = oneof [splined, bent, through, polygon]
   where
     tolerance = (10 **) <$> choose (-4, -0.5)
-    points = choose (3, 9) >>= \n -> vectorOf n (Vec.point <$> choose (-40, 40) <*> choose (-40, 40))
+    points =
+      choose (3, 9) >>= \n -> vectorOf n (Vec.point <$> choose (-40, 40) <*> choose (-40, 40))
     -- What stands for a spline, from fine to rough.
     splined = do
       ps <- points
       fine <- (10 **) <$> choose (-5, -2)
       case Curve.spline Curve.Natural (Vector.fromList ps) of
         Left _ -> splined
-        Right c -> (\t -> Tracked "splined" t (sconcat (ParametricFit.approximate (Mm fine) (Part.track c)))) <$> tolerance
+        Right c ->
+          (\t -> Tracked "splined" t (sconcat (ParametricFit.approximate (Mm fine) (Part.track c))))
+            <$> tolerance
     -- Lines and arcs that go over into one another.
     bent = do
-      bends <- resize 8 (listOf1 ((,) <$> oneof [choose (1, 60), choose (0.05, 1)] <*> oneof [pure 0, choose (-0.1, 0.1)]))
+      bends <-
+        resize
+          8
+          ( listOf1
+              ( (,)
+                  <$> oneof [choose (1, 60), choose (0.05, 1)]
+                    <*> oneof [pure 0, choose (-0.1, 0.1)]
+              )
+          )
       let poses = scanl step (Vec.point 0 0, 0) bends
           step (p, a) (l, k)
             | k == 0 = (Vec.shift (Vec.polar (Mm l) (Rad a)) p, a)
-            | otherwise = (Vec.shift (Vec.polar (Mm (2 / k * sin (k * l / 2))) (Rad (a + k * l / 2))) p, a + k * l)
+            | otherwise =
+              ( Vec.shift (Vec.polar (Mm (2 / k * sin (k * l / 2))) (Rad (a + k * l / 2))) p,
+                a + k * l
+              )
           piece (p, a) (q, _) (l, k)
             | k == 0 = Straight p q
-            | otherwise = Arc {start = p, end = q, centre = Vec.shift (Vec.polar (Mm (1 / k)) (Rad (a + pi / 2))) p, sweep = Rad (k * l)}
-      maybe bent (\ss -> (\t -> Tracked "bent" t ss) <$> tolerance) (NonEmpty.nonEmpty (zipWith3 piece poses (drop 1 poses) bends))
+            | otherwise =
+              Arc
+                { start = p,
+                  end = q,
+                  centre = Vec.shift (Vec.polar (Mm (1 / k)) (Rad (a + pi / 2))) p,
+                  sweep = Rad (k * l)
+                }
+      maybe
+        bent
+        (\ss -> (\t -> Tracked "bent" t ss) <$> tolerance)
+        (NonEmpty.nonEmpty (zipWith3 piece poses (drop 1 poses) bends))
     through = do
       ps <- points
-      (\t -> Tracked "through points" t (maybe (Straight (Vec.point 0 0) (Vec.point 1 0) :| []) (Biarc.through Open) (NonEmpty.nonEmpty ps))) <$> tolerance
+      ( \t ->
+          Tracked
+            "through points"
+            t
+            ( maybe
+                (Straight (Vec.point 0 0) (Vec.point 1 0) :| [])
+                (Biarc.through Open)
+                (NonEmpty.nonEmpty ps)
+            )
+        )
+        <$> tolerance
     -- Chords of a circle, smooth enough or with corners; a real corner in between.
     polygon = do
       n <- choose (5, 60)
       turn <- elements [4e-4, 9e-4, 0.01]
       jump <- elements [0, 1.5, -2.5]
-      let place = scanl (\p k -> Vec.shift (Vec.polar (Mm 1) (Rad (fromIntegral k * turn + (if 2 * k > n then jump else 0)))) p) (Vec.point 0 0) [1 .. n :: Int]
-      maybe polygon (\ss -> (\t -> Tracked "polygon" t ss) <$> tolerance) (NonEmpty.nonEmpty (zipWith Straight place (drop 1 place)))
+      let place =
+            scanl
+              ( \p k ->
+                  Vec.shift
+                    ( Vec.polar
+                        (Mm 1)
+                        (Rad (fromIntegral k * turn + (if 2 * k > n then jump else 0)))
+                    )
+                    p
+              )
+              (Vec.point 0 0)
+              [1 .. n :: Int]
+      maybe
+        polygon
+        (\ss -> (\t -> Tracked "polygon" t ss) <$> tolerance)
+        (NonEmpty.nonEmpty (zipWith Straight place (drop 1 place)))
 
 arcsOf :: Tracked -> [Segment]
-arcsOf (Tracked _ tolerance pieces) = toList (MeasuredPolyarc.segments (MeasuredPolyarc.fromOutline (PolyarcFit.approximate (Mm tolerance) pieces)))
+arcsOf (Tracked _ tolerance pieces) =
+  toList
+    ( MeasuredPolyarc.segments
+        (MeasuredPolyarc.fromOutline (PolyarcFit.approximate (Mm tolerance) pieces))
+    )
 
 cornersOf :: [Segment] -> Int
 cornersOf ss = length (filter (> 1e-3) (turnsOf ss))
 
 turnsOf :: [Segment] -> [Double]
-turnsOf ss = zipWith (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t) ss (drop 1 ss)
+turnsOf ss =
+  zipWith
+    (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t)
+    ss
+    (drop 1 ss)
 
 chainLaw :: Tracked -> Property
 chainLaw t@(Tracked _ tolerance pieces) = near tolerance (toList pieces) (arcsOf t)
@@ -108,15 +174,23 @@ arcsLaw t@(Tracked _ tolerance pieces) = near (tolerance + 1e-9) (arcsOf t) (toL
 
 -- | Points of some segments, and their distance from others.
 near :: Double -> [Segment] -> [Segment] -> Property
-near tolerance ss others = forAll (vectorOf 60 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
-  conjoin [counterexample (show (p, d)) (d <= tolerance) | (k, f) <- picks, let p = Segment.at f (ss !! k), let d = minimum (map (away p) others)]
+near tolerance ss others =
+  forAll (vectorOf 60 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
+    conjoin
+      [ counterexample (show (p, d)) (d <= tolerance)
+        | (k, f) <- picks,
+          let p = Segment.at f (ss !! k),
+          let d = minimum (map (away p) others)
+      ]
 
 smoothedLaw :: Tracked -> Property
 smoothedLaw t@(Tracked _ tolerance pieces) =
   conjoin
     [ near (tolerance + 1e-9) found (toList pieces),
       near (tolerance + 1e-9) (toList pieces) found,
-      counterexample (show found) (property (and (zipWith (\a b -> Segment.end a == Segment.start b) found (drop 1 found)))),
+      counterexample
+        (show found)
+        (property (and (zipWith (\a b -> Segment.end a == Segment.start b) found (drop 1 found)))),
       counterexample (show (turnsOf found)) (all (\k -> k <= 1e-6 || k > 1e-3) (turnsOf found)),
       cornersOf found === cornersOf (toList pieces)
     ]
@@ -124,7 +198,13 @@ smoothedLaw t@(Tracked _ tolerance pieces) =
     found = smoothedOf t
 
 keptLaw :: Tracked -> Property
-keptLaw t@(Tracked _ _ pieces) = conjoin [counterexample (show s) (any (begins s) pieces && Segment.end s `elem` map Segment.end (toList pieces)) | s <- smoothedOf t]
+keptLaw t@(Tracked _ _ pieces) =
+  conjoin
+    [ counterexample
+        (show s)
+        (any (begins s) pieces && Segment.end s `elem` map Segment.end (toList pieces))
+      | s <- smoothedOf t
+    ]
   where
     -- Of an arc that stands for several, the first one begins it and is of its circle.
     begins s p = Segment.start p == Segment.start s && centreOf p == centreOf s
@@ -139,10 +219,16 @@ smoothedOf (Tracked _ tolerance pieces) = toList (PolyarcFit.smoothed (Mm tolera
 smoothAlready :: Tracked -> Bool
 smoothAlready (Tracked _ _ pieces) = all (\k -> k <= 1e-7 || k > 1e-3) (turnsOf (toList pieces))
 
--- | Whether a kink that is no corner takes from half to all of the tolerance by itself. An arc across it then has hardly a
--- choice where to lie, and whether one is found that is near for certain is a matter of luck.
+-- | Whether a kink that is no corner takes from half to all of the tolerance by itself. An arc
+-- across it then has hardly a choice where to lie, and whether one is found that is near for
+-- certain is a matter of luck.
 tight :: Tracked -> Bool
-tight (Tracked _ tolerance pieces) = or [k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 2 * bulge | (s, s', k) <- zip3 ss (drop 1 ss) (turnsOf ss), let bulge = k * max (long s) (long s') / 8]
+tight (Tracked _ tolerance pieces) =
+  or
+    [ k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 2 * bulge
+      | (s, s', k) <- zip3 ss (drop 1 ss) (turnsOf ss),
+        let bulge = k * max (long s) (long s') / 8
+    ]
   where
     ss = toList pieces
     long s = let Mm l = Segment.length s in l
@@ -153,14 +239,28 @@ away p s = let Mm d = Distance.toPoint p s in d
 smoothLaw :: Tracked -> Property
 smoothLaw t@(Tracked _ _ pieces) =
   conjoin (zipWith (\a b -> Segment.end a === Segment.start b) ss (drop 1 ss))
-    .&&. Segment.start (NonEmpty.head pieces) === Segment.start (foldr const (NonEmpty.head pieces) ss)
-    .&&. Segment.end (NonEmpty.last pieces) === Segment.end (foldl (const id) (NonEmpty.last pieces) ss)
-    .&&. counterexample (show ss) (length (filter (> 3e-8) (turnsOf ss)) === cornersOf (toList pieces))
+    .&&. Segment.start (NonEmpty.head pieces)
+      === Segment.start (foldr const (NonEmpty.head pieces) ss)
+    .&&. Segment.end (NonEmpty.last pieces)
+      === Segment.end (foldl (const id) (NonEmpty.last pieces) ss)
+    .&&. counterexample
+      (show ss)
+      (length (filter (> 3e-8) (turnsOf ss)) === cornersOf (toList pieces))
   where
     ss = arcsOf t
 
 fewLaw :: Tracked -> Property
-fewLaw t@(Tracked _ tolerance pieces) = all ((< 1.5) . sweepOf) pieces && not (tight t) ==> counterexample (show (found, general)) (fromIntegral found <= (2 * fromIntegral general + 4 * fromIntegral (1 + cornersOf (toList pieces)) :: Double))
+fewLaw t@(Tracked _ tolerance pieces) =
+  all ((< 1.5) . sweepOf) pieces
+    && not (tight t)
+      ==> counterexample
+        (show (found, general))
+        ( fromIntegral found
+            <= ( 2 * fromIntegral general
+                   + 4 * fromIntegral (1 + cornersOf (toList pieces)) ::
+                   Double
+               )
+        )
   where
     -- Arcs of more are looked at in parts.
     sweepOf s = case s of

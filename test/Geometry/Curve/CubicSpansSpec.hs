@@ -18,26 +18,42 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   describe "cubics for curves" $ do
-    it "every point of a shifted curve is near them (catches a stretch whose middle alone is looked at)" $
-      property $
+    it
+      "every point of a shifted curve is near them (catches a stretch whose middle alone is looked \
+      \at)"
+      $ property $
         forAll ((,) <$> shifted <*> ((10 **) <$> choose (-7, -3))) (uncurry nearLaw)
-    it "every point of a long shallow bevel is near them (catches halves that are taken to be as near as half the way lets expect)" $
-      once (nearWhere [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
-    it "they join, and run from the beginning of the curve to its end (catches a half that is left out)" $
-      property $
+    it
+      "every point of a long shallow bevel is near them (catches halves that are taken to be as \
+      \near as half the way lets expect)"
+      $ once (nearWhere [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
+    it
+      "they join, and run from the beginning of the curve to its end (catches a half that is left \
+      \out)"
+      $ property $
         forAll shifted joinedLaw
     it "those of a spline are its own, exactly" $
       property $
-        forAll Generate.smooth $ \c -> fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0
+        forAll Generate.smooth $ \c ->
+          fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0
 
 shifted :: Gen Curve
 shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Cusp.fold)
 
 -- | The cubics of its halves are less near than the whole lets expect.
 shallow :: Curve
-shallow = Curve.shifted RightOf (Bevelled (column [-0.0883, -0.0247, -0.1041]) (column [3.0449, 3.6712, 3.4022]) (Mm 1.426)) spline
+shallow =
+  Curve.shifted
+    RightOf
+    (Bevelled (column [-0.0883, -0.0247, -0.1041]) (column [3.0449, 3.6712, 3.4022]) (Mm 1.426))
+    spline
   where
-    spline = Generate.ok (Curve.spline (Clamped (Vec.vec 1 (-0.0061)) (Vec.vec 1 0.0061)) (Exts.fromList [Vec.point x 0 | x <- [0, 15.8045, 28.7877]]))
+    spline =
+      Generate.ok
+        ( Curve.spline
+            (Clamped (Vec.vec 1 (-0.0061)) (Vec.vec 1 0.0061))
+            (Exts.fromList [Vec.point x 0 | x <- [0, 15.8045, 28.7877]])
+        )
     column = Curve.column spline . Exts.fromList
 
 nearLaw :: Curve -> Double -> Property
@@ -47,16 +63,47 @@ nearWhere :: [Double] -> Curve -> Double -> Property
 nearWhere fs c tolerance = case placesOf tolerance c of
   Nothing -> classify True "stands still" True
   Just (n, place) ->
-    -- Each span by itself: where a shift has torn the curve, what is near on the one hides what is nearer on the other.
-    let known = [[(w, place i w) | k <- [0 .. 16 :: Int], let w = fromIntegral i + fromIntegral k / 16] | i <- [0 .. n - 1]]
+    -- Each span by itself: where a shift has torn the curve, what is near on the one hides what is
+    -- nearer on the other.
+    let known =
+          [ [(w, place i w) | k <- [0 .. 16 :: Int], let w = fromIntegral i + fromIntegral k / 16]
+            | i <- [0 .. n - 1]
+          ]
         closer :: Point -> Int -> Int -> Double -> Double -> Double
         closer p i k h w
           | k == 0 = away p (place i w)
-          | otherwise = let (_, v) = minimum [(away p (place i x), x) | x <- map (held i) [w - h, w - h / 2, w, w + h / 2, w + h]] in closer p i (k - 1) (h / 2) v
+          | otherwise =
+            let (_, v) =
+                  minimum
+                    [ (away p (place i x), x)
+                      | x <- map (held i) [w - h, w - h / 2, w, w + h / 2, w + h]
+                    ]
+             in closer p i (k - 1) (h / 2) v
         held i = max (fromIntegral i) . min (fromIntegral i + 1)
-        valleys ds = take 1 ds <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d] <> take 1 (reverse ds)
-        nearest p = minimum [closer p i 44 (1 / 16) w | (_, w, i) <- take 6 (sort (concat [[(d, w, i) | (d, w) <- valleys [(away p q, w) | (w, q) <- ws]] | (i, ws) <- zip [0 ..] known]))]
-     in conjoin [counterexample (show (u, d)) (d <= tolerance + 1e-9) | f <- fs, let u = f * Curve.domain c, let d = nearest (Curve.at c u)]
+        valleys ds =
+          take 1 ds
+            <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d]
+            <> take 1 (reverse ds)
+        nearest p =
+          minimum
+            [ closer p i 44 (1 / 16) w
+              | (_, w, i) <-
+                  take
+                    6
+                    ( sort
+                        ( concat
+                            [ [(d, w, i) | (d, w) <- valleys [(away p q, w) | (w, q) <- ws]]
+                              | (i, ws) <- zip [0 ..] known
+                            ]
+                        )
+                    )
+            ]
+     in conjoin
+          [ counterexample (show (u, d)) (d <= tolerance + 1e-9)
+            | f <- fs,
+              let u = f * Curve.domain c,
+              let d = nearest (Curve.at c u)
+          ]
 
 joinedLaw :: Curve -> Property
 joinedLaw c = case placesOf 1e-6 c of
@@ -65,10 +112,16 @@ joinedLaw c = case placesOf 1e-6 c of
   _ | any torn (Curve.breaks c) -> classify True "torn" True
   Just (n, place) ->
     conjoin
-      [ counterexample (show k) (away (place (k - 1) (fromIntegral k)) (place k (fromIntegral k)) < 1e-4)
+      [ counterexample
+          (show k)
+          (away (place (k - 1) (fromIntegral k)) (place k (fromIntegral k)) < 1e-4)
         | k <- [1 .. n - 1]
       ]
-      .&&. counterexample "ends" (away (place 0 0) (Curve.start c) < 1e-9 && away (place (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9)
+      .&&. counterexample
+        "ends"
+        ( away (place 0 0) (Curve.start c) < 1e-9
+            && away (place (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9
+        )
   where
     torn u = away (Curve.placeFrom Curve.Before c u) (Curve.placeFrom Curve.After c u) > 1e-6
 
@@ -78,7 +131,10 @@ placesOf tolerance c = case Curve.cubics (Mm tolerance) c of
   Nothing -> Nothing
   Just (_, xs, ys) ->
     let n = Spline.count xs
-        place i w = let t = w - fromIntegral i in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
+        place i w =
+          let t =
+                w - fromIntegral i
+           in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
      in Just (n, place)
 
 away :: Point -> Point -> Double

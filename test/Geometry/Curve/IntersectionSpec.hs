@@ -12,13 +12,30 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  it "a place beside a crossing of curves, lines and circles leads to the crossing (catches one that stays on the chain of a curve)" $
-    property $
+  it
+    "a place beside a crossing of curves, lines and circles leads to the crossing (catches one \
+    \that stays on the chain of a curve)"
+    $ property $
       forAll Curves.gentle $ \curve -> forAll (Curves.parameterOf curve <$> choose (0, 1)) $ \u ->
-        forAll ((,,,) <$> choose (0.1, 1.4) <*> elements [-1, 1] <*> choose (20, 100) <*> choose (0, 2 * pi)) $ \(lean, sense, r, aside) ->
-          let p = Curve.at curve u
-              across = Vec.rotate (Rad (sense * lean)) (Vec.unit (Curve.tangent curve u))
-              straight = Intersection.onLine (Line p (Vec.shift (Vec.scale 10 across) p))
-              round' = Intersection.onCircle (Circle (Vec.shift (Vec.scale r (Vec.left across)) p) (Mm r))
-              off = Vec.distance p . (\way -> Intersection.exactly (Intersection.onCurve curve) way (Vec.shift (Vec.polar (Mm 1e-5) (Rad aside)) p))
-           in counterexample (show (off straight, off round')) (off straight <= Mm 1e-7 && off round' <= Mm 1e-7)
+        forAll
+          ( (,,,)
+              <$> choose (0.1, 1.4) <*> elements [-1, 1] <*> choose (20, 100) <*> choose (0, 2 * pi)
+          )
+          $ \(lean, sense, r, aside) ->
+            let p = Curve.at curve u
+                across = Vec.rotate (Rad (sense * lean)) (Vec.unit (Curve.tangent curve u))
+                straight = Intersection.onLine (Line p (Vec.shift (Vec.scale 10 across) p))
+                round' =
+                  Intersection.onCircle
+                    (Circle (Vec.shift (Vec.scale r (Vec.left across)) p) (Mm r))
+                off =
+                  Vec.distance p
+                    . ( \way ->
+                          Intersection.exactly
+                            (Intersection.onCurve curve)
+                            way
+                            (Vec.shift (Vec.polar (Mm 1e-5) (Rad aside)) p)
+                      )
+             in counterexample
+                  (show (off straight, off round'))
+                  (off straight <= Mm 1e-7 && off round' <= Mm 1e-7)

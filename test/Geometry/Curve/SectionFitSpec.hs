@@ -1,5 +1,5 @@
--- | The laws of curves through a table. Each says which bug it would catch. What is best is found here by trying every
--- way to split a table, and every piece by narrowing down its one free number.
+-- | The laws of curves through a table. Each says which bug it would catch. What is best is found
+-- here by trying every way to split a table, and every piece by narrowing down its one free number.
 module Geometry.Curve.SectionFitSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -9,7 +9,13 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Lazy qualified as Map
 import Data.Maybe (fromMaybe)
-import Geometry.Curve.Section (PointTable, Section (..), SectionFormula (..), SectionKind (..), SectionShape (..))
+import Geometry.Curve.Section
+  ( PointTable,
+    Section (..),
+    SectionFormula (..),
+    SectionKind (..),
+    SectionShape (..),
+  )
 import Geometry.Curve.Section qualified as Section
 import Geometry.Curve.SectionFit (SectionFault (..))
 import Geometry.Curve.SectionFit qualified as SectionFit
@@ -22,19 +28,32 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "curves through a table" $ do
-    it "fit: every row is within the tolerance, and the pieces are joined (catches a deviation taken at some rows only)" $
-      property $
+    it
+      "fit: every row is within the tolerance, and the pieces are joined (catches a deviation \
+      \taken at some rows only)"
+      $ property $
         forAll ((,) <$> kinds <*> tabled 2 20) (uncurry withinLaw)
-    it "fit: the fewest pieces, and of those the least deviation (catches a piece that is given up too early)" $
-      withMaxSuccess 3000 $
+    it
+      "fit: the fewest pieces, and of those the least deviation (catches a piece that is given up \
+      \too early)"
+      $ withMaxSuccess 3000 $
         forAll ((,) <$> kinds <*> tabled 2 9) (uncurry bestLaw)
-    it "fit: rows of one line, parabola or arc are one piece, which is it (catches a root of the circle on the other side)" $
-      property $
+    it
+      "fit: rows of one line, parabola or arc are one piece, which is it (catches a root of the \
+      \circle on the other side)"
+      $ property $
         forAll drawn wholeLaw
-    it "fit: the order of the kinds does not matter (catches the first kind that does taken for the simplest)" $
-      property $
-        forAll ((,) <$> kinds <*> tabled 2 12) $ \(ks, c) -> forAll (shuffle (toList ks <> take 1 (toList ks))) $ \again' ->
-          fmap shape (fitted ks c) === maybe (pure (0, 0, LineKind)) (fmap shape . (`fitted` c)) (NonEmpty.nonEmpty again')
+    it
+      "fit: the order of the kinds does not matter (catches the first kind that does taken for the \
+      \simplest)"
+      $ property $
+        forAll ((,) <$> kinds <*> tabled 2 12) $ \(ks, c) ->
+          forAll (shuffle (toList ks <> take 1 (toList ks))) $ \again' ->
+            fmap shape (fitted ks c)
+              === maybe
+                (pure (0, 0, LineKind))
+                (fmap shape . (`fitted` c))
+                (NonEmpty.nonEmpty again')
     it "fit: of equal pieces the simplest (catches a parabola where a line does)" $
       property $
         forAll ((,) <$> kinds <*> tabled 2 9) (uncurry simplestLaw)
@@ -54,27 +73,62 @@ spec = do
                     cover 20 (falling c) "falling" True
   describe "tables and sections" $ do
     it "refuses a table whose x turns round or stands still, with the row" $ do
-      Section.table (map (uncurry Vec.point) [(0, 0), (1, 0), (2, 5), (1.5, 0)]) `shouldBe` Left (Section.OutOfOrder 4)
-      Section.table (map (uncurry Vec.point) [(0, 0), (-1, 0), (-1, 5)]) `shouldBe` Left (Section.OutOfOrder 3)
-      Section.table (map (uncurry Vec.point) [(0, 0), (0, 1)]) `shouldBe` Left (Section.OutOfOrder 2)
-      Section.table (map (uncurry Vec.point) [(0, 0), (1, 0 / 0), (0 / 0, 1)]) `shouldBe` Left (Section.OutOfOrder 3)
+      Section.table (map (uncurry Vec.point) [(0, 0), (1, 0), (2, 5), (1.5, 0)])
+        `shouldBe` Left (Section.OutOfOrder 4)
+      Section.table (map (uncurry Vec.point) [(0, 0), (-1, 0), (-1, 5)])
+        `shouldBe` Left (Section.OutOfOrder 3)
+      Section.table (map (uncurry Vec.point) [(0, 0), (0, 1)])
+        `shouldBe` Left (Section.OutOfOrder 2)
+      Section.table (map (uncurry Vec.point) [(0, 0), (1, 0 / 0), (0 / 0, 1)])
+        `shouldBe` Left (Section.OutOfOrder 3)
       Section.table [Vec.point 0 0] `shouldBe` Left (Section.TooFewRows 1)
     it "refuses sections that do not fit together, with the section" $
-      map (either Just (const Nothing) . SectionFit.sections template) [[], [[1, 3], [3, 5, 8, 9], [8, 13]], [[1, 14]], [[3, 1]], [[1, 5, 3]], [[1, 3], [4, 13]], [[2, 13]], [[1, 3], [3, 8]]]
-        `shouldBe` map Just [NoSections, WrongCount 2 4, NoSuchRow 1 14, RowsDoNotRise 1, RowsDoNotRise 1, NotJoined 2 4 3, NotJoined 1 2 1, EndsEarly 8 13]
+      map
+        (either Just (const Nothing) . SectionFit.sections template)
+        [ [],
+          [[1, 3], [3, 5, 8, 9], [8, 13]],
+          [[1, 14]],
+          [[3, 1]],
+          [[1, 5, 3]],
+          [[1, 3], [4, 13]],
+          [[2, 13]],
+          [[1, 3], [3, 8]]
+        ]
+        `shouldBe` map
+          Just
+          [ NoSections,
+            WrongCount 2 4,
+            NoSuchRow 1 14,
+            RowsDoNotRise 1,
+            RowsDoNotRise 1,
+            NotJoined 2 4 3,
+            NotJoined 1 2 1,
+            EndsEarly 8 13
+          ]
   describe "the template of the turbine blade" $ do
     it "has the coefficients of the paper, corrected" $
       fmap (map (coefficients . Section.formula) . toList) (SectionFit.sections template paper)
-        `shouldBe` Right [(0, 63366, -17545), (-722596, 11707467, -27504988), (-460579, 8200501, -16220749)]
+        `shouldBe` Right
+          [(0, 63366, -17545), (-722596, 11707467, -27504988), (-460579, 8200501, -16220749)]
     it "has the deviations of the paper's tables" $
-      fmap (map (\d -> let Mm m = SectionFit.miss d in rounded 100 m) . SectionFit.deviations template) (SectionFit.sections template paper)
+      fmap
+        (map (\d -> let Mm m = SectionFit.miss d in rounded 100 m) . SectionFit.deviations template)
+        (SectionFit.sections template paper)
         `shouldBe` Right [0, 1, 0, 3, 0, 0, -2, 0, -2, 0, 1, 3, 0]
     it "misses its second point by 0.006" $
-      fmap (map (\d -> let Mm m = SectionFit.miss d in rounded 1000 m) . take 2 . SectionFit.deviations template) (SectionFit.sections template paper) `shouldBe` Right [0, 6]
+      fmap
+        ( map (\d -> let Mm m = SectionFit.miss d in rounded 1000 m)
+            . take 2
+            . SectionFit.deviations template
+        )
+        (SectionFit.sections template paper)
+        `shouldBe` Right [0, 6]
     it "needs three lines and parabolas within 0.03" $
-      summary (LineKind :| [ParabolaKind]) `shouldBe` ([(1, 3, LineKind), (3, 8, ParabolaKind), (8, 13, ParabolaKind)], 286)
+      summary (LineKind :| [ParabolaKind])
+        `shouldBe` ([(1, 3, LineKind), (3, 8, ParabolaKind), (8, 13, ParabolaKind)], 286)
     it "needs three pieces when there are arcs too, which miss by a little less" $
-      summary everyKind `shouldBe` ([(1, 4, ParabolaKind), (4, 8, ParabolaKind), (8, 13, ArcKind)], 271)
+      summary everyKind
+        `shouldBe` ([(1, 4, ParabolaKind), (4, 8, ParabolaKind), (8, 13, ArcKind)], 271)
   where
     paper = [[1, 3], [3, 5, 8], [8, 10, 13]]
     rounded k m = round (m * k) :: Int
@@ -83,7 +137,10 @@ spec = do
         | a == 0 -> (0, rounded 1e5 b, rounded 1e3 c)
         | otherwise -> (rounded 1e8 a, rounded 1e7 b, rounded 1e6 c)
       Circle _ _ -> (0, 0, 0)
-    summary ks = let ps = toList (SectionFit.fit ks (Mm 0.03) template) in (map shape ps, rounded 1e4 (maximum (map worst ps)))
+    summary ks =
+      let ps =
+            toList (SectionFit.fit ks (Mm 0.03) template)
+       in (map shape ps, rounded 1e4 (maximum (map worst ps)))
 
 everyKind :: NonEmpty SectionKind
 everyKind = LineKind :| [ParabolaKind, ArcKind]
@@ -95,7 +152,22 @@ worst :: Section -> Double
 worst p = let Mm d = largest p in d
 
 template :: PointTable
-template = tableOf [Vec.point 25.40 (-1.45), Vec.point 30.38 1.70, Vec.point 35.50 4.95, Vec.point 39.98 7.72, Vec.point 44.95 10.52, Vec.point 47.33 11.72, Vec.point 49.51 12.77, Vec.point 53.81 14.57, Vec.point 57.83 15.82, Vec.point 61.65 16.83, Vec.point 65.48 17.72, Vec.point 69.48 18.49, Vec.point 70.85 18.76]
+template =
+  tableOf
+    [ Vec.point 25.40 (-1.45),
+      Vec.point 30.38 1.70,
+      Vec.point 35.50 4.95,
+      Vec.point 39.98 7.72,
+      Vec.point 44.95 10.52,
+      Vec.point 47.33 11.72,
+      Vec.point 49.51 12.77,
+      Vec.point 53.81 14.57,
+      Vec.point 57.83 15.82,
+      Vec.point 61.65 16.83,
+      Vec.point 65.48 17.72,
+      Vec.point 69.48 18.49,
+      Vec.point 70.85 18.76
+    ]
 
 tableOf :: [Point] -> PointTable
 tableOf ps = case Section.table ps of
@@ -123,8 +195,10 @@ tabled low high = do
   steep <- elements [0.1, 1, 5]
   f <- oneof [wave, bow, bow, broken]
   back <- arbitrary
-  -- Often the rows are just as rough as is allowed: then a longer piece can do what a shorter one does not.
-  tolerance <- oneof [elements [0.003, 0.03, 0.1, 0.3, 2], max 0.003 . (noise *) <$> choose (0.6, 1.5)]
+  -- Often the rows are just as rough as is allowed: then a longer piece can do what a shorter one
+  -- does not.
+  tolerance <-
+    oneof [elements [0.003, 0.03, 0.1, 0.3, 2], max 0.003 . (noise *) <$> choose (0.6, 1.5)]
   let xs = scanl1 (+) steps
       whole = sum steps
       rise x = f (x / whole) * whole * steep
@@ -132,7 +206,8 @@ tabled low high = do
   pure (Case ps tolerance)
   where
     wave = (\a k x -> a * sin (k * x)) <$> choose (0.05, 1) <*> choose (1, 8)
-    bow = (\c s x -> s * sqrt (c * c - (x - 0.5) * (x - 0.5))) <$> choose (0.51, 2) <*> elements [1, -1]
+    bow =
+      (\c s x -> s * sqrt (c * c - (x - 0.5) * (x - 0.5))) <$> choose (0.51, 2) <*> elements [1, -1]
     broken = (\k x -> abs (x - k)) <$> choose (0.2, 0.8)
 
 falling :: Case -> Bool
@@ -149,12 +224,24 @@ withinLaw :: NonEmpty SectionKind -> Case -> Property
 withinLaw ks c@(Case ps tolerance) =
   first (NonEmpty.head pieces) === 1
     .&&. final (NonEmpty.last pieces) === length ps
-    .&&. conjoin (zipWith (\a b -> (final a, to a) === (first b, from b)) (toList pieces) (NonEmpty.tail pieces))
+    .&&. conjoin
+      ( zipWith
+          (\a b -> (final a, to a) === (first b, from b))
+          (toList pieces)
+          (NonEmpty.tail pieces)
+      )
     .&&. conjoin (map near (toList pieces))
     .&&. conjoin (map onSegment (toList pieces))
     .&&. map SectionFit.ofRow deviations === [1 .. length ps]
-    .&&. conjoin [counterexample (show d) (abs m <= tolerance + 2e-9) | d <- deviations, let Mm m = SectionFit.miss d]
-    .&&. conjoin [counterexample (show p) (Section.kind (curve p) `elem` ks || final p == first p + 1) | p <- toList pieces]
+    .&&. conjoin
+      [ counterexample (show d) (abs m <= tolerance + 2e-9)
+        | d <- deviations,
+          let Mm m = SectionFit.miss d
+      ]
+    .&&. conjoin
+      [ counterexample (show p) (Section.kind (curve p) `elem` ks || final p == first p + 1)
+        | p <- toList pieces
+      ]
   where
     pieces = fitted ks c
     deviations = SectionFit.deviations (tableOf ps) pieces
@@ -165,9 +252,24 @@ withinLaw ks c@(Case ps tolerance) =
     -- The segment of a line or an arc lies on its equation.
     onSegment p = case Section.segment p of
       Nothing -> Section.kind (curve p) === ParabolaKind
-      Just s -> conjoin [counterexample (show (s, q)) (abs (Section.height p (Vec.x q) - Vec.y q) < 1e-5 * (1 + abs (slope p))) | f <- [0.2, 0.5, 0.7], let q = Segment.at f s]
+      Just s ->
+        conjoin
+          [ counterexample
+              (show (s, q))
+              (abs (Section.height p (Vec.x q) - Vec.y q) < 1e-5 * (1 + abs (slope p)))
+            | f <- [0.2, 0.5, 0.7],
+              let q = Segment.at f s
+          ]
     slope p = case curve p of
-      Arc (Rad a) -> 1 / max 1e-3 (cos (abs a + abs (atan ((Vec.y (to p) - Vec.y (from p)) / (Vec.x (to p) - Vec.x (from p))))))
+      Arc (Rad a) ->
+        1
+          / max
+            1e-3
+            ( cos
+                ( abs a
+                    + abs (atan ((Vec.y (to p) - Vec.y (from p)) / (Vec.x (to p) - Vec.x (from p))))
+                )
+            )
       _ -> 1
 
 -- | y of a piece from its equation; of the circle, the branch that the arc is on.
@@ -183,23 +285,40 @@ equation p x = case Section.formula p of
 
 -- | All splits of a small table, each piece by each kind.
 bestLaw :: NonEmpty SectionKind -> Case -> Property
-bestLaw ks c@(Case ps tolerance) = counterexample (show pieces) (length pieces === fewest .&&. counterexample (show (worst', least)) (abs (worst' - least) < 1e-6))
+bestLaw ks c@(Case ps tolerance) =
+  counterexample
+    (show pieces)
+    ( length pieces
+        === fewest .&&. counterexample (show (worst', least)) (abs (worst' - least) < 1e-6)
+    )
   where
     pieces = fitted ks c
     worst' = maximum (fmap worst pieces)
     splits = allSplits ks tolerance ps
     fewest = minimum (map length splits)
-    least = minimum [maximum (map (\(_, _, ds) -> minimum (map snd ds)) s) | s <- splits, length s == fewest]
+    least =
+      minimum
+        [maximum (map (\(_, _, ds) -> minimum (map snd ds)) s) | s <- splits, length s == fewest]
 
--- | No split has simpler pieces in sum that keep the largest deviation. What is best is known here to 1e-5: of splits that may be the better ones by less than that
--- the simplest counts, and against what was found only those that surely are as good, since they have the piece that deviates most, and nothing else comes near it.
+-- | No split has simpler pieces in sum that keep the largest deviation. What is best is known here
+-- to 1e-5: of splits that may be the better ones by less than that the simplest counts, and against
+-- what was found only those that surely are as good, since they have the piece that deviates most,
+-- and nothing else comes near it.
 simplestLaw :: NonEmpty SectionKind -> Case -> Property
-simplestLaw ks c@(Case ps tolerance) = counterexample (show pieces) (counterexample (show (low, found, high)) (low <= found && found <= high))
+simplestLaw ks c@(Case ps tolerance) =
+  counterexample
+    (show pieces)
+    (counterexample (show (low, found, high)) (low <= found && found <= high))
   where
     pieces = fitted ks c
     found = sum (map (fromEnum . Section.kind . curve) (toList pieces))
     bound = maximum (fmap worst pieces)
-    splits = [s | s <- allSplits ks tolerance ps, length s == length pieces, all (\(_, _, ds) -> any ((<= bound + 1e-5) . snd) ds) s]
+    splits =
+      [ s
+        | s <- allSplits ks tolerance ps,
+          length s == length pieces,
+          all (\(_, _, ds) -> any ((<= bound + 1e-5) . snd) ds) s
+      ]
     low = minimum (map (sum . map (\(_, _, ds) -> simplest (bound + 1e-5) ds)) splits)
     high = minimum (100 : map (sum . map surely) splits)
     simplest most ds = minimum (100 : [fromEnum k | (k, d) <- ds, d <= most])
@@ -214,12 +333,19 @@ allSplits ks tolerance ps = from' 0
     final' = length ps - 1
     from' i
       | i == final' = [[]]
-      | otherwise = [(i, j, ds) : rest | j <- [i + 1 .. final'], Just ds <- [Map.lookup (i, j) known], not (null ds), rest <- from' j]
+      | otherwise =
+        [ (i, j, ds) : rest
+          | j <- [i + 1 .. final'],
+            Just ds <- [Map.lookup (i, j) known],
+            not (null ds),
+            rest <- from' j
+        ]
     known = Map.fromList [((i, j), good (slice i j)) | i <- [0 .. final'], j <- [i + 1 .. final']]
     slice i j = take (j - i + 1) (drop i ps)
     good rows
       | length rows == 2 = [(LineKind, 0)]
-      | otherwise = [(k, d) | k <- nub (sort (toList ks)), let d = narrowed k rows, d <= tolerance + 1e-9]
+      | otherwise =
+        [(k, d) | k <- nub (sort (toList ks)), let d = narrowed k rows, d <= tolerance + 1e-9]
 
 -- | The least largest deviation of a kind through the end rows.
 narrowed :: SectionKind -> [Point] -> Double
@@ -233,11 +359,16 @@ narrowed k rows = case k of
     head' = foldr const (Vec.point 0 0)
     last' = foldl (const id) (Vec.point 0 0)
     lineAt x = y1 + (y2 - y1) * (x - x1) / (x2 - x1)
-    largestOf extra = maximum [abs (lineAt (Vec.x q) + extra (Vec.x q) - Vec.y q) | q <- drop 1 (take (length rows - 1) rows)]
+    largestOf extra =
+      maximum
+        [ abs (lineAt (Vec.x q) + extra (Vec.x q) - Vec.y q)
+          | q <- drop 1 (take (length rows - 1) rows)
+        ]
     limit = pi / 2 - atan (abs ((y2 - y1) / (x2 - x1)))
     -- From the line up to the circle whose ends lean by t to the chord.
     bulge t x
-      | abs t < 1e-6 = let m = (y2 - y1) / (x2 - x1) in t * (x - x1) * (x2 - x) * (1 + m * m) / abs (x2 - x1)
+      | abs t < 1e-6 =
+        let m = (y2 - y1) / (x2 - x1) in t * (x - x1) * (x2 - x) * (1 + m * m) / abs (x2 - x1)
       | otherwise =
         let chord = sqrt ((x2 - x1) * (x2 - x1) + (y2 - y1) * (y2 - y1))
             r = chord / 2 / sin (abs t)
@@ -276,36 +407,60 @@ drawn = do
         (b, c) <- (,) <$> choose (-3, 3) <*> choose (-50, 50)
         pure (Polynomial 0 b c, LineKind, put (\x -> b * x + c)),
       do
-        (a, b, c) <- (,,) <$> ((*) <$> elements [1, -1] <*> choose (0.01, 0.5)) <*> choose (-3, 3) <*> choose (-50, 50)
+        (a, b, c) <-
+          (,,)
+            <$> ((*) <$> elements [1, -1] <*> choose (0.01, 0.5))
+              <*> choose (-3, 3)
+              <*> choose (-50, 50)
         pure (Polynomial a b c, ParabolaKind, put (\x -> (a * x + b) * x + c)),
       do
         r <- (whole *) <$> choose (0.51, 1.5)
         m <- (x0 +) . (side *) <$> choose (whole - r + 1e-3, r)
         y0 <- choose (-50, 50)
         s <- elements [1, -1]
-        pure (Circle (Vec.point m y0) (Mm r), ArcKind, put (\x -> y0 + s * sqrt (max 0 (r * r - (x - m) * (x - m)))))
+        pure
+          ( Circle (Vec.point m y0) (Mm r),
+            ArcKind,
+            put (\x -> y0 + s * sqrt (max 0 (r * r - (x - m) * (x - m))))
+          )
     ]
 
 wholeLaw :: (SectionFormula, SectionKind, [Point]) -> Property
-wholeLaw (f, k, ps) = classify True (show k) $ case SectionFit.fit everyKind (Mm 1e-6) (tableOf ps) of
-  p :| [] -> Section.kind (curve p) === k .&&. counterexample (show (Section.formula p)) (same f (Section.formula p))
-  more -> counterexample (show more) False
+wholeLaw (f, k, ps) =
+  classify True (show k) $ case SectionFit.fit everyKind (Mm 1e-6) (tableOf ps) of
+    p :| [] ->
+      Section.kind (curve p)
+        === k .&&. counterexample (show (Section.formula p)) (same f (Section.formula p))
+    more -> counterexample (show more) False
   where
     same one other = case (one, other) of
-      (Polynomial a b c, Polynomial a' b' c') -> abs (a - a') < 1e-7 && abs (b - b') < 1e-5 && abs (c - c') < 1e-3
-      (Circle m (Mm r), Circle m' (Mm r')) -> let Mm d = Vec.distance m m' in d < 1e-3 && abs (r - r') < 1e-3
+      (Polynomial a b c, Polynomial a' b' c') ->
+        abs (a - a') < 1e-7 && abs (b - b') < 1e-5 && abs (c - c') < 1e-3
+      (Circle m (Mm r), Circle m' (Mm r')) ->
+        let Mm d =
+              Vec.distance m m'
+         in d < 1e-3 && abs (r - r') < 1e-3
       _ -> False
 
 movedLaw :: NonEmpty SectionKind -> Case -> Property
-movedLaw ks c@(Case ps tolerance) = forAll ((,) <$> choose (-100, 100) <*> choose (-100, 100)) $ \(dx, dy) ->
-  conjoin [alike (outcome (Case ps' tolerance)) (outcome c) | ps' <- [map (Vec.shift (Vec.vec dx dy)) ps, reverse ps, [Vec.point (-(Vec.x p)) (Vec.y p) | p <- ps]]]
+movedLaw ks c@(Case ps tolerance) =
+  forAll ((,) <$> choose (-100, 100) <*> choose (-100, 100)) $ \(dx, dy) ->
+    conjoin
+      [ alike (outcome (Case ps' tolerance)) (outcome c)
+        | ps' <-
+            [ map (Vec.shift (Vec.vec dx dy)) ps,
+              reverse ps,
+              [Vec.point (-(Vec.x p)) (Vec.y p) | p <- ps]
+            ]
+      ]
   where
     outcome c' = let pieces = fitted ks c' in (length pieces, maximum (fmap worst pieces))
     alike (n, d) (m, e) = n === m .&&. counterexample (show (d, e)) (abs (d - e) < 1e-7)
 
 mirroredLaw :: NonEmpty SectionKind -> Case -> Property
 mirroredLaw ks c@(Case ps tolerance) =
-  fmap shape pieces === fmap shape flipped .&&. conjoin (zipWith turned (toList pieces) (toList flipped))
+  fmap shape pieces
+    === fmap shape flipped .&&. conjoin (zipWith turned (toList pieces) (toList flipped))
   where
     pieces = fitted ks c
     flipped = fitted ks (Case [Vec.point (Vec.x p) (-(Vec.y p)) | p <- ps] tolerance)

@@ -1,4 +1,5 @@
--- | The laws of shifts: where they move a curve, how they follow one another, and where they do not fit.
+-- | The laws of shifts: where they move a curve, how they follow one another, and where they do not
+-- fit.
 module Geometry.Curve.ShiftSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
@@ -9,7 +10,17 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.Maybe (isJust, isNothing)
 import GHC.Exts qualified as Exts
 import Generate.Curve qualified as Generate
-import Geometry.Curve (Approach (..), Curve, CurveFault (..), Distance (..), EndCondition (..), Growth (..), Joggle (..), Side (..), SpanShape (..))
+import Geometry.Curve
+  ( Approach (..),
+    Curve,
+    CurveFault (..),
+    Distance (..),
+    EndCondition (..),
+    Growth (..),
+    Joggle (..),
+    Side (..),
+    SpanShape (..),
+  )
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column qualified as Column
@@ -25,171 +36,297 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "a shift" $ do
-    it "by a constant moves every place by it along the normal (catches a normal that is not of length 1)" $
-      property $
-        forAll Generate.anyCurve $ \c -> forAll ((,,) <$> choose (-4, 4) <*> choose (-1, 1) <*> Generate.parameter) $ \(h, mu, t) ->
-          let u = Generate.parameterOf c t
-              out = along c u (Curve.shifted LeftOf (Square (constantly mu c) (Constant (Mm h))) c)
-           in alike 1e-6 out (Vec.scale (h / cos mu) (Curve.normal c u))
+    it
+      "by a constant moves every place by it along the normal (catches a normal that is not of \
+      \length 1)"
+      $ property $
+        forAll Generate.anyCurve $ \c ->
+          forAll ((,,) <$> choose (-4, 4) <*> choose (-1, 1) <*> Generate.parameter) $
+            \(h, mu, t) ->
+              let u = Generate.parameterOf c t
+                  out =
+                    along c u (Curve.shifted LeftOf (Square (constantly mu c) (Constant (Mm h))) c)
+               in alike 1e-6 out (Vec.scale (h / cos mu) (Curve.normal c u))
     it "stays at its distance from the curve (catches a distance along the ordinate)" $
       property $
-        forAll Generate.gentle $ \c -> forAll ((,) <$> choose (-0.5, 0.5) <*> Generate.parameter) $ \(k, t) ->
-          let h = min 10 (abs k / Generate.tightest c) * signum k
-              p = Curve.at (Curve.shifted LeftOf (Constant (Mm h)) c) (Generate.parameterOf c t)
-              Mm near = Vec.distance p (Curve.at c (Curve.nearest p c))
-           in counterexample (show (h, near)) (abs (near - abs h) < 1e-6)
-    it "has the distances of the table at its rows (catches μ in degrees, or a cosine that multiplies)" $
-      property $
-        forAll Generate.anyCurve $ \c -> forAll ((,,) <$> Generate.columnOf c (-0.8) 0.8 <*> Generate.columnOf c 1 9 <*> choose (-2, 2)) $ \(mu, h, delta) ->
-          conjoin
-            [ near' 1e-9 d (height * tan m + delta) .&&. near' 1e-9 d' (height / cos m)
-              | (row, m, height) <- zip3 (toList (Base.rows (Curve.base c))) (toList (Column.values mu)) (toList (Column.values h)),
-                let u = Base.at row,
-                let Mm d = Curve.distanceOf (Curve.shifted LeftOf (Bevelled mu h (Mm delta)) c) u,
-                let Mm d' = Curve.distanceOf (Curve.shifted LeftOf (Square mu (Pointwise h)) c) u
-            ]
+        forAll Generate.gentle $ \c ->
+          forAll ((,) <$> choose (-0.5, 0.5) <*> Generate.parameter) $ \(k, t) ->
+            let h = min 10 (abs k / Generate.tightest c) * signum k
+                p = Curve.at (Curve.shifted LeftOf (Constant (Mm h)) c) (Generate.parameterOf c t)
+                Mm near = Vec.distance p (Curve.at c (Curve.nearest p c))
+             in counterexample (show (h, near)) (abs (near - abs h) < 1e-6)
+    it
+      "has the distances of the table at its rows (catches μ in degrees, or a cosine that \
+      \multiplies)"
+      $ property $
+        forAll Generate.anyCurve $ \c ->
+          forAll
+            ((,,) <$> Generate.columnOf c (-0.8) 0.8 <*> Generate.columnOf c 1 9 <*> choose (-2, 2))
+            $ \(mu, h, delta) ->
+              conjoin
+                [ near' 1e-9 d (height * tan m + delta) .&&. near' 1e-9 d' (height / cos m)
+                  | (row, m, height) <-
+                      zip3
+                        (toList (Base.rows (Curve.base c)))
+                        (toList (Column.values mu))
+                        (toList (Column.values h)),
+                    let u = Base.at row,
+                    let Mm d =
+                          Curve.distanceOf (Curve.shifted LeftOf (Bevelled mu h (Mm delta)) c) u,
+                    let Mm d' =
+                          Curve.distanceOf (Curve.shifted LeftOf (Square mu (Pointwise h)) c) u
+                ]
     it "grows evenly along the true length (catches a length by the parameter)" $
       property $
-        forAll Generate.anyCurve $ \c -> forAll ((,,) <$> choose (-4, 4) <*> choose (-4, 4) <*> Generate.parameter) $ \(h1, h2, t) ->
-          let u = Generate.parameterOf c t
-              grown = Curve.shifted LeftOf (Growing Growth {from = Mm h1, to = Mm h2, between = Nothing}) c
-              share = chordSum c 0 u / chordSum c 0 (Curve.domain c)
-           in alike 1e-5 (along c u grown) (Vec.scale (h1 + (h2 - h1) * share) (Curve.normal c u))
-    it "that grows between two places keeps its distances before and behind them (catches ends that are exchanged)" $
-      property $
-        forAll Generate.gentle $ \c -> forAll ((,,,,) <$> choose (1, 3) <*> choose (4, 6) <*> choose (0.05, 0.4) <*> choose (0.5, 0.95) <*> Generate.parameter) $ \(h1, h2, a, b, t) ->
-          let ua = Generate.parameterOf c a
-              ub = Generate.parameterOf c b
-              u = Generate.parameterOf c t
-              Mm d = Curve.distanceOf (Curve.shifted RightOf (Growing Growth {from = Mm h1, to = Mm h2, between = Just (ua, ub)}) c) u
-              expected
-                | u <= ua = h1
-                | u >= ub = h2
-                | otherwise = h1 + (h2 - h1) * chordSum c ua u / chordSum c ua ub
-           in near' 1e-5 (-d) expected
+        forAll Generate.anyCurve $ \c ->
+          forAll ((,,) <$> choose (-4, 4) <*> choose (-4, 4) <*> Generate.parameter) $
+            \(h1, h2, t) ->
+              let u = Generate.parameterOf c t
+                  grown =
+                    Curve.shifted
+                      LeftOf
+                      (Growing Growth {from = Mm h1, to = Mm h2, between = Nothing})
+                      c
+                  share = chordSum c 0 u / chordSum c 0 (Curve.domain c)
+               in alike
+                    1e-5
+                    (along c u grown)
+                    (Vec.scale (h1 + (h2 - h1) * share) (Curve.normal c u))
+    it
+      "that grows between two places keeps its distances before and behind them (catches ends that \
+      \are exchanged)"
+      $ property $
+        forAll Generate.gentle $ \c ->
+          forAll
+            ( (,,,,)
+                <$> choose (1, 3)
+                  <*> choose (4, 6)
+                  <*> choose (0.05, 0.4)
+                  <*> choose (0.5, 0.95)
+                  <*> Generate.parameter
+            )
+            $ \(h1, h2, a, b, t) ->
+              let ua = Generate.parameterOf c a
+                  ub = Generate.parameterOf c b
+                  u = Generate.parameterOf c t
+                  Mm d =
+                    Curve.distanceOf
+                      ( Curve.shifted
+                          RightOf
+                          (Growing Growth {from = Mm h1, to = Mm h2, between = Just (ua, ub)})
+                          c
+                      )
+                      u
+                  expected
+                    | u <= ua = h1
+                    | u >= ub = h2
+                    | otherwise = h1 + (h2 - h1) * chordSum c ua u / chordSum c ua ub
+               in near' 1e-5 (-d) expected
     it "that grows between two places has corners there (catches marks that are forgotten)" $
       property $
-        forAll Generate.gentle $ \c -> forAll ((,) <$> choose (0.05, 0.4) <*> choose (0.5, 0.95)) $ \(a, b) ->
-          let ends = (Generate.parameterOf c a, Generate.parameterOf c b)
-           in Curve.corners (Curve.shifted LeftOf (Growing Growth {from = Mm 0, to = Mm 0.5, between = Just ends}) c) === [fst ends, snd ends]
-    it "the derivatives are those of the place, through all layers (catches an order too few, a term of a product)" $
-      property $
-        forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c)) $ \(a, b) ->
-          derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
+        forAll Generate.gentle $ \c ->
+          forAll ((,) <$> choose (0.05, 0.4) <*> choose (0.5, 0.95)) $ \(a, b) ->
+            let ends = (Generate.parameterOf c a, Generate.parameterOf c b)
+             in Curve.corners
+                  ( Curve.shifted
+                      LeftOf
+                      (Growing Growth {from = Mm 0, to = Mm 0.5, between = Just ends})
+                      c
+                  )
+                  === [fst ends, snd ends]
+    it
+      "the derivatives are those of the place, through all layers (catches an order too few, a \
+      \term of a product)"
+      $ property $
+        forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
+          forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c)) $ \(a, b) ->
+            derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
     it "the curvature is that of a circle through three near places (catches a sign of the bend)" $
       property $
-        forAll (Generate.layered 2 Generate.gentle) $ \c -> forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c) `suchThat` \(a, b) -> b - a > 0.01) $ \(a, b) ->
-          -- On a shorter stretch three places do not tell.
-          let u = a + (b - a) * share
-              e = 1e-3 * (b - a)
-              k = throughThree (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
-           in near' (1e-4 * (1 + abs k)) (Curve.curvature c u) k
+        forAll (Generate.layered 2 Generate.gentle) $ \c ->
+          forAll (choose (0.05, 0.95)) $ \share ->
+            forAll (elements (inner c) `suchThat` \(a, b) -> b - a > 0.01) $ \(a, b) ->
+              -- On a shorter stretch three places do not tell.
+              let u = a + (b - a) * share
+                  e = 1e-3 * (b - a)
+                  k = throughThree (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
+               in near' (1e-4 * (1 + abs k)) (Curve.curvature c u) k
 
   describe "shifts one behind the other" $ do
-    it "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)" $
-      property $
-        forAll Generate.smooth $ \c -> forAll ((,,,) <$> share' <*> share' <*> choose (-0.8, 0.8) <*> Generate.parameter) $ \(ka, kb, mu, t) ->
-          let reach = cos mu / (1e-6 + Generate.tightest c)
-              a = ka * min 10 reach
-              b = kb * min 10 reach
-              by h = Curve.shifted LeftOf (Square (constantly mu c) (Constant (Mm h)))
-              u = Generate.parameterOf c t
-           in close 1e-6 (Curve.at (by b (by a c)) u) (Curve.at (by (a + b) c) u)
-    it "2, 4, 1 is each step by itself, with normals and lengths found by differences (catches layers in the wrong order)" $
-      property $
-        forAll Generate.gentle $ \c -> forAll ((,) <$> Generate.columnOf c 0.1 0.4 <*> Generate.columnOf c 1 3) $ \(mu, h) ->
-          forAll (elements (toList (Base.rows (Curve.base c)))) $ \row -> sequenceLaw c mu h (Base.at row)
+    it
+      "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)"
+      $ property $
+        forAll Generate.smooth $ \c ->
+          forAll ((,,,) <$> share' <*> share' <*> choose (-0.8, 0.8) <*> Generate.parameter) $
+            \(ka, kb, mu, t) ->
+              let reach = cos mu / (1e-6 + Generate.tightest c)
+                  a = ka * min 10 reach
+                  b = kb * min 10 reach
+                  by h = Curve.shifted LeftOf (Square (constantly mu c) (Constant (Mm h)))
+                  u = Generate.parameterOf c t
+               in close 1e-6 (Curve.at (by b (by a c)) u) (Curve.at (by (a + b) c) u)
+    it
+      "2, 4, 1 is each step by itself, with normals and lengths found by differences (catches \
+      \layers in the wrong order)"
+      $ property $
+        forAll Generate.gentle $ \c ->
+          forAll ((,) <$> Generate.columnOf c 0.1 0.4 <*> Generate.columnOf c 1 3) $ \(mu, h) ->
+            forAll (elements (toList (Base.rows (Curve.base c)))) $ \row ->
+              sequenceLaw c mu h (Base.at row)
 
   describe "shifts that are alike" $ do
     it "from h to h is h (catches a growth that begins with what it adds)" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (choose (-4, 4)) $ \h ->
           sameShift c (Growing Growth {from = Mm h, to = Mm h, between = Nothing}) (Constant (Mm h))
-    it "a column that is the same everywhere is a constant, exactly (catches a spline that swings)" $
-      property $
-        forAll Generate.anyCurve $ \c -> forAll (choose (-4, 4)) $ \h -> forAll Generate.parameter $ \t ->
-          let shiftedBy d = Curve.at (Curve.shifted LeftOf d c) (Generate.parameterOf c t)
-              p = shiftedBy (Pointwise (constantly h c))
-           in isNumber p ==> p === shiftedBy (Constant (Mm h))
+    it
+      "a column that is the same everywhere is a constant, exactly (catches a spline that swings)"
+      $ property $
+        forAll Generate.anyCurve $ \c ->
+          forAll (choose (-4, 4)) $ \h -> forAll Generate.parameter $ \t ->
+            let shiftedBy d = Curve.at (Curve.shifted LeftOf d c) (Generate.parameterOf c t)
+                p = shiftedBy (Pointwise (constantly h c))
+             in isNumber p ==> p === shiftedBy (Constant (Mm h))
     it "no bevel and no allowance is no shift" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (Generate.columnOf c 1 9) $ \h ->
           sameShift c (Bevelled (constantly 0 c) h (Mm 0)) (Constant (Mm 0))
     it "to the right is to the left by the negative distance (catches a side that is forgotten)" $
       property $
-        forAll Generate.anyCurve $ \c -> forAll ((,) <$> Generate.distance 3 c <*> Generate.parameter) $ \(d, t) ->
-          let u = Generate.parameterOf c t
-              right = along c u (Curve.shifted RightOf d c)
-              left = along c u (Curve.shifted LeftOf d c)
-           in alike 1e-9 right (Vec.negate left)
+        forAll Generate.anyCurve $ \c ->
+          forAll ((,) <$> Generate.distance 3 c <*> Generate.parameter) $ \(d, t) ->
+            let u = Generate.parameterOf c t
+                right = along c u (Curve.shifted RightOf d c)
+                left = along c u (Curve.shifted LeftOf d c)
+             in alike 1e-9 right (Vec.negate left)
 
   describe "a joggle" $ do
-    it "is nothing outside, its depth in the middle, continuous everywhere (catches a ramp that runs backwards)" $
-      property $
-        forAll Generate.gentle $ \c -> forAll ((,,,) <$> choose (0.05, 0.2) <*> choose (0.8, 0.95) <*> choose (0.2, 1) <*> choose (0.55, 2)) $ \(a, b, d, k) ->
-          let ua = Generate.parameterOf c a
-              ub = Generate.parameterOf c b
-              joggle = Joggle {begins = ua, ends = ub, depth = Mm d, radius = Mm (k * d)}
-              middle = Curve.alongTo c (times 0.5 (plus (Curve.lengthTo c ua) (Curve.lengthTo c ub)))
-           in case Curve.joggled joggle c of
-                Left flaw -> label "does not fit" (flaw === LongJoggle (times 2 (Curve.ramp joggle)) (minus (Curve.lengthTo c ub) (Curve.lengthTo c ua)))
-                Right distance ->
-                  let s = Curve.shifted LeftOf distance c
-                      at u = let Mm v = Curve.distanceOf s u in v
-                   in near' 1e-12 (at (0.5 * ua)) 0
-                        .&&. near' 1e-12 (at (0.5 * (ub + Curve.domain c))) 0
-                        .&&. near' 1e-9 (at middle) d
-                        .&&. conjoin [close 1e-6 (Curve.placeFrom Before s u) (Curve.placeFrom After s u) | u <- Curve.breaks s]
-                        .&&. Curve.corners s === []
-    it "on a straight line has ramps of arcs of its radius, half of the depth each (catches a wrong length of the ramp)" $
-      property $
-        forAll ((,) <$> choose (0.5, 3) <*> choose (0.6, 4)) $ \(d, k) -> forAll (elements [1, -1]) $ \flip' -> forAll (choose (0.01, 0.99)) $ \t ->
-          let r = k * d
-              c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
-              joggle = Joggle {begins = 0.1, ends = 0.9, depth = Mm (flip' * d), radius = Mm r}
-              s = Curve.shifted LeftOf (Generate.ok (Curve.joggled joggle c)) c
-              Mm l = Curve.ramp joggle
-              place x = Curve.at s (x / 100)
-              lowCentre = Vec.point 10 (flip' * r)
-              highCentre = Vec.point (10 + l) (flip' * (d - r))
-              on centre p = let Mm v = Vec.distance centre p in near' 1e-9 v r
-           in on lowCentre (place (10 + t * l / 2))
-                .&&. on highCentre (place (10 + l / 2 + t * l / 2))
-                .&&. near' 1e-9 (Vec.y (place (10 + l / 2))) (flip' * d / 2)
-                .&&. near' 1e-9 (Vec.y (place (90 - l / 2))) (flip' * d / 2)
-                .&&. on (Vec.point 90 (flip' * r)) (place (90 - t * l / 2))
+    it
+      "is nothing outside, its depth in the middle, continuous everywhere (catches a ramp that \
+      \runs backwards)"
+      $ property $
+        forAll Generate.gentle $ \c ->
+          forAll
+            ( (,,,)
+                <$> choose (0.05, 0.2)
+                  <*> choose (0.8, 0.95)
+                  <*> choose (0.2, 1)
+                  <*> choose (0.55, 2)
+            )
+            $ \(a, b, d, k) ->
+              let ua = Generate.parameterOf c a
+                  ub = Generate.parameterOf c b
+                  joggle = Joggle {begins = ua, ends = ub, depth = Mm d, radius = Mm (k * d)}
+                  middle =
+                    Curve.alongTo c (times 0.5 (plus (Curve.lengthTo c ua) (Curve.lengthTo c ub)))
+               in case Curve.joggled joggle c of
+                    Left flaw ->
+                      label
+                        "does not fit"
+                        ( flaw
+                            === LongJoggle
+                              (times 2 (Curve.ramp joggle))
+                              (minus (Curve.lengthTo c ub) (Curve.lengthTo c ua))
+                        )
+                    Right distance ->
+                      let s = Curve.shifted LeftOf distance c
+                          at u = let Mm v = Curve.distanceOf s u in v
+                       in near' 1e-12 (at (0.5 * ua)) 0
+                            .&&. near' 1e-12 (at (0.5 * (ub + Curve.domain c))) 0
+                            .&&. near' 1e-9 (at middle) d
+                            .&&. conjoin
+                              [ close 1e-6 (Curve.placeFrom Before s u) (Curve.placeFrom After s u)
+                                | u <- Curve.breaks s
+                              ]
+                            .&&. Curve.corners s === []
+    it
+      "on a straight line has ramps of arcs of its radius, half of the depth each (catches a wrong \
+      \length of the ramp)"
+      $ property $
+        forAll ((,) <$> choose (0.5, 3) <*> choose (0.6, 4)) $ \(d, k) ->
+          forAll (elements [1, -1]) $ \flip' -> forAll (choose (0.01, 0.99)) $ \t ->
+            let r = k * d
+                c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
+                joggle = Joggle {begins = 0.1, ends = 0.9, depth = Mm (flip' * d), radius = Mm r}
+                s = Curve.shifted LeftOf (Generate.ok (Curve.joggled joggle c)) c
+                Mm l = Curve.ramp joggle
+                place x = Curve.at s (x / 100)
+                lowCentre = Vec.point 10 (flip' * r)
+                highCentre = Vec.point (10 + l) (flip' * (d - r))
+                on centre p = let Mm v = Vec.distance centre p in near' 1e-9 v r
+             in on lowCentre (place (10 + t * l / 2))
+                  .&&. on highCentre (place (10 + l / 2 + t * l / 2))
+                  .&&. near' 1e-9 (Vec.y (place (10 + l / 2))) (flip' * d / 2)
+                  .&&. near' 1e-9 (Vec.y (place (90 - l / 2))) (flip' * d / 2)
+                  .&&. on (Vec.point 90 (flip' * r)) (place (90 - t * l / 2))
     it "does not fit when its radius is too small, or its ramps too long" $ do
       let c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
           joggle d r = Joggle {begins = 0.4, ends = 0.6, depth = Mm d, radius = Mm r}
       Curve.joggled (joggle 2 1) c `shouldBe` Left DeepJoggle
-      Curve.joggled (joggle 2 14) c `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
+      Curve.joggled (joggle 2 14) c
+        `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
 
   describe "what does not fit" $ do
     it "the vertex of a parabola y = x²/2p takes p and no more (catches a fold between two rows)" $
       property $
-        forAll ((,,) <$> choose (2, 30) <*> choose (-0.4, -0.05) <*> choose (0.05, 0.4)) $ \(p, left, right) -> forAll (choose (0.5, 2)) $ \k ->
-          let c = Generate.ok (Curve.ofPieces (Quadratic (1 / (2 * p)) 0 0 (left * p) (right * p) :| []) (Exts.fromList [0, 1]))
-              found = Curve.fold (Curve.shifted LeftOf (Constant (Mm (k * p))) c)
-           in abs (k - 1) > 1e-6 ==> case found of
-                Nothing -> property (k < 1)
-                Just f ->
-                  counterexample (show f) (k > 1)
-                    .&&. near' 1e-6 (mm (largest f)) p
-                    .&&. near' 1e-9 (mm (asked f)) (k * p)
-                    .&&. close 1e-4 (place f) (Vec.point 0 0)
-    it "is found just when the distance passes the radius somewhere (catches a layer that is not looked at)" $
-      property $
-        forAll (Generate.layered 1 (oneof [Generate.ring, Generate.gentle])) $ \c -> forAll (choose (0.5, 2)) $ \k ->
-          let most = maximum [Curve.curvature c (a + (b - a) * t / 200) | (a, b) <- inner c, t <- [0.001, 1 .. 200]]
-              asked' = k / most
-              above = Curve.shifted RightOf (Constant (Mm 0.01)) (Curve.shifted LeftOf (Constant (Mm asked')) c)
-           in most > 1e-3 && abs (k - 1) > 0.01 ==> counterexample (show (most, Curve.fold above)) (isJust (Curve.fold above) == (k > 1))
+        forAll ((,,) <$> choose (2, 30) <*> choose (-0.4, -0.05) <*> choose (0.05, 0.4)) $
+          \(p, left, right) ->
+            forAll (choose (0.5, 2)) $ \k ->
+              let c =
+                    Generate.ok
+                      ( Curve.ofPieces
+                          (Quadratic (1 / (2 * p)) 0 0 (left * p) (right * p) :| [])
+                          (Exts.fromList [0, 1])
+                      )
+                  found = Curve.fold (Curve.shifted LeftOf (Constant (Mm (k * p))) c)
+               in abs (k - 1) > 1e-6 ==> case found of
+                    Nothing -> property (k < 1)
+                    Just f ->
+                      counterexample (show f) (k > 1)
+                        .&&. near' 1e-6 (mm (largest f)) p
+                        .&&. near' 1e-9 (mm (asked f)) (k * p)
+                        .&&. close 1e-4 (place f) (Vec.point 0 0)
+    it
+      "is found just when the distance passes the radius somewhere (catches a layer that is not \
+      \looked at)"
+      $ property $
+        forAll (Generate.layered 1 (oneof [Generate.ring, Generate.gentle])) $ \c ->
+          forAll (choose (0.5, 2)) $ \k ->
+            let most =
+                  maximum
+                    [ Curve.curvature c (a + (b - a) * t / 200)
+                      | (a, b) <- inner c,
+                        t <- [0.001, 1 .. 200]
+                    ]
+                asked' = k / most
+                above =
+                  Curve.shifted
+                    RightOf
+                    (Constant (Mm 0.01))
+                    (Curve.shifted LeftOf (Constant (Mm asked')) c)
+             in most > 1e-3
+                  && abs (k - 1)
+                    > 0.01
+                      ==> counterexample
+                        (show (most, Curve.fold above))
+                        (isJust (Curve.fold above) == (k > 1))
     it "is not there on the outer side" $
       property $
         forAll (choose (0.1, 90)) $ \h ->
-          isNothing (Curve.fold (Curve.shifted RightOf (Constant (Mm h)) (circle 40))) && isJust (Curve.fold (Curve.shifted LeftOf (Constant (Mm (41 + h))) (circle 40)))
+          isNothing (Curve.fold (Curve.shifted RightOf (Constant (Mm h)) (circle 40)))
+            && isJust (Curve.fold (Curve.shifted LeftOf (Constant (Mm (41 + h))) (circle 40)))
     it "a curve that turns straight back takes no shift at its turn" $
-      Curve.fold (Curve.shifted LeftOf (Constant (Mm 1)) (Generate.ok (Curve.spline Natural (Exts.fromList [Vec.point 0 0, Vec.point 10 0, Vec.point 0 0]))))
+      Curve.fold
+        ( Curve.shifted
+            LeftOf
+            (Constant (Mm 1))
+            ( Generate.ok
+                ( Curve.spline
+                    Natural
+                    (Exts.fromList [Vec.point 0 0, Vec.point 10 0, Vec.point 0 0])
+                )
+            )
+        )
         `shouldSatisfy` isJust
 
   describe "columns" $ do
@@ -201,18 +338,27 @@ spec = do
               | (row, v) <- zip (toList (Base.rows (Curve.base c))) (toList (Column.values col)),
                 let Mm d = Curve.distanceOf (Curve.shifted LeftOf (Pointwise col) c) (Base.at row)
             ]
-    it "are as smooth as the points: a shifted spline has no corner (catches a column that is straight from row to row)" $
-      property $
-        forAll (oneof [Generate.gentle, Generate.ring]) $ \c -> forAll (Generate.columnOf c 0 2) $ \col ->
-          let s = Curve.shifted RightOf (Pointwise col) c
-           in isNothing (Curve.fold s) ==> Curve.corners s === Curve.corners c
+    it
+      "are as smooth as the points: a shifted spline has no corner (catches a column that is \
+      \straight from row to row)"
+      $ property $
+        forAll (oneof [Generate.gentle, Generate.ring]) $ \c ->
+          forAll (Generate.columnOf c 0 2) $ \col ->
+            let s = Curve.shifted RightOf (Pointwise col) c
+             in isNothing (Curve.fold s) ==> Curve.corners s === Curve.corners c
     it "change evenly along pieces where these touch (catches a column by the parameter)" $
       property $
-        forAll touching $ \c -> forAll (Generate.columnOf c 0 2) $ \col -> forAll (elements [1, 2]) $ \u ->
-          let s = Curve.shifted LeftOf (Pointwise col) c
-              rate approach = Vec.dot (velocity approach s) (Vec.left (Curve.tangentFrom approach c u)) / Vec.norm (velocity approach c)
-              velocity approach curve = let TaylorExpansion a b = Curve.jet approach 1 curve u in Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
-           in near' 1e-9 (rate Before) (rate After)
+        forAll touching $ \c ->
+          forAll (Generate.columnOf c 0 2) $ \col -> forAll (elements [1, 2]) $ \u ->
+            let s = Curve.shifted LeftOf (Pointwise col) c
+                rate approach =
+                  Vec.dot (velocity approach s) (Vec.left (Curve.tangentFrom approach c u))
+                    / Vec.norm (velocity approach c)
+                velocity approach curve =
+                  let TaylorExpansion a b =
+                        Curve.jet approach 1 curve u
+                   in Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
+             in near' 1e-9 (rate Before) (rate After)
 
 -- Helpers -----------------------------------------------------------------------------------
 
@@ -227,7 +373,9 @@ constantly v c = Curve.column c (Exts.fromList (map (const v) (toList (Base.rows
 -- | The two distances give one curve.
 sameShift :: Curve -> Distance -> Distance -> Property
 sameShift c d e = forAll (elements [LeftOf, RightOf]) $ \side -> forAll Generate.parameter $ \t ->
-  let u = Generate.parameterOf c t in close 1e-9 (Curve.at (Curve.shifted side d c) u) (Curve.at (Curve.shifted side e c) u)
+  let u =
+        Generate.parameterOf c t
+   in close 1e-9 (Curve.at (Curve.shifted side d c) u) (Curve.at (Curve.shifted side e c) u)
 
 -- | Shares of the radius of curvature that fit, in sum too.
 share' :: Gen Double
@@ -235,17 +383,32 @@ share' = choose (-0.4, 0.4)
 
 -- | The stretches without a change of formula: on chains, columns change theirs at the rows.
 inner :: Curve -> [(Double, Double)]
-inner c = let bs = nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.rows (Curve.base c))))) in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
+inner c =
+  let bs =
+        nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.rows (Curve.base c)))))
+   in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
 
 -- | First and second derivatives by differences of two widths, and what they tend to.
 derivativesLaw :: Curve -> Double -> Double -> Property
-derivativesLaw c u e = alike (1e-4 * (1 + Vec.norm first)) first byFirst .&&. alike (1e-2 * (1 + Vec.norm second + Vec.norm first)) second bySecond
+derivativesLaw c u e =
+  alike (1e-4 * (1 + Vec.norm first)) first byFirst
+    .&&. alike (1e-2 * (1 + Vec.norm second + Vec.norm first)) second bySecond
   where
     TaylorExpansion a b = Curve.jet After 2 c u
     first = Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
     second = Vec.scale 2 (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
-    byFirst = refined (\h -> Vec.scale (1 / (2 * h)) (Vec.to (Curve.at c (u - h)) (Curve.at c (u + h))))
-    bySecond = refined (\h -> Vec.scale (1 / (h * h)) (Vec.add (Vec.to (Curve.at c u) (Curve.at c (u - h))) (Vec.to (Curve.at c u) (Curve.at c (u + h)))))
+    byFirst =
+      refined (\h -> Vec.scale (1 / (2 * h)) (Vec.to (Curve.at c (u - h)) (Curve.at c (u + h))))
+    bySecond =
+      refined
+        ( \h ->
+            Vec.scale
+              (1 / (h * h))
+              ( Vec.add
+                  (Vec.to (Curve.at c u) (Curve.at c (u - h)))
+                  (Vec.to (Curve.at c u) (Curve.at c (u + h)))
+              )
+        )
     refined f = Vec.add (Vec.scale (4 / 3) (f (e / 2))) (Vec.scale (-1 / 3) (f e))
 
 -- | The curvature of the circle through three points, positive to the left.
@@ -260,24 +423,37 @@ sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
   where
     first = Curve.shifted LeftOf (Constant (Mm 0.5)) c
     second = Curve.shifted RightOf (Bevelled mu h (Mm 0.2)) first
-    third = Curve.shifted LeftOf (Growing Growth {from = Mm 0.3, to = Mm 0.9, between = Nothing}) second
+    third =
+      Curve.shifted LeftOf (Growing Growth {from = Mm 0.3, to = Mm 0.9, between = Nothing}) second
     step curve d from' = Vec.shift (Vec.scale d (Vec.left (byDifference curve))) from'
     byDifference curve =
       let e = 1e-5
           lower = max 0 (u - e)
           upper = min (Curve.domain curve) (u + e)
        in Vec.unit (Vec.to (Curve.at curve lower) (Curve.at curve upper))
-    value col = head ([v | (row, v) <- zip (toList (Base.rows (Curve.base c))) (toList (Column.values col)), Base.at row == u] <> [0])
+    value col =
+      head
+        ( [ v
+            | (row, v) <- zip (toList (Base.rows (Curve.base c))) (toList (Column.values col)),
+              Base.at row == u
+          ]
+            <> [0]
+        )
     grown = 0.3 + 0.6 * chordSum second 0 u / chordSum second 0 (Curve.domain second)
-    byHand = step second grown (step first (-(value h * tan (value mu) + 0.2)) (step c 0.5 (Curve.at c u)))
+    byHand =
+      step second grown (step first (-(value h * tan (value mu) + 0.2)) (step c 0.5 (Curve.at c u)))
 
 -- | The length between two parameters by chords, twice, and what they tend to.
 chordSum :: Curve -> Double -> Double -> Double
-chordSum c from' to' = sum [stretch (max a from') (min b to') | (a, b) <- inner c, a < to', b > from']
+chordSum c from' to' =
+  sum [stretch (max a from') (min b to') | (a, b) <- inner c, a < to', b > from']
   where
     stretch a b = let fine = chords a b 400 in fine + (fine - chords a b 200) / 3
     chords a b n =
-      let place' k = if k == n then Curve.placeFrom Before c b else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
+      let place' k =
+            if k == n
+              then Curve.placeFrom Before c b
+              else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [mm (Vec.distance (place' k) (place' (k + 1))) | k <- [0 .. n - 1 :: Int]]
 
 -- | A line, an arc and a line that touch.
@@ -288,10 +464,30 @@ touching = do
   let centre = Vec.point 20 r
       p = Vec.point 20 0
       q = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre
-  pure (Generate.ok (Curve.ofSegments (Straight (Vec.point 0 0) p :| [Arc {start = p, end = q, centre, sweep = Rad sweep}, Straight q (Vec.shift (Vec.polar (Mm 15) (Rad sweep)) q)])))
+  pure
+    ( Generate.ok
+        ( Curve.ofSegments
+            ( Straight (Vec.point 0 0) p
+                :| [ Arc {start = p, end = q, centre, sweep = Rad sweep},
+                     Straight q (Vec.shift (Vec.polar (Mm 15) (Rad sweep)) q)
+                   ]
+            )
+        )
+    )
 
 circle :: Double -> Curve
-circle r = Generate.ok (Curve.ofSegments (Arc {start = Vec.point r 0, end = Vec.point r 0, centre = Vec.point 0 0, sweep = Rad (2 * pi)} :| []))
+circle r =
+  Generate.ok
+    ( Curve.ofSegments
+        ( Arc
+            { start = Vec.point r 0,
+              end = Vec.point r 0,
+              centre = Vec.point 0 0,
+              sweep = Rad (2 * pi)
+            }
+            :| []
+        )
+    )
 
 isNumber :: Point -> Bool
 isNumber p = not (isNaN (Vec.x p + Vec.y p))
@@ -306,4 +502,5 @@ close :: Double -> Point -> Point -> Property
 close tolerance p q = counterexample (show (p, q)) (Vec.distance p q <= Mm tolerance)
 
 alike :: Double -> Vec -> Vec -> Property
-alike tolerance v w = counterexample (show (v, w)) (Vec.norm (Vec.add v (Vec.negate w)) <= tolerance)
+alike tolerance v w =
+  counterexample (show (v, w)) (Vec.norm (Vec.add v (Vec.negate w)) <= tolerance)

@@ -1,4 +1,5 @@
--- | What bare numbers say of two lines or arcs against the exact comparison and against many points.
+-- | What bare numbers say of two lines or arcs against the exact comparison and against many
+-- points.
 module Geometry.Distance.FastSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -19,18 +20,28 @@ spec = do
         let Mm d = Distance.toPoint p s
             found = FastDistance.distance s (Vec.x p) (Vec.y p)
          in counterexample (show (d, found)) (abs (d - found) <= 1e-9)
-  it "two are as far apart as they are, or not told to be further (catches a crossing or a normal that is forgotten)" $
-    property $
+  it
+    "two are as far apart as they are, or not told to be further (catches a crossing or a normal \
+    \that is forgotten)"
+    $ property $
       forAll pair $ \(a, b) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
             found = FastDistance.apart a b
          in counterexample (show (d, found)) (found <= d + 1e-9 && found >= d - 1e-6)
-  it "no point of one is further from the other than is told (catches an arc that bulges between its ends)" $
-    property $
+  it
+    "no point of one is further from the other than is told (catches an arc that bulges between \
+    \its ends)"
+    $ property $
       forAll pair $ \(a, b) ->
         let told = FastDistance.furthest a b
-            sampled = maximum [d | k <- [0 .. 200 :: Int], let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 200) a) b]
-         in classify (told < sampled + 1e-3) "tight" $ counterexample (show (told, sampled)) (told >= sampled - 1e-9)
+            sampled =
+              maximum
+                [ d
+                  | k <- [0 .. 200 :: Int],
+                    let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 200) a) b
+                ]
+         in classify (told < sampled + 1e-3) "tight" $
+              counterexample (show (told, sampled)) (told >= sampled - 1e-9)
   it "what is surely covered is covered (catches a part between two that belongs to neither)" $
     property $
       forAll ((,) <$> oneof [pure <$> segment, chain] <*> choose (0.5, 12)) $ \(others, r) ->
@@ -39,7 +50,10 @@ spec = do
             let reach = share * r
                 surely = FastDistance.isCovered reach pure (const True) others s
                 gaps = Distance.uncovered (Mm reach) others s
-             in classify surely "covered" $ counterexample (show gaps) (not surely || all (\(from, to) -> to - from < 1e-6) gaps)
+             in classify surely "covered" $
+                  counterexample
+                    (show gaps)
+                    (not surely || all (\(from, to) -> to - from < 1e-6) gaps)
   it "two are as far apart as is told at least (catches a bulge that comes nearer than both ends)" $
     property $
       forAll pair $ \(a, b) ->
@@ -53,36 +67,60 @@ spec = do
             Mm long = Segment.length a
             p = Segment.start b
             Mm e = Distance.toPoint p a
-         in counterexample (show (d, e)) ((d > r || FastDistance.mayComeWithin r long a b) && (e > r || FastDistance.mayLieWithin r long a (Vec.x p) (Vec.y p)))
-  it "what is surely accompanied is covered (catches a curve that goes round the other way, and one with a gap)" $
-    property $
+         in counterexample
+              (show (d, e))
+              ( (d > r || FastDistance.mayComeWithin r long a b)
+                  && (e > r || FastDistance.mayLieWithin r long a (Vec.x p) (Vec.y p))
+              )
+  it
+    "what is surely accompanied is covered (catches a curve that goes round the other way, and one \
+    \with a gap)"
+    $ property $
       forAll ((,,) <$> chain <*> choose (0.5, 12) <*> arbitrary) $ \(others, r, backwards) ->
-        forAll (oneof [beside r others, wayAlong r others]) $ \s -> forAll (sublistOf others) $ \some ->
-          let reach = 1.1 * r
-              surely ss = FastDistance.isAccompanied reach ss (if backwards then Segment.reverse s else s)
-              gaps ss = filter (\(from, to) -> to - from > 1e-6) (Distance.uncovered (Mm reach) ss s)
-           in classify (surely others) "accompanied" $ counterexample (show (gaps others, gaps some)) (all (\ss -> not (surely ss) || null (gaps ss)) [others, some])
-  it "is divided where the foot of a point lies (catches parts that do not meet, or that make less than the whole)" $
-    property $
-      forAll ((,) <$> point <*> segment) $ \(p, s) -> case FastDistance.divided (Vec.x p) (Vec.y p) s of
-        Nothing -> property True
-        Just (q, r) ->
-          let apart u v = let Mm d = Vec.distance u v in d
-              Mm away = Distance.toPoint p s
-              Mm far = Distance.toPoint (Segment.end q) s
-           in counterexample (show (q, r)) $
-                apart (Segment.start q) (Segment.start s) < 1e-9 && apart (Segment.end r) (Segment.end s) < 1e-9 && apart (Segment.end q) (Segment.start r) < 1e-9 && far < 1e-9 && case s of
-                  Straight _ _ -> abs (apart p (Segment.end q) - away) < 1e-6
-                  Arc {} -> True
+        forAll (oneof [beside r others, wayAlong r others]) $ \s ->
+          forAll (sublistOf others) $ \some ->
+            let reach = 1.1 * r
+                surely ss =
+                  FastDistance.isAccompanied reach ss (if backwards then Segment.reverse s else s)
+                gaps ss =
+                  filter (\(from, to) -> to - from > 1e-6) (Distance.uncovered (Mm reach) ss s)
+             in classify (surely others) "accompanied" $
+                  counterexample
+                    (show (gaps others, gaps some))
+                    (all (\ss -> not (surely ss) || null (gaps ss)) [others, some])
+  it
+    "is divided where the foot of a point lies (catches parts that do not meet, or that make less \
+    \than the whole)"
+    $ property $
+      forAll ((,) <$> point <*> segment) $ \(p, s) ->
+        case FastDistance.divided (Vec.x p) (Vec.y p) s of
+          Nothing -> property True
+          Just (q, r) ->
+            let apart u v = let Mm d = Vec.distance u v in d
+                Mm away = Distance.toPoint p s
+                Mm far = Distance.toPoint (Segment.end q) s
+             in counterexample (show (q, r)) $
+                  apart (Segment.start q) (Segment.start s) < 1e-9
+                    && apart (Segment.end r) (Segment.end s) < 1e-9
+                    && apart (Segment.end q) (Segment.start r) < 1e-9
+                    && far < 1e-9
+                    && case s of
+                      Straight _ _ -> abs (apart p (Segment.end q) - away) < 1e-6
+                      Arc {} -> True
   it "what surely lies on a side lies there with every point (catches an arc judged by its ends)" $
     property $
       forAll pair $ \(t, e) ->
         let points = [Segment.at (fromIntegral k / 200) t | k <- [0 .. 200 :: Int]]
-         in counterexample (show (FastDistance.isLeftOf t e, FastDistance.isRightOf t e)) ((not (FastDistance.isLeftOf t e) || all (isLeft e) points) && (not (FastDistance.isRightOf t e) || not (any (isLeft e) points)))
+         in counterexample
+              (show (FastDistance.isLeftOf t e, FastDistance.isRightOf t e))
+              ( (not (FastDistance.isLeftOf t e) || all (isLeft e) points)
+                  && (not (FastDistance.isRightOf t e) || not (any (isLeft e) points))
+              )
   where
     isLeft e p = case e of
       Straight a b -> Vec.cross (Vec.to a b) (Vec.to a p) > 0
-      Arc {start, centre, sweep = Rad s} -> (Vec.distance centre p < Segment.radius centre start) == (s > 0)
+      Arc {start, centre, sweep = Rad s} ->
+        (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
 -- | Two that have nothing to do with one another, or of which one runs beside the other.
 pair :: Gen (Segment, Segment)
@@ -99,13 +137,17 @@ beside :: Double -> [Segment] -> Gen Segment
 beside r others = do
   s <- elements others
   shaken <- elements [0, 1e-4, 1e-2, 5e-2]
-  let moved p = (\x y -> Vec.shift (Vec.vec (shaken * x) (shaken * y)) p) <$> choose (-1, 1) <*> choose (-1, 1)
+  let moved p =
+        (\x y -> Vec.shift (Vec.vec (shaken * x) (shaken * y)) p)
+          <$> choose (-1, 1) <*> choose (-1, 1)
   from <- elements [0, 0, 0.2]
   to <- elements [1, 1, 0.7]
   case s of
     Straight a b -> do
       let out = if a == b then Vec.vec r 0 else Vec.scale r (Vec.left (Vec.unit (Vec.to a b)))
-      Straight <$> moved (Vec.shift out (Vec.between from a b)) <*> moved (Vec.shift out (Vec.between to a b))
+      Straight
+        <$> moved (Vec.shift out (Vec.between from a b))
+          <*> moved (Vec.shift out (Vec.between to a b))
     Arc {start, centre, sweep = Rad sweep} -> do
       let Mm old = Segment.radius centre start
       c <- moved centre
@@ -113,7 +155,8 @@ beside r others = do
           at t = Vec.shift (Vec.scale ((old + r) / old) (turned t)) c
       pure Arc {start = at from, end = at to, centre = c, sweep = Rad (sweep * (to - from))}
 
--- | A line or a flat arc at about a distance from the beginning of the first of some others and from the end of the last one.
+-- | A line or a flat arc at about a distance from the beginning of the first of some others and
+-- from the end of the last one.
 wayAlong :: Double -> [Segment] -> Gen Segment
 wayAlong r others = case others of
   [] -> segment
@@ -125,11 +168,16 @@ wayBetween r first final = do
   shaken <- choose (-0.05, 0.05)
   share <- elements [0, 0.05, 0.2]
   bend <- oneof [pure 0, choose (-0.9, 0.9)]
-  let out s t = Vec.shift (Vec.scale (r + shaken) (Vec.left (Segment.directionAt t s))) (Segment.at t s)
+  let out s t =
+        Vec.shift (Vec.scale (r + shaken) (Vec.left (Segment.directionAt t s))) (Segment.at t s)
       (a, b) = (out first share, out final (1 - share))
       l = Vec.to a b
       c = Vec.shift (Vec.scale (1 / (2 * tan (bend / 2))) (Vec.left l)) (Vec.between 0.5 a b)
-  pure (if abs bend < 0.01 || a == b then Straight a b else Arc {start = a, end = b, centre = c, sweep = Rad bend})
+  pure
+    ( if abs bend < 0.01 || a == b
+        then Straight a b
+        else Arc {start = a, end = b, centre = c, sweep = Rad bend}
+    )
 
 -- | Lines and arcs one behind the other without a corner.
 chain :: Gen [Segment]
@@ -153,7 +201,10 @@ chain = do
                 sweep = side * min 3 (l / r)
                 end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to c p)) c
             (Arc {start = p, end, centre = c, sweep = Rad sweep} :) <$> go (n - 1) end (a + sweep)
-          else let end = Vec.shift (Vec.polar (Mm l) (Rad a)) p in (Straight p end :) <$> go (n - 1) end a
+          else
+            let end =
+                  Vec.shift (Vec.polar (Mm l) (Rad a)) p
+             in (Straight p end :) <$> go (n - 1) end a
 
 point :: Gen Point
 point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
@@ -168,4 +219,10 @@ segment = oneof [straight, arc]
       a <- choose (-4, 4)
       s <- oneof [choose (-6.28, 6.28), choose (-1.5, 1.5), elements [2 * pi, -2 * pi]]
       let begin = Vec.shift (Vec.polar (Mm r) (Rad a)) c
-      pure Arc {start = begin, end = Vec.shift (Vec.polar (Mm r) (Rad (a + s))) c, centre = c, sweep = Rad s}
+      pure
+        Arc
+          { start = begin,
+            end = Vec.shift (Vec.polar (Mm r) (Rad (a + s))) c,
+            centre = c,
+            sweep = Rad s
+          }

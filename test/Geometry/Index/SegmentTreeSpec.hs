@@ -22,8 +22,9 @@ spec = describe "boxes of a chain" $ do
     withMaxSuccess 1000 . forAll outlines $ \os ->
       let c = ClosedPolyarcs.fromOutlines tolerance os
           everywhere = meetings Every c
-       in cover 40 (Set.size everywhere > 1) "that meet" . cover 20 (ClosedPolyarcs.walks c > 1) "several walks" $
-            meetings Boxed c === everywhere
+       in cover 40 (Set.size everywhere > 1) "that meet"
+            . cover 20 (ClosedPolyarcs.walks c > 1) "several walks"
+            $ meetings Boxed c === everywhere
 
 -- | Which pairs of segments are looked at.
 data Looked = Every | Boxed
@@ -33,24 +34,46 @@ meetings :: Looked -> ClosedPolyarcs -> Set (Int, Int)
 meetings looked c = runST $ do
   found <- newMutVar Set.empty
   let tell i j = modifyMutVar' found (Set.insert (i, j))
-      visit = SegmentIntersection.meet tolerance c Visitor {crossing = \i _ j _ _ _ _ -> tell i j, resting = tell, touching = \i j _ _ -> tell i j}
+      visit =
+        SegmentIntersection.meet
+          tolerance
+          c
+          Visitor
+            { crossing = \i _ j _ _ _ _ -> tell i j,
+              resting = tell,
+              touching = \i j _ _ -> tell i j
+            }
   case looked of
     Every -> sequence_ [visit i j | i <- segments, j <- segments, i < j]
     Boxed -> SegmentTree.pairs (SegmentTree.boxes tolerance c) (pure True) visit
   readMutVar found
   where
-    segments = [i | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 2], not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))]
+    segments =
+      [ i
+        | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 2],
+          not
+            ( ClosedPolyarcs.marked
+                ClosedPolyarcs.copied
+                (indexPrimArray (ClosedPolyarcs.marks c) i)
+            )
+      ]
 
 tolerance :: Double
 tolerance = 1e-11
 
--- | One or more: long ways that wind and come back to themselves, scattered vertices, and such on a grid.
+-- | One or more: long ways that wind and come back to themselves, scattered vertices, and such on a
+-- grid.
 outlines :: Gen [FlatPolyarc]
 outlines = do
   walks <- elements [1, 1, 2, 3]
   vectorOf walks (oneof [winding, scattered, onGrid])
   where
-    outline vs = FlatPolyarc Closed (primArrayFromList [x | (x, _, _) <- vs]) (primArrayFromList [y | (_, y, _) <- vs]) (primArrayFromList [b | (_, _, b) <- vs])
+    outline vs =
+      FlatPolyarc
+        Closed
+        (primArrayFromList [x | (x, _, _) <- vs])
+        (primArrayFromList [y | (_, y, _) <- vs])
+        (primArrayFromList [b | (_, _, b) <- vs])
     -- Steps that turn little by little, so that whole runs go forward.
     winding = do
       n <- choose (3, 300 :: Int)
@@ -59,7 +82,11 @@ outlines = do
       let headings = scanl (+) 0 turns
           places = scanl (\(x, y) a -> (x + cos a, y + sin a)) (0, 0) headings
       pure (outline (zipWith (\(x, y) b -> (x, y, b)) places bulges))
-    scattered = choose (3, 40 :: Int) >>= \n -> outline <$> vectorOf n ((,,) <$> choose (-5, 5) <*> choose (-5, 5) <*> bulge)
-    onGrid = choose (3, 60 :: Int) >>= \n -> outline <$> vectorOf n ((,,) <$> whole <*> whole <*> bulge)
+    scattered =
+      choose (3, 40 :: Int) >>= \n ->
+        outline <$> vectorOf n ((,,) <$> choose (-5, 5) <*> choose (-5, 5) <*> bulge)
+    onGrid =
+      choose (3, 60 :: Int) >>= \n -> outline <$> vectorOf n ((,,) <$> whole <*> whole <*> bulge)
     whole = fromIntegral <$> choose (-6, 6 :: Int)
-    bulge = frequency [(3, pure 0), (2, choose (-0.3, 0.3)), (1, choose (-1, 1)), (1, elements [-1, 1])]
+    bulge =
+      frequency [(3, pure 0), (2, choose (-0.3, 0.3)), (1, choose (-1, 1)), (1, elements [-1, 1])]

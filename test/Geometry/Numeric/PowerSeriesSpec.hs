@@ -9,39 +9,67 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "power series" $ do
-    it "a quotient times its divisor is the dividend (catches a term of the recurrence that is left out)" $
-      property $
-        forAll ((,) <$> series <*> positive) $ \(a, b) -> PowerSeries.multiply (PowerSeries.divide a b) b `alike` a
+    it
+      "a quotient times its divisor is the dividend (catches a term of the recurrence that is left \
+      \out)"
+      $ property $
+        forAll ((,) <$> series <*> positive) $ \(a, b) ->
+          PowerSeries.multiply (PowerSeries.divide a b) b `alike` a
     it "powers add in their exponents (catches a weight without its α)" $
       property $
         forAll ((,,) <$> positive <*> choose (-2, 2) <*> choose (-2, 2)) $ \(a, p, q) ->
-          PowerSeries.multiply (PowerSeries.power p a) (PowerSeries.power q a) `alike` PowerSeries.power (p + q) a
+          PowerSeries.multiply (PowerSeries.power p a) (PowerSeries.power q a)
+            `alike` PowerSeries.power (p + q) a
     it "the square of a root is the whole (catches a weight α·j − (k − j) with a wrong sign)" $
       property $
-        forAll positive $ \a -> PowerSeries.multiply (PowerSeries.power 0.5 a) (PowerSeries.power 0.5 a) `alike` a
+        forAll positive $ \a ->
+          PowerSeries.multiply (PowerSeries.power 0.5 a) (PowerSeries.power 0.5 a) `alike` a
     it "sin² + cos² is 1 (catches a sign of the two recurrences)" $
       property $
         forAll series $ \a ->
-          PowerSeries.add (PowerSeries.multiply (PowerSeries.sine a) (PowerSeries.sine a)) (PowerSeries.multiply (PowerSeries.cosine a) (PowerSeries.cosine a))
+          PowerSeries.add
+            (PowerSeries.multiply (PowerSeries.sine a) (PowerSeries.sine a))
+            (PowerSeries.multiply (PowerSeries.cosine a) (PowerSeries.cosine a))
             `alike` PowerSeries.constant (PowerSeries.order a) 1
-    it "the derivative of a sine is the cosine times the inner derivative (catches a factor j that is left out)" $
-      property $
-        forAll series $ \a -> PowerSeries.derivative (PowerSeries.sine a) `alike` PowerSeries.multiply (PowerSeries.cosine a) (PowerSeries.derivative a)
+    it
+      "the derivative of a sine is the cosine times the inner derivative (catches a factor j that \
+      \is left out)"
+      $ property $
+        forAll series $ \a ->
+          PowerSeries.derivative (PowerSeries.sine a)
+            `alike` PowerSeries.multiply (PowerSeries.cosine a) (PowerSeries.derivative a)
     it "the tangent has the derivative 1 + tan²" $
       property $
         forAll (PowerSeries.plusConstant 0 <$> series) $ \a ->
           abs (cos (PowerSeries.value a)) > 0.2
             ==> let t = PowerSeries.tangent a
-                 in PowerSeries.derivative t `alike` PowerSeries.multiply (PowerSeries.plusConstant 1 (PowerSeries.multiply t t)) (PowerSeries.derivative a)
+                 in PowerSeries.derivative t
+                      `alike` PowerSeries.multiply
+                        (PowerSeries.plusConstant 1 (PowerSeries.multiply t t))
+                        (PowerSeries.derivative a)
     it "the derivative of the integral is the whole" $
       property $
         forAll ((,) <$> series <*> choose (-3, 3)) $ \(a, c) ->
-          PowerSeries.derivative (PowerSeries.integral c a) `alike` a .&&. PowerSeries.value (PowerSeries.integral c a) === c
-    it "a polynomial of a series has the values of the polynomial (catches coefficients in the wrong order)" $
-      property $
+          PowerSeries.derivative (PowerSeries.integral c a) `alike` a
+            .&&. PowerSeries.value (PowerSeries.integral c a) === c
+    it
+      "a polynomial of a series has the values of the polynomial (catches coefficients in the \
+      \wrong order)"
+      $ property $
         forAll ((,) <$> series <*> vectorOf 4 (choose (-2, 2))) $ \(a, cs) ->
           let squares = PowerSeries.multiply a a
-              byHand = foldr1 PowerSeries.add (zipWith PowerSeries.scale cs [PowerSeries.constant (PowerSeries.order a) 1, a, squares, PowerSeries.multiply squares a])
+              byHand =
+                foldr1
+                  PowerSeries.add
+                  ( zipWith
+                      PowerSeries.scale
+                      cs
+                      [ PowerSeries.constant (PowerSeries.order a) 1,
+                        a,
+                        squares,
+                        PowerSeries.multiply squares a
+                      ]
+                  )
            in PowerSeries.polynomial cs a `alike` byHand
 
 series :: Gen PowerSeries

@@ -15,7 +15,8 @@ import Test.QuickCheck hiding (Result)
 
 spec :: Spec
 spec = describe "one grammar, two readers" . modifyMaxSuccess (const 500) $ do
-  -- The bug: a place, a value or a comment that the quick reader loses; a program without a mistake that it does not read.
+  -- The bug: a place, a value or a comment that the quick reader loses; a program without a mistake
+  -- that it does not read.
   prop "a program is the same by both" $
     forAllShow (PrintProgram.program <$> Generate.program) Text.unpack $ \text ->
       both text .&&. null (errors (parse text))
@@ -33,5 +34,30 @@ damaged count text
   | otherwise = do
     at <- choose (0, Text.length text)
     gone <- choose (0, 4)
-    new <- elements ["", "(", ")", "{", "}", "[", "]", "\n", ",", "=", "+", "..", "\"", "--", " 3 ", " x ", " if ", " for ", " else ", " and ", " fillet ", "\nlet ", "\nmill "]
+    new <-
+      elements
+        [ "",
+          "(",
+          ")",
+          "{",
+          "}",
+          "[",
+          "]",
+          "\n",
+          ",",
+          "=",
+          "+",
+          "..",
+          "\"",
+          "--",
+          " 3 ",
+          " x ",
+          " if ",
+          " for ",
+          " else ",
+          " and ",
+          " fillet ",
+          "\nlet ",
+          "\nmill "
+        ]
     damaged (count - 1) (Text.take at text <> new <> Text.drop (at + gone) text)

@@ -1,8 +1,10 @@
--- | Biarcs in plain numbers, without angles: what "Geometry.ArcFitting.Biarc" makes of two ends whose directions lean to the chord by
--- less than a quarter turn, for loops that try many.
+-- | Biarcs in plain numbers, without angles: what "Geometry.ArcFitting.Biarc" makes of two ends
+-- whose directions lean to the chord by less than a quarter turn, for loops that try many.
 --
--- With the notation of that module: the half angles come from the cosines by roots, @e^{iγ/2}@ is the conjugate of
--- @w/|w|@, and an arc over a chord c that turns by 2φ has the curvature @2·sin φ/c@ and the bulge @tan(φ/2)@.
+-- With the notation of that module: the half angles come from the cosines by roots, @e^{iγ/2}@ is
+-- the conjugate of
+-- @w/|w|@, and an arc over a chord c that turns by 2φ has the curvature @2·sin φ/c@ and the bulge
+--  @tan(φ/2)@.
 module Geometry.ArcFitting.Biarc.Fast
   ( Pose (..),
     FastBiarc (..),
@@ -35,8 +37,9 @@ data FastBiarc = FastBiarc
     bulge2 :: Double
   }
 
--- | The biarc from one pose to another, its second chord so many times as long as 'Geometry.ArcFitting.Biarc.join' has it. Its numbers are no numbers where an end leans to the chord by a quarter turn
--- or more, or where the ends are one point.
+-- | The biarc from one pose to another, its second chord so many times as long as
+-- 'Geometry.ArcFitting.Biarc.join' has it. Its numbers are no numbers where an end leans to the
+-- chord by a quarter turn or more, or where the ends are one point.
 joined :: Double -> Pose -> Pose -> FastBiarc
 joined times from end = among times (between from end)
 {-# INLINE joined #-}
@@ -45,18 +48,55 @@ joined times from end = among times (between from end)
 data Biarcs
   = -- | the only one
     Only FastBiarc
-  | -- | what those have in common that differ by the ratio of their chords: where they begin; the way between, its length and
-    -- its direction; the cosines and sines of half the angles of the ends from it, and the sines of the whole ones; the ratio of
-    -- 'Geometry.ArcFitting.Biarc.join'
-    Biarcs {x0 :: Double, y0 :: Double, cx :: Double, cy :: Double, l :: Double, ux :: Double, uy :: Double, ca :: Double, sa :: Double, cb :: Double, sb :: Double, sinA :: Double, sinB :: Double, chords :: Double}
+  | -- its direction; the cosines and sines of half the angles of the ends from it, and the sines of
+    -- the whole ones; the ratio of 'Geometry.ArcFitting.Biarc.join'
+
+    -- | what those have in common that differ by the ratio of their chords: where they begin; the
+    -- way between, its length and
+    Biarcs
+      { x0 :: Double,
+        y0 :: Double,
+        cx :: Double,
+        cy :: Double,
+        l :: Double,
+        ux :: Double,
+        uy :: Double,
+        ca :: Double,
+        sa :: Double,
+        cb :: Double,
+        sb :: Double,
+        sinA :: Double,
+        sinB :: Double,
+        chords :: Double
+      }
 
 -- | All from one pose to another.
 between :: Pose -> Pose -> Biarcs
 between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
-  | not (l > coincident && cosA > 0 && cosB > 0) = Only (FastBiarc False (0 / 0) (0 / 0) final (0 / 0) (0 / 0))
+  | not (l > coincident && cosA > 0 && cosB > 0) =
+    Only (FastBiarc False (0 / 0) (0 / 0) final (0 / 0) (0 / 0))
   | abs sinA <= straight && abs sinB <= straight = Only (FastBiarc True 0 0 final 0 0)
-  | abs (sinA * cosB + cosA * sinB) <= oneArc = let s = sb * ca - cb * sa in Only (FastBiarc True (2 * s / l) (s / (1 + cb * ca + sb * sa)) final 0 0)
-  | otherwise = Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords = ratio sinA cosA sinB cosB}
+  | abs (sinA * cosB + cosA * sinB) <= oneArc =
+    let s =
+          sb * ca - cb * sa
+     in Only (FastBiarc True (2 * s / l) (s / (1 + cb * ca + sb * sa)) final 0 0)
+  | otherwise =
+    Biarcs
+      { x0,
+        y0,
+        cx,
+        cy,
+        l,
+        ux,
+        uy,
+        ca,
+        sa,
+        cb,
+        sb,
+        sinA,
+        sinB,
+        chords = ratio sinA cosA sinB cosB
+      }
   where
     cx = x1 - x0
     cy = y1 - y0
@@ -80,10 +120,19 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
 among :: Double -> Biarcs -> FastBiarc
 among times biarcs = case biarcs of
   Only pair -> pair
-  Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords} -> FastBiarc {single = False, bend1 = 2 * s1 / (l / size), bulge1 = bulge s1 c1, joint, bend2 = 2 * s2 / (r * l / size), bulge2 = bulge s2 c2}
+  Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords} ->
+    FastBiarc
+      { single = False,
+        bend1 = 2 * s1 / (l / size),
+        bulge1 = bulge s1 c1,
+        joint,
+        bend2 = 2 * s2 / (r * l / size),
+        bulge2 = bulge s2 c2
+      }
     where
       usual = times * chords
-      -- An arc that turns by next to nothing is put as a line; the ratio with which it is one leaves no kink.
+      -- An arc that turns by next to nothing is put as a line; the ratio with which it is one
+      -- leaves no kink.
       r
         | abs ((sa + usual * sb) * ca + (ca + usual * cb) * sa) <= hardly = near (-(sinA / halved))
         | abs ((ca + usual * cb) * sb + (sa + usual * sb) * cb) <= hardly = near (-(halved / sinB))
@@ -118,27 +167,45 @@ among times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
--- | The ratio of the chords, as 'Geometry.ArcFitting.Biarc.ratio' chooses it: 1 unless a curve that bends to one side leans more than
--- twice as much at one of its ends as at the other.
+-- | The ratio of the chords, as 'Geometry.ArcFitting.Biarc.ratio' chooses it: 1 unless a curve that
+-- bends to one side leans more than twice as much at one of its ends as at the other.
 ratio :: Double -> Double -> Double -> Double -> Double
 ratio sinA cosA sinB cosB
-  | sinA * sinB >= 0 || abs sinA <= near * abs sinB && abs sinB <= near * abs sinA || held == gamma = 1
+  | sinA * sinB >= 0
+      || abs sinA <= near * abs sinB && abs sinB <= near * abs sinA
+      || held == gamma =
+    1
   | otherwise = max 0.25 (min 4 (-(sin ((alpha + held) / 2) / sin ((held + beta) / 2))))
   where
     alpha = atan2 sinA cosA
     beta = atan2 sinB cosB
     gamma = -((alpha + beta) / 2)
     held = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
-    -- Sines that differ by no more are of angles below a quarter turn that differ by less than the factor 2.
+    -- Sines that differ by no more are of angles below a quarter turn that differ by less than the
+    -- factor 2.
     near = 1.4
 {-# NOINLINE ratio #-}
 
--- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it turns by.
-data FastArc = FastArc {origin :: {-# UNPACK #-} Pose, bend :: Double, limit :: {-# UNPACK #-} Pose, cosine :: Double, sine :: Double}
+-- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it
+-- turns by.
+data FastArc = FastArc
+  { origin :: {-# UNPACK #-} Pose,
+    bend :: Double,
+    limit :: {-# UNPACK #-} Pose,
+    cosine :: Double,
+    sine :: Double
+  }
 
 -- | From its beginning, its curvature in 1/mm and its end.
 frame :: Pose -> Double -> Pose -> FastArc
-frame origin bend limit = FastArc {origin, bend, limit, cosine = dx origin * dx limit + dy origin * dy limit, sine = dx origin * dy limit - dy origin * dx limit}
+frame origin bend limit =
+  FastArc
+    { origin,
+      bend,
+      limit,
+      cosine = dx origin * dx limit + dy origin * dy limit,
+      sine = dx origin * dy limit - dy origin * dx limit
+    }
 {-# INLINE frame #-}
 
 -- | Whether an arc turns by less than a quarter turn.
