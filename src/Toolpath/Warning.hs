@@ -84,8 +84,11 @@ bodiesOf b = case b of
     let room =
           Part.contour (Part.wall p)
      in Just
-          ( Body room (Part.outline room) False NonEmpty
-              .:| [Body island (Part.outline island) True | island <- Part.islands p]
+          ( Body
+              room
+              (Part.outline room)
+              False
+              NonEmpty.:| [Body island (Part.outline island) True | island <- Part.islands p]
           )
   _ -> Nothing
 
@@ -103,8 +106,10 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
           ( Polyarc.Polyarc
               Part.Closed
               ( segments
-                  <> ( Straight end onAxis NonEmpty
-                         .:| [Straight onAxis before, Straight before begin]
+                  <> ( Straight
+                         end
+                         onAxis
+                         NonEmpty.:| [Straight onAxis before, Straight before begin]
                      )
               )
           )

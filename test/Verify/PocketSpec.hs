@@ -42,14 +42,14 @@ spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
   prop
     "random pockets are proven, on arcs and on chords (catches a rim or a floor that is asked \
-      \where no cutter fits)"
+    \where no cutter fits)"
     $ forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $
       \(p, first, m) ->
         forAllPath (Generate.pocketing first p) $ \path ->
           Proof.toReports m (proofOf m path) === []
   prop
     "places that the cutter can reach lie within its radius of the frames (catches a proof of \
-      \nothing)"
+    \nothing)"
     $ forAll ((,) <$> Generate.pocket <*> Test.QuickCheck.elements machines) $ \(p, m) ->
       forAllPath (Generate.pocketing [] p) $ \path ->
         forAllBlind (vectorOf 200 (anywhere p)) $ \ps -> conjoin (map (swept p (cuts m path)) ps)
@@ -60,7 +60,7 @@ spec = modifyMaxSuccess (const 60) $ do
         map kind (findings (proofOf iso path)) === ["floor"]
   prop
     "a loop that is left out is found, on the floor or at the walls (catches strokes that count \
-      \where they do not run)"
+    \where they do not run)"
     $ forAll (Generate.rectangle `suchThat` \p -> roomy (times 1.6 (cutter p)) p) $ \p ->
       forAll (Test.QuickCheck.elements [0, 1]) $ \k ->
         let asked = Generate.pocketing [] p {step = times 1.6 (cutter p)}
@@ -113,7 +113,7 @@ spec = modifyMaxSuccess (const 60) $ do
                       ]
   prop
     "the depths of a pocket in another order are found (catches a proof that only looks at what is \
-      \left)"
+    \left)"
     $ forAll Generate.rectangle $ \p ->
       let asked = Generate.pocketing [] p
           at zs = Generate.laid asked {Part.wall = (Part.wall asked) {Part.levels = map Mm zs}}
@@ -128,7 +128,7 @@ spec = modifyMaxSuccess (const 60) $ do
             _ -> discard
   prop
     "a pocket whose walls are a little further out is found to be left too small (catches a \
-      \tolerance that grows)"
+    \tolerance that grows)"
     $ forAll Generate.rectangle $ \p ->
       case ( Generate.laid (Generate.pocketing [] p),
              Generate.laid (Generate.pocketing [] p {left = plus (left p) (Mm 0.08)})
@@ -146,7 +146,7 @@ spec = modifyMaxSuccess (const 60) $ do
         _ -> discard
   it
     "of several pockets each is looked at by itself (catches strokes that are taken for those of \
-      \another one)"
+    \another one)"
     $ do
       let asked = three (replicate 3 right)
           wrong k what = three [if j == k then what else right | j <- [0 .. 2 :: Int]]
@@ -154,14 +154,15 @@ spec = modifyMaxSuccess (const 60) $ do
             (Just program, Just others) ->
               map kind (findings (Verify.prove iso asked program (bare others)))
             _ -> ["no frames"]
+          foundIn text = [found (wrong k text) | k <- [0 .. 2]]
       found asked `shouldBe` []
-      [filter (== "order") (found (wrong k "pocket c step 3 { depth 2 }\n pocket c step 3 { depth \
-        \1 }")) | k <- [0 .. 2]]
+      map (filter (== "order")) (foundIn "pocket c step 3 { depth 2 }\n pocket c step 3 { depth 1 }")
         `shouldBe` replicate 3 ["order"]
-      [take 1 (filter (`elem` ["floor", "excess"]) (found (wrong k "pocket smaller step 3 { depth \
-        \2 step 1 }"))) | k <- [0 .. 2]]
+      map
+        (take 1 . filter (`elem` ["floor", "excess"]))
+        (foundIn "pocket smaller step 3 { depth 2 step 1 }")
         `shouldBe` replicate 3 ["excess"]
-      [take 1 (filter (== "gouge") (found (wrong k "pocket larger step 3 { depth 2 step 1 }"))) | k <- [0 .. 2]]
+      map (take 1 . filter (== "gouge")) (foundIn "pocket larger step 3 { depth 2 step 1 }")
         `shouldBe` replicate 3 ["gouge"]
   where
     right = "pocket c step 3 { depth 2 step 1 }"
