@@ -38,7 +38,7 @@ work = do
   name <- getProgName
   statusOf <$> case parsed of
     -- The help and the version are results as well.
-    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Subcommand.told text
+    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
 statusOf :: Exit -> ExitCode

@@ -7,8 +7,6 @@ module Blocks
   )
 where
 
-import Compile (LoadedProgram)
-import Compile qualified
 import Control.Exception (IOException, try)
 import Data.Bifunctor (first)
 import Data.List (sort)
@@ -16,6 +14,8 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (takeExtension, (</>))
@@ -61,7 +61,7 @@ load file block = do
           "part example \"One head for the examples\""
           ("part " <> Text.replace "-" "_" title)
           head'
-  Compile.load
+  LoadedProgram.load
     (Import.byName reader)
     file
     (if isWhole then program block else named <> program block)

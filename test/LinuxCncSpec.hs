@@ -25,6 +25,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import LinuxCnc (Asked (..), Canonical (..), Leg (..), Place (..))
 import LinuxCnc qualified
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
 import System.Directory (listDirectory)
@@ -297,7 +298,7 @@ retraced file = inFolder $ \folder -> do
   let text = folder </> takeBaseName file <.> "ngc"
   (status, _, err) <- partc ["--quiet", "compile", file, "--target", "iso6983", "-o", text]
   (status, err) `shouldBe` (ExitSuccess, "")
-  loaded <- Compile.load (Import.byName reader) file =<< readText file
+  loaded <- LoadedProgram.load (Import.byName reader) file =<< readText file
   let outcome = Compile.analyse [] loaded
   case Result.settled outcome of
     Nothing -> expectationFailure (show (map Report.title (Result.errors outcome)))

@@ -74,7 +74,7 @@ placed snapshot place = case place of
   InSource region
     | Position.fileOf source region == Region.mainFile source -> (Position.range source region, "")
     | otherwise ->
-      ( maybe top (Position.range source) (Snapshot.broughtBy snapshot region),
+      ( maybe top (Position.range source) (Snapshot.importOf snapshot region),
         lineOf source region <> ": "
       )
   InTape _ -> (top, "")

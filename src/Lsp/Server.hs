@@ -8,7 +8,6 @@ module Lsp.Server
   )
 where
 
-import Compile (LoadedProgram)
 import Control.Exception
   ( AsyncException (..),
     IOException,
@@ -29,6 +28,7 @@ import Lsp.Message qualified as Message
 import Lsp.Session (Awaited (..), Effect (..), Ending (..), Event (..), Milliseconds (..), Session)
 import Lsp.Session qualified as Session
 import Lsp.Transport qualified as Transport
+import Project.LoadedProgram (LoadedProgram)
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
 import System.IO (Handle, hFlush, hSetBinaryMode, hWaitForInput)
