@@ -31,14 +31,14 @@ failWith reporter name = failWithReport reporter name . Cli.toReport
 -- | Fails with a report that concerns a whole file.
 failWithReport :: Reporter -> Text -> Report -> IO Exit
 failWithReport reporter name report =
-  Failed <$ Output.show' reporter name (Region.fromText name "") [report]
+  Failed <$ Output.showReports reporter name (Region.fromText name "") [report]
 
 -- | Computes a result, writes its reports, and continues with its output if no report forbids it.
 -- The name and the source are those of the program.
 whenSound :: Reporter -> Text -> Source -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 whenSound reporter name source result continue = do
   Progress.during ("working on " <> name) (evaluated result)
-  isStopped <- Output.show' reporter name source (errors result <> warnings result)
+  isStopped <- Output.showReports reporter name source (errors result <> warnings result)
   case output result of
     Just a | not isStopped -> continue a
     Nothing | not isStopped -> bug "a stage gave neither an output nor a report"

@@ -76,7 +76,7 @@ run (Invocation settings command) = Output.reporting settings (`perform` command
 
 -- | Prints the help or the version.
 showHelp :: String -> IO Exit
-showHelp text = Output.reporting Output.plainly (`printResult` (Text.pack text <> "\n"))
+showHelp text = Output.reporting Output.defaultSettings (`printResult` (Text.pack text <> "\n"))
 
 perform :: Reporter -> Subcommand -> IO Exit
 perform reporter command = case command of
@@ -136,12 +136,12 @@ verifyTape :: Reporter -> Input -> Text -> Compiled -> Tape -> IO Exit
 verifyTape reporter given tapeName Compiled {Compile.machine, Compile.toolpath, Compile.punched} rows =
   case Tape.readBack machine (Frame.start (program punched)) (framesOf punched) rows of
     Left damage ->
-      Failed <$ Output.show' reporter tapeName (source given) [Tape.toReport damage]
+      Failed <$ Output.showReports reporter tapeName (source given) [Tape.toReport damage]
     Right read' -> do
       let result = Compile.prove machine toolpath (program punched) read'
       Progress.during ("proving " <> tapeName) (evaluated result)
       exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
-      _ <- Output.show' reporter (name given) (source given) (errors result)
+      _ <- Output.showReports reporter (name given) (source given) (errors result)
       pure (if null (errors result) then exit else Disproven)
 
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
@@ -209,7 +209,7 @@ importSheet reporter file wanted = do
     Right text -> do
       let result = Result.mapErrors id Sheet.toReport (Sheet.read text)
       isStopped <-
-        Output.show' reporter sheetName (Region.fromText sheetName text) (errors result)
+        Output.showReports reporter sheetName (Region.fromText sheetName text) (errors result)
       case output result of
         Just sheet
           | not isStopped -> writeText reporter sheetName [file] wanted (Sheet.text sheet)
@@ -269,7 +269,7 @@ machines reporter wanted asText = case wanted of
     descriptions <- descriptionsFor [machineName] []
     case (Target.machineNamed descriptions machineName, lookup machineName descriptions) of
       (Left (Project.DescriptionWrong _ description text reports), _) ->
-        Failed <$ Output.show' reporter description (Region.fromText description text) reports
+        Failed <$ Output.showReports reporter description (Region.fromText description text) reports
       (Left e, _) -> failWithReport reporter "" (Project.toReport e)
       (Right _, Just (Right text)) | asText -> printResult reporter text
       (Right machine, _)
