@@ -37,7 +37,8 @@ work = do
   name <- getProgName
   statusOf <$> case parsed of
     -- The parser gives the help and the version as failures with the status of success.
-    Opt.Failure request | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
+    Opt.Failure request
+      | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
 statusOf :: Exit -> ExitCode

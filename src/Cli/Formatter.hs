@@ -49,8 +49,9 @@ replaceText reporter checkOnly file name text formatted
 -- | Reports the syntax errors of a program.
 reportMistakes :: Reporter -> Text -> Text -> IO Bool
 reportMistakes reporter name text =
-  Output.showReports reporter name (Region.fromText name program) (map Surface.toReport (errors parsed))
+  Output.showReports reporter name source (map Surface.toReport (errors parsed))
   where
+    source = Region.fromText name program
     -- A byte order mark is not part of the program.
     program = Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text
     parsed = Parser.parse 0 program :: Result Report Surface.Error Program

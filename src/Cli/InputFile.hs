@@ -83,7 +83,8 @@ ownFiles file input = file : imported <> concatMap asWritten described
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
 readerFrom contents = Import.Reader {Import.contents, Import.identity}
   where
-    identity path = either (const path :: IOException -> FilePath) id <$> try (canonicalizePath path)
+    identity path =
+      either (const path :: IOException -> FilePath) id <$> try (canonicalizePath path)
 
 -- | The text of a file on the disk, or the reason why there is none.
 readContents :: FilePath -> IO (Either Text Text)

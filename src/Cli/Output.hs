@@ -114,8 +114,8 @@ ioProblem e
   where
     Errno closed = eBADF
 
--- | Writes the reports of one run. SARIF has one log for the whole run, so its reports are collected,
--- the latest first.
+-- | Writes the reports of one run. SARIF has one log for the whole run, so its reports are
+-- collected, the latest first.
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
 -- | Runs a command, and writes the collected reports at its end.
@@ -130,8 +130,8 @@ reporting settings work = do
     JsonFormat -> pure ()
   pure a
 
--- | Writes the reports on one file. The answer is true if one of them stops the command: an error, or
--- with @--werror@ a warning.
+-- | Writes the reports on one file. The answer is true if one of them stops the command: an error,
+-- or with @--werror@ a warning.
 showReports :: Reporter -> Text -> Source -> [Report] -> IO Bool
 showReports Reporter {settings, collected} path source reports = do
   case format settings of
@@ -144,9 +144,10 @@ showReports Reporter {settings, collected} path source reports = do
       writeError (Human.summary colours visible)
     ShortFormat -> mapM_ (writeError . Line.short path source) visible
     JsonFormat -> mapM_ (writeError . Line.json path source) visible
-    SarifFormat -> modifyIORef collected (reverse [Filed {path, source, report} | report <- visible] <>)
+    SarifFormat -> modifyIORef collected (reverse filed <>)
   pure (any Report.isError reports || werror settings && not (null reports))
   where
+    filed = [Filed {path, source, report} | report <- visible]
     visible =
       Report.sorted
         (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
@@ -175,8 +176,8 @@ useColour settings handle = case colour settings of
           else Human.Plain
       )
 
--- | Writes a result to standard output. The answer is the reason of a failure; a pipe that its reader
--- has closed is none.
+-- | Writes a result to standard output. The answer is the reason of a failure; a pipe that its
+-- reader has closed is none.
 result :: Text -> IO (Either Text ())
 result = resultBytes . Encoding.encodeUtf8
 

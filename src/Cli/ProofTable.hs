@@ -18,8 +18,8 @@ import Machine.Machine qualified as Machine
 import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
--- | A row for gouge and one for excess of each contour, then the sums and the verdict. Deviations are
--- in mm.
+-- | A row for gouge and one for excess of each contour, then the sums and the verdict. Deviations
+-- are in mm.
 proof :: Machine -> Proof -> Text
 proof machine p =
   Table.columns

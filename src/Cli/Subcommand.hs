@@ -128,12 +128,14 @@ verify reporter file target tapeFile =
       foreignTape <- traverse readBytes tapeFile
       case maybe (Right (tape (Compile.punched compiled))) (fmap Tape) foreignTape of
         Left e -> failWith reporter (maybe "" displayName tapeFile) e
-        Right rows -> verifyTape reporter given (maybe (name given) displayName tapeFile) compiled rows
+        Right rows -> verifyTape reporter given (tapeName given) compiled rows
+  where
+    tapeName given = maybe (name given) displayName tapeFile
 
 -- | Reads a tape back, compares it with the part and prints the proof. The name is that of the
 -- tape.
 verifyTape :: Reporter -> Input -> Text -> Compiled -> Tape -> IO Exit
-verifyTape reporter given tapeName Compiled {Compile.machine, Compile.toolpath, Compile.punched} rows =
+verifyTape reporter given tapeName compiled rows =
   case Tape.readBack machine (Frame.start (program punched)) (framesOf punched) rows of
     Left damage ->
       Failed <$ Output.showReports reporter tapeName (source given) [Tape.toReport damage]
@@ -143,6 +145,8 @@ verifyTape reporter given tapeName Compiled {Compile.machine, Compile.toolpath, 
       exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
       _ <- Output.showReports reporter (name given) (source given) (errors result)
       pure (if null (errors result) then exit else Disproven)
+  where
+    Compiled {Compile.machine, Compile.toolpath, Compile.punched} = compiled
 
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames reporter file target asJson = withInput reporter file (maybeToList target) $ \given ->
@@ -162,7 +166,9 @@ report reporter file target = withInput reporter file (maybeToList target) $ \gi
         let path = Compile.path analysis
         chosen <- Job.machinesFor (job given) (Compile.part analysis) path
         case chosen of
-          machine : _ -> (\punched -> (analysis, Just (machine, punched))) <$> Compile.punch machine path
+          machine : _ -> do
+            punched <- Compile.punch machine path
+            pure (analysis, Just (machine, punched))
           [] -> pure (analysis, Nothing)
     job given = case target of
       Just wanted -> jobFor [wanted] given
