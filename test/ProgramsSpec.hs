@@ -43,7 +43,9 @@ spec = do
           fmap Proof.findings proof `shouldBe` Just []
           expected
             (file -<.> "frames")
-            (FrameTable.frames machine source (program punched) <> rendered source (warnings outcome))
+            ( FrameTable.frames machine source (program punched)
+                <> rendered source (warnings outcome)
+            )
         _ -> expectationFailure (Text.unpack (rendered source (errors outcome)))
   describe "bad programs give their reports, and no tape" $
     forM_ (kind "bad") $ \file -> it file $ do

@@ -48,7 +48,11 @@ spec = do
           map
             Text.words
             ( Text.lines
-                (FrameTable.frames lkp01f (LoadedProgram.source (loaded program')) (program punched))
+                ( FrameTable.frames
+                    lkp01f
+                    (LoadedProgram.source (loaded program'))
+                    (program punched)
+                )
             )
         onEdge =
           [(n, feed) | n : "cut" : rest@(_ : _ : _ : _ : feed : _) <- rows, last rest == edgeLine]
@@ -73,8 +77,8 @@ spec = do
     showText = Text.pack . show :: Int -> Text
     number = Text.foldl' (\n c -> 10 * n + fromEnum c - fromEnum '0') 0
 
--- | The dimensions of the drawing for the upper edge at its row x = 240 and under the strap, and for
--- the lower edge in the middle of the pad.
+-- | The dimensions of the drawing for the upper edge at its row x = 240 and under the strap, and
+-- for the lower edge in the middle of the pad.
 distances :: Text
 distances =
   Text.unlines

@@ -251,7 +251,12 @@ inProcess check act = within $ do
   _ <-
     forkIO
       ( Server.serve
-          Host {input, output, load = \_ path text -> pure (LoadedProgram.fromText path text), check}
+          Host
+            { input,
+              output,
+              load = \_ path text -> pure (LoadedProgram.fromText path text),
+              check
+            }
           >>= putMVar done
       )
   act to from

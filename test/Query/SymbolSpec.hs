@@ -30,4 +30,5 @@ spec = do
       `shouldBe` []
 
 outline :: Text -> [DocumentSymbol]
-outline text = Symbol.symbols (Snapshot.take (Snapshot.checkWith []) (LoadedProgram.fromText "a.part" text))
+outline text =
+  Symbol.symbols (Snapshot.take (Snapshot.checkWith []) (LoadedProgram.fromText "a.part" text))
