@@ -1,5 +1,4 @@
--- | The command @partc@: sets up the streams, runs the command line, turns the end into an exit
--- status.
+-- | The command @partc@: sets up the streams, runs the command line, and returns the exit status.
 module Main (main) where
 
 import Base.Crash (Bug)
@@ -24,10 +23,10 @@ import System.IO (hPutStrLn, hSetEncoding, stderr, stdin, stdout)
 main :: IO ()
 main = do
   setLocaleEncoding utf8
-  -- File names are bytes; those that are not UTF-8 go in and out unchanged.
+  -- File names are bytes; those that are not UTF-8 pass unchanged.
   mkTextEncoding "UTF-8//ROUNDTRIP" >>= setFileSystemEncoding
   mapM_ (`hSetEncoding` utf8) [stdin, stdout, stderr]
-  code <- work `catches` [Handler pure, Handler interrupted, Handler crashed, Handler anything]
+  code <- work `catches` [Handler pure, Handler interrupted, Handler crashed, Handler unexpected]
   exitWith code
 
 work :: IO ExitCode
@@ -37,8 +36,9 @@ work = do
       <$> getArgs
   name <- getProgName
   statusOf <$> case parsed of
-    -- The help and the version are results as well.
-    Opt.Failure asked | (text, ExitSuccess) <- Opt.renderFailure asked name -> Subcommand.told text
+    -- The parser gives the help and the version as failures with the status of success.
+    Opt.Failure request
+      | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
 statusOf :: Exit -> ExitCode
@@ -50,16 +50,17 @@ statusOf end = case end of
 interrupted :: AsyncException -> IO ExitCode
 interrupted e = case e of
   UserInterrupt -> pure (ExitFailure 130)
-  _ -> anything (toException e)
+  _ -> unexpected (toException e)
 
 crashed :: Bug -> IO ExitCode
-crashed b = sorry (show b)
+crashed b = reportBug (show b)
 
-anything :: SomeException -> IO ExitCode
-anything e = sorry (show e)
+unexpected :: SomeException -> IO ExitCode
+unexpected e = reportBug (show e)
 
-sorry :: String -> IO ExitCode
-sorry what = do
+-- | Reports a bug of the compiler: exit status 70.
+reportBug :: String -> IO ExitCode
+reportBug what = do
   hPutStrLn
     stderr
     "This is a bug in partc. Please send us the program that you compiled and these lines:"

@@ -14,6 +14,7 @@ import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
 import Compile qualified
 import Control.Exception (evaluate)
+import Data.Bifunctor (first)
 import Data.Functor.Identity (runIdentity)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
@@ -28,6 +29,8 @@ import Part.FromChecked qualified as Part
 import Part.Part qualified as Part
 import Programs (Written (..))
 import Programs qualified
+import Project.LoadedProgram qualified as LoadedProgram
+import Project.MachineDescription qualified as MachineDescription
 import Report.Report (Report)
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
@@ -53,7 +56,7 @@ main = do
     [k, n, m]
       | Just kind <- readMaybe k,
         Just count <- readMaybe n,
-        Right machine <- Compile.machineFor [] (Text.pack m) ->
+        Right machine <- MachineDescription.find [] (Text.pack m) ->
         stages machine (Programs.written kind count)
     _ -> die "stages KIND N MACHINE"
 
@@ -67,8 +70,8 @@ stages machine Written {text, files} = do
       (sum . map itemsOf . Surface.statements)
       ( pure
           ( reported
-              ( Compile.surface
-                  (runIdentity (Compile.load (Import.byName reader) "bench.part" text))
+              ( LoadedProgram.surface
+                  (runIdentity (LoadedProgram.load (Import.byName reader) "bench.part" text))
               )
           )
       )
@@ -109,8 +112,14 @@ stages machine Written {text, files} = do
     reader there = pure (maybe (Left "no such file") Right (lookup (takeFileName there) files))
     proof :: Toolpath -> Frame.FrameProgram -> Tape -> Either Text Proof.Proof
     proof path program tape =
-      reported (Compile.readBack machine program tape)
-        >>= reported . Compile.prove machine path program
+      readBack machine program tape >>= reported . Compile.prove machine path program
+
+-- | Reads a tape that should hold the frames of a program.
+readBack :: Machine -> Frame.FrameProgram -> Tape -> Either Text [Frame.Frame]
+readBack machine program tape =
+  first
+    (Report.title . Tape.toReport)
+    (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape)
 
 -- | Time a stage by a number that needs its whole output.
 stage :: String -> (a -> Int) -> IO (Either Text a) -> IO a

@@ -7,8 +7,6 @@ module Blocks
   )
 where
 
-import Compile (LoadedProgram)
-import Compile qualified
 import Control.Exception (IOException, try)
 import Data.Bifunctor (first)
 import Data.List (sort)
@@ -16,11 +14,13 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (takeExtension, (</>))
 
--- | What stands between @```part@ and @```@, and the name of the picture that follows.
+-- | The text between @```part@ and @```@, and the name of the picture that follows.
 data Block = Block {program :: Text, picture :: Maybe Text}
 
 -- | All documents.
@@ -33,11 +33,11 @@ documents =
 blocks :: Text -> [Block]
 blocks text =
   [ Block {program, picture = pictureBelow (Text.drop 3 rest)}
-    | piece <- drop 1 (Text.splitOn "```part\n" text),
-      let (program, rest) = Text.breakOn "```" piece
+    | block <- drop 1 (Text.splitOn "```part\n" text),
+      let (program, rest) = Text.breakOn "```" block
   ]
 
--- | The picture that stands right below a program: @![…](pictures/NAME.svg)@.
+-- | The picture directly below a program: @![…](pictures/NAME.svg)@.
 pictureBelow :: Text -> Maybe Text
 pictureBelow below =
   case Text.breakOn "](pictures/" (Text.takeWhile (/= '\n') (Text.stripStart below)) of
@@ -48,8 +48,8 @@ pictureBelow below =
         Just name
     _ -> Nothing
 
--- | A program of a document; a piece of one stands behind the head that docs/language.md gives.
--- Files are imported from where the document stands.
+-- | Loads a program of a document. An excerpt is put after the head that docs/language.md gives.
+-- Imports are relative to the document's folder.
 load :: FilePath -> Block -> IO LoadedProgram
 load file block = do
   manual <- readText "docs/language.md"
@@ -61,7 +61,7 @@ load file block = do
           "part example \"One head for the examples\""
           ("part " <> Text.replace "-" "_" title)
           head'
-  Compile.load
+  LoadedProgram.load
     (Import.byName reader)
     file
     (if isWhole then program block else named <> program block)

@@ -1,4 +1,4 @@
--- | The codes of the reports that there are, as the sources say.
+-- | The codes of all reports, from the sources.
 module Codes
   ( inSources,
     isCode,
@@ -12,14 +12,14 @@ import Data.Text qualified as Text
 import Files (readText, walk)
 import System.FilePath (takeExtension)
 
--- | Every code that stands between quotation marks in a module of the program.
+-- | Every code between quotation marks in a module of the program.
 inSources :: IO (Set Text)
 inSources = do
   sources <- filter ((== ".hs") . takeExtension) <$> walk "src"
   texts <- traverse readText sources
   pure (Set.fromList (filter isCode (concatMap (Text.splitOn "\"") texts)))
 
--- | A letter and four digits.
+-- | Is this a code: E or W and four digits?
 isCode :: Text -> Bool
 isCode t =
   Text.length t == 5

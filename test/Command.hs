@@ -1,4 +1,4 @@
--- | The command as a user runs it, for tests.
+-- | The command @partc@ as a user runs it, for tests.
 module Command
   ( partc,
     inFolder,
@@ -10,14 +10,14 @@ import System.Exit (ExitCode)
 import System.IO.Temp (withSystemTempDirectory)
 import System.Process (readProcessWithExitCode)
 
--- | Run it with these arguments: exit status, standard output, standard error.
+-- | Runs @partc@ with these arguments: exit status, standard output, standard error.
 partc :: [String] -> IO (ExitCode, String, String)
 partc arguments = do
-  there <- findExecutable "partc"
-  case there of
+  found <- findExecutable "partc"
+  case found of
     Nothing -> fail "partc is not on the path"
     Just program -> readProcessWithExitCode program arguments ""
 
--- | Work in a folder that vanishes behind it.
+-- | Runs an action in a temporary folder.
 inFolder :: (FilePath -> IO a) -> IO a
 inFolder = withSystemTempDirectory "partc"

@@ -1,4 +1,4 @@
--- | The documents say what is true: their programs compile, their table of codes is complete.
+-- | The documents are true: their programs compile, their table of codes is complete.
 module DocumentsSpec (spec) where
 
 import Base.Result qualified as Result
@@ -21,7 +21,7 @@ spec = do
       it (file <> ": program " <> show n <> " compiles") $ do
         texts <- Blocks.load file block
         map Report.title (Result.errors (Compile.analyse [] texts)) `shouldBe` []
-  it "docs/language.md lists every report code that there is, and no other" $ do
+  it "docs/language.md lists every report code, and no other" $ do
     codes <- Codes.inSources
     manual <- readText "docs/language.md"
     let listed =

@@ -1,14 +1,14 @@
--- | The programs and sheets of examples/: each is proven and gives the frames that are kept beside
--- it.
+-- | The programs and input sheets of examples/: each is proven and gives its recorded frames.
 --
--- The name of an expectation tells the values of the parameters: @spacer,bolt=12,holes=6.frames@.
--- With PARTC_RECORD set, expectations are written anew; without it a missing one is a failure.
+-- The name of an expectation contains the values of the parameters:
+-- @spacer,bolt=12,holes=6.frames@. With PARTC_RECORD set, expectations are recorded; without it a
+-- missing expectation is a failure.
 module ExamplesSpec (spec) where
 
 import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
-import Compile (Analysis (..), Punched (..))
+import Compile (Compiled (..), Punched (..))
 import Compile qualified
 import Control.Exception (IOException, try)
 import Control.Monad (forM_)
@@ -17,8 +17,8 @@ import Data.List (nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (expected, readText)
-import Frame.Frame qualified as Frame
 import Machines qualified
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
@@ -26,6 +26,7 @@ import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (dropExtension, takeExtension, (<.>), (</>))
 import Test.Hspec
+import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = describe "examples are proven and give their frames" $ do
@@ -41,35 +42,27 @@ spec = describe "examples are proven and give their frames" $ do
                   <.> (if Text.unpack name `elem` sheets then "sheet" else "part"),
               map (fmap (Text.drop 1) . Text.breakOn "=") assigned
             )
-    texts <- Compile.load (Import.byName reader) file =<< readText file
-    let outcome =
-          Compile.analyse values texts `Result.thenSound` \a ->
-            let m =
-                  Machines.ownOr Machines.lkp01f texts a
-             in Compile.punch m (path a) `Result.thenSound` \p -> pure (a, m, p)
+    loaded <- LoadedProgram.load (Import.byName reader) file =<< readText file
+    let source = LoadedProgram.source loaded
+        outcome = Compile.compile (Machines.jobForOwnOr Machines.lkp01f values loaded) loaded
         rendered reports = Text.concat [render r <> "\n" | r <- Report.sorted reports]
-        render = Human.render Human.Plain (Text.pack file) (Compile.source texts) :: Report -> Text
+        render = Human.render Human.Plain (Text.pack file) source :: Report -> Text
     case Result.settled outcome of
-      Nothing -> expectationFailure (Text.unpack (rendered (errors outcome)))
-      Just (a, m, p) -> do
-        fs <-
-          maybe
-            (fail "the tape cannot be read")
-            pure
-            (output (Compile.readTape m (Frame.start (program p)) (tape p)))
-        map Report.title (errors (Compile.prove m (path a) (program p) fs)) `shouldBe` []
+      Just [Compiled {machine, punched, proof}] -> do
+        fmap Proof.findings proof `shouldBe` Just []
         expected
           (expectations </> run <.> "frames")
-          (FrameTable.frames m (Compile.source texts) (program p) <> rendered (warnings outcome))
+          (FrameTable.frames machine source (program punched) <> rendered (warnings outcome))
+      _ -> expectationFailure (Text.unpack (rendered (errors outcome)))
   where
     expectations = "examples/expected"
 
--- | The names of the files of a kind in a folder, without their endings.
+-- | The names of the files with this ending in a folder, without the ending.
 named :: String -> FilePath -> IO [FilePath]
 named ending folder =
   sort . map dropExtension . filter ((== ending) . takeExtension) <$> listDirectory folder
 
--- | Imported files are read as they stand.
+-- | Reads an imported file.
 reader :: FilePath -> IO (Either Text Text)
 reader file = first why <$> try (readText file)
   where

@@ -1,4 +1,4 @@
--- | Files for tests that look at the repository itself.
+-- | Files of the repository, for tests.
 module Files
   ( readText,
     walk,
@@ -15,7 +15,7 @@ import System.Environment (lookupEnv)
 import System.FilePath ((</>))
 import Test.Hspec (Expectation, expectationFailure, shouldBe)
 
--- | A file in UTF-8.
+-- | The text of a file in UTF-8.
 readText :: FilePath -> IO Text
 readText file = Encoding.decodeUtf8 <$> ByteString.readFile file
 
@@ -26,13 +26,13 @@ walk folder = do
   folders <- filterM doesDirectoryExist entries
   (filter (`notElem` folders) entries <>) . concat <$> traverse walk folders
 
--- | Compare with the file, or write it when recording.
+-- | Compares a text with a file. With PARTC_RECORD set, writes the file instead.
 expected :: FilePath -> Text -> Expectation
 expected file actual = do
   recording <- lookupEnv "PARTC_RECORD"
-  there <- doesFileExist file
+  exists <- doesFileExist file
   case recording of
     Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 actual)
     Nothing
-      | there -> readText file >>= (actual `shouldBe`)
+      | exists -> readText file >>= (actual `shouldBe`)
       | otherwise -> expectationFailure (file <> " is missing; PARTC_RECORD=1 records it")

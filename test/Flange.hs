@@ -1,9 +1,10 @@
--- | The flange of the Ural paper, compiled once for all tests, and what its drawing gives exactly.
+-- | The flange of the Ural paper, compiled once for all tests, and the exact nodes of its drawing.
 module Flange
   ( text,
     analysis,
     program,
     tape,
+    proof,
     frames,
     expect,
     exactNodes,
@@ -11,7 +12,7 @@ module Flange
 where
 
 import Base.Result qualified as Result
-import Compile (Analysis, Punched)
+import Compile (Analysis, Compiled)
 import Compile qualified
 import Data.ByteString qualified as ByteString
 import Data.Text (Text)
@@ -19,29 +20,44 @@ import Data.Text.Encoding qualified as Encoding
 import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 import Machines (lkp01f)
+import Machines qualified
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 import System.IO.Unsafe (unsafePerformIO)
 import Tape.Tape (Tape)
+import Verify.Proof (Proof)
 
--- | The program as it stands among the examples.
+-- | The program of examples/.
 text :: Text
 text = Encoding.decodeUtf8 (unsafePerformIO (ByteString.readFile "examples/flange.part"))
 {-# NOINLINE text #-}
 
 analysis :: Analysis
-analysis = expect (Compile.analyse [] (Compile.alone "flange.part" text))
+analysis = expect (Compile.analyse [] loaded)
 
-punched :: Punched
-punched = expect (Compile.punch lkp01f (Compile.path analysis))
+loaded :: LoadedProgram
+loaded = LoadedProgram.fromText "flange.part" text
+
+-- | Its verified tape for lkp-01f.
+compiled :: Compiled
+compiled = case expect (Compile.compile (Machines.jobFor lkp01f []) loaded) of
+  [one] -> one
+  tapes -> error ("one machine has " <> show (length tapes) <> " tapes")
 
 program :: FrameProgram
-program = Compile.program punched
+program = Compile.program (Compile.punched compiled)
 
 tape :: Tape
-tape = Compile.tape punched
+tape = Compile.tape (Compile.punched compiled)
+
+-- | The verification of the tape.
+proof :: Maybe Proof
+proof = Compile.proof compiled
 
 frames :: [Frame]
 frames = map Frame.frame (Frame.planned program)
 
+-- | The output of a result that must have no errors.
 expect :: Show e => Result.Result w e a -> a
 expect r = case Result.settled r of
   Just a -> a

@@ -1,5 +1,5 @@
--- | Random contours of lines and arcs for the laws: convex and concave, smooth and with corners,
--- open and closed, walked either way.
+-- | Random contours of lines and arcs: convex and concave, smooth and with corners, open and
+-- closed, of either sense.
 module Generate
   ( Case (..),
     closedCase,
@@ -54,17 +54,16 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | A contour, a side and a cutter that fits, with the equidistant.
+-- | A contour, a side, the radius of a cutter that fits, and the equidistant.
 data Case = Case {contour :: Polyarc, side :: Side, radius :: Mm, pieces :: NonEmpty OffsetSegment}
   deriving stock (Show)
 
 radiusOf :: Case -> Double
 radiusOf c = let Mm r = radius c in r
 
--- | Closed contours, with sharp outer corners now and then, walked either way, the cutter on either
--- side.
+-- | Closed contours of either sense, some with sharp outer corners, the cutter on either side.
 closedCase :: Gen Case
-closedCase = fitting (oneof [polygon True, bulged]) =<< elements [LeftOf, RightOf]
+closedCase = fitting (oneof [polygon True, arcPolygon]) =<< elements [LeftOf, RightOf]
 
 -- | Closed contours without corners.
 smoothCase :: Gen Case
@@ -79,7 +78,7 @@ openCase = do
     k <- choose (1, NonEmpty.length ss - 1)
     pure (Polyarc Open (NonEmpty.fromList (NonEmpty.take k ss)))
 
--- | With a cutter that fits; contours that no cutter fits are not of interest.
+-- | A contour of either sense with a cutter that fits. Other contours are drawn again.
 fitting :: Gen Polyarc -> Side -> Gen Case
 fitting gen side = do
   c <- gen
@@ -98,14 +97,14 @@ polygon sharp = do
       corner k = (vs !! ((k + n - 1) `mod` n), vs !! (k `mod` n), vs !! ((k + 1) `mod` n))
   roundings <- traverse (rounding . corner) [0 .. n - 1]
   let ends k = roundings !! (k `mod` n)
-      walk =
+      sides =
         concat
           [ [Straight (snd' (ends k)) (fst' (ends (k + 1)))] <> middle' (ends (k + 1))
             | k <- [0 .. n - 1]
           ]
-  pure (Polyarc Closed (NonEmpty.fromList (chain (filter ((> Mm 1e-3) . Segment.length) walk))))
+  pure (Polyarc Closed (NonEmpty.fromList (chained (filter ((> Mm 1e-3) . Segment.length) sides))))
   where
-    chain ss = NonEmpty.toList (Polyarc.chained id const Closed (NonEmpty.fromList ss))
+    chained ss = NonEmpty.toList (Polyarc.chained id const Closed (NonEmpty.fromList ss))
     fst' (a, _, _) = a
     snd' (_, b, _) = b
     middle' (_, _, m) = m
@@ -113,23 +112,23 @@ polygon sharp = do
       let u = Vec.unit (Vec.to a b)
           v = Vec.unit (Vec.to b c)
           Rad turned = Vec.turn u v
-          outer = turned > 0
+          isOuter = turned > 0
           Mm before = Vec.distance a b
           Mm after = Vec.distance b c
           most = 0.45 * min before after / tan (abs turned / 2)
-          turn = if outer then CounterClockwise else Clockwise
+          sense = if isOuter then CounterClockwise else Clockwise
       r <- choose (0.3 * most, most)
-      stay <- frequency [(2, pure False), (1, pure (sharp && outer))]
+      isSharp <- frequency [(2, pure False), (1, pure (sharp && isOuter))]
       pure $
-        if stay || abs turned < 0.02
+        if isSharp || abs turned < 0.02
           then (b, b, [])
-          else case Fillet.between (Mm r) turn (OnLine (Line a b)) (OnLine (Line b c)) of
-            Fillet m p q : _ -> (p, q, [Segment.arc turn m p q])
+          else case Fillet.between (Mm r) sense (OnLine (Line a b)) (OnLine (Line b c)) of
+            Fillet m p q : _ -> (p, q, [Segment.arc sense m p q])
             [] -> (b, b, [])
 
--- | A convex polygon of arcs that bulge outwards or are nearly straight, with sharp corners.
-bulged :: Gen Polyarc
-bulged = do
+-- | A convex polygon of arcs, curved outwards or nearly straight, with sharp corners.
+arcPolygon :: Gen Polyarc
+arcPolygon = do
   n <- choose (2, 6)
   r <- choose (20, 60)
   let vs =
@@ -162,7 +161,7 @@ vertices = do
       | (k, j, r) <- zip3 [0 :: Int ..] jitters radii
     ]
 
--- | The path of a cutter around a contour that it fits, from a point well away, with a tolerance.
+-- | The toolpath of a case with a tolerance.
 milled :: Mm -> Case -> Maybe Toolpath
 milled tolerance c =
   Result.output
@@ -173,15 +172,15 @@ milled tolerance c =
         )
     )
 
--- | Where the equidistant of a case begins.
+-- | The beginning of the equidistant of a case.
 begin :: Case -> Point
 begin c = Segment.start (Equidistant.segment (NonEmpty.head (pieces c)))
 
--- | Whether the cutter stands outside of a closed contour.
+-- | Is the cutter outside the closed contour?
 outside :: Case -> Bool
 outside c = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
 
--- | The milling of a case, straight to its beginning.
+-- | The milling job of a case, with a straight approach to its beginning.
 job :: Case -> Milling
 job c =
   Milling
@@ -217,7 +216,7 @@ job c =
   where
     here = Located (Region 0 0)
 
--- | Leads, corners, passes and another beginning.
+-- | Leads, corner styles, allowances and another beginning.
 settings :: Gen (Milling -> Milling)
 settings = do
   arc <- elements [Nothing, Just (Part.LeadLine, Mm 3), Just (Part.LeadArc, Mm 2)]
@@ -235,7 +234,7 @@ settings = do
         Part.contour = maybe (Part.contour m) (`ContourElement.startingNear` Part.contour m) near
       }
 
--- | A part of one operation, the cutter beginning at a point.
+-- | A part with one operation. The cutter begins at the point.
 partOf :: Point -> Operation -> Part
 partOf at operation =
   Part
@@ -257,7 +256,7 @@ partOf at operation =
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
 
--- | One move from the zero point.
+-- | A toolpath of one move from the zero point.
 straightPath :: Double -> Double -> Toolpath
 straightPath x y =
   Toolpath.Toolpath
@@ -275,7 +274,7 @@ straightPath x y =
   where
     nowhere = Region 0 0
 
--- | A motion of the plane, with or without a mirror.
+-- | A motion of the plane: a reflection in the x axis if @mirrored@, a rotation, a translation.
 data Motion = Motion {mirrored :: Bool, turned :: Rad, shifted :: Vec}
   deriving stock (Show)
 
@@ -297,7 +296,7 @@ move m s = case s of
   Arc a b c (Rad sweep) ->
     Arc (movePoint m a) (movePoint m b) (movePoint m c) (Rad (if mirrored m then -sweep else sweep))
 
--- | Frames that keep the machine's invariants: straight ones, and ones that only command.
+-- | Frames that keep the machine's invariants: straight ones, and ones with commands only.
 frames :: Machine -> Gen [Frame]
 frames machine = listOf (oneof (moving : [commanding | not (null commands)]))
   where

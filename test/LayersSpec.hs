@@ -61,7 +61,8 @@ table =
     Layer Folder "Control" (Only ["Frame", "Machine"]),
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
-    Layer Single "Compile" (Only ["Sheet", "Tape", "Control", "Verify"]),
+    Layer Folder "Project" (Only ["Sheet", "Toolpath", "Machine"]),
+    Layer Single "Compile" (Only ["Project", "Tape", "Control", "Verify"]),
     Layer
       Folder
       "Query"
@@ -335,7 +336,8 @@ spec = do
                 "Frame",
                 "Tape",
                 "Control",
-                "Verify"
+                "Verify",
+                "Project"
               ]
           )
 

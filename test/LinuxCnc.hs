@@ -1,22 +1,22 @@
--- | A judge from outside for programs of modern controls: the interpreter of LinuxCNC, run by
--- itself as @rs274@. It prints the canonical calls, what a machine would do, with four decimals.
--- What it does not complain about it may still have understood otherwise than was meant: so its
--- moves are laid beside the way that was wanted.
+-- | An independent judge for the frames of modern controls: the interpreter of LinuxCNC, run alone
+-- as @rs274@. It prints the canonical calls, which say what a machine would do, with four decimals.
+-- It may accept a program and still understand it differently; so its moves are compared with the
+-- toolpath.
 module LinuxCnc
   ( installed,
 
-    -- * What the interpreter makes of a program
+    -- * The output of the interpreter
     Canonical (..),
     Place (..),
     canonical,
     parse,
 
-    -- * The way of the cutter
+    -- * The moves of the cutter
     Way (..),
     Asked (..),
     ways,
 
-    -- * Comparing it with the one that is wanted
+    -- * The comparison with the expected moves
     Leg (..),
     exactly,
     differences,
@@ -50,29 +50,29 @@ import System.Process (readProcessWithExitCode)
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Whether the interpreter is there.
+-- | Is the interpreter installed?
 installed :: IO Bool
 installed = (/= Nothing) <$> findExecutable "rs274"
 
--- | A place in mm.
+-- | A position in mm.
 data Place = Place Double Double Double
   deriving stock (Eq, Show)
 
--- | A call that moves the cutter; in mm and mm/min.
+-- | A call that moves the cutter, in mm and mm/min.
 data Canonical
   = Traverse Place
   | Feeding Double Place
-  | -- | in the plane of x and y, with its centre
+  | -- | an arc in the plane of x and y: feed, sense, centre, end
     Rounding Double Sense Point Place
   deriving stock (Eq, Show)
 
--- | Run a file. What the interpreter says against it, and calls that are not understood here, are
--- reasons. It keeps its table of tools in the home folder, where another one that runs may break it
--- off: so each has a home of its own.
+-- | Runs a file. The answer is a reason if the interpreter complains, or if it prints an unknown
+-- call. The interpreter keeps its tool table in the home folder, where another run could truncate
+-- it; so each run has a home folder of its own.
 canonical :: FilePath -> IO (Either Text [Canonical])
 canonical file = withSystemTempDirectory "partc-rs274" $ \home -> do
   (status, out, err) <- readProcessWithExitCode "env" ["HOME=" <> home, "rs274", "-g", file] ""
-  -- It tells that it is at work, there where it complains.
+  -- The interpreter also reports on the stream of complaints that it is executing.
   let complaint = Text.strip (Text.unlines (filter (/= "executing") (Text.lines (Text.pack err))))
   pure $ case status of
     ExitFailure n ->
@@ -83,9 +83,9 @@ canonical file = withSystemTempDirectory "partc-rs274" $ \home -> do
 
 -- Canonical calls ---------------------------------------------------------------------------------
 
--- | What holds for the next call: mm in a unit of length, the feed in such units, the plane of
--- arcs.
-data State = State {scale :: Double, feed :: Double, level :: Bool}
+-- | The modal state: the unit of length in mm, the feed in such units per minute, and whether arcs
+-- lie in the plane of x and y.
+data State = State {scale :: Double, feed :: Double, isInXY :: Bool}
 
 -- | The moves among the calls that the interpreter prints.
 parse :: Text -> Either Text [Canonical]
@@ -96,27 +96,27 @@ parse printed = go (State 1 0 True) (filter (not . Text.all isSpace) (Text.lines
       (next, move) <- first (\why -> why <> ": " <> Text.strip line) (call state line)
       maybe id (:) move <$> go next rest
 
--- | One call: what holds after it, and its move.
+-- | One call: the state after it, and its move.
 call :: State -> Text -> Either Text (State, Maybe Canonical)
 call state line = case name of
   "USE_LENGTH_UNITS" -> case arguments of
     ["CANON_UNITS_MM"] -> Right (state {scale = 1}, Nothing)
     ["CANON_UNITS_INCHES"] -> Right (state {scale = 25.4}, Nothing)
     _ -> Left "a unit that is not known"
-  "SELECT_PLANE" -> Right (state {level = arguments == ["CANON_PLANE_XY"]}, Nothing)
+  "SELECT_PLANE" -> Right (state {isInXY = arguments == ["CANON_PLANE_XY"]}, Nothing)
   "SET_FEED_RATE" -> (\ns -> (state {feed = sum ns}, Nothing)) <$> traverse number arguments
   "STRAIGHT_TRAVERSE" -> moved (fmap Traverse . place)
   "STRAIGHT_FEED" -> moved (fmap (Feeding rate) . place)
   "ARC_FEED" -> moved arc
   _
-    -- Places are counted from these.
+    -- Coordinates refer to these offsets.
     | name `elem` origins ->
       traverse number (drop (if name == "SET_G5X_OFFSET" then 1 else 0) arguments) >>= \ns ->
         if all (== 0) ns then nothing else Left "the zero has moved"
     | name `elem` harmless -> nothing
     | otherwise -> Left "a call that is not known"
   where
-    -- The number of the call and that of the line stand before it: "   18 N..... ARC_FEED(10.0000,
+    -- The number of the call and that of the line precede it: "   18 N..... ARC_FEED(10.0000,
     -- 20.0000, …)".
     (name, given) = Text.breakOn "(" (Text.unwords (drop 2 (Text.words line)))
     arguments =
@@ -131,7 +131,7 @@ call state line = case name of
       _ -> Left "other axes move"
     arc ns = case ns of
       [x, y, i, j, turns, z, 0, 0, 0]
-        | not (level state) -> Left "an arc in another plane"
+        | not (isInXY state) -> Left "an arc in another plane"
         | abs turns /= 1 -> Left "an arc of several turns"
         | otherwise ->
           Rounding
@@ -165,72 +165,73 @@ number t = case Read.signed Read.double t of
   Right (n, "") -> Right n
   _ -> Left ("no number: " <> t)
 
--- The way -----------------------------------------------------------------------------------------
+-- Moves -------------------------------------------------------------------------------------------
 
 -- | One move in the plane and in height, in mm.
 data Way = Way {segment :: Segment, heights :: (Double, Double), speed :: Asked}
   deriving stock (Eq, Show)
 
+-- | The speed of a move.
 data Asked
   = InRapid
   | -- | mm/min
     AtFeed Double
   deriving stock (Eq, Show)
 
--- | The moves from a known place.
+-- | The moves from a known position.
 ways :: Place -> [Canonical] -> [Way]
 ways _ [] = []
 ways from@(Place _ _ height) (c : rest) = case c of
   Traverse to -> straight to InRapid
   Feeding f to -> straight to (AtFeed f)
-  Rounding f turn centre to ->
+  Rounding f sense centre to ->
     let (a, b) = (flat from, flat to)
         whole =
           Segment.Arc
             { start = a,
               end = b,
               centre,
-              sweep = Rad (if turn == Clockwise then -2 * pi else 2 * pi)
+              sweep = Rad (if sense == Clockwise then -2 * pi else 2 * pi)
             }
-     in continue to (if a == b then whole else Segment.arc turn centre a b) (AtFeed f)
+     in continue to (if a == b then whole else Segment.arc sense centre a b) (AtFeed f)
   where
     straight to = continue to (Straight (flat from) (flat to))
-    continue to@(Place _ _ z) way speed = Way way (height, z) speed : ways to rest
+    continue to@(Place _ _ z) moved speed = Way moved (height, z) speed : ways to rest
 
 flat :: Place -> Point
 flat (Place x y _) = Vec.point x y
 
--- | What is wanted: moves that belong together, how far the cutter may be from them, and its speed.
+-- | Expected moves that belong together, the allowed distance of the cutter from them, its speed.
 data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Asked}
   deriving stock (Eq, Show)
 
--- | How far the cutter may be from a way that the control can hold: half of the last decimal of two
--- ends, and four decimals of what is printed.
+-- | The allowed distance from a move that the control can make exactly: half of the last decimal of
+-- both ends, and the four printed decimals.
 exactly :: Mm
 exactly = Mm 0.002
 
--- | The feed that is written is a whole number.
+-- | The allowed difference of feeds, which are written as whole numbers.
 roundedFeed :: Double
 roundedFeed = 0.5 + 1e-6
 
--- | How a way differs from the one that is wanted. The moves have to come in the order of the legs:
--- each leg takes those that lie on it, until it is covered whole and its end is reached.
+-- | The differences between moves and expected legs. The moves must have the order of the legs:
+-- each leg takes the moves that lie on it, until it is covered and its end is reached.
 differences :: [Leg] -> [Way] -> [Text]
-differences wantedLegs = go (zip [1 :: Int ..] wantedLegs)
+differences expected = go (zip [1 :: Int ..] expected)
   where
-    go wanting walked = case wanting of
+    go remaining made = case remaining of
       [] ->
-        [ said (length walked) <> " moves too many, first " <> said (take 1 walked)
-          | not (null walked)
+        [ said (length made) <> " moves too many, first " <> said (take 1 made)
+          | not (null made)
         ]
       (n, leg) : others ->
-        let near = takeWhile (lies leg) walked
-         in case [k | k <- [1 .. length near], reached leg (take k near)] of
+        let near = takeWhile (liesOn leg) made
+         in case [k | k <- [1 .. length near], isCoveredBy leg (take k near)] of
               k : _ ->
-                ["leg " <> said n <> why | w <- take k near, why <- hasty leg w]
-                  <> go others (drop k walked)
+                ["leg " <> said n <> why | w <- take k near, why <- wrongSpeed leg w]
+                  <> go others (drop k made)
               []
-                | small leg -> go others walked
+                | isSmall leg -> go others made
                 | otherwise ->
                   [ "leg "
                       <> said n
@@ -239,14 +240,14 @@ differences wantedLegs = go (zip [1 :: Int ..] wantedLegs)
                       <> "; "
                       <> said (length near)
                       <> " moves lie on it, the next ones are "
-                      <> said (take 2 (drop (length near) walked))
+                      <> said (take 2 (drop (length near) made))
                   ]
-    small leg =
+    isSmall leg =
       all
         (\(s, (a, b)) -> Segment.length s <= within leg && abs (b - a) <= mm (within leg))
         (chain leg)
-    hasty leg w = [" runs at another speed: " <> said w | not (same (speed w) (wanted leg))]
-    same a b = case (a, b) of
+    wrongSpeed leg w = [" runs at another speed: " <> said w | not (isSame (speed w) (wanted leg))]
+    isSame a b = case (a, b) of
       (InRapid, InRapid) -> True
       (AtFeed f, AtFeed g) -> abs (f - g) <= roundedFeed
       _ -> False
@@ -254,35 +255,35 @@ differences wantedLegs = go (zip [1 :: Int ..] wantedLegs)
 said :: Show a => a -> Text
 said = Text.pack . show
 
--- | Whether the moves end where the leg ends, exactly even on a curve, and leave nothing of it out.
-reached :: Leg -> [Way] -> Bool
-reached leg walked = case reverse walked of
+-- | Do the moves cover the whole leg and end exactly at its end?
+isCoveredBy :: Leg -> [Way] -> Bool
+isCoveredBy leg made = case reverse made of
   [] -> False
   final : _ ->
     Vec.distance (Segment.end (segment final)) (Segment.end goal) <= exactly
       && abs (snd (heights final) - top) <= mm exactly
-      && all (\(s, _) -> null (Distance.uncovered (within leg) (map segment walked) s)) (chain leg)
+      && all (\(s, _) -> null (Distance.uncovered (within leg) (map segment made) s)) (chain leg)
   where
     (goal, (_, top)) = NonEmpty.last (chain leg)
 
--- | Whether a move lies on the leg, in the plane and in height.
-lies :: Leg -> Way -> Bool
-lies leg way =
-  null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (chain leg))) (segment way))
-    && and [any (holds p h) (chain leg) | (p, h) <- ends]
+-- | Does a move lie on the leg, in the plane and in height?
+liesOn :: Leg -> Way -> Bool
+liesOn leg move =
+  null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (chain leg))) (segment move))
+    && and [any (contains p h) (chain leg) | (p, h) <- ends]
   where
     ends =
-      [ (Segment.start (segment way), fst (heights way)),
-        (Segment.end (segment way), snd (heights way))
+      [ (Segment.start (segment move), fst (heights move)),
+        (Segment.end (segment move), snd (heights move))
       ]
-    holds p h (s, (a, b))
+    contains p h (s, (a, b))
       | Distance.toPoint p s > within leg = False
       | Segment.length s <= within leg =
         min a b - mm (within leg) <= h && h <= max a b + mm (within leg)
       | otherwise =
         abs (a + along s p * (b - a) - h)
           <= mm (within leg) * (1 + abs (b - a) / mm (Segment.length s))
-    -- Close to the start of an arc the fraction may be that of a whole turn.
+    -- Close to the start of an arc the fraction may be that of a full circle.
     along s p
       | Vec.distance p (Segment.start s) <= within leg && Segment.start s /= Segment.end s = 0
       | otherwise = max 0 (min 1 (Segment.fraction s p))
@@ -290,10 +291,9 @@ lies leg way =
 mm :: Mm -> Double
 mm (Mm d) = d
 
--- | The arcs whose radius is not the same at both ends: a control that checks it more narrowly
--- would refuse them.
+-- | The arcs with different radii at their ends. A control with a narrower check would refuse them.
 radii :: [Way] -> [Text]
-radii walked = mapMaybe uneven [s | Way {segment = s@Arc {}} <- walked]
+radii made = mapMaybe uneven [s | Way {segment = s@Arc {}} <- made]
   where
     uneven s =
       let (Mm a, Mm b) =
@@ -304,8 +304,8 @@ radii walked = mapMaybe uneven [s | Way {segment = s@Arc {}} <- walked]
               Just
                 ("the radius is " <> said a <> " at the start and " <> said b <> " at the end")
 
--- | What a path wants of a machine that can go along arcs: a line or an arc exactly, a curve within
--- the tolerance.
+-- | The legs of a toolpath on a machine with arcs: lines and arcs exactly, curves within the
+-- tolerance.
 legs :: Toolpath -> (Place, [Leg])
 legs path =
   ( beginning,
@@ -316,11 +316,11 @@ legs path =
   where
     beginning =
       let Located _ (SpacePoint p (Mm h)) = Toolpath.start path in Place (Vec.x p) (Vec.y p) h
-    leg slack run =
+    leg slack moves =
       Leg
-        { chain = fmap whole run,
-          within = if Toolpath.isCurve run then slack else exactly,
-          wanted = asked (Toolpath.pace (NonEmpty.head run))
+        { chain = fmap whole moves,
+          within = if Toolpath.isCurve moves then slack else exactly,
+          wanted = asked (Toolpath.pace (NonEmpty.head moves))
         }
     whole m = let (Mm a, Mm b) = Toolpath.heights m in (Toolpath.segment m, (a, b))
     allowed block = case block of

@@ -1,5 +1,5 @@
--- | What LinuxCNC makes of programs for modern controls. Its interpreter is there where @make@ has
--- installed the packages.
+-- | The frames for modern controls in the interpreter of LinuxCNC. @make@ installs it with the
+-- other packages; without it these tests are pending.
 module LinuxCncSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -25,6 +25,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import LinuxCnc (Asked (..), Canonical (..), Leg (..), Place (..))
 import LinuxCnc qualified
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
 import System.Directory (listDirectory)
@@ -45,7 +46,7 @@ spec = do
             ]
         )
         `shouldBe` Right [Rounding 254 CounterClockwise (Vec.point 25.4 25.4) (Place 25.4 50.8 0)]
-    it "that nobody knows are not passed over (a probe or a moved zero would look like no move)" $
+    it "that are unknown are refused (a probe or a moved zero would look like no move)" $
       map
         LinuxCnc.parse
         [ "    1 N..... STRAIGHT_PROBE(1.0, 2.0, 3.0, 0.0, 0.0, 0.0)",
@@ -58,7 +59,7 @@ spec = do
   describe "the comparison" $ do
     let onward = Feeding 60 (Place 10 5 0)
         back = Rounding 60 Clockwise (p (15, 5)) (Place 20 5 0)
-        walked = LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), onward, back]
+        made = LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), onward, back]
         instead moves =
           LinuxCnc.differences
             wanted
@@ -68,28 +69,28 @@ spec = do
             feed60 (Straight (p (10, 0)) (p (10, 5))),
             feed60 (halfTurn (15, 5) (10, 5) (20, 5))
           ]
-    it "finds nothing in a way that is retraced" $ LinuxCnc.differences wanted walked `shouldBe` []
+    it "finds nothing in moves that are retraced" $ LinuxCnc.differences wanted made `shouldBe` []
     it "notices a leg that is left out" $
-      LinuxCnc.differences wanted (take 2 walked) `shouldSatisfy` some
-    it "notices a move too many" $ LinuxCnc.differences (take 2 wanted) walked `shouldSatisfy` some
+      LinuxCnc.differences wanted (take 2 made) `shouldSatisfy` some
+    it "notices a move too many" $ LinuxCnc.differences (take 2 wanted) made `shouldSatisfy` some
     it "notices an arc in the other sense, which has the same ends" $
       instead [onward, Rounding 60 CounterClockwise (p (15, 5)) (Place 20 5 0)] `shouldSatisfy` some
-    it "notices an end that is 0.003 mm off" $
+    it "notices an end that deviates by 0.003 mm" $
       instead [Feeding 60 (Place 10 5.003 0), back] `shouldSatisfy` some
     it "notices a move in the wrong order" $
-      LinuxCnc.differences wanted (reverse walked) `shouldSatisfy` some
+      LinuxCnc.differences wanted (reverse made) `shouldSatisfy` some
     it "notices rapid through the material, and a wrong feed" $ do
       instead [Traverse (Place 10 5 0), back] `shouldSatisfy` some
       instead [Feeding 62 (Place 10 5 0), back] `shouldSatisfy` some
-    it "notices a height that is not that of the way" $
+    it "notices a wrong height" $
       instead [Feeding 60 (Place 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (Place 20 5 (-1))]
         `shouldSatisfy` some
     let round60 =
           [ rapid (0, 0) (10, 0),
             feed60 (Segment.fullCircle CounterClockwise (Circle (p (0, 0)) (Mm 10)) (p (10, 0)))
           ]
-        half turn to = Rounding 60 turn (p (0, 0)) (Place to 0 0)
-    it "lets a way go in several moves, and a whole circle in two" $
+        half sense to = Rounding 60 sense (p (0, 0)) (Place to 0 0)
+    it "accepts several moves on one leg, and a full circle in two" $
       LinuxCnc.differences
         round60
         ( LinuxCnc.ways
@@ -101,7 +102,7 @@ spec = do
             ]
         )
         `shouldBe` []
-    it "does not take half of a circle, there and back, for the whole one" $
+    it "does not take a half circle, forth and back, for the full one" $
       LinuxCnc.differences
         round60
         ( LinuxCnc.ways
@@ -109,7 +110,7 @@ spec = do
             [Traverse (Place 10 0 0), half CounterClockwise (-10), half Clockwise 10]
         )
         `shouldSatisfy` some
-    it "notices radii that differ by 0.003 mm, which LinuxCNC itself lets pass" $
+    it "notices radii that differ by 0.003 mm, which LinuxCNC itself accepts" $
       [ null
           ( LinuxCnc.radii
               ( LinuxCnc.ways
@@ -139,7 +140,7 @@ spec = do
   where
     some = not . null
 
--- | The interpreter at work on programs that are written out here.
+-- | The interpreter on the programs below.
 interpreter :: Spec
 interpreter = do
   it "retraces lines, arcs of both senses, a circle in two halves and a descent" $
@@ -170,12 +171,11 @@ interpreter = do
             >> LinuxCnc.canonical (folder </> "a.ngc")
       )
       >>= refused "no percent sign"
-  it "is not taken at its word when it has something to say" $
+  it "is not trusted when it prints a message" $
     run ["(MSG, tighten the clamp)", "G0 X1"] >>= refused "MESSAGE"
   describe "with the correction of the cutter's radius" $ do
     it
-      "keeps the cutter on the side that is asked, round a corner that sticks out and into one \
-      \that does not"
+      "keeps the cutter on the programmed side, round an outer corner and in an inner one"
       $ do
         let contour = ["G1 X0 Y-15 F60", "Y40", "X60", "Y80", "G40", "G1 X20 Y100"]
             beside word legs' =
@@ -203,14 +203,14 @@ interpreter = do
                 <> lines' [(70, 40), (70, 80), (20, 100)]
             )
         right `shouldBe` Right []
-    -- On the straight on which compensation begins, and on that on which it ends, the cutter's
-    -- centre goes as the path does, if the edge is the right one.
+    -- On the lines on which compensation begins and ends, the cutter's centre is on the toolpath if
+    -- the edge is right.
     mapM_
       ( \name ->
           it
             ( "retraces the path of the program "
                 <> name
-                <> ", from its edge (catches an edge or a diameter that is another)"
+                <> ", from its edge (catches a wrong edge or diameter)"
             )
             (retraced ("test/programs/mill/good/compensation-" <> name <> ".part"))
       )
@@ -261,7 +261,7 @@ interpreter = do
     arcAbout centre from to = Segment.arc CounterClockwise (p centre) (p from) (p to)
     lines' corners = zipWith still corners (drop 1 corners)
 
--- | Run a program of these lines.
+-- | Runs a program of these lines.
 run :: [Text] -> IO (Either Text [Canonical])
 run written = inFolder $ \folder -> do
   let file = folder </> "program.ngc"
@@ -290,27 +290,26 @@ feed60 s = Leg {chain = (s, (0, 0)) :| [], within = LinuxCnc.exactly, wanted = A
 halfTurn :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Segment
 halfTurn centre from to = Arc {start = p from, end = p to, centre = p centre, sweep = Rad (-pi)}
 
--- | A part program, compiled for a modern control, goes the way that the program says: LinuxCNC
--- accepts the text without a word, and its moves retrace the path.
+-- | Compiles a part program for a modern control. LinuxCNC must accept the text without a message,
+-- and its moves must retrace the toolpath.
 retraced :: FilePath -> Expectation
 retraced file = inFolder $ \folder -> do
   let text = folder </> takeBaseName file <.> "ngc"
   (status, _, err) <- partc ["--quiet", "compile", file, "--target", "iso6983", "-o", text]
   (status, err) `shouldBe` (ExitSuccess, "")
-  loaded <- Compile.load (Import.byName reader) file =<< readText file
+  loaded <- LoadedProgram.load (Import.byName reader) file =<< readText file
   let outcome = Compile.analyse [] loaded
   case Result.settled outcome of
     Nothing -> expectationFailure (show (map Report.title (Result.errors outcome)))
     Just analysis -> do
       let (from, wanted) = LinuxCnc.legs (path analysis)
-      made <- LinuxCnc.canonical text
+      result <- LinuxCnc.canonical text
       fmap
         ( \calls ->
-            let walked =
-                  LinuxCnc.ways from calls
-             in LinuxCnc.differences wanted walked <> LinuxCnc.radii walked
+            let made = LinuxCnc.ways from calls
+             in LinuxCnc.differences wanted made <> LinuxCnc.radii made
         )
-        made
+        result
         `shouldBe` Right []
   where
     reader name = first why <$> try (readText name)

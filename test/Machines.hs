@@ -1,4 +1,4 @@
--- | The machines that are built in, for tests.
+-- | The built-in machines, and the job that a test runs.
 module Machines
   ( named,
     lkp01f,
@@ -9,22 +9,23 @@ module Machines
     kontur3p,
     n55,
     iso6983,
-    ownOr,
     known,
+    jobFor,
+    jobForOwnOr,
   )
 where
 
 import Base.Crash (bug)
 import Base.Result qualified as Result
-import Cli.Target qualified as Target
-import Compile (Analysis (path))
-import Compile qualified
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
+import Project.Job (Job (..), Verification (..))
+import Project.LoadedProgram (LoadedProgram (descriptions))
+import Project.Target qualified as Target
 
--- | By its name.
+-- | A built-in machine by its name.
 named :: Text -> Machine
 named n = fromMaybe (bug ("there is no machine " <> n)) (BuiltIn.find (MachineName n))
 
@@ -38,12 +39,25 @@ kontur3p = named "kontur-3p"
 n55 = named "n55"
 iso6983 = named "iso6983"
 
--- | The machine that a program names, set up for it; for one that names none another one.
-ownOr :: Machine -> Compile.LoadedProgram -> Analysis -> Machine
-ownOr other loaded analysis =
-  case Result.settled (Target.chosen (Compile.descriptions loaded) [] analysis) of
-    Just (machine : _) -> machine
-    _ -> Compile.onMachine (path analysis) other
-
+-- | All built-in machines.
 known :: [Machine]
 known = BuiltIn.machines
+
+-- | A verified tape for this machine, whichever machine the program names.
+jobFor :: Machine -> [(Text, Text)] -> Job
+jobFor machine values =
+  Job
+    { values,
+      machinesFor = \_ path -> pure [Target.setUpFor path machine],
+      verification = Verified
+    }
+
+-- | A verified tape for the machine that the program names, or for the other machine if it names
+-- none that can be found.
+jobForOwnOr :: Machine -> [(Text, Text)] -> LoadedProgram -> Job
+jobForOwnOr other values loaded = (jobFor other values) {machinesFor}
+  where
+    machinesFor part path =
+      case Result.settled (Target.targets (descriptions loaded) [] part path) of
+        Just machines -> pure machines
+        Nothing -> pure [Target.setUpFor path other]

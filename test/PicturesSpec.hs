@@ -1,6 +1,6 @@
--- | The pictures of the documents are those that the programs above them give.
+-- | The pictures of the documents are those of the programs above them.
 --
--- With PARTC_RECORD set, they are drawn anew (@make pictures@); without it a missing one is a
+-- With PARTC_RECORD set, they are drawn again (@make pictures@); without it a missing picture is a
 -- failure.
 module PicturesSpec (spec) where
 
@@ -37,11 +37,11 @@ spec = describe "pictures are what partc plot draws" $ do
       let svg = Plot.plot (part a) (path a)
       case recording of
         Just _ -> ByteString.writeFile target (Encoding.encodeUtf8 svg)
-        -- The text itself would fill pages.
+        -- Only the comparison: a failure would print both texts.
         Nothing -> readText target >>= \old -> (old == svg) `shouldBe` True
   it "no picture is left over" $ do
-    there <- listDirectory folder
-    sort there `shouldBe` sort [Text.unpack name <.> "svg" | (_, _, name) <- shown]
+    present <- listDirectory folder
+    sort present `shouldBe` sort [Text.unpack name <.> "svg" | (_, _, name) <- shown]
   where
     folder = "docs/pictures"
     withPictures file = do

@@ -1,24 +1,24 @@
--- | The small programs of test/programs: good ones beside their frames, bad ones beside their
--- reports.
+-- | The small programs of test/programs: good ones with their frames, bad ones with their reports.
 --
--- Folders are features. With PARTC_RECORD set, missing and differing expectations are written anew;
--- without it a missing one is a failure.
+-- Each folder is a feature of the language. With PARTC_RECORD set, expectations are recorded;
+-- without it a missing expectation is a failure.
 module ProgramsSpec (spec) where
 
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
-import Compile (Analysis (..), Punched (..))
+import Compile (Compiled (..), Punched (..))
 import Compile qualified
 import Control.Monad (forM_, void)
 import Data.List (isInfixOf, nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (expected, readText, walk)
-import Frame.Frame qualified as Frame
-import Machine.Machine (Machine)
 import Machines qualified
+import Project.Job (Job)
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Human qualified as Human
 import Report.Report (Report)
 import Report.Report qualified as Report
@@ -36,71 +36,60 @@ spec = do
   describe "good programs are proven and give their frames" $
     forM_ (kind "good") $ \file -> it file $ do
       (values, loaded) <- loadedFrom file
-      let source = Compile.source loaded
-          outcome =
-            Compile.analyse values loaded `Result.thenSound` \a ->
-              let m =
-                    machineFor loaded a
-               in Compile.punch m (path a) `Result.thenSound` \p -> pure (a, m, p)
+      let source = LoadedProgram.source loaded
+          outcome = Compile.compile (job values loaded) loaded
       case Result.settled outcome of
-        Nothing -> expectationFailure (Text.unpack (rendered source (errors outcome)))
-        Just (a, m, p) -> do
-          fs <-
-            maybe
-              (fail "the tape cannot be read")
-              pure
-              (output (Compile.readTape m (Frame.start (program p)) (tape p)))
-          let proof = Compile.prove m (path a) (program p) fs
-          fmap Proof.findings (output proof) `shouldBe` Just []
+        Just [Compiled {machine, punched, proof}] -> do
+          fmap Proof.findings proof `shouldBe` Just []
           expected
             (file -<.> "frames")
-            (FrameTable.frames m source (program p) <> rendered source (warnings outcome))
+            ( FrameTable.frames machine source (program punched)
+                <> rendered source (warnings outcome)
+            )
+        _ -> expectationFailure (Text.unpack (rendered source (errors outcome)))
   describe "bad programs give their reports, and no tape" $
     forM_ (kind "bad") $ \file -> it file $ do
       (values, loaded) <- loadedFrom file
-      let outcome = reportsOf values loaded
+      let outcome = Compile.check (job values loaded) loaded
       errors outcome `shouldNotBe` []
       void (Result.settled outcome) `shouldBe` Nothing
       expected
         (file -<.> "report")
-        (rendered (Compile.source loaded) (errors outcome <> warnings outcome))
+        (rendered (LoadedProgram.source loaded) (errors outcome <> warnings outcome))
   describe "report codes" $
     it "each code of the language has a bad program, each warning a good one" $ do
       sources <- filter ("Error.hs" `isInfixOf`) <$> walk "src"
       codes <-
         nub . sort . concatMap codesIn
-          <$> traverse readText (filter (not . ("Cli" `isInfixOf`)) sources)
+          <$> traverse readText (filter (not . ofCommandLine) sources)
       expectations <-
         Text.concat
           <$> ( traverse readText . filter ((`elem` [".report", ".frames"]) . takeExtension)
                   =<< walk "test/programs"
               )
-      -- A text that is too long is no small program; Surface.LimitsSpec has one. Descriptions of
-      -- machines have texts of their own.
+      -- Surface.LimitsSpec tests the length of a text, and test/machines the machine descriptions.
       [c | c <- codes, c /= "E0116", not (Text.isPrefixOf "E10" c), not (Text.isInfixOf ("[" <> c <> "]") expectations)]
         `shouldBe` []
 
--- | All that the compiler says of a program, up to the machine's limits.
-reportsOf :: [(Text, Text)] -> Compile.LoadedProgram -> Result Report Report ()
-reportsOf values loaded =
-  Compile.analyse values loaded `Result.thenSound` \a ->
-    void (Compile.punch (machineFor loaded a) (path a))
-
--- | The program's own machine, or the usual one.
-machineFor :: Compile.LoadedProgram -> Analysis -> Machine
-machineFor = Machines.ownOr Machines.lkp01f
+-- | A tape for the program's own machine, or for lkp-01f.
+job :: [(Text, Text)] -> LoadedProgram -> Job
+job = Machines.jobForOwnOr Machines.lkp01f
 
 rendered :: Region.Source -> [Report] -> Text
 rendered source reports = Text.concat (map render (Report.sorted reports))
   where
     render r = Human.render Human.Plain (Region.mainFile source) source r <> "\n"
 
--- | A program with what it imports, and the values that its lines @-- set: NAME=VALUE@ give to
--- parameters.
-loadedFrom :: FilePath -> IO ([(Text, Text)], Compile.LoadedProgram)
+-- | Do the errors of this module belong to the command line rather than to the language?
+ofCommandLine :: FilePath -> Bool
+ofCommandLine file = any (`isInfixOf` file) ["Cli", "Project"]
+
+-- | A program with its imports, and the values for parameters that its lines
+-- @-- set: NAME=VALUE@ give.
+loadedFrom :: FilePath -> IO ([(Text, Text)], LoadedProgram)
 loadedFrom file = do
   text <- readText file
-  loaded <- Compile.load (Import.byName beside) (takeFileName file) text
+  loaded <- LoadedProgram.load (Import.byName beside) (takeFileName file) text
   pure
     ( [ (Text.strip n, Text.drop 1 v)
         | line <- Text.lines text,
@@ -111,16 +100,15 @@ loadedFrom file = do
     )
   where
     beside name = do
-      let there = takeDirectory file </> name
-      exists <- doesFileExist there
-      if exists then Right <$> readText there else pure (Left "there is no such file or folder")
+      let path = takeDirectory file </> name
+      exists <- doesFileExist path
+      if exists then Right <$> readText path else pure (Left "there is no such file or folder")
 
--- | Codes in a source text: quotation mark, letter, four digits.
+-- | The codes between quotation marks in a source text: a letter and four digits.
 codesIn :: Text -> [Text]
 codesIn text =
   [ code
-    | piece <- drop 1 (Text.splitOn "\"" text),
-      let code = piece,
+    | code <- drop 1 (Text.splitOn "\"" text),
       Text.length code == 5,
       Text.take 1 code `elem` ["E", "W"],
       Text.all (`elem` ['0' .. '9']) (Text.drop 1 code)

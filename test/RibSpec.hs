@@ -1,25 +1,27 @@
--- | The rib among the examples: its edge at its distances from the skin, and its page.
+-- | The rib of examples/: the distances of its edge from the skin, and its page.
 module RibSpec (spec) where
 
 import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
 import Cli.NodeTable qualified as NodeTable
-import Compile (Analysis (..), LoadedProgram, Punched (..))
+import Compile (Analysis (..), Punched (..))
 import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
 import Machines (lkp01f)
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
 import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "the edge stands at the distances of its ciphers, one after the other" $ do
+  it "the edge keeps the distances of its ciphers, recalculation by recalculation" $ do
     program' <- readText file
     map Report.title (Result.errors (Compile.analyse [] (loaded (program' <> distances))))
       `shouldBe` []
-  it "its page shows the program as it stands among the examples" $ do
+  it "its page shows the program of examples/" $ do
     page <- readText "docs/rib.md"
     program' <- readText file
     page `shouldSatisfy` Text.isInfixOf (snd (Text.breakOn "part rib" program'))
@@ -31,7 +33,7 @@ spec = do
             (/= "    …")
             (dropWhile (not . Text.isPrefixOf "section  kind") (Text.lines page))
         report = NodeTable.nodes (Just (lkp01f, punched)) analysis
-        -- Behind the rest of the last contour's heading and an empty line.
+        -- After the rest of the last contour's heading and an empty line.
         printed = drop 2 (Text.lines (snd (Text.breakOnEnd "Contour outside_edge" report)))
     length shown `shouldBe` 9
     take 9 printed `shouldBe` shown
@@ -39,18 +41,22 @@ spec = do
     page <- readText "docs/rib.md"
     program' <- readText file
     (_, punched) <- compiled
-    let place =
+    let edgeLine =
           showText
             (1 + length (takeWhile (not . Text.isPrefixOf "  top slow") (Text.lines program')))
         rows =
           map
             Text.words
             ( Text.lines
-                (FrameTable.frames lkp01f (Compile.source (loaded program')) (program punched))
+                ( FrameTable.frames
+                    lkp01f
+                    (LoadedProgram.source (loaded program'))
+                    (program punched)
+                )
             )
         onEdge =
-          [(n, feed) | n : "cut" : rest@(_ : _ : _ : _ : feed : _) <- rows, last rest == place]
-        -- The frames of the last pass up to its slow one, which have one number after the other.
+          [(n, feed) | n : "cut" : rest@(_ : _ : _ : _ : feed : _) <- rows, last rest == edgeLine]
+        -- The frames of the last pass up to its slow one: their numbers are consecutive.
         counted = case reverse [n | (n, "15") <- onEdge] of
           end : _ ->
             length
@@ -62,7 +68,7 @@ spec = do
     page `shouldSatisfy` Text.isInfixOf (showText counted <> " chords")
   where
     file = "examples/rib.part"
-    loaded = Compile.alone (Text.pack file) :: Text -> LoadedProgram
+    loaded = LoadedProgram.fromText (Text.pack file) :: Text -> LoadedProgram
     compiled = do
       text <- readText file
       maybe (fail "the rib has errors") pure . Result.settled $
@@ -71,8 +77,8 @@ spec = do
     showText = Text.pack . show :: Int -> Text
     number = Text.foldl' (\n c -> 10 * n + fromEnum c - fromEnum '0') 0
 
--- | What the drawing says of the upper edge at its row x = 240 and under the strap, and of the
--- lower one in the middle of the pad.
+-- | The dimensions of the drawing for the upper edge at its row x = 240 and under the strap, and
+-- for the lower edge in the middle of the pad.
 distances :: Text
 distances =
   Text.unlines

@@ -1,9 +1,10 @@
--- | What the documents show of the command is what it prints.
+-- | The documents show what the command prints.
 --
--- A block @```console@ holds commands, each behind @$@, and what they print: reports first, then
--- results. They run beside the last whole program above them, @```part@ or @```part wrong@, in a
--- file named for the part, or beside the last input sheet, @```sheet NAME@. With PARTC_RECORD set,
--- what they print is written into the document anew.
+-- A block @```console@ contains commands, each after @$@, and their output: reports first, then
+-- results. The commands run in a folder with the last whole program above them, @```part@ or
+-- @```part wrong@, in a file named for the part, or with the last input sheet, @```sheet NAME@.
+--  With
+-- PARTC_RECORD set, the output is written into the document.
 module SessionsSpec (spec) where
 
 import Blocks qualified
@@ -26,45 +27,46 @@ spec = describe "sessions show what partc prints" $ do
   documents <- runIO Blocks.documents
   forM_ documents $ \file -> do
     text <- runIO (readText file)
-    let pieces = located (Text.splitOn "```" text)
-        sessions = [() | Session _ _ <- pieces]
+    let sections = withPrograms (Text.splitOn "```" text)
+        sessions = [() | Session _ _ <- sections]
     if null sessions
       then pure ()
       else it file $ do
-        now <- Text.intercalate "```" <$> traverse again pieces
+        now <- Text.intercalate "```" <$> traverse rerun sections
         case recording of
           Just _ -> ByteString.writeFile file (Encoding.encodeUtf8 now)
           Nothing -> Text.lines now `shouldBe` Text.lines text
 
--- | A document between its fences: text and blocks by turns.
-data Piece
+-- | A section of a document between its fences: text and blocks alternate.
+data Section
   = Plain Text
-  | -- | with the file above, by its name
+  | -- | a block of commands, with the name and text of the program above it
     Session (FilePath, Text) Text
 
-located :: [Text] -> [Piece]
-located = snd . mapAccumL one (".part", "") . zip [0 :: Int ..]
+-- | Each section with the program or input sheet above it.
+withPrograms :: [Text] -> [Section]
+withPrograms = snd . mapAccumL one (".part", "") . zip [0 :: Int ..]
   where
-    one program (n, piece)
-      | odd n, Just body <- Text.stripPrefix "console\n" piece = (program, Session program body)
+    one program (n, section)
+      | odd n, Just body <- Text.stripPrefix "console\n" section = (program, Session program body)
       | odd n,
-        Just body <- programOf piece,
+        Just body <- programOf section,
         Text.isPrefixOf "part " body =
-        ((nameOf body, body), Plain piece)
+        ((nameOf body, body), Plain section)
       | odd n,
-        Just named <- Text.stripPrefix "sheet " piece,
+        Just named <- Text.stripPrefix "sheet " section,
         (name, body) <- Text.breakOn "\n" named =
-        ((Text.unpack name <> ".sheet", Text.drop 1 body), Plain piece)
-      | otherwise = (program, Plain piece)
+        ((Text.unpack name <> ".sheet", Text.drop 1 body), Plain section)
+      | otherwise = (program, Plain section)
     nameOf program =
       Text.unpack (Text.takeWhile (`notElem` [' ', '\n']) (Text.drop 5 program)) <> ".part"
-    programOf piece = case Text.stripPrefix "part wrong\n" piece of
-      Nothing -> Text.stripPrefix "part\n" piece
+    programOf section = case Text.stripPrefix "part wrong\n" section of
+      Nothing -> Text.stripPrefix "part\n" section
       found -> found
 
--- | A piece with what the commands print now.
-again :: Piece -> IO Text
-again piece = case piece of
+-- | A section with the present output of its commands.
+rerun :: Section -> IO Text
+rerun section = case section of
   Plain text -> pure text
   Session (name, program) body -> inFolder $ \folder -> do
     ByteString.writeFile (folder </> name) (Encoding.encodeUtf8 program)

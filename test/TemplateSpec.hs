@@ -1,4 +1,4 @@
--- | The template of the Ural paper: its pieces, by how much they miss the points, and its page.
+-- | The template of the Ural paper: its sections, their deviations from the points, and its page.
 module TemplateSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -6,7 +6,7 @@ import Base.Name (Name (..))
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..))
 import Base.Result qualified as Result
-import Compile (Analysis (..), Punched (..))
+import Compile (Analysis (part), Compiled (..), Punched (..))
 import Compile qualified
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -20,9 +20,11 @@ import Geometry.Curve.SectionFit qualified as SectionFit
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machines (lkp01f)
+import Machines qualified
 import Part.Curve (Fitting (..))
 import Part.Curve qualified as Curve
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 
 spec :: Spec
@@ -47,7 +49,7 @@ spec = do
       `shouldBe` [(2, "0.01"), (4, "0.03"), (7, "-0.02"), (9, "-0.02"), (11, "0.01"), (12, "0.03")]
   it "three pieces are needed within 0.03 mm, and three are found" $ do
     map (length . pieces) (fitted "fitted") `shouldBe` [3]
-    [k | k <- [2 .. 12], single (take k points), single (drop (k - 1) points)] `shouldBe` []
+    [k | k <- [2 .. 12], isSingle (take k points), isSingle (drop (k - 1) points)] `shouldBe` []
     [SectionFit.ofRow d | f <- fitted "fitted", d <- misses f, let Mm x = SectionFit.miss d, abs x > 0.03]
       `shouldBe` []
   it "its page shows the points of the program, and what is computed" $ do
@@ -62,20 +64,17 @@ spec = do
                    | (d, p) <- zip missed points,
                      let Mm x = SectionFit.miss d
                  ]
-  it "its page shows the program as it stands among the examples, and counts its frames" $ do
+  it "its page shows the program of examples/, and counts its frames" $ do
     page <- readText "docs/template.md"
     program' <- readText file
     page `shouldSatisfy` Text.isInfixOf (snd (Text.breakOn "part template" program'))
-    frames <-
-      maybe
-        (fail "no tape")
-        pure
-        ( Result.settled
-            ( Compile.punch lkp01f (path analysis) `Result.thenSound` \p ->
-                Compile.readTape lkp01f (Frame.start (program p)) (tape p)
-            )
-        )
-    page `shouldSatisfy` Text.isInfixOf (Decimal.whole (length frames) <> " frames")
+    let loaded = LoadedProgram.fromText (Text.pack file) program'
+    case Result.settled (Compile.compile (Machines.jobFor lkp01f []) loaded) of
+      Just [Compiled {punched = Punched {program}}] ->
+        page
+          `shouldSatisfy` Text.isInfixOf
+            (Decimal.whole (length (Frame.planned program)) <> " frames")
+      _ -> expectationFailure "no tape"
   where
     file = "examples/template.part"
     analysed = do
@@ -83,8 +82,8 @@ spec = do
       maybe
         (fail "the template has errors")
         pure
-        (Result.settled (Compile.analyse [] (Compile.alone (Text.pack file) text)))
-    -- The cells of the tables, bold or not.
+        (Result.settled (Compile.analyse [] (LoadedProgram.fromText (Text.pack file) text)))
+    -- The cells of the tables, without the marks of bold text.
     rows page =
       [ map (Text.strip . Text.replace "*" "") (drop 1 (init (Text.splitOn "|" line)))
         | line <- Text.lines page,
@@ -92,16 +91,16 @@ spec = do
       ]
     isNumber n = not (Text.null n) && Text.all (`elem` ['0' .. '9']) n
 
--- | The coefficients of a polynomial with as many digits as the paper has.
+-- | The coefficients of a polynomial with the digits of the paper.
 formula :: Section.Section -> Text
 formula p = case Section.formula p of
   Section.Polynomial 0 b c -> Text.unwords [Decimal.fixed 7 b, Decimal.fixed 6 c]
   Section.Polynomial a b c -> Text.unwords [Decimal.fixed 8 a, Decimal.fixed 7 b, Decimal.fixed 6 c]
   Section.Circle _ _ -> "an arc"
 
--- | Whether one line, parabola or arc goes through these points within the paper's tolerance.
-single :: [Point] -> Bool
-single points = case Section.table points of
+-- | Does one line, parabola or arc pass these points within the paper's tolerance, 0.03 mm?
+isSingle :: [Point] -> Bool
+isSingle points = case Section.table points of
   Right t ->
     length
       (SectionFit.fit (Section.LineKind :| [Section.ParabolaKind, Section.ArcKind]) (Mm 0.03) t)

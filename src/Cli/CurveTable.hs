@@ -1,5 +1,5 @@
--- | The paper's tables of curves that are put together from pieces: the pieces with their
--- coefficients, and by how much they miss the rows of the table (Ural paper, Tables 2–4).
+-- | The tables of fitted curves (Ural paper, Tables 2–4): the sections with their coefficients, and
+-- their deviations from the rows of the table. Lengths are in mm.
 module Cli.CurveTable
   ( fittings,
   )
@@ -23,7 +23,7 @@ import Part.Curve (Fitting (..))
 import Part.Part (Part)
 import Part.Part qualified as Part
 
--- | For each such curve of the part a text of two tables.
+-- | The two tables of each fitted curve of the part.
 fittings :: Part -> [Text]
 fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
 
@@ -46,8 +46,8 @@ fitting (Name name) Fitting {pieces, misses, through} =
       [ToRight, ToRight, ToRight, ToRight, ToRight]
       (["row", "x", "y", "section", "deviation"] : map row misses)
   where
-    section k p =
-      [ Decimal.whole k,
+    section index p =
+      [ Decimal.whole index,
         Decimal.whole (Section.first p) <> "–" <> Decimal.whole (Section.final p),
         kindWord p,
         equation p,
@@ -67,7 +67,7 @@ fitting (Name name) Fitting {pieces, misses, through} =
           ]
     fixed n (Mm x) = Decimal.fixed n x
 
--- | With the digits of the paper.
+-- | The equation of a section, with the digits of the paper.
 equation :: Section.Section -> Text
 equation p = case Section.formula p of
   Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
@@ -77,5 +77,6 @@ equation p = case Section.formula p of
   where
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
 
+-- | A count with its noun.
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else Text.singleton 's')

@@ -1,61 +1,48 @@
--- | What can be wrong with files, machines and the command line.
+-- | Errors and warnings that concern files and the command line. Errors in programs and machine
+-- descriptions belong to the stages that find them.
 module Cli.Error
   ( Error (..),
     Warning (..),
     toReport,
-    whyNot,
+    reason,
     warningReport,
   )
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Name qualified as Name
-import Base.Region (Position (..), Region)
-import Base.Region qualified as Region
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 data Error
-  = -- | why
+  = -- | the reason
     CannotRead Text
-  | -- | file and why
+  | -- | the file and the reason
     CannotWrite Text Text
   | NotUtf8
-  | -- | neither the program nor the command line names a machine; the machines there are
-    NoMachine [Text]
-  | -- | no machine for a tape; the machines there are
+  | -- | no machine for a tape; the built-in machines
     NoMachineForTape [Text]
-  | -- | a name that no machine has, where the program says it, the machines there are
-    UnknownMachine (Maybe Region) Text [Text]
-  | -- | a description that cannot be read: where the program names it, its name, why
-    DescriptionMissing (Maybe Region) Text Text
-  | -- | a description with mistakes: where the program names it, its name, its text, what is wrong
-    DescriptionWrong (Maybe Region) Text Text [Report]
-  | -- | the output would replace the program
+  | -- | a file that the program is made of, and that the output would replace
     OverwritesProgram Text
-  | -- | several tapes would go to one place
+  | -- | the file that several tapes would go to
     OneForSeveral Text
-  | -- | the program punches nothing
-    NothingToPunch
-  | -- | nothing of a tape is in the range that was asked for: what is counted, and how much of it
-    -- there is
+  | -- | a tape has nothing in the range: the unit of the range (row or frame), the tape's count
     NothingInRange Text Int
-  | -- | a value for a parameter of an input sheet
+  | -- | the parameter to which the command line gives a value; an input sheet has none
     SheetAssigned Text
-  | -- | an input sheet to be laid out as a program
+  | -- | an input sheet has no layout
     SheetLaidOut
-  | -- | a code that no report has; the codes that may be meant
+  | -- | an unknown report code, and the codes that may be meant
     UnknownCode Text [Text]
   deriving stock (Eq, Show)
 
 data Warning
-  = -- | the tape is written as it is
+  = -- | the tape is written without verification
     Unproven
   deriving stock (Eq, Show)
 
--- | The words for it.
+-- | The report of an error.
 toReport :: Error -> Report
 toReport err = case err of
   CannotRead why -> wrong "E0801" InFile ("the file cannot be read: " <> why)
@@ -64,14 +51,6 @@ toReport err = case err of
     (wrong "E0803" InFile "the file is not UTF-8 text")
       { hints = ["Save it as UTF-8 in your editor."]
       }
-  NoMachine known ->
-    (wrong "E0804" InFile "no machine is chosen")
-      { hints =
-          [ "Say in the program: machine NAME, or on the command line: -t NAME. Machines: "
-              <> Text.intercalate ", " known
-              <> "."
-          ]
-      }
   NoMachineForTape known ->
     (wrong "E0804" InFile "no machine is chosen")
       { hints =
@@ -79,34 +58,6 @@ toReport err = case err of
               <> Text.intercalate ", " known
               <> "."
           ]
-      }
-  UnknownMachine place name known ->
-    (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
-      { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
-        hints =
-          if ".machine" `Text.isSuffixOf` name
-            then ["A description stands in quotation marks: machine \"" <> name <> "\"."]
-            else ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
-      }
-  DescriptionMissing place file why ->
-    ( wrong
-        "E0806"
-        (maybe InFile InSource place)
-        ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why)
-    )
-      { hints =
-          [ "A description is looked for beside the program that names it, or where the \
-            \command line says."
-          ]
-      }
-  DescriptionWrong place file text reports ->
-    ( wrong
-        "E0810"
-        (maybe InFile InSource place)
-        ("the machine’s description ‘" <> file <> "’ has mistakes")
-    )
-      { message = [placed file text r | r <- Report.sorted reports],
-        hints = ["partc machines " <> file <> " shows them in full."]
       }
   OverwritesProgram path ->
     wrong "E0807" InFile ("the output would replace " <> path <> ", of which it is made")
@@ -122,13 +73,6 @@ toReport err = case err of
               else
                 "Two of the machines have one name: give one of them another, or compile for \
                 \one after the other with -o."
-          ]
-      }
-  NothingToPunch ->
-    (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
-      { hints =
-          [ "Mill a contour (mill NAME outside { approach … retract … }), or go somewhere \
-            \(rapid, move)."
           ]
       }
   NothingInRange counted count ->
@@ -158,20 +102,13 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | A report in one line, with its place in a text.
-placed :: Text -> Text -> Report -> Text
-placed file text r = case place r of
-  InSource region ->
-    let Position {line, column} = Region.position (Region.fromText file text) (Region.start region)
-     in Decimal.whole line <> ":" <> Decimal.whole column <> ": " <> title r
-  _ -> title r
-
--- | Why a file can not be had, as the end of a sentence.
-whyNot :: Error -> Text
-whyNot err = case err of
+-- | The reason why a file cannot be used, as the end of a sentence.
+reason :: Error -> Text
+reason err = case err of
   CannotRead why -> why
   _ -> "the file is not UTF-8 text; save it as UTF-8 in your editor"
 
+-- | The report of a warning.
 warningReport :: Warning -> Report
 warningReport warning = case warning of
   Unproven ->

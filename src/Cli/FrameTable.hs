@@ -29,36 +29,36 @@ import Geometry.Carrier (Sense (..))
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 
--- | A column of a table of frames: its head, and what stands in it.
+-- | A column: its alignment, its heading, its cell for each row.
 data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 
--- | A frame with its number, from 1, and the position where it ends.
+-- | A frame with its number, from 1, and the position at its end.
 data Numbered = Numbered {number :: Int, planned :: Planned, to :: Pulses3}
 
--- | One frame a line, with the line of the program that it came from. Only columns that say
--- something.
+-- | A table of frames, each with the line of the program that it comes from. Columns that would be
+-- empty are left out.
 frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where
     rows = numbered program
     all' = map (frame . planned) rows
-    rises = any (\f -> let Pulses3 _ _ z = increment f in z /= 0) all'
+    hasHeights = any (\f -> let Pulses3 _ _ z = increment f in z /= 0) all'
     columns =
       [ Column ToRight "frame" (Decimal.whole . number),
         Column ToLeft "for" (roleWord . role . planned)
       ]
-        <> map (before (frame . planned)) (motionColumns all')
+        <> map (of' (frame . planned)) (motionColumns all')
         <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight "mm/min" feedOf]
-        <> map (before (frame . planned)) (brakeColumn all')
-        <> [ Column ToRight "to x" (coordinate . Vec.x . place),
-             Column ToRight "to y" (coordinate . Vec.y . place)
+        <> map (of' (frame . planned)) (brakeColumn all')
+        <> [ Column ToRight "to x" (coordinate . Vec.x . endOf),
+             Column ToRight "to y" (coordinate . Vec.y . endOf)
            ]
         <> [ Column ToRight "to z" (\n -> let Mm z = Frame.height machine (to n) in coordinate z)
-             | rises
+             | hasHeights
            ]
         <> [Column ToRight "line" (lineWord source . planned)]
-        <> map (before (frame . planned)) (orderColumns all')
-    place n = Frame.position machine (to n)
+        <> map (of' (frame . planned)) (commandColumns all')
+    endOf n = Frame.position machine (to n)
     feedOf n =
       maybe
         ""
@@ -104,30 +104,30 @@ framesJson machine source program = Text.concat (map row (numbered program))
         (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs))))
         <> "\n"
 
--- | The frames that were read from a tape.
+-- | A table of frames that were read from a tape.
 decoded :: Machine -> [Frame] -> Text
 decoded machine fs = table columns (zip [1 :: Int ..] fs)
   where
     columns =
       [Column ToRight "frame" (Decimal.whole . fst)]
-        <> map (before snd) (motionColumns fs)
+        <> map (of' snd) (motionColumns fs)
         <> [ Column ToRight "speed" (speedWord . snd),
              Column
                ToRight
                "mm/min"
                (\(_, f) -> maybe "" feedWord (FeedCode.given machine f (FeedCode.wayOf machine f)))
            ]
-        <> map (before snd) (brakeColumn fs <> orderColumns fs)
+        <> map (of' snd) (brakeColumn fs <> commandColumns fs)
 
 table :: [Column a] -> [a] -> Text
 table columns rows =
   Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
 
--- | A column of something that is got from something else.
-before :: (b -> a) -> Column a -> Column b
-before get c = c {cell = cell c . get}
+-- | A column for rows that contain the rows of another column.
+of' :: (b -> a) -> Column a -> Column b
+of' get c = c {cell = cell c . get}
 
--- | What moves where: the kind of motion and the centre where there are arcs or rapid motions.
+-- | The increments; the kind of motion if some frames are arcs or rapid; the centres of arcs.
 motionColumns :: [Frame] -> [Column Frame]
 motionColumns fs =
   [ Column ToLeft "motion" (motionWord . motion)
@@ -147,13 +147,13 @@ motionColumns fs =
     pulses (Pulses n) = Decimal.whole n
     ofCentre get f = if isArc f then pulses (get (centre f)) else ""
 
--- | Which frames slow down, where some do.
+-- | Marks braking frames, if there are any.
 brakeColumn :: [Frame] -> [Column Frame]
 brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | any braking fs]
 
--- | A column for every word of commands that is used.
-orderColumns :: [Frame] -> [Column Frame]
-orderColumns fs =
+-- | A column for every word of commands that some frame has.
+commandColumns :: [Frame] -> [Column Frame]
+commandColumns fs =
   [ Column ToRight name (maybe "" Decimal.whole . lookup o . orders)
     | o@(CommandName name) <- nubOrd (concatMap (map fst . orders) fs)
   ]
@@ -173,7 +173,7 @@ motionWord m = case m of
   Round Clockwise -> "arc cw"
   Round CounterClockwise -> "arc ccw"
 
--- | The frames with their numbers and the positions where they end.
+-- | The frames with their numbers and end positions.
 numbered :: FrameProgram -> [Numbered]
 numbered program =
   zipWith3
@@ -184,7 +184,7 @@ numbered program =
   where
     ps = Frame.planned program
 
--- | The line, with the file when it is not the program's own.
+-- | The line of the program, with the file if it is an imported one.
 lineWord :: Source -> Planned -> Text
 lineWord source p =
   (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)

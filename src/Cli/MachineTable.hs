@@ -1,4 +1,4 @@
--- | The machines, and all that is known of one.
+-- | Tables of machines: the list of all, and the sheet of one.
 module Cli.MachineTable
   ( machineList,
     machineSheet,
@@ -18,12 +18,12 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine
 
--- | A line for every machine.
+-- | The list of machines, one line each.
 machineList :: [Machine] -> Text
 machineList ms = Table.columns [ToLeft, ToLeft] [[n, title m] | m <- ms, let MachineName n = name m]
 
--- | All that is known of one machine: its tape, its frames, its feeds and commands, and how each
--- value is known.
+-- | The data of one machine: tape, code, axes, frames, feeds, braking, commands, and the provenance
+-- of each value.
 machineSheet :: Machine -> Text
 machineSheet m =
   n
@@ -50,7 +50,7 @@ machineSheet m =
         ("The kinds of motion", [ToRight, ToLeft], motionRows m),
         (feedHeading m, [ToRight, ToRight, ToLeft], feedRows m),
         ("Slowing down", [ToLeft, ToLeft], brakingRows m),
-        ("The commands", [ToLeft, ToLeft], orderRows m),
+        ("The commands", [ToLeft, ToLeft], commandRows m),
         ( "How it is known",
           [ToLeft, ToLeft],
           [[markWord mark, fact] | DescribedValue mark fact <- facts m]
@@ -73,8 +73,8 @@ tapeRows m =
     ],
     ["further blank rows", case spare t of Counted -> "none"; Skipped -> "passed over"]
   ]
-    <> [["before the first frame", shown (opening t)] | opening t /= ""]
-    <> [["behind the last frame", shown (closing t)] | closing t /= ""]
+    <> [["before the first frame", quoted (opening t)] | opening t /= ""]
+    <> [["behind the last frame", quoted (closing t)] | closing t /= ""]
     <> [ ["limit", "at most " <> Decimal.whole k <> " contours"]
          | Just k <- [mostContours (limits m)]
        ]
@@ -82,12 +82,12 @@ tapeRows m =
     t = medium m
     blanks k = Decimal.whole k <> " blank row" <> (if k == 1 then "" else "s")
 
--- | The symbols that frames use, each with its holes, the highest track first.
+-- | The symbols that frames use, each with its holes. The highest track comes first.
 codeRows :: Machine -> [[Text]]
 codeRows m =
   line "symbol" "weight" ("tracks " <> Text.concat (map Decimal.whole tracksDown)) :
   [ line
-      (shown (Text.singleton c))
+      (quoted (Text.singleton c))
       (Decimal.whole (Map.findWithDefault 0 c (weights (code m))))
       ("       " <> holes row)
     | (c, row) <- Map.toList here
@@ -156,7 +156,7 @@ axisRows m =
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | Whether every row of a frame has its fixed place.
+-- | Has every frame the same rows, each with a fixed meaning?
 isGrid :: Machine -> Bool
 isGrid m = all fixed (NonEmpty.toList (items (layout m)))
   where
@@ -178,7 +178,7 @@ gridRows m =
     (concatMap rowsOf (NonEmpty.toList (items (layout m))))
   where
     rowsOf item = case item of
-      Literal t -> [[shown (Text.singleton c), ""] | c <- Text.unpack t]
+      Literal t -> [[quoted (Text.singleton c), ""] | c <- Text.unpack t]
       CheckDigit k -> [["check: the sum is a multiple of " <> Decimal.whole k, ""]]
       AWord w ->
         [ [contentWord (content w), s]
@@ -191,17 +191,17 @@ wordRows :: Machine -> [[Text]]
 wordRows m =
   ["address", "holds", "digits", "sign", "stands"] :
   map row (NonEmpty.toList (items (layout m)))
-    <> [["between words", shown (separator (layout m)), "", "", ""] | separator (layout m) /= ""]
+    <> [["between words", quoted (separator (layout m)), "", "", ""] | separator (layout m) /= ""]
     <> [["", measured, "", "", ""]]
   where
     measured = case measure (layout m) of
       Increments -> "axes are told by increments"
       Positions -> "axes are told by positions"
     row item = case item of
-      Literal t -> [shown t, "", "", "", "always"]
+      Literal t -> [quoted t, "", "", "", "always"]
       CheckDigit k -> ["", "check: the sum is a multiple of " <> Decimal.whole k, "1", "", "always"]
       AWord w ->
-        [ if address w == "" then "" else shown (address w),
+        [ if address w == "" then "" else quoted (address w),
           contentWord (content w),
           digitText (form w),
           signText (sign (form w)) <> servicesText (service (form w)),
@@ -217,7 +217,7 @@ wordRows m =
     servicesText ss =
       if all (== NoHole) ss then "" else "holes: " <> Text.intercalate ", " (map serviceWord ss)
 
--- | The number of each kind of motion.
+-- | The number that codes each kind of motion.
 motionRows :: Machine -> [[Text]]
 motionRows m =
   concat
@@ -289,7 +289,7 @@ feedRows m = ["code", unit, ""] : listed
             | (FeedCode c, v) <- Map.toList t
           ]
 
--- | A long table: its beginning and its end.
+-- | The first and the last rows of a long table.
 abbreviated :: [[Text]] -> [[Text]]
 abbreviated rows
   | length rows <= longest + 1 = rows
@@ -311,9 +311,9 @@ brakingRows m =
     ]
   ]
 
-orderRows :: Machine -> [[Text]]
-orderRows m =
-  [ [event, Text.intercalate ", " (map orderText os)]
+commandRows :: Machine -> [[Text]]
+commandRows m =
+  [ [event, Text.intercalate ", " (map commandText os)]
     | (event, os) <-
         [ ("spindle clockwise", spindleClockwise o),
           ("spindle counter-clockwise", spindleCounterClockwise o),
@@ -336,8 +336,8 @@ orderRows m =
   where
     o = orders m
 
-orderText :: CommandWord -> Text
-orderText (CommandWord (CommandName n) v) = n <> " " <> valueText v
+commandText :: CommandWord -> Text
+commandText (CommandWord (CommandName n) v) = n <> " " <> valueText v
 
 valueText :: CommandValue -> Text
 valueText v = case v of
@@ -365,6 +365,6 @@ markWord mark = case mark of
   Corrected -> "corrected"
   Reconstructed -> "reconstructed"
 
--- | Symbols between quotation marks; an end of a line is seen.
-shown :: Text -> Text
-shown t = "‘" <> Text.replace "\n" "\\n" t <> "’"
+-- | Symbols between quotation marks, with a visible end of line.
+quoted :: Text -> Text
+quoted t = "‘" <> Text.replace "\n" "\\n" t <> "’"

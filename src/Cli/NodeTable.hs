@@ -1,4 +1,6 @@
--- | The paper's tables: the nodes of every equidistant, lengths, times, metres of tape.
+-- | The tables of the Ural paper: the nodes of every equidistant, lengths, times, metres of tape.
+--
+-- Coordinates and lengths are in mm, times in seconds.
 module Cli.NodeTable
   ( nodes,
   )
@@ -24,198 +26,220 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Pace (..))
+import Part.Part (Drilling, Milling, Pace (..), Part)
 import Part.Part qualified as Part
 import Tape.Tape qualified as Tape
-import Toolpath.Toolpath (Block (..), Move (..), Pass (..), heights, pace)
+import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The paper's tables for every milled contour, then times and tape.
+-- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are those of
+-- the machine's feeds; without a machine, those of the program's feeds.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
 nodes punched Analysis {part, path} =
   Text.intercalate
     "\n"
-    ( [heading]
+    ( [heading part]
         <> CurveTable.fittings part
-        <> map milled cuttings
-        <> map emptied clearings
-        <> drilled
+        <> [contourTable machine job pass cut | (job, pass, cut) <- cutsOf path]
+        <> [pocketText machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
+        <> holeTable [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
         <> RestMaterialTable.places path
-        <> [summary]
+        <> [summary punched path]
     )
   where
-    heading =
-      "Part "
-        <> maybe "" (\(Name n) -> n) (Part.name part)
-        <> maybe "" (\t -> ": " <> t) (Part.title part)
-        <> "\n"
     machine = fst <$> punched
-    cuttings = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Toolpath.blocks path]
-    clearings =
-      [ (job, pass, NonEmpty.toList cleared)
-        | Clearing {pocket = job, pass, cleared} <- Toolpath.blocks path
-      ]
-    emptied (job, pass, cleared) =
-      "Pocket "
-        <> contourName' (Part.wall <$> job)
-        <> passWord pass
-        <> ": cleared in "
-        <> Decimal.whole (length cleared)
-        <> " moves\n"
-        <> sums cleared
-    milled (job, pass, cut) =
-      "Contour "
-        <> contourName' job
-        <> passWord pass
-        <> ": nodes of the "
-        <> pathWord job
-        <> ", numbered from the entry\n\n"
-        <> Table.columns
-          [ToRight, ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight, ToRight]
-          ( [ "section",
-              "kind",
-              "node",
-              "x",
-              "y",
-              "centre x",
-              "centre y",
-              "radius",
-              "length",
-              "time s"
-            ] :
-            sections (ends' job) (Toolpath.runs cut)
-          )
-        <> sums cut
-    sums ms =
-      "\nlength "
-        <> fixed3 (lengthOf ms)
-        <> " mm, time "
-        <> seconds (total (map (timeOf machine) ms))
-        <> " s\n"
-    -- Which of several passes: the height, and what it leaves standing.
-    passWord Pass {left, atHeight} =
-      (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight)
-        <> (if left == Mm 0 then "" else ", leaving " <> fixed3 left)
-    ends' job = Part.ends (Part.contour (value job))
-    contourName' job = let Name n = value (Part.contourName (Part.contour (value job))) in n
-    pathWord job = case value (Part.side (value job)) of
-      Part.On -> "contour, milled on its line"
-      Part.Outside -> "equidistant outside"
-      Part.Inside -> "equidistant inside"
-      Part.LeftSide -> "equidistant on the left"
-      Part.RightSide -> "equidistant on the right"
-    -- The arcs of one curve are one section.
-    sections ends runs = zipWith (section (length runs) ends) [0 ..] runs <> lastNode ends runs
-    section count ends k run =
-      let next = case ends of
-            Part.Closed -> (k + 1) `mod` count
-            Part.Open -> k + 1
-          begin = Segment.start (segment (NonEmpty.head run))
-          moves = NonEmpty.toList run
-       in [ Decimal.whole k <> "–" <> Decimal.whole next,
-            kind run,
-            Decimal.whole k,
-            fixed3 (Mm (Vec.x begin)),
-            fixed3 (Mm (Vec.y begin))
-          ]
-            <> centreOf run
-            <> [ fixed3 (total (map (Segment.length . segment) moves)),
-                 seconds (total (map (timeOf machine) moves))
-               ]
-    lastNode ends runs = case (ends, reverse runs) of
-      (Part.Open, final : _) ->
-        let finish = Segment.end (segment (NonEmpty.last final))
-         in [ [ "",
-                "end",
-                Decimal.whole (length runs),
-                fixed3 (Mm (Vec.x finish)),
-                fixed3 (Mm (Vec.y finish)),
-                "",
-                "",
-                "",
-                "",
-                ""
-              ]
-            ]
-      _ -> []
-    drilled =
-      [ "Holes\n\n"
-          <> Table.columns
-            [ToRight, ToRight, ToRight, ToRight]
-            ( ["x", "y", "diameter", "depth"] :
-                [ [ fixed3 (Mm (Vec.x p)),
-                    fixed3 (Mm (Vec.y p)),
-                    fixed3 (times 2 (Part.drillRadius d)),
-                    fixed3 (times (-1) (Part.bottom d))
-                  ]
-                  | d <- holings,
-                    Located _ p <- NonEmpty.toList (Part.holes d)
-                ]
-            )
-        | not (null holings)
-      ]
-    holings = [d | Holing (Located _ d) _ <- Toolpath.blocks path]
-    everything = concatMap Toolpath.moves (Toolpath.blocks path)
-    summary =
-      Table.columns
-        [ToLeft, ToRight, ToLeft]
-        ( [ [ "ways in, out and between",
-              fixed3
-                ( minus
-                    (lengthOf everything)
-                    ( lengthOf
-                        ( concatMap (\(_, _, cut) -> cut) cuttings
-                            <> concatMap (\(_, _, cleared) -> cleared) clearings
-                        )
-                    )
-                ),
-              "mm"
-            ],
-            ["total length of the path", fixed3 (lengthOf everything), "mm"],
-            ["total time", seconds (total (map (timeOf machine) everything)), "s"]
-          ]
-            <> maybe [] tapeRows punched
-        )
-    lengthOf = total . map wayOf
-    tapeRows (m, Punched {program, tape}) =
-      [ ["frames", Decimal.whole (length (Frame.planned program)), ""],
-        [ maybe "characters" (const "rows of tape") (Tape.metres m tape),
-          Decimal.whole (Tape.rowCount tape),
-          ""
-        ]
-      ]
-        <> [["tape", Decimal.fixed 2 metres, "m"] | Just metres <- [Tape.metres m tape]]
 
-kind :: NonEmpty Move -> Text
-kind run
-  | Toolpath.isCurve run = "curve"
-  | otherwise = case segment (NonEmpty.head run) of
+heading :: Part -> Text
+heading part =
+  "Part "
+    <> maybe "" (\(Name n) -> n) (Part.name part)
+    <> maybe "" (": " <>) (Part.title part)
+    <> "\n"
+
+cutsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
+cutsOf path = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Toolpath.blocks path]
+
+clearingsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
+clearingsOf path =
+  [ (Part.wall <$> pocket, pass, NonEmpty.toList cleared)
+    | Clearing {pocket, pass, cleared} <- Toolpath.blocks path
+  ]
+
+-- Passes ------------------------------------------------------------------------------------------
+
+-- | The nodes of one pass along a contour, from the entry.
+contourTable :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
+contourTable machine job pass cut =
+  "Contour "
+    <> nameOf job
+    <> passWord pass
+    <> ": nodes of the "
+    <> sideWord job
+    <> ", numbered from the entry\n\n"
+    <> Table.columns
+      (ToRight : ToLeft : replicate 8 ToRight)
+      ( [ "section",
+          "kind",
+          "node",
+          "x",
+          "y",
+          "centre x",
+          "centre y",
+          "radius",
+          "length",
+          "time s"
+        ] :
+        sectionRows machine (Part.ends (Part.contour (value job))) (Toolpath.runs cut)
+      )
+    <> lengthAndTime machine cut
+
+pocketText :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
+pocketText machine wall pass cleared =
+  "Pocket "
+    <> nameOf wall
+    <> passWord pass
+    <> ": cleared in "
+    <> Decimal.whole (length cleared)
+    <> " moves\n"
+    <> lengthAndTime machine cleared
+
+nameOf :: Located Milling -> Text
+nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n
+
+-- | The height of a pass and its allowance, unless they are zero.
+passWord :: Pass -> Text
+passWord Pass {left, atHeight} =
+  (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight)
+    <> (if left == Mm 0 then "" else ", leaving " <> fixed3 left)
+
+sideWord :: Located Milling -> Text
+sideWord job = case value (Part.side (value job)) of
+  Part.On -> "contour, milled on its line"
+  Part.Outside -> "equidistant outside"
+  Part.Inside -> "equidistant inside"
+  Part.LeftSide -> "equidistant on the left"
+  Part.RightSide -> "equidistant on the right"
+
+lengthAndTime :: Maybe Machine -> [Move] -> Text
+lengthAndTime machine moves =
+  "\nlength "
+    <> fixed3 (total (map moveLength moves))
+    <> " mm, time "
+    <> seconds (total (map (moveTime machine) moves))
+    <> " s\n"
+
+-- | One row for each section, from a node to the next; an open contour has a last row for its end.
+-- The arcs of one curve are one section.
+sectionRows :: Maybe Machine -> Part.Ends -> [NonEmpty Move] -> [[Text]]
+sectionRows machine ends sections =
+  zipWith (sectionRow machine (length sections) ends) [0 ..] sections <> endRow ends sections
+
+sectionRow :: Maybe Machine -> Int -> Part.Ends -> Int -> NonEmpty Move -> [Text]
+sectionRow machine count ends index section =
+  [ Decimal.whole index <> "–" <> Decimal.whole next,
+    kindWord section,
+    Decimal.whole index,
+    fixed3 (Mm (Vec.x begin)),
+    fixed3 (Mm (Vec.y begin))
+  ]
+    <> centreAndRadius section
+    <> [ fixed3 (total (map (Segment.length . segment) moves)),
+         seconds (total (map (moveTime machine) moves))
+       ]
+  where
+    next = case ends of
+      Part.Closed -> (index + 1) `mod` count
+      Part.Open -> index + 1
+    begin = Segment.start (segment (NonEmpty.head section))
+    moves = NonEmpty.toList section
+
+endRow :: Part.Ends -> [NonEmpty Move] -> [[Text]]
+endRow ends sections = case (ends, reverse sections) of
+  (Part.Open, final : _) ->
+    let end = Segment.end (segment (NonEmpty.last final))
+        index = Decimal.whole (length sections)
+     in [["", "end", index, fixed3 (Mm (Vec.x end)), fixed3 (Mm (Vec.y end)), "", "", "", "", ""]]
+  _ -> []
+
+kindWord :: NonEmpty Move -> Text
+kindWord section
+  | Toolpath.isCurve section = "curve"
+  | otherwise = case segment (NonEmpty.head section) of
     Straight _ _ -> "line"
     Arc {sweep = Rad a} -> if a > 0 then "arc ccw" else "arc cw"
 
-centreOf :: NonEmpty Move -> [Text]
-centreOf run = case segment (NonEmpty.head run) of
+centreAndRadius :: NonEmpty Move -> [Text]
+centreAndRadius section = case segment (NonEmpty.head section) of
   Arc {start, centre}
-    | not (Toolpath.isCurve run) ->
+    | not (Toolpath.isCurve section) ->
       [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
   _ -> ["", "", ""]
 
--- | The time of a move at the feed that the machine gives, or at the one asked when there is no
--- machine. A rapid move takes no time where nothing says how fast it is: without a machine, and on
--- one whose control knows it by itself.
-timeOf :: Maybe Machine -> Move -> Seconds
-timeOf machine move = maybe (Seconds 0) (travelTime l) (feedOf (pace move))
+-- Holes and sums ----------------------------------------------------------------------------------
+
+-- | The table of all holes, if there are any.
+holeTable :: [Drilling] -> [Text]
+holeTable drillings =
+  [ "Holes\n\n"
+      <> Table.columns
+        [ToRight, ToRight, ToRight, ToRight]
+        ( ["x", "y", "diameter", "depth"] :
+            [ [ fixed3 (Mm (Vec.x p)),
+                fixed3 (Mm (Vec.y p)),
+                fixed3 (times 2 (Part.drillRadius d)),
+                fixed3 (times (-1) (Part.bottom d))
+              ]
+              | d <- drillings,
+                Located _ p <- NonEmpty.toList (Part.holes d)
+            ]
+        )
+    | not (null drillings)
+  ]
+
+-- | The length of linking moves, of the whole toolpath, its time, and the size of the tape.
+summary :: Maybe (Machine, Punched) -> Toolpath -> Text
+summary punched path =
+  Table.columns
+    [ToLeft, ToRight, ToLeft]
+    ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf cutting)), "mm"],
+        ["total length of the path", fixed3 (lengthOf everything), "mm"],
+        ["total time", seconds (total (map (moveTime machine) everything)), "s"]
+      ]
+        <> maybe [] (uncurry tapeRows) punched
+    )
   where
-    l = wayOf move
+    machine = fst <$> punched
+    everything = concatMap Toolpath.moves (Toolpath.blocks path)
+    cutting = concat [moves | (_, _, moves) <- cutsOf path <> clearingsOf path]
+    lengthOf = total . map moveLength
+
+tapeRows :: Machine -> Punched -> [[Text]]
+tapeRows machine Punched {program, tape} =
+  [ ["frames", Decimal.whole (length (Frame.planned program)), ""],
+    [ maybe "characters" (const "rows of tape") (Tape.metres machine tape),
+      Decimal.whole (Tape.rowCount tape),
+      ""
+    ]
+  ]
+    <> [["tape", Decimal.fixed 2 metres, "m"] | Just metres <- [Tape.metres machine tape]]
+
+-- Moves -------------------------------------------------------------------------------------------
+
+-- | The time of a move at the feed of the machine; without a machine, at the feed of the program. A
+-- rapid move takes no time if its speed is unknown: without a machine, and on a machine whose
+-- control chooses the speed itself.
+moveTime :: Maybe Machine -> Move -> Seconds
+moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
+  where
     feedOf p = case (p, machine) of
       (Rapid, Nothing) -> Nothing
       (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (FeedCode.rapid m)
-      (At (Located _ asked), Nothing) -> Just asked
-      (At (Located _ asked), Just m) -> Just (FeedCode.about m asked)
+      (At (Located _ feed), Nothing) -> Just feed
+      (At (Located _ feed), Just m) -> Just (FeedCode.about m feed)
 
--- | The length of a move, in the plane and in height.
-wayOf :: Move -> Mm
-wayOf move =
+-- | The length of a move in space: the hypotenuse of its length in the plane and its height.
+moveLength :: Move -> Mm
+moveLength move =
   let Mm l = Segment.length (segment move)
       (Mm a, Mm b) = heights move
    in Mm (sqrt (l * l + (b - a) * (b - a)))

@@ -1,4 +1,4 @@
--- | The command line: commands, options, help.
+-- | The command line: subcommands, options, help.
 module Cli.Options
   ( Subcommand (..),
     CompileOptions (..),
@@ -23,43 +23,48 @@ import Report.Explanation qualified as Explanation
 import Report.Report (ReportCode (..))
 import Text.Read (readMaybe)
 
--- | What to do, and how to talk about it.
+-- | A parsed command line.
 data Invocation = Invocation {settings :: OutputSettings, command :: Subcommand}
   deriving stock (Eq, Show)
 
+-- | A subcommand with its arguments.
 data Subcommand
   = Compile CompileOptions
   | Check (NonEmpty FilePath)
-  | -- | program, machine, tape
+  | -- | the program, its machine, the tape
     Verify FilePath (Maybe Text) (Maybe FilePath)
-  | -- | program, machine, as JSON lines
+  | -- | the program, its machine; JSON lines instead of a table
     Frames FilePath (Maybe Text) Bool
   | Report FilePath (Maybe Text)
-  | -- | a sheet, the program to write
+  | -- | the input sheet, the program to write
     Import FilePath (Maybe FilePath)
-  | -- | a program, the sheet to write
+  | -- | the program, the input sheet to write
     ExportSheet FilePath (Maybe FilePath)
   | Decode (Maybe Text) FilePath
   | Plot FilePath (Maybe FilePath)
-  | -- | machine, what to show, tape
+  | -- | the machine, the rows to show, the tape
     DrawTape (Maybe Text) RowRange FilePath
-  | -- | a machine, its description's text
+  | -- | the machine; the text of its description instead of a table
     Machines (Maybe Text) Bool
   | Explain (Maybe Text)
   | LanguageServer
-  | -- | only ask whether the programs are laid out; the programs
+  | -- | only check the layout; the programs
     Fmt Bool (NonEmpty FilePath)
   deriving stock (Eq, Show)
 
+-- | The arguments of @compile@.
 data CompileOptions = CompileOptions
   { file :: FilePath,
+    -- | names of machines; none means the program's own machine
     targets :: [Text],
+    -- | the file or folder to write to
     place :: Maybe FilePath,
+    -- | write tapes without verification
     unproven :: Bool
   }
   deriving stock (Eq, Show)
 
--- | The parser of a whole command line; the text is the version.
+-- | The parser of the whole command line. The text is the version.
 parser :: String -> ParserInfo Invocation
 parser version =
   Opt.info
@@ -103,11 +108,7 @@ commands =
         "frames"
         "List the frames of a program"
         "partc frames flange.part -t lkp-01f --json"
-        ( Frames
-            <$> program
-              <*> optional target
-              <*> Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
-        ),
+        (Frames <$> program <*> optional target <*> jsonFlag),
       entry
         "report"
         "Tables of nodes, lengths and times"
@@ -127,65 +128,39 @@ commands =
         "plot"
         "Draw part, path, nodes and cutter as SVG"
         "partc plot flange.part -o flange.svg"
-        (Plot <$> program <*> optional (outputOption "The file to write; - for standard output")),
+        (Plot <$> program <*> optional outputFile),
       entry
         "import"
         "Make a part program of an input sheet"
         "partc import rib.sheet -o rib.part"
-        (Import <$> sheet <*> optional (outputOption "The file to write; - for standard output")),
+        (Import <$> sheet <*> optional outputFile),
       entry
         "export-sheet"
         "Make an input sheet of a program"
         "partc export-sheet rib.part -o rib.sheet"
-        ( ExportSheet
-            <$> program <*> optional (outputOption "The file to write; - for standard output")
-        ),
+        (ExportSheet <$> program <*> optional outputFile),
       entry
         "machines"
         "List the machines, or describe one"
         "partc machines lkp-01f"
-        ( Machines
-            <$> optional
-              ( Opt.strArgument
-                  ( Opt.metavar "NAME"
-                      <> Opt.help "A machine that is built in, or a description NAME.machine"
-                  )
-              )
-              <*> Opt.switch
-                (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")
-        ),
+        (Machines <$> optional machineName <*> textFlag),
       entry
         "explain"
         "Say what a report's code means, or list all codes"
         "partc explain E0314"
-        ( Explain
-            <$> optional
-              ( Opt.strArgument
-                  ( Opt.metavar "CODE"
-                      <> Opt.help "A code as a report shows it; lower case and 314 will do"
-                      <> Opt.completeWith codes
-                  )
-              )
-        ),
+        (Explain <$> optional reportCode),
       entry
         "lsp"
         "Serve an editor on standard input and output"
         "partc lsp"
-        (LanguageServer <$ ofEditors),
+        (LanguageServer <$ editorOptions),
       entry
         "fmt"
         "Bring programs into the canonical layout, in place"
         "partc fmt flange.part"
-        ( Fmt
-            <$> Opt.switch
-              ( Opt.long "check"
-                  <> Opt.help "Write nothing, and name the programs that are not laid out"
-              )
-              <*> (NonEmpty.fromList <$> some program)
-        )
+        (Fmt <$> checkFlag <*> (NonEmpty.fromList <$> some program))
     ]
   where
-    codes = [Text.unpack c | e <- Explanation.everything, let ReportCode c = Explanation.code e]
     entry name description example p =
       Opt.command
         name
@@ -194,10 +169,10 @@ commands =
             (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2)
         )
 
--- | What editors pass to every language server. It changes nothing: there is no other way to talk
--- to this one, and it ends when its input does.
-ofEditors :: Parser ()
-ofEditors =
+-- | The options that editors pass to every language server. They have no effect: this server always
+-- uses standard input and output, and ends with its input.
+editorOptions :: Parser ()
+editorOptions =
   void (Opt.switch (Opt.long "stdio" <> Opt.internal))
     <* optional (Opt.strOption (Opt.long "clientProcessId" <> Opt.internal) :: Parser String)
 
@@ -208,6 +183,35 @@ compileOptions =
     <*> many target
     <*> optional (outputOption "The file to write, or a folder; - for standard output")
     <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
+
+jsonFlag :: Parser Bool
+jsonFlag = Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
+
+textFlag :: Parser Bool
+textFlag =
+  Opt.switch (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")
+
+checkFlag :: Parser Bool
+checkFlag =
+  Opt.switch
+    (Opt.long "check" <> Opt.help "Write nothing, and name the programs that are not laid out")
+
+machineName :: Parser Text
+machineName =
+  Opt.strArgument
+    ( Opt.metavar "NAME"
+        <> Opt.help "A machine that is built in, or a description NAME.machine"
+    )
+
+reportCode :: Parser Text
+reportCode =
+  Opt.strArgument
+    ( Opt.metavar "CODE"
+        <> Opt.help "A code as a report shows it; lower case and 314 will do"
+        <> Opt.completeWith codes
+    )
+  where
+    codes = [Text.unpack c | e <- Explanation.everything, let ReportCode c = Explanation.code e]
 
 program :: Parser FilePath
 program =
@@ -253,7 +257,7 @@ rangeOption =
         )
     <|> pure TapeRows.Everything
 
--- | @3@, @3..8@
+-- | A range from 1: @3@ or @3..8@.
 fromTo :: Opt.ReadM (Int, Int)
 fromTo =
   Opt.eitherReader $ \word ->
@@ -262,12 +266,15 @@ fromTo =
       Just [a, b] | 1 <= a, a <= b -> Right (a, b)
       _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
 
-outputOption :: String -> Parser FilePath
-outputOption what =
-  Opt.strOption
-    (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help what <> Opt.action "file")
+outputFile :: Parser FilePath
+outputFile = outputOption "The file to write; - for standard output"
 
--- | Settings as far as they are given; they may stand before the command and behind it.
+outputOption :: String -> Parser FilePath
+outputOption help =
+  Opt.strOption
+    (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help help <> Opt.action "file")
+
+-- | The settings that the command line gives, before or after the subcommand.
 data Overrides = Overrides
   { format' :: Maybe Format,
     colour' :: Maybe ColourChoice,
@@ -314,6 +321,7 @@ overrides =
           )
       )
 
+-- | One of these words.
 choice :: [(String, a)] -> Opt.ReadM a
 choice table = Opt.eitherReader $ \word ->
   maybe
@@ -321,7 +329,7 @@ choice table = Opt.eitherReader $ \word ->
     Right
     (lookup word table)
 
--- | @d=25 mm@
+-- | A value for a parameter: @d=25 mm@.
 assignment :: Opt.ReadM (Text, Text)
 assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) of
   (name, rest)
@@ -330,6 +338,7 @@ assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) 
       Right (Text.strip name, Text.drop 1 rest)
   _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
+-- | Joins settings before and after the subcommand; the later ones win.
 over :: Overrides -> Overrides -> Overrides
 over later earlier =
   Overrides

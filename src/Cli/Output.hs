@@ -1,13 +1,14 @@
--- | Reports to standard error, results to standard output, files whole or not at all.
+-- | Input and output of commands: reports go to standard error, results to standard output. A file
+-- is written completely or not at all.
 module Cli.Output
   ( Format (..),
     ColourChoice (..),
     OutputSettings (..),
-    plainly,
+    defaultSettings,
     Exit (..),
     Reporter (settings),
     reporting,
-    show',
+    showReports,
     result,
     resultBytes,
     readBytes,
@@ -64,40 +65,42 @@ import System.Posix.Files
     setFileMode,
   )
 
--- | How reports are written.
+-- | The form of reports.
 data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
   deriving stock (Eq, Show)
 
+-- | When reports are coloured. 'Auto' colours them on a terminal, unless @NO_COLOR@ is set.
 data ColourChoice = Auto | Always | Never
   deriving stock (Eq, Show)
 
--- | What holds for every command.
+-- | The settings of every command.
 data OutputSettings = OutputSettings
   { format :: Format,
     colour :: ColourChoice,
+    -- | no warnings
     quiet :: Bool,
     -- | warnings count as errors
     werror :: Bool,
-    -- | values for the parameters of the program
+    -- | values for the parameters of the program, by their names
     values :: [(Text, Text)]
   }
   deriving stock (Eq, Show)
 
--- | Where nothing was asked.
-plainly :: OutputSettings
-plainly =
+-- | The settings of a command line without options.
+defaultSettings :: OutputSettings
+defaultSettings =
   OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
 
--- | How a command ended.
+-- | The end of a command. The order is that of severity.
 data Exit
   = Done
-  | -- | the program or the tape has errors, or a file can not be read or written
+  | -- | the program or the tape has errors, or a file cannot be read or written
     Failed
-  | -- | a tape is proven wrong
+  | -- | the tape differs from the part
     Disproven
   deriving stock (Eq, Ord, Show)
 
--- | Why a file can not be read or written.
+-- | The reason why a file cannot be read or written.
 ioProblem :: IOException -> Text
 ioProblem e
   | isDoesNotExistError e = "there is no such file or folder"
@@ -111,48 +114,51 @@ ioProblem e
   where
     Errno closed = eBADF
 
--- | How a run reports. A format with one log for all is kept until the end, the latest first.
-data Reporter = Reporter {settings :: OutputSettings, kept :: IORef [Filed]}
+-- | Writes the reports of one run. SARIF has one log for the whole run, so its reports are
+-- collected, the latest first.
+data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
--- | Run a command, and write in the end what it has kept.
+-- | Runs a command, and writes the collected reports at its end.
 reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
 reporting settings work = do
-  kept <- newIORef []
-  a <- work Reporter {settings, kept}
+  collected <- newIORef []
+  a <- work Reporter {settings, collected}
   case format settings of
-    SarifFormat -> readIORef kept >>= say . Sarif.log Explanation.everything . reverse
+    SarifFormat -> readIORef collected >>= writeError . Sarif.log Explanation.everything . reverse
     HumanFormat -> pure ()
     ShortFormat -> pure ()
     JsonFormat -> pure ()
   pure a
 
--- | Write the reports on one file. Says whether anything among them stops the work.
-show' :: Reporter -> Text -> Source -> [Report] -> IO Bool
-show' Reporter {settings, kept} path source reports = do
+-- | Writes the reports on one file. The answer is true if one of them stops the command: an error,
+-- or with @--werror@ a warning.
+showReports :: Reporter -> Text -> Source -> [Report] -> IO Bool
+showReports Reporter {settings, collected} path source reports = do
   case format settings of
     HumanFormat -> do
-      painted <- useColour settings stderr
+      colours <- useColour settings stderr
       let (shown, more) = splitAt mostReports visible
-      mapM_ (\r -> say (Human.render painted path source r <> "\n")) shown
-      say
+      mapM_ (\r -> writeError (Human.render colours path source r <> "\n")) shown
+      writeError
         (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
-      say (Human.summary painted visible)
-    ShortFormat -> mapM_ (say . Line.short path source) visible
-    JsonFormat -> mapM_ (say . Line.json path source) visible
-    SarifFormat -> modifyIORef kept (reverse [Filed {path, source, report} | report <- visible] <>)
+      writeError (Human.summary colours visible)
+    ShortFormat -> mapM_ (writeError . Line.short path source) visible
+    JsonFormat -> mapM_ (writeError . Line.json path source) visible
+    SarifFormat -> modifyIORef collected (reverse filed <>)
   pure (any Report.isError reports || werror settings && not (null reports))
   where
+    filed = [Filed {path, source, report} | report <- visible]
     visible =
       Report.sorted
         (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
--- | A person reads no more reports at once.
+-- | The reader of a terminal gets at most this number of reports.
 mostReports :: Int
 mostReports = 50
 
--- | Write to standard error. When nobody reads there, the work goes on.
-say :: Text -> IO ()
-say text = do
+-- | Writes to standard error. A failure, such as a closed pipe, does not stop the command.
+writeError :: Text -> IO ()
+writeError text = do
   _ <- try (Text.hPutStr stderr text) :: IO (Either IOException ())
   pure ()
 
@@ -161,21 +167,21 @@ useColour settings handle = case colour settings of
   Always -> pure Human.Coloured
   Never -> pure Human.Plain
   Auto -> do
-    terminal <- hIsTerminalDevice handle
-    none <- lookupEnv "NO_COLOR"
-    dumb <- lookupEnv "TERM"
+    isTerminal <- hIsTerminalDevice handle
+    noColour <- lookupEnv "NO_COLOR"
+    terminal <- lookupEnv "TERM"
     pure
-      ( if terminal && maybe True null none && dumb /= Just "dumb"
+      ( if isTerminal && maybe True null noColour && terminal /= Just "dumb"
           then Human.Coloured
           else Human.Plain
       )
 
--- | A result on standard output, all of it. The answer says what went wrong; a reader who has seen
--- enough and closed the pipe is nothing wrong.
+-- | Writes a result to standard output. The answer is the reason of a failure; a pipe that its
+-- reader has closed is none.
 result :: Text -> IO (Either Text ())
 result = resultBytes . Encoding.encodeUtf8
 
--- | The same for bytes.
+-- | Writes bytes to standard output, see 'result'.
 resultBytes :: ByteString -> IO (Either Text ())
 resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> hFlush stdout)
   where
@@ -184,41 +190,41 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
 
--- | All of a file, or of standard input for @-@. The answer says what went wrong.
+-- | The bytes of a file, or of standard input for @-@, or the reason of the failure.
 readBytes :: FilePath -> IO (Either Text ByteString)
 readBytes file =
   either (Left . ioProblem) Right
     <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
 
--- | Write a file under a temporary name and rename it: what was there before stays until the new
--- one is complete. A device or a pipe is written to as it is. The answer says what went wrong.
+-- | Writes a file under a temporary name and renames it: the old file stays until the new one is
+-- complete. A device or a pipe is written to directly. The answer is the reason of a failure.
 writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
 writeFileWhole path bytes = either problem Right <$> try write
   where
     write = do
-      before <- try (getFileStatus path) :: IO (Either IOException FileStatus)
-      case before of
-        Right status
-          | not (isRegularFile status || isDirectory status) ->
+      status <- try (getFileStatus path) :: IO (Either IOException FileStatus)
+      case status of
+        Right known
+          | not (isRegularFile known || isDirectory known) ->
             ByteString.writeFile path bytes
-        -- Whoever may write in the folder could replace a file that is write-protected.
-        Right status | isRegularFile status -> do
-          allowed <- fileAccess path False True False
-          if allowed
-            then replacing before
+        -- Renaming would replace a write-protected file, if the folder is writable.
+        Right known | isRegularFile known -> do
+          isWritable <- fileAccess path False True False
+          if isWritable
+            then replaceKeepingMode status
             else ioError (mkIOError permissionErrorType "writeFile" Nothing (Just path))
-        _ -> replacing before
-    replacing before =
-      canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) before)
-    replace mode place = do
+        _ -> replaceKeepingMode status
+    replaceKeepingMode status =
+      canonicalizePath path >>= replace (either (const Nothing) (Just . fileMode) status)
+    replace mode target = do
       (temporary, handle) <-
         openBinaryTempFileWithDefaultPermissions
-          (takeDirectory place)
-          (takeFileName place <> ".new")
+          (takeDirectory target)
+          (takeFileName target <> ".new")
       flip onException (hClose handle *> removeFile temporary) $ do
         ByteString.hPut handle bytes
         hClose handle
         mapM_ (setFileMode temporary) mode
-        renameFile temporary place
+        renameFile temporary target
     problem :: IOException -> Either Text ()
     problem = Left . ioProblem

@@ -1,4 +1,4 @@
--- | A sign of life for work that takes longer than a second, on a terminal only.
+-- | A progress message for work that takes longer than a second, on a terminal only.
 module Cli.Progress
   ( during,
   )
@@ -12,11 +12,12 @@ import Data.Text (Text)
 import Data.Text.IO qualified as Text
 import System.IO (hFlush, hIsTerminalDevice, stderr)
 
--- | Do some work; after a second say what is being done, and wipe it out in the end.
+-- | Runs an action. After a second the terminal shows the text and the seconds, until the action
+-- ends.
 during :: Text -> IO a -> IO a
-during what work = do
-  terminal <- hIsTerminalDevice stderr
-  if not terminal
+during text work = do
+  isTerminal <- hIsTerminalDevice stderr
+  if not isTerminal
     then work
     else do
       ticker <- forkIO (tick (1 :: Int))
@@ -24,7 +25,7 @@ during what work = do
   where
     tick n = do
       threadDelay 1000000
-      write ("\r" <> what <> " … " <> Decimal.whole n <> " s")
+      write ("\r" <> text <> " … " <> Decimal.whole n <> " s")
       tick (n + 1)
-    write text =
-      void (try (Text.hPutStr stderr text *> hFlush stderr) :: IO (Either IOException ()))
+    write line =
+      void (try (Text.hPutStr stderr line *> hFlush stderr) :: IO (Either IOException ()))

@@ -18,17 +18,18 @@ import Machine.Machine qualified as Machine
 import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
--- | The proof as a table and a verdict.
+-- | A row for gouge and one for excess of each contour, then the sums and the verdict. Deviations
+-- are in mm.
 proof :: Machine -> Proof -> Text
 proof machine p =
   Table.columns
     [ToLeft, ToRight, ToLeft, ToRight, ToRight]
-    (header : concatMap passageRows (Proof.passages p))
+    (header : concatMap contourRows (Proof.passages p))
     <> "\n"
     <> Table.columns [ToLeft, ToLeft] closing
   where
     header = ["contour", "", "mm", "allowed", "frame"]
-    passageRows c =
+    contourRows c =
       let Name n = value (contour c)
        in [ [n, "gouge"] <> witness (allowedGouge c) (gouge c),
             ["", "excess"] <> witness (allowedExcess c) (excess c)

@@ -1,4 +1,4 @@
--- | The places at which the cutter leaves material, as a table.
+-- | Tables of rest material: the regions of the part that the cutter does not reach.
 module Cli.RestMaterialTable
   ( places,
   )
@@ -23,13 +23,13 @@ import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
--- | One table for each statement that leaves something: where, how much as far as its outline is
--- known, the largest cutter that gets there, and why.
+-- | One table for each statement that leaves rest material: the position, the area in mm² if the
+-- region's boundary is known, the largest cutter that reaches it, and the reason.
 places :: Toolpath -> [Text]
 places path = map table (RestMaterial.ofPath path)
 
 table :: Remaining -> Text
-table Remaining {tool, walls, RestMaterial.places = stays} =
+table Remaining {tool, walls, RestMaterial.places = regions} =
   "Left along "
     <> Text.intercalate
       ", "
@@ -39,7 +39,7 @@ table Remaining {tool, walls, RestMaterial.places = stays} =
     <> "\n\n"
     <> Table.columns
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
-      (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList stays))
+      (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
 row :: Tool -> (Stay, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of

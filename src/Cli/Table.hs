@@ -10,10 +10,10 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Text.DocLayout (realLength)
 
--- | To which side of its column a text stands.
+-- | The alignment of a column.
 data Align = ToLeft | ToRight
 
--- | Rows in columns, two spaces apart.
+-- | Lays out rows in columns, two spaces apart. Widths are those of the terminal's characters.
 columns :: [Align] -> [[Text]] -> Text
 columns aligns rows =
   Text.unlines (map (Text.stripEnd . Text.intercalate "  " . zipWith3 pad aligns widths) rows)

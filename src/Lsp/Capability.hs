@@ -1,4 +1,4 @@
--- | What the client can do, and what it is told that the server can.
+-- | The capabilities of the client, and those that the server announces.
 module Lsp.Capability
   ( Client (..),
     fromInitialize,
@@ -12,18 +12,18 @@ import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
 import Data.Text (Text)
 
--- | The capabilities that change an answer.
+-- | The capabilities of the client that change an answer.
 data Client = Client
-  { -- | symbols may say where their name is
+  { -- | symbols may have a range for the name, besides that of the statement
     hierarchical :: Bool,
     -- | hovers may be Markdown
     markdown :: Bool,
-    -- | a diagnostic may name other places
+    -- | a diagnostic may have related information, with ranges of its own
     related :: Bool
   }
   deriving stock (Eq, Show)
 
--- | From the parameters of @initialize@. What is not said, the client cannot do.
+-- | Reads the parameters of @initialize@. A capability that is missing there is false.
 fromInitialize :: Value -> Client
 fromInitialize params =
   Client
@@ -36,6 +36,7 @@ fromInitialize params =
   where
     at keys = within (["capabilities", "textDocument"] <> keys) params
 
+-- | The value at a path of keys.
 within :: [Key] -> Value -> Maybe Value
 within keys value = case (keys, value) of
   ([], _) -> Just value
@@ -62,4 +63,5 @@ welcome =
           ]
     ]
   where
+    -- TextDocumentSyncKind.Incremental
     incremental = 2 :: Int

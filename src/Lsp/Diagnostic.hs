@@ -1,4 +1,4 @@
--- | Reports as the protocol's diagnostics.
+-- | Reports as diagnostics of the protocol.
 module Lsp.Diagnostic
   ( publish,
     bug,
@@ -22,21 +22,22 @@ import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
 
--- | The notification that replaces all diagnostics of a document.
+-- | The notification that replaces all diagnostics of a document. Without a snapshot it removes
+-- them.
 publish :: Client -> Document -> Maybe Snapshot -> Outgoing
 publish client document snapshot =
   notification
     document
     (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
 
--- | The notification when the program could not be looked at because of a fault of our own.
+-- | The notification for a document that made the server fail, with the failure's message.
 bug :: Document -> Text -> Outgoing
-bug document what =
+bug document failure =
   notification
     document
     [object ["range" .= top, "severity" .= number Error, "source" .= name, "message" .= message]]
   where
-    message = "this is a bug in partc: please send us the program\n" <> what
+    message = "this is a bug in partc: please send us the program\n" <> failure
 
 notification :: Document -> [Value] -> Outgoing
 notification Document {uri, version} diagnostics =
@@ -48,33 +49,33 @@ diagnostic client uri snapshot r =
   object $
     [ "range" .= range,
       "severity" .= number (severity r),
-      "code" .= words',
+      "code" .= reportCode,
       "source" .= name,
       "message" .= Text.intercalate "\n" (prefix <> title r : sentences)
     ]
       <> ["relatedInformation" .= map relation (others r) | related client, not (null (others r))]
   where
-    ReportCode words' = code r
+    ReportCode reportCode = code r
     source = Snapshot.source snapshot
-    (range, prefix) = placed snapshot (place r)
-    -- The place's own label only where it says more than one word and is not said by the title.
+    (range, prefix) = shownAt snapshot (place r)
+    -- The label of the region is left out if it is one word or part of the title.
     sentences =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
-        <> [besides l | not (related client), l <- others r]
+        <> [relatedLine l | not (related client), l <- others r]
         <> message r
         <> map ("hint: " <>) (hints r)
-    besides (Label region said) = lineOf source region <> ": " <> said
-    relation (Label region said) =
-      object ["location" .= Location.location uri source region, "message" .= said]
+    relatedLine (Label region text) = lineOf source region <> ": " <> text
+    relation (Label region text) =
+      object ["location" .= Location.location uri source region, "message" .= text]
 
--- | Where a report is shown: at its place, or at the import that brings the file in which that
--- lies, with the true place in words.
-placed :: Snapshot -> ReportPlace -> (LspRange, Text)
-placed snapshot place = case place of
+-- | The range at which a report is shown, and a prefix of its message. A report on an imported file
+-- is shown at the import that brings the file; the prefix then gives the position.
+shownAt :: Snapshot -> ReportPlace -> (LspRange, Text)
+shownAt snapshot place = case place of
   InSource region
     | Position.fileOf source region == Region.mainFile source -> (Position.range source region, "")
     | otherwise ->
-      ( maybe top (Position.range source) (Snapshot.broughtBy snapshot region),
+      ( maybe top (Position.range source) (Snapshot.importOf snapshot region),
         lineOf source region <> ": "
       )
   InTape _ -> (top, "")
@@ -82,7 +83,7 @@ placed snapshot place = case place of
   where
     source = Snapshot.source snapshot
 
--- | The line of a region in words, with the file when it is another one.
+-- | The line of a region in words; in an imported file, the file, line and column.
 lineOf :: Source -> Region -> Text
 lineOf source region
   | Region.file at == Region.mainFile source = "line " <> Decimal.whole (Region.line at)
@@ -95,13 +96,15 @@ lineOf source region
   where
     at = Region.position source (start region)
 
--- | The very beginning of a document.
+-- | The beginning of a document.
 top :: LspRange
 top = LspRange (LspPosition 0 0) (LspPosition 0 0)
 
+-- | The source of the diagnostics.
 name :: Text
 name = "partc"
 
+-- | The protocol's number of a severity.
 number :: Severity -> Int
 number severity = case severity of
   Error -> 1

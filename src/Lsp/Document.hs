@@ -1,4 +1,4 @@
--- | The texts that are open in the editor, and how edits change them.
+-- | A text that is open in the editor, and its edits.
 module Lsp.Document
   ( Document (..),
     Edit (..),
@@ -18,38 +18,39 @@ import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 
--- | A text with the version that the client gives it.
+-- | A text with its address and the client's version number.
 data Document = Document {uri :: Uri, version :: Maybe Int, text :: Text}
   deriving stock (Eq, Show)
 
--- | A stretch that is replaced, or the whole text.
+-- | An edit: new text for a range, or for the whole document.
 data Edit = Replace LspRange Text | Whole Text
   deriving stock (Eq, Show)
 
 instance FromJSON Edit where
   parseJSON = withObject "a change" $ \o -> do
-    place <- o .:? "range"
-    put <- o .: "text"
-    pure (maybe Whole Replace place put)
+    range <- o .:? "range"
+    new <- o .: "text"
+    pure (maybe Whole Replace range new)
 
--- | A text as it is opened.
+-- | A document when it is opened.
 open :: Uri -> Maybe Int -> Text -> Document
 open uri version text = Document {uri, version, text}
 
--- | Edits one after another; each speaks of the text that the one before has left.
+-- | Applies edits one after the other. The range of each refers to the text after the edits before
+-- it.
 edit :: Maybe Int -> [Edit] -> Document -> Document
 edit version edits document =
   document {version, text = foldl (applied (uri document)) (text document) edits}
 
 applied :: Uri -> Text -> Edit -> Text
-applied uri before e = case e of
-  Whole after -> after
-  Replace place put ->
-    let Region from to = Position.region (Region.fromText (Uri.toPath uri) before) place
-     in Text.concat [Text.take from before, put, Text.drop to before]
+applied uri old e = case e of
+  Whole new -> new
+  Replace range new ->
+    let Region from to = Position.region (Region.fromText (Uri.toPath uri) old) range
+     in Text.concat [Text.take from old, new, Text.drop to old]
 
--- | The text for the compiler. A mark of the byte order is not part of the program, but the client
--- counts it: a space stands in its place.
+-- | The text for the compiler. A byte order mark becomes a space: it is not part of the program,
+-- but the client's positions count it.
 program :: Document -> Text
 program Document {text} = Text.map unmarked (Text.take 1 text) <> Text.drop 1 text
   where

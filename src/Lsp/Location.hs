@@ -1,4 +1,4 @@
--- | Places in files as the protocol writes them.
+-- | Locations of the protocol: an address and a range.
 module Lsp.Location
   ( location,
   )
@@ -11,7 +11,7 @@ import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 
--- | Address and range of a region. The document itself keeps the client's spelling of its address.
+-- | The location of a region. The open document keeps the client's spelling of its address.
 location :: Uri -> Source -> Region -> Value
 location own source region = object ["uri" .= uri, "range" .= Position.range source region]
   where

@@ -1,4 +1,4 @@
--- | The envelope of messages: JSON-RPC 2.0.
+-- | The messages of JSON-RPC 2.0. Their parameters and results stay JSON values.
 module Lsp.Message
   ( Incoming (..),
     Id,
@@ -18,27 +18,29 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 
--- | What a client sends.
+-- | A message from the client.
 data Incoming
-  = -- | the number or text that the answer repeats, the method, the parameters
+  = -- | the identifier that the answer repeats, the method, the parameters
     Request Id Text Value
-  | Notification Text Value
-  | -- | an answer to a request of ours; we send none
+  | -- | the method, the parameters
+    Notification Text Value
+  | -- | an answer to a request of the server, which sends none
     Reply
-  | -- | something else: what to answer
+  | -- | not a message; the failure to answer
     Malformed Failure
   deriving stock (Eq, Show)
 
+-- | A number or a text that names a request.
 type Id = Value
 
--- | What the server sends.
+-- | A message to the client.
 data Outgoing
   = Result Id Value
   | Refusal Id Failure
   | Notify Text Value
   deriving stock (Eq, Show)
 
--- | Why a request has no result.
+-- | The reason why a request has no result: a code of the protocol, a message.
 data Failure = Failure ErrorCode Text
   deriving stock (Eq, Show)
 
@@ -51,7 +53,7 @@ data ErrorCode
   | NotInitialized
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | Read a message.
+-- | Reads the body of a message.
 decode :: ByteString -> Incoming
 decode body = case Aeson.decodeStrict' body of
   Nothing -> Malformed (Failure ParseError "this is not JSON")
@@ -65,19 +67,20 @@ decode body = case Aeson.decodeStrict' body of
     params o = Maybe.fromMaybe Null (KeyMap.lookup "params" o)
     invalid = Malformed (Failure InvalidRequest "this is no message of the protocol")
 
--- | Write a message.
+-- | Writes the body of a message.
 encode :: Outgoing -> ByteString
 encode outgoing = LazyByteString.toStrict . Aeson.encode $ case outgoing of
   Result ident result -> object [version, "id" .= ident, "result" .= result]
-  Refusal ident (Failure trouble words') ->
+  Refusal ident (Failure errorCode text) ->
     object
-      [version, "id" .= ident, "error" .= object ["code" .= number trouble, "message" .= words']]
+      [version, "id" .= ident, "error" .= object ["code" .= number errorCode, "message" .= text]]
   Notify method params -> object [version, "method" .= method, "params" .= params]
   where
     version = "jsonrpc" .= ("2.0" :: Text)
 
+-- | The protocol's number of an error code.
 number :: ErrorCode -> Int
-number trouble = case trouble of
+number errorCode = case errorCode of
   ParseError -> -32700
   InvalidRequest -> -32600
   MethodNotFound -> -32601

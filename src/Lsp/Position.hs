@@ -1,5 +1,5 @@
--- | The positions of the protocol: lines and UTF-16 units, both from 0. No other module converts
--- them.
+-- | The positions of the protocol: lines and UTF-16 code units, both from 0. Only this module
+-- converts between them and offsets.
 module Lsp.Position
   ( LspPosition (..),
     LspRange (..),
@@ -18,11 +18,11 @@ import Data.Char (ord)
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | A line, and the UTF-16 units before the place on that line.
+-- | A line, and the count of UTF-16 code units before the position on that line.
 data LspPosition = LspPosition {line :: Int, character :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | From a position to the one behind the last character.
+-- | From the first character to the position after the last one.
 data LspRange = LspRange {from :: LspPosition, to :: LspPosition}
   deriving stock (Eq, Ord, Show)
 
@@ -42,11 +42,11 @@ instance FromJSON LspRange where
 position :: Source -> Int -> LspPosition
 position source at =
   LspPosition
-    { line = Region.line place - 1,
-      character = units (Text.take (Region.column place - 1) (Region.lineText source at))
+    { line = Region.line inFile - 1,
+      character = units (Text.take (Region.column inFile - 1) (Region.lineText source at))
     }
   where
-    place = Region.position source at
+    inFile = Region.position source at
 
 -- | The range of a region in its file.
 range :: Source -> Region -> LspRange
@@ -54,10 +54,10 @@ range source (Region from to) = LspRange (position source from) (position source
 
 -- | The file that a region lies in.
 fileOf :: Source -> Region -> Text
-fileOf source place = Region.file (Region.position source (start place))
+fileOf source (Region from _) = Region.file (Region.position source from)
 
--- | The offset of a position in the program's own file. A position behind its line counts as the
--- line's end, one in the middle of a character as the beginning of the character.
+-- | The offset of a position in the program's own file. A position after the end of its line gives
+-- the line's end; a position inside a surrogate pair gives the beginning of the character.
 offset :: Source -> LspPosition -> Int
 offset source LspPosition {line, character} =
   Region.offset source ordinal (1 + charactersIn character content)
@@ -65,22 +65,23 @@ offset source LspPosition {line, character} =
     ordinal = min line (maxBound - 1) + 1
     content = Region.lineText source (Region.offset source ordinal 1)
 
--- | The region of a range in the program's own file; the ends may come in either order.
+-- | The region of a range in the program's own file. The ends of the range may be in either order.
 region :: Source -> LspRange -> Region
 region source LspRange {from, to} = Region (min a b) (max a b)
   where
     a = offset source from
     b = offset source to
 
--- | How many UTF-16 units a text takes.
+-- | The number of UTF-16 code units of a text.
 units :: Text -> Int
-units = Text.foldl' (\sum' c -> sum' + width c) 0
+units = Text.foldl' (\count c -> count + width c) 0
 
--- | How many whole characters lie in so many units.
+-- | The number of whole characters within @limit@ UTF-16 code units.
 charactersIn :: Int -> Text -> Int
 charactersIn limit content =
-  length (takeWhile (<= limit) (drop 1 (scanl (\sum' c -> sum' + width c) 0 (Text.unpack content))))
+  length
+    (takeWhile (<= limit) (drop 1 (scanl (\count c -> count + width c) 0 (Text.unpack content))))
 
--- | Characters outside the basic plane are written as a pair.
+-- | The number of UTF-16 code units of a character: two outside the basic multilingual plane.
 width :: Char -> Int
 width c = if ord c > 0xFFFF then 2 else 1

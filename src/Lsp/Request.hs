@@ -1,4 +1,4 @@
--- | Answers to requests about an open document.
+-- | The requests about an open document, and their answers.
 module Lsp.Request
   ( Subject (..),
     Method,
@@ -24,13 +24,13 @@ import Query.Symbol (SymbolKind (..))
 import Query.Symbol qualified as Symbol
 import Surface.Formatter qualified as Formatter
 
--- | A document, what its text says, and what the last text without errors said.
+-- | A document, the snapshot of its present text, and that of its last text without errors.
 data Subject = Subject {document :: Document, now :: Snapshot, sound :: Maybe Snapshot}
 
--- | Parameters to an answer.
+-- | Answers the parameters of a request.
 type Method = Client -> Subject -> Value -> Parser Value
 
--- | The method of a name.
+-- | Finds a method by its name in the protocol.
 method :: Text -> Maybe Method
 method name = lookup name table
 
@@ -42,18 +42,18 @@ table =
     ("textDocument/formatting", formatting)
   ]
 
--- | The offset that a request points at.
-pointed :: Subject -> Value -> Parser Int
-pointed subject =
+-- | The offset of the position in the parameters.
+offsetIn :: Subject -> Value -> Parser Int
+offsetIn subject =
   withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
 
--- | The program that the present text gives.
+-- | The present text with what it imports.
 source :: Subject -> Source
 source = Snapshot.source . now
 
 hover :: Method
 hover client subject params =
-  maybe Null shown . Name.hover (now subject) (sound subject) <$> pointed subject params
+  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
   where
     shown h =
       object ["contents" .= contents h, "range" .= Position.range (source subject) (Name.place h)]
@@ -62,13 +62,13 @@ hover client subject params =
       | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
     line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
 
--- | Text of a kind that the client knows.
+-- | Text of a kind that the client can show.
 markup :: Text -> Text -> Value
 markup kind text = object ["kind" .= kind, "value" .= text]
 
 definition :: Method
 definition _ subject params =
-  maybe Null shown . Name.definition (now subject) (sound subject) <$> pointed subject params
+  maybe Null shown . Name.definition (now subject) (sound subject) <$> offsetIn subject params
   where
     shown target =
       Location.location (uri (document subject)) (Name.source target) (Name.region target)
@@ -93,8 +93,8 @@ formatting _ subject _ =
     text = Region.text (source subject)
     edit change =
       object
-        [ "range" .= Position.range (source subject) (Formatting.place change),
-          "newText" .= Formatting.put change
+        [ "range" .= Position.range (source subject) (Formatting.region change),
+          "newText" .= Formatting.newText change
         ]
 
 -- | The protocol's number of a kind of symbol.

@@ -1,14 +1,13 @@
--- | The language server on a pair of streams: the loop round a 'Session'.
+-- | The language server on a pair of streams: a loop round a 'Session'.
 --
--- One thread reads, handles and writes, so answers come in the order of the requests. While nothing
--- arrives it waits for the next deadline of the session.
+-- One thread reads, handles and writes, so answers have the order of the requests. While no input
+-- arrives, it waits for the next deadline of the session.
 module Lsp.Server
   ( Host (..),
     serve,
   )
 where
 
-import Compile (LoadedProgram)
 import Control.Exception
   ( AsyncException (..),
     IOException,
@@ -29,33 +28,35 @@ import Lsp.Message qualified as Message
 import Lsp.Session (Awaited (..), Effect (..), Ending (..), Event (..), Milliseconds (..), Session)
 import Lsp.Session qualified as Session
 import Lsp.Transport qualified as Transport
+import Project.LoadedProgram (LoadedProgram)
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
 import System.IO (Handle, hFlush, hSetBinaryMode, hWaitForInput)
 import System.IO.Error (isEOFError)
 
--- | What the server is given by the command line.
+-- | The streams and functions that the server works with.
 data Host = Host
-  { -- | where messages come from, and where they go; nothing else is written there
+  { -- | the stream of messages from the client
     input :: Handle,
+    -- | the stream of messages to the client, which nothing else may use
     output :: Handle,
-    -- | a program with the files that it imports; open texts go before those on disk, then come the
-    -- path and the text of the program itself
+    -- | loads a program with its imports: the texts that are open in the editor, by path, which
+    -- take precedence over files on the disk; the path and the text of the program
     load :: (Text -> Maybe Text) -> Text -> Text -> IO LoadedProgram,
-    -- | what looks for mistakes
+    -- | finds the mistakes of a program
     check :: Check
   }
 
--- | Talk to a client until it leaves or is gone.
+-- | Serves a client until it leaves or its stream ends.
 serve :: Host -> IO Ending
 serve host = do
   hSetBinaryMode (input host) True
   hSetBinaryMode (output host) True
   ended <- try (loop host "" Session.start) :: IO (Either IOException Ending)
-  -- The other end is gone.
+  -- A failure of the streams means that the client is gone.
   pure (Either.fromRight Abrupt ended)
 
--- | The bytes that are received but not yet handled, and the state.
+-- | Handles messages and deadlines one after the other. The bytes are received but not yet handled.
 loop :: Host -> ByteString -> Session -> IO Ending
 loop host received session = case Transport.next received of
   Transport.Complete body more ->
@@ -73,13 +74,13 @@ loop host received session = case Transport.next received of
       Just "" -> handle host Due session >>= continue host received
       Just bytes -> loop host (received <> bytes) session
 
--- | Go on, unless the conversation is over.
+-- | Continues with the session that follows, unless the conversation has ended.
 continue :: Host -> ByteString -> Either Ending Session -> IO Ending
 continue host received outcome = case outcome of
   Left ending -> pure ending
   Right session -> loop host received session
 
--- | The next bytes; nothing at the end of input. A long message is read in one piece.
+-- | The next bytes; nothing at the end of input. A message longer than a chunk is read at once.
 receive :: Host -> Int -> IO (Maybe ByteString)
 receive host missing = do
   bytes <-
@@ -90,7 +91,7 @@ receive host missing = do
   where
     chunk = 65536
 
--- | Whether something arrives within so many milliseconds. The end of input counts.
+-- | Does something arrive within @wait@ milliseconds? The end of input counts as something.
 inputWithin :: Host -> Int -> IO Bool
 inputWithin host wait = do
   ready <- try (hWaitForInput (input host) wait)
@@ -99,13 +100,14 @@ inputWithin host wait = do
     Left e | isEOFError e -> pure True
     Left e -> throwIO e
 
+-- | The milliseconds from now until a time, at least 0.
 after :: Milliseconds -> Milliseconds -> Int
 after (Milliseconds time) (Milliseconds now) = max 0 (time - now)
 
 clock :: IO Milliseconds
 clock = Milliseconds . fromIntegral . (`div` 1000000) <$> getMonotonicTimeNSec
 
--- | Handle an event; a failure in it ends nothing but its own request.
+-- | Handles an event and sends the answers. An exception fails only the request that raised it.
 handle :: Host -> Event -> Session -> IO (Either Ending Session)
 handle host event session = do
   now <- clock
@@ -123,18 +125,19 @@ handle host event session = do
     firstLine :: SomeException -> Text
     firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
 
--- | The state behind an event and the messages to send. All is computed here, so that failures show
--- here.
+-- | The session after an event, the end of the conversation if this is it, and the messages to
+-- send. All is evaluated here, so that exceptions are raised here.
 handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
 handled host now event session = do
   supplied <-
-    foldl (\before a -> before >>= look a) (pure session) (Session.awaited now event session)
+    foldl (\earlier a -> earlier >>= supply a) (pure session) (Session.awaited now event session)
   prepared (Session.step now event supplied)
   where
-    look Awaited {path, text} before = do
-      loaded <- load host (Session.openText before) path text
-      evaluate (Session.supply path (Snapshot.take (check host) loaded) before)
+    supply Awaited {path, text} earlier = do
+      loaded <- load host (Session.openText earlier) path text
+      evaluate (Session.supply path (Snapshot.take (check host) loaded) earlier)
 
+-- | Evaluates a session and encodes its messages.
 prepared :: (Session, [Effect]) -> IO (Session, Maybe Ending, [ByteString])
 prepared (session, effects) = do
   state <- evaluate session

@@ -1,8 +1,8 @@
--- | The conversation with one client as a state and a step: a message in, messages out. No effects.
+-- | The conversation with one client as a state and a step: an event in, messages out. No effects.
 --
--- Before an event is handled, 'awaited' names the programs that have to be looked at for it and
--- 'supply' brings what was found; so reading imported files stays with the server, and a handler
--- sees the present text.
+-- Before an event is handled, 'awaited' names the programs that must be analysed for it, and
+-- 'supply' brings their snapshots. So the server reads imported files, and a handler sees a
+-- snapshot of the present text.
 module Lsp.Session
   ( Session,
     start,
@@ -43,65 +43,66 @@ import Lsp.Uri qualified as Uri
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
--- | Where the conversation is, and the open documents by the paths of their files.
+-- | The phase of the conversation, and the open documents by the paths of their files.
 data Session = Session {phase :: Phase, documents :: Map Text Open}
 
+-- | The phases of the protocol's life cycle.
 data Phase
-  = -- | nothing but @initialize@ is answered
+  = -- | only @initialize@ is answered
     Waiting
   | Running Client
-  | -- | nothing but @exit@ is heard
+  | -- | only @exit@ has an effect
     Closing
 
 -- | An open document.
 data Open = Open
   { document :: Document,
-    -- | what the present text says, once it has been looked at
+    -- | the snapshot of the present text, once it is analysed
     present :: Maybe Snapshot,
-    -- | what the last text without errors said
+    -- | the snapshot of the last text without errors
     sound :: Maybe Snapshot,
-    -- | when its diagnostics are to be published
+    -- | the time to publish its diagnostics
     due :: Maybe Milliseconds
   }
 
--- | Before the first message.
+-- | The session before the first message.
 start :: Session
 start = Session {phase = Waiting, documents = Map.empty}
 
--- | Time from some beginning.
+-- | A time, from an arbitrary origin.
 newtype Milliseconds = Milliseconds Int
   deriving stock (Eq, Ord, Show)
 
--- | What comes from the editor, or with time.
+-- | A message from the editor, or the passing of time.
 data Event
   = Received Incoming
   | -- | a deadline has passed
     Due
   deriving stock (Eq, Show)
 
--- | What is answered, or the end of the conversation.
+-- | A message to the editor, or the end of the conversation.
 data Effect = Send Outgoing | Stop Ending
   deriving stock (Eq, Show)
 
--- | Whether the client took its leave before it went.
+-- | The end of the conversation: after @shutdown@, or without it.
 data Ending = Orderly | Abrupt
   deriving stock (Eq, Show)
 
--- | How long the text has to rest before its diagnostics are published.
-rest :: Milliseconds -> Milliseconds
-rest (Milliseconds now) = Milliseconds (now + 200)
+-- | The time to publish diagnostics after a change: 200 ms later. Each further change delays it.
+afterRest :: Milliseconds -> Milliseconds
+afterRest (Milliseconds now) = Milliseconds (now + 200)
 
--- | When to bring the next 'Due'.
+-- | The time of the next 'Due' event.
 deadline :: Session -> Maybe Milliseconds
 deadline session = case Maybe.mapMaybe due (Map.elems (documents session)) of
   [] -> Nothing
   times -> Just (minimum times)
 
--- | A program to look at: the path of its file, its text.
+-- | A program to analyse: the path of its file, its text.
 data Awaited = Awaited {path :: Text, text :: Text}
   deriving stock (Eq, Show)
 
--- | The programs that an event asks about and that have not been looked at since they changed.
+-- | The programs that an event needs and that have changed since their last snapshot.
 awaited :: Milliseconds -> Event -> Session -> [Awaited]
 awaited now event session =
   [ Awaited {path, text = Document.program (document o)}
@@ -120,7 +121,8 @@ awaited now event session =
 isDue :: Milliseconds -> Open -> Bool
 isDue now o = maybe False (<= now) (due o)
 
--- | What a program says. It is forced as far as its errors, so that no chain of old texts is kept.
+-- | Brings the snapshot of a program. It is evaluated as far as its errors, so that it keeps no
+-- older snapshots in memory.
 supply :: Text -> Snapshot -> Session -> Session
 supply path snapshot session = session {documents = Map.adjust supplied path (documents session)}
   where
@@ -130,11 +132,11 @@ supply path snapshot session = session {documents = Map.adjust supplied path (do
           sound = if Snapshot.isGood snapshot then Just snapshot else sound o
         }
 
--- | The text of an open file, which goes before the one on disk.
+-- | The text of an open file. It takes precedence over the file on the disk.
 openText :: Session -> Text -> Maybe Text
 openText session path = Document.program . document <$> Map.lookup path (documents session)
 
--- | Handle an event.
+-- | Handles an event.
 step :: Milliseconds -> Event -> Session -> (Session, [Effect])
 step now event session = case event of
   Due -> published now session
@@ -148,14 +150,14 @@ step now event session = case event of
     Reply -> (session, [])
     Malformed failure -> (session, [Send (Refusal Null failure)])
 
--- | How the conversation ends when the client leaves now.
+-- | The end of the conversation if the client leaves now.
 leaving :: Session -> Ending
 leaving session = case phase session of
   Closing -> Orderly
   Waiting -> Abrupt
   Running _ -> Abrupt
 
--- | What is left to do when handling an event has failed: the request is refused, the texts stay.
+-- | The step after an exception: refuses the request; the open documents stay.
 failed :: Milliseconds -> Text -> Event -> Session -> (Session, [Effect])
 failed now why event session = case event of
   Received (Request ident _ _) ->
@@ -171,14 +173,16 @@ failed now why event session = case event of
       [Send (Diagnostic.bug (document o) why) | o <- Map.elems (documents session), isDue now o]
     )
 
+-- | A bug of the compiler as a log message.
 logged :: Text -> Outgoing
 logged why =
   Notify
     "window/logMessage"
     (Aeson.object ["type" .= (1 :: Int), "message" .= ("this is a bug in partc: " <> why)])
 
--- Requests
+-- Requests ----------------------------------------------------------------------------------------
 
+-- | Answers a request.
 request :: Id -> Text -> Value -> Session -> (Session, [Effect])
 request ident method params session = case (phase session, method) of
   (Waiting, "initialize") ->
@@ -192,7 +196,7 @@ request ident method params session = case (phase session, method) of
     (session {phase = Closing, documents = Map.empty}, [Send (Result ident Null)])
   (Running client, _) -> (session, [Send (answered client)])
   where
-    refuse trouble why = (session, [Send (Refusal ident (Failure trouble why))])
+    refuse errorCode why = (session, [Send (Refusal ident (Failure errorCode why))])
     answered client = case Request.method method of
       Nothing -> Refusal ident (Failure MethodNotFound ("there is no request " <> method))
       Just answer ->
@@ -202,7 +206,7 @@ request ident method params session = case (phase session, method) of
           Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
           Right result -> Result ident result
 
--- | The open document that parameters speak of, if it has been looked at.
+-- | The open document that parameters name, if it is analysed.
 subject :: Value -> Session -> Parser (Maybe Subject)
 subject params session = do
   path <- named params
@@ -213,33 +217,34 @@ subject params session = do
 
 -- | The path of the document that parameters name.
 named :: Value -> Parser Text
-named params = Uri.toPath <$> aboutDocument "uri" params
+named params = Uri.toPath <$> documentField "uri" params
 
 -- | A field of the document that parameters name.
-aboutDocument :: FromJSON a => Aeson.Key -> Value -> Parser a
-aboutDocument key =
+documentField :: FromJSON a => Aeson.Key -> Value -> Parser a
+documentField key =
   withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.: key))
 
--- Notifications
+-- Notifications -----------------------------------------------------------------------------------
 
+-- | Handles a notification. Unknown notifications and wrong parameters have no effect.
 notified :: Milliseconds -> Text -> Value -> Session -> (Session, [Effect])
 notified now method params session = Maybe.fromMaybe (session, []) $ case method of
   "textDocument/didOpen" -> opened now session <$> Aeson.parseMaybe documentOf params
   "textDocument/didChange" -> changed now session <$> Aeson.parseMaybe changeOf params
-  "textDocument/didSave" -> Just (outside now session, [])
-  "workspace/didChangeWatchedFiles" -> Just (outside now session, [])
+  "textDocument/didSave" -> Just (filesChanged now session, [])
+  "workspace/didChangeWatchedFiles" -> Just (filesChanged now session, [])
   "textDocument/didClose" -> Aeson.parseMaybe named params >>= closed now session
   _ -> Nothing
 
 documentOf :: Value -> Parser Document
 documentOf params = do
-  uri <- aboutDocument "uri" params
+  uri <- documentField "uri" params
   version <- optionalVersion params
-  Document.open uri version <$> aboutDocument "text" params
+  Document.open uri version <$> documentField "text" params
 
 changeOf :: Value -> Parser (Uri, Maybe Int, [Edit])
 changeOf params = do
-  uri <- aboutDocument "uri" params
+  uri <- documentField "uri" params
   version <- optionalVersion params
   edits <- withObject "parameters" (.: "contentChanges") params
   pure (uri, version, edits)
@@ -248,25 +253,26 @@ optionalVersion :: Value -> Parser (Maybe Int)
 optionalVersion =
   withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.:? "version"))
 
--- | A document is looked at as soon as it is open.
+-- | Opens a document. Its diagnostics are due at once.
 opened :: Milliseconds -> Session -> Document -> (Session, [Effect])
-opened now session document = (outside now (put path fresh session), [])
+opened now session document = (filesChanged now (put path fresh session), [])
   where
     path = Uri.toPath (Document.uri document)
     fresh = Open {document, present = Nothing, sound = Nothing, due = Just now}
 
+-- | Edits a document. Its diagnostics become due when the text rests.
 changed :: Milliseconds -> Session -> (Uri, Maybe Int, [Edit]) -> (Session, [Effect])
 changed now session (uri, version, edits) = case Map.lookup path (documents session) of
   Nothing -> (session, [])
   Just o ->
-    ( outside
+    ( filesChanged
         now
         ( put
             path
             o
               { document = Document.edit version edits (document o),
                 present = Nothing,
-                due = Just (rest now)
+                due = Just (afterRest now)
               }
             session
         ),
@@ -278,7 +284,7 @@ changed now session (uri, version, edits) = case Map.lookup path (documents sess
 put :: Text -> Open -> Session -> Session
 put path o session = session {documents = Map.insert path o (documents session)}
 
--- | Whatever is closed has no diagnostics any more.
+-- | Closes a document and removes its diagnostics.
 closed :: Milliseconds -> Session -> Text -> Maybe (Session, [Effect])
 closed now session path = case phase session of
   Running client -> leave client <$> Map.lookup path (documents session)
@@ -286,32 +292,32 @@ closed now session path = case phase session of
   Closing -> Nothing
   where
     leave client o =
-      ( outside now session {documents = Map.delete path (documents session)},
+      ( filesChanged now session {documents = Map.delete path (documents session)},
         [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing)]
       )
 
--- | Files may have changed: programs that import some are looked at again.
-outside :: Milliseconds -> Session -> Session
-outside now session = session {documents = Map.map again (documents session)}
+-- | Marks programs that import files for a new analysis, since those files may have changed.
+filesChanged :: Milliseconds -> Session -> Session
+filesChanged now session = session {documents = Map.map again (documents session)}
   where
     again o
       | any hasImports (present o) =
-        o {present = Nothing, due = Just (maybe (rest now) (min (rest now)) (due o))}
+        o {present = Nothing, due = Just (maybe (afterRest now) (min (afterRest now)) (due o))}
       | otherwise = o
     hasImports snapshot = not (null (Snapshot.imports snapshot))
 
--- | Publish what is due. The text that was looked at is always the present one.
+-- | Publishes the diagnostics that are due. Their snapshots are those of the present texts.
 published :: Milliseconds -> Session -> (Session, [Effect])
 published now session = case phase session of
   Running client ->
     ( session {documents = Map.map settled (documents session)},
-      concatMap (said client) (Map.elems (documents session))
+      concatMap (diagnostics client) (Map.elems (documents session))
     )
   Waiting -> (session, [])
   Closing -> (session, [])
   where
     settled o = if isDue now o then o {due = Nothing} else o
-    said client o =
+    diagnostics client o =
       [ Send (Diagnostic.publish client (document o) (Just snapshot))
         | isDue now o,
           Just snapshot <- [present o]

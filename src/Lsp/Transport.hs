@@ -1,4 +1,4 @@
--- | Messages on a stream of bytes: a header that counts the bytes, an empty line, the message.
+-- | Messages on a stream of bytes: a header with the number of bytes, an empty line, the body.
 module Lsp.Transport
   ( Received (..),
     next,
@@ -13,17 +13,17 @@ import Data.Char (toLower)
 import Data.List (isSuffixOf)
 import Data.Maybe (listToMaybe)
 
--- | What the bytes received so far begin with.
+-- | The first message of the bytes received so far.
 data Received
-  = -- | part of a message; at least so many bytes are missing
+  = -- | part of a message, and the least number of missing bytes
     Incomplete Int
-  | -- | a message, and what follows it
+  | -- | the body of a message, and the bytes after it
     Complete ByteString ByteString
-  | -- | a header that does not say how long its message is, and what follows it
+  | -- | the bytes after a header without a length
     Headless ByteString
   deriving stock (Eq, Show)
 
--- | Take the first message off.
+-- | Separates the first message.
 next :: ByteString -> Received
 next received = case ByteString.breakSubstring "\r\n\r\n" received of
   (header, rest)
@@ -36,8 +36,8 @@ next received = case ByteString.breakSubstring "\r\n\r\n" received of
         where
           body = ByteString.drop 4 rest
 
--- | The number behind @Content-Length:@, if it can be one. Before that may stand a message whose
--- own header did not say how long it was.
+-- | The number after @Content-Length:@, if it is a possible length. The header may begin with a
+-- message whose own header had no length.
 contentLength :: ByteString -> Maybe Int
 contentLength header =
   listToMaybe
@@ -52,10 +52,10 @@ contentLength header =
   where
     isKey key = "content-length:" `isSuffixOf` filter (/= ' ') (map toLower (Char8.unpack key))
 
--- | No client sends longer messages; a larger number is a damaged stream.
+-- | The greatest length of a message, in bytes. A larger number means that the stream is damaged.
 longest :: Int
 longest = 256 * 1024 * 1024
 
--- | A message with its header.
+-- | The body of a message with its header.
 framed :: ByteString -> ByteString
 framed body = "Content-Length: " <> Char8.pack (show (ByteString.length body)) <> "\r\n\r\n" <> body

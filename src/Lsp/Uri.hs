@@ -1,5 +1,5 @@
 -- | File addresses of the protocol. Clients percent-encode them differently, so they are compared
--- decoded; what is sent back is the client's own spelling.
+-- after decoding, and sent back in the client's own spelling.
 module Lsp.Uri
   ( Uri (..),
     toPath,
@@ -18,17 +18,17 @@ import Data.Text.Encoding qualified as Encoding
 import Data.Text.Encoding.Error qualified as Encoding
 import Data.Word (Word8)
 
--- | An address as the client writes it.
+-- | An address in the client's spelling.
 newtype Uri = Uri Text
   deriving newtype (Eq, Ord, FromJSON, ToJSON)
   deriving stock (Show)
 
--- | The path of a file; what is no address of a file is kept as it is, decoded.
+-- | The path of a file. Another address is only decoded.
 toPath :: Uri -> Text
 toPath (Uri uri) = decoded (Maybe.fromMaybe uri local)
   where
     local = afterHost <$> Text.stripPrefix "file://" uri
-    -- Between the slashes may stand a host: file://localhost/part
+    -- There may be a host before the path: file://localhost/part
     afterHost rest = if "/" `Text.isPrefixOf` rest then rest else Text.dropWhile (/= '/') rest
 
 -- | The address of a file.
@@ -36,6 +36,7 @@ fromPath :: Text -> Uri
 fromPath path =
   Uri ("file://" <> Text.concat (map escaped (ByteString.unpack (Encoding.encodeUtf8 path))))
 
+-- | Percent-encodes a byte, except letters, digits and @/-._~@.
 escaped :: Word8 -> Text
 escaped byte
   | isAscii c && (isAlphaNum c || c `elem` ("/-._~" :: String)) = Text.singleton c
@@ -45,20 +46,21 @@ escaped byte
     digit = intToDigit' . fromIntegral
     intToDigit' n = if n < 10 then intToDigit n else chr (ord 'A' + n - 10)
 
+-- | Decodes percent-encoded bytes as UTF-8; wrong UTF-8 becomes replacement characters.
 decoded :: Text -> Text
 decoded = Encoding.decodeUtf8With Encoding.lenientDecode . bytes . Encoding.encodeUtf8
 
 bytes :: ByteString -> ByteString
 bytes encoded = case ByteString.uncons rest of
-  Nothing -> before
-  Just (sign, behind) ->
-    case map (chr . fromIntegral) (ByteString.unpack (ByteString.take 2 behind)) of
+  Nothing -> plain
+  Just (percent, more) ->
+    case map (chr . fromIntegral) (ByteString.unpack (ByteString.take 2 more)) of
       [a, b]
         | isHexDigit a && isHexDigit b ->
-          before
+          plain
             <> ByteString.cons
               (fromIntegral (16 * digitToInt a + digitToInt b))
-              (bytes (ByteString.drop 2 behind))
-      _ -> before <> ByteString.cons sign (bytes behind)
+              (bytes (ByteString.drop 2 more))
+      _ -> plain <> ByteString.cons percent (bytes more)
   where
-    (before, rest) = ByteString.break (== 0x25) encoded
+    (plain, rest) = ByteString.break (== 0x25) encoded

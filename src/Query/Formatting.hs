@@ -1,4 +1,4 @@
--- | The canonical layout of a program, as a change of its text.
+-- | The canonical layout of a program as a change of its text.
 module Query.Formatting
   ( Change (..),
     change,
@@ -9,26 +9,33 @@ import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | New text for a stretch of whole lines.
-data Change = Change {place :: Region, put :: Text}
+-- | New text for a region of whole lines.
+data Change = Change {region :: Region, newText :: Text}
   deriving stock (Eq, Show)
 
--- | The lines that differ between two texts, from the first to the last of them.
+-- | The change from one text to another: the lines from the first difference to the last. Nothing
+-- if the texts are equal.
 change :: Text -> Text -> Maybe Change
 change before after
   | before == after = Nothing
   | otherwise =
     Just
-      Change {place = Region from (from + sum (map Text.length middle)), put = Text.concat middle'}
+      Change
+        { region = Region from (from + sum (map Text.length oldMiddle)),
+          newText = Text.concat newMiddle
+        }
   where
-    (front, old, new) = common (linesOf before) (linesOf after)
-    (_, old', new') = common (reverse old) (reverse new)
-    (middle, middle') = (reverse old', reverse new')
+    (front, old, new) = splitCommonPrefix (linesOf before) (linesOf after)
+    (_, reversedOld, reversedNew) = splitCommonPrefix (reverse old) (reverse new)
+    (oldMiddle, newMiddle) = (reverse reversedOld, reverse reversedNew)
     from = sum (map Text.length front)
 
-common :: [Text] -> [Text] -> ([Text], [Text], [Text])
-common a b = case (a, b) of
-  (x : as, y : bs) | x == y -> let (front, as', bs') = common as bs in (x : front, as', bs')
+-- | The common prefix of two lists, and the rest of each.
+splitCommonPrefix :: [Text] -> [Text] -> ([Text], [Text], [Text])
+splitCommonPrefix a b = case (a, b) of
+  (x : as, y : bs)
+    | x == y ->
+      let (front, as', bs') = splitCommonPrefix as bs in (x : front, as', bs')
   _ -> ([], a, b)
 
 -- | The lines, each with its end: LF, CR or CR LF.

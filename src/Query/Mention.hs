@@ -1,4 +1,4 @@
--- | What is known of the names of a program: where each stands, what it means, what its value is.
+-- | The names in a program: where each is mentioned, its meaning, its value.
 module Query.Mention
   ( Mentions (..),
     Mention (..),
@@ -13,16 +13,16 @@ import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
 
--- | All names of a program, and the values of what it defines: the place of the name, the value in
--- words.
+-- | All mentions of names, and the values of the definitions: the region of the defined name, the
+-- value as text.
 data Mentions = Mentions {mentions :: [Mention], values :: [(Region, Text)]}
   deriving stock (Eq, Show)
 
--- | Nothing is known.
+-- | The facts of a program that cannot be checked.
 none :: Mentions
 none = Mentions [] []
 
--- | The facts of a program, as far as it could be checked and computed.
+-- | The facts of a program that can be checked and evaluated.
 facts :: Maybe ([Mention], Part) -> Mentions
 facts known = case known of
   Nothing -> none

@@ -1,7 +1,7 @@
--- | Questions about the name under the cursor.
+-- | Answers about the name under the cursor.
 --
--- They are answered from the present text, and where that is too broken to know the name, from the
--- last text that was sound.
+-- They come from the snapshot of the present text. If its errors hide the name, they come from the
+-- last snapshot without errors.
 module Query.Name
   ( Hover (..),
     hover,
@@ -23,19 +23,19 @@ import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
--- | The name where the cursor is, its value if it has one, what it is.
+-- | The name under the cursor, its value if it has one, its meaning.
 data Hover = Hover {place :: Region, name :: Text, value :: Maybe Text, meaning :: Text}
   deriving stock (Eq, Show)
 
--- | A stretch of one of the files of a source.
+-- | A region in one of the files of a source.
 data Target = Target {source :: Source, region :: Region}
 
--- | What is known of the name at an offset of the present text. The other snapshot is the last
--- sound one.
+-- | The name at an offset of the present text, from the present snapshot and the last one without
+-- errors.
 hover :: Snapshot -> Maybe Snapshot -> Int -> Maybe Hover
-hover now before at = said <$> listToMaybe (found now before at)
+hover now before at = shown <$> listToMaybe (found now before at)
   where
-    said (Found origin _ mention place) =
+    shown (Found origin _ mention place) =
       Hover
         { place,
           name = Mention.word mention,
@@ -44,20 +44,20 @@ hover now before at = said <$> listToMaybe (found now before at)
           meaning = Mention.meaning mention
         }
 
--- | Where the name at an offset is defined.
+-- | The region in which the name at an offset is defined.
 definition :: Snapshot -> Maybe Snapshot -> Int -> Maybe Target
 definition now before at = listToMaybe (mapMaybe target (found now before at))
   where
     target (Found origin carry mention _) =
-      Mention.definition mention >>= placed (Snapshot.source origin) carry
-    placed source carry region = case carry of
-      Just moved
+      Mention.definition mention >>= inPresentText (Snapshot.source origin) carry
+    inPresentText source carry region = case carry of
+      Just regionMap
         | isOwn source region ->
-          Target (Snapshot.source now) <$> RegionMap.forward moved region
+          Target (Snapshot.source now) <$> RegionMap.forward regionMap region
       _ -> Just Target {source, region}
 
--- | A mention under the cursor: the snapshot that knows it, how that one's text became the present
--- one if it is an older one, and the place of the mention in the present text.
+-- | A mention under the cursor: the snapshot that has it; the map from the text of that snapshot to
+-- the present text, if it is older; the region of the mention in the present text.
 data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
 found :: Snapshot -> Maybe Snapshot -> Int -> [Found]
@@ -65,15 +65,15 @@ found now before at = present <> maybe [] past before
   where
     present = [Found now Nothing m (Mention.place m) | Just m <- [under (Snapshot.facts now) at]]
     past snapshot =
-      let moved = RegionMap.between (textOf snapshot) (textOf now)
-       in [ Found snapshot (Just moved) m here
-            | Just at' <- [RegionMap.back moved at],
+      let regionMap = RegionMap.between (textOf snapshot) (textOf now)
+       in [ Found snapshot (Just regionMap) m here
+            | Just at' <- [RegionMap.back regionMap at],
               Just m <- [under (Snapshot.facts snapshot) at'],
-              Just here <- [RegionMap.forward moved (Mention.place m)]
+              Just here <- [RegionMap.forward regionMap (Mention.place m)]
           ]
     textOf = Region.text . Snapshot.source
 
--- | The mention that an offset lies in, or else the one that it ends.
+-- | The mention that contains an offset, or else the mention that ends at it.
 under :: Mentions -> Int -> Maybe Mention
 under facts at = case find (within (<)) (Mention.mentions facts) of
   Just m -> Just m
@@ -81,6 +81,6 @@ under facts at = case find (within (<)) (Mention.mentions facts) of
   where
     within before m = let Region from to = Mention.place m in from <= at && at `before` to
 
--- | Whether a stretch lies in the program's own file.
+-- | Does a region lie in the program's own file?
 isOwn :: Source -> Region -> Bool
-isOwn source place = start place <= Text.length (Region.text source)
+isOwn source (Region from _) = from <= Text.length (Region.text source)

@@ -1,5 +1,5 @@
--- | Places of an old text in a new one. The stretch in which the texts differ is found from both
--- ends; outside it every place has its counterpart.
+-- | A map of regions from an old text to a new one. The common prefix and suffix of the texts bound
+-- the changed region; outside it every region has its counterpart.
 module Query.RegionMap
   ( RegionMap,
     between,
@@ -14,12 +14,12 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | Both texts agree before the first offset, and from the second (in the old) and the third (in
--- the new) to the end.
+-- | Both texts are equal before the offset @same@, and from the offset @old@ of the old text and
+-- @new@ of the new text to their ends.
 data RegionMap = RegionMap {same :: Int, old :: Int, new :: Int}
   deriving stock (Eq, Show)
 
--- | From the old text to the new one. A word that the change touches belongs to the change.
+-- | The map from an old text to a new one. A word that the change touches belongs to the change.
 between :: Text -> Text -> RegionMap
 between before after =
   RegionMap
@@ -28,8 +28,8 @@ between before after =
       new = Text.length after - kept
     }
   where
-    (prefix, before', after') = common before after
-    (suffix, left, right) = commonEnd before' after'
+    (prefix, before', after') = commonPrefix before after
+    (suffix, left, right) = commonSuffix before' after'
     touches =
       any
         (Text.any isWordPart)
@@ -38,11 +38,13 @@ between before after =
     cutBack = if touches then Text.takeWhile isWordPart suffix else ""
     kept = Text.length suffix - Text.length cutBack
 
-common :: Text -> Text -> (Text, Text, Text)
-common a b = Maybe.fromMaybe ("", a, b) (Text.commonPrefixes a b)
+-- | The common prefix of two texts, and the rest of each.
+commonPrefix :: Text -> Text -> (Text, Text, Text)
+commonPrefix a b = Maybe.fromMaybe ("", a, b) (Text.commonPrefixes a b)
 
-commonEnd :: Text -> Text -> (Text, Text, Text)
-commonEnd a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size b)
+-- | The common suffix of two texts, and the rest of each.
+commonSuffix :: Text -> Text -> (Text, Text, Text)
+commonSuffix a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size b)
   where
     size =
       length
@@ -51,15 +53,15 @@ commonEnd a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size b)
 isWordPart :: Char -> Bool
 isWordPart c = isAlphaNum c || c == '_'
 
--- | Where a stretch of the old text is in the new one, if it is there unchanged.
+-- | The region of the new text for a region of the old one, if it is unchanged.
 forward :: RegionMap -> Region -> Maybe Region
 forward RegionMap {same, old, new} (Region from to)
   | to <= same = Just (Region from to)
   | from >= old = Just (Region (from - old + new) (to - old + new))
   | otherwise = Nothing
 
--- | Where an offset of the new text was in the old one. Where something was only taken out, what
--- begins there is what stood behind it.
+-- | The offset in the old text for an offset of the new one. At a pure deletion it is the offset
+-- after the deleted text.
 back :: RegionMap -> Int -> Maybe Int
 back RegionMap {same, old, new} at
   | at >= new = Just (at - new + old)

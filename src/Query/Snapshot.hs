@@ -1,10 +1,11 @@
--- | A program at one moment, with all that its text says: what editors are answered from.
+-- | A program at one moment, with all that its text means. Editors are answered from it.
 module Query.Snapshot
   ( Snapshot (..),
     Check,
+    checkWith,
     take,
     isGood,
-    broughtBy,
+    importOf,
   )
 where
 
@@ -12,12 +13,15 @@ import Base.Region (Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Checked.Syntax qualified as Checked
-import Compile (Analysis, LoadedProgram)
+import Compile (Analysis)
 import Compile qualified
 import Data.Bifunctor (first)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.Job qualified as Job
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 import Query.Mention (Mentions)
 import Query.Mention qualified as Mention
 import Report.Report (Report)
@@ -25,48 +29,57 @@ import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
 import Prelude hiding (take)
 
--- | What looks for the mistakes of a program: the same for editors as for the command line.
+-- | Finds the mistakes of a program: for editors the same as for the command line.
 type Check = LoadedProgram -> Result Report Report Analysis
 
--- | The texts, what is wrong with them, the syntax tree, what is known of the names, where each
--- import stands and the file that it names.
+-- | Reports mistakes up to the limits of the machine that the program names. The values are those
+-- of the program's parameters, by their names.
+checkWith :: [(Text, Text)] -> Check
+checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
+
+-- | A program at one moment.
 data Snapshot = Snapshot
-  { source :: Source,
+  { -- | the text, and the texts that it imports
+    source :: Source,
+    -- | errors and warnings, in the order of the text
     reports :: [Report],
+    -- | the syntax tree of the text itself, without what it imports
     program :: Program,
+    -- | the mentions of names, and the values of what the program defines
     facts :: Mentions,
+    -- | the region of each import, and the path of the file that it names
     imports :: [(Region, Text)]
   }
 
--- | Look at a program.
+-- | Takes a snapshot of a program.
 take :: Check -> LoadedProgram -> Snapshot
 take check loaded =
-  Snapshot {source, reports, program, facts = Mention.facts known, imports = Compile.imports loaded}
+  Snapshot
+    { source,
+      reports,
+      program,
+      facts = Mention.facts known,
+      imports = LoadedProgram.imports loaded
+    }
   where
-    source = Compile.source loaded
+    source = LoadedProgram.source loaded
     result = check loaded
     reports = Report.sorted (errors result <> warnings result)
-    whole = Maybe.fromMaybe (Program [] []) (output (Compile.surface loaded))
-    -- What the text itself says, without what it imports.
-    program =
-      whole
-        { statements =
-            filter
-              ((<= Text.length (Region.text source)) . Region.start . Region.region)
-              (statements whole)
-        }
+    whole = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
+    program = whole {statements = filter (isOwn . Region.start . Region.region) (statements whole)}
+    isOwn offset = offset <= Text.length (Region.text source)
     known = case output result of
       Just analysis -> Just (Compile.mentions analysis, Compile.part analysis)
-      Nothing -> first Checked.mentions <$> output (Compile.evaluated [] loaded)
+      Nothing -> first Checked.mentions <$> output (Compile.evaluate [] loaded)
 
--- | Whether the program has no errors.
+-- | Has the program no errors? Warnings are allowed.
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | Where a program shows what lies in a file that it imports: at the import that brings it,
--- directly or by way of others. Nothing for a place in the program itself.
-broughtBy :: Snapshot -> Region -> Maybe Region
-broughtBy Snapshot {source, imports} = go (length imports)
+-- | The import that brings the file in which a region lies, directly or through other imports.
+-- Nothing for a region of the program itself.
+importOf :: Snapshot -> Region -> Maybe Region
+importOf Snapshot {source, imports} = go (length imports)
   where
     go steps region = case Region.file (Region.position source (Region.start region)) of
       file

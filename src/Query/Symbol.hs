@@ -1,4 +1,4 @@
--- | The outline of a program: what it names, and what is machined.
+-- | The symbols of a program: its definitions and its machining statements.
 module Query.Symbol
   ( DocumentSymbol (..),
     SymbolKind (..),
@@ -9,6 +9,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..), Source)
 import Base.Region qualified as Region
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
 import Data.Text (Text)
@@ -16,7 +17,8 @@ import Data.Text qualified as Text
 import Query.Snapshot (Snapshot (..))
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
 
--- | A name, a few words more, the whole statement and the name in it.
+-- | A symbol: its name, a short addition, its kind, the region of the whole statement, and the
+-- region of the name in it.
 data DocumentSymbol = DocumentSymbol
   { name :: Text,
     detail :: Text,
@@ -26,42 +28,36 @@ data DocumentSymbol = DocumentSymbol
   }
   deriving stock (Eq, Show)
 
--- | What a symbol stands for.
+-- | The kind of a symbol.
 data SymbolKind = Part' | Value | Function | Contour' | Machining
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The symbols in the order of the text. Statements that only set something have none.
+-- | The symbols in the order of the text. Settings have none.
 symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
 
+-- | The symbol of a definition is its name; that of a machining statement is its beginning, up to
+-- the region that says what is machined.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
-  Part what title -> named Part' what (maybe "" value title)
-  LetValue what _ -> named Value what ""
-  Param what _ -> named Value what "param"
-  LetFunction what parameters _ ->
-    named
-      Function
-      what
-      ("(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")")
-  Contour what _ _ -> named Contour' what ""
-  Table what _ -> named Value what "table"
-  Curve what _ -> named Value what "curve"
-  Piece what _ _ _ _ -> named Value what "piece"
-  Mill what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
-  Pocket what apart _ -> Just (unnamed (Region (start whole) (end (region apart))) (region what))
-  Turn what side _ -> Just (unnamed (Region (start whole) (end (region side))) (region what))
-  Drill places depth _ -> Just (unnamed (Region (start whole) (end (region depth))) (region places))
-  Travel _ _ -> Just (unnamed whole whole)
-  Change number' cutter ->
-    Just (unnamed (Region (start whole) (end (region cutter))) (region number'))
-  Repeat (Located selection _) list _ ->
-    Just (unnamed (Region (start whole) (end (region list))) selection)
-  When condition _ _ ->
-    Just (unnamed (Region (start whole) (end (region condition))) (region condition))
-  With placement _ ->
-    Just (unnamed (Region (start whole) (end (region placement))) (region placement))
-  Broken _ what -> what >>= \n -> named Value n ""
+  Part name title -> definition Part' name (maybe "" value title)
+  LetValue name _ -> definition Value name ""
+  Param name _ -> definition Value name "param"
+  LetFunction name parameters _ -> definition Function name (parameterList parameters)
+  Contour name _ _ -> definition Contour' name ""
+  Table name _ -> definition Value name "table"
+  Curve name _ -> definition Value name "curve"
+  Piece name _ _ _ _ -> definition Value name "piece"
+  Mill contour side _ -> machining (region side) (region contour)
+  Pocket contour stepover _ -> machining (region stepover) (region contour)
+  Turn contour side _ -> machining (region side) (region contour)
+  Drill holes depth _ -> machining (region depth) (region holes)
+  Travel _ _ -> machining whole whole
+  Change number cutter -> machining (region cutter) (region number)
+  Repeat (Located selection _) list _ -> machining (region list) selection
+  When condition _ _ -> machining (region condition) (region condition)
+  With placement _ -> machining (region placement) (region placement)
+  Broken _ name -> name >>= \n -> definition Value n ""
   Machine _ -> Nothing
   Import _ -> Nothing
   Tool _ -> Nothing
@@ -74,11 +70,22 @@ symbol source (Located whole s) = case s of
   Coolant _ -> Nothing
   Auxiliary _ -> Nothing
   where
-    named kind (Located selection (Name name)) detail =
+    definition kind (Located selection (Name name)) detail =
       Just DocumentSymbol {name, detail, kind, whole, selection}
-    unnamed words' selection =
-      DocumentSymbol {name = slice source words', detail = "", kind = Machining, whole, selection}
+    machining lastRegion selection =
+      Just
+        DocumentSymbol
+          { name = slice source (Region (start whole) (end lastRegion)),
+            detail = "",
+            kind = Machining,
+            whole,
+            selection
+          }
 
--- | A piece of the text on one line.
+parameterList :: NonEmpty (Located Name) -> Text
+parameterList parameters =
+  "(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")"
+
+-- | The text of a region on one line.
 slice :: Source -> Region -> Text
-slice source place = Text.unwords (concatMap Text.words (Region.pieces source place))
+slice source part = Text.unwords (concatMap Text.words (Region.pieces source part))

@@ -24,6 +24,7 @@ import Geometry.Vec qualified as Vec
 import Offset.Equidistant (OffsetSegment (..), Origin (..))
 import Part.Part (Part)
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Toolpath.FromPart qualified as FromPart
 import Toolpath.Toolpath qualified as Toolpath
@@ -31,7 +32,7 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec =
   case ( Result.output (FromPart.lay winding),
-         Result.output (Compile.analyse [] (Compile.alone "p.part" "part p\n"))
+         Result.output (Compile.analyse [] (LoadedProgram.fromText "p.part" "part p\n"))
        ) of
     (Just path, Just analysis) -> do
       it

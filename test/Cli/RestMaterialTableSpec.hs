@@ -7,6 +7,7 @@ import Compile (Analysis (path))
 import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 
 spec :: Spec
@@ -56,7 +57,7 @@ spec = do
 
 -- | The words of the table's rows.
 rows :: Text -> [[Text]]
-rows milling = case Result.output (Compile.analyse [] (Compile.alone "p.part" text)) of
+rows milling = case Result.output (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
   Just found ->
     [Text.words l | t <- RestMaterialTable.places (path found), l <- drop 3 (Text.lines t)]
   Nothing -> [["no path"]]

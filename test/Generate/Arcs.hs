@@ -1,6 +1,5 @@
--- | Frames with arcs, made in the plainest way, and how far off they are by sampling: for the
--- proof, independently of the frames that the compiler makes and of the distances that the proof
--- measures with.
+-- | Frames with arcs by a simple method, and their deviation from a contour by sampling. Both serve
+-- to test the verification, independently of the compiler's frames and of its distances.
 module Generate.Arcs
   ( quantise,
     Off (..),
@@ -36,8 +35,8 @@ import Test.QuickCheck
 import Toolpath.Toolpath (Move, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The frames of a path on a machine with arcs. Nothing slows down, nothing is commanded, and the
--- machine has room for every number.
+-- | The frames of a toolpath on a machine with arcs: without braking and without commands. Every
+-- number must fit the machine's words.
 quantise :: Machine -> Toolpath -> FrameProgram
 quantise machine path =
   FrameProgram begin (go begin (concat (zipWith block [0 ..] (Toolpath.blocks path))))
@@ -81,7 +80,7 @@ rounded machine (p, Mm z) = Pulses3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
   where
     on axis v = let Mm step = Machine.pulseOf machine axis in Pulses (round (v / step))
 
--- | The frames of one move, from where the tape stands.
+-- | The frames of one move, from the present position.
 framesOf :: Machine -> Pulses3 -> Move -> [Frame]
 framesOf machine at m = case Toolpath.segment m of
   s@Arc {} -> snd (foldl next (at, []) (inQuadrants s))
@@ -113,7 +112,7 @@ straight code from to =
     | to /= from
   ]
 
--- | An arc cut where it crosses the axes through its centre.
+-- | An arc, divided where it crosses the axes through its centre.
 quarters :: Segment -> [Segment]
 quarters s = case s of
   Straight _ _ -> [s]
@@ -127,22 +126,22 @@ quarters s = case s of
               t < 1 - 1e-6
           ]
         marks = 0 : (if turned > 0 then cuts else reverse cuts) <> [1]
-     in [piece a b | (a, b) <- zip marks (drop 1 marks)]
+     in [section a b | (a, b) <- zip marks (drop 1 marks)]
   where
-    piece a b =
+    section a b =
       let upTo =
             if b < 1 then fst (Segment.cutAt b s) else s
        in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
--- | The frames of an arc: one, if a centre of whole pulses keeps it within a pulse; else those of
--- its halves.
+-- | The frames of an arc: one if a centre of whole pulses keeps it within one pulse, otherwise
+-- those of its halves.
 arcFrames :: Machine -> FeedCode -> Mm -> Pulses3 -> Segment -> [Frame]
 arcFrames machine code z at s = case (Segment.bulge s, candidates) of
-  (Mm bulge, _) | bulge < pulse / 2 -> straight code at end
+  (Mm sagitta, _) | sagitta < pulse / 2 -> straight code at end
   (_, []) -> halves
   (_, fs) ->
     let (d, f) =
-          minimumBy (comparing fst) [(off f', f') | f' <- fs]
+          minimumBy (comparing fst) [(largestDeviation f', f') | f' <- fs]
      in if d <= pulse then [f] else halves
   where
     Mm pulse = Machine.pulse machine
@@ -170,19 +169,19 @@ arcFrames machine code z at s = case (Segment.bulge s, candidates) of
       let c =
             Frame.centreOf machine at f
        in (between (Frame.position machine at) c, between (Frame.position machine end) c)
-    -- Both ways between which a control may go, at places along the arc; an arc must not become a
-    -- full turn.
-    off f =
+    -- A control may use the radius of the beginning or of the end: both at points along the arc. An
+    -- arc must not become a full circle.
+    largestDeviation f =
       let c = Frame.centreOf machine at f
           (a, b) = radii f
           exact = between (Segment.start s) (Segment.centre s)
-          Rad walked = Segment.sweep (Frame.segment machine at f)
+          Rad sweep = Segment.sweep (Frame.segment machine at f)
           Rad begin = Vec.angle (Vec.to c (Frame.position machine at))
        in maximum
-            ( (if abs (walked - turned) > 1 then 1e9 else 0) :
+            ( (if abs (sweep - turned) > 1 then 1e9 else 0) :
                 [ abs
                     ( between
-                        (Vec.shift (Vec.polar (Mm r) (Rad (begin + walked * k / 8))) c)
+                        (Vec.shift (Vec.polar (Mm r) (Rad (begin + sweep * k / 8))) c)
                         (Segment.centre s)
                         - exact
                     )
@@ -198,52 +197,51 @@ arcFrames machine code z at s = case (Segment.bulge s, candidates) of
 between :: Point -> Point -> Double
 between p q = let Mm d = Vec.distance p q in d
 
--- | The deepest cut into the contour, and the most that is left standing on it.
+-- | The deepest gouge and the largest excess, in mm.
 data Off = Off {deepest :: Double, most :: Double}
   deriving stock (Show)
 
--- | How far frames from a position are off from a contour with a cutter of a radius, by points
--- close to one another on both. An arc goes with the radius of its beginning and ends where it
--- ends.
+-- | The deviation of frames from a contour, for a cutter of this radius in mm, by dense points on
+-- both. The position is that before the first frame. An arc keeps the radius of its beginning.
 deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Off
 deviation machine begin frames contour radius =
   Off
-    { deepest = radius - minimum [nearest on p | p <- walked],
-      most = maximum [nearest walked q | q <- on] - radius
+    { deepest = radius - minimum [nearest onContour p | p <- onPath],
+      most = maximum [nearest onPath q | q <- onContour] - radius
     }
   where
-    on = concatMap (dense 0.4) contour
-    walked = concat (zipWith path (scanl (+) begin (map increment frames)) frames)
+    onContour = concatMap (dense 0.4) contour
+    onPath = concat (zipWith path (scanl (+) begin (map increment frames)) frames)
     path at f = Frame.position machine at : dense 0.2 (Frame.segment machine at f)
     nearest ps q =
       sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps])
 
--- | Points of a segment at most so far apart, its ends among them.
+-- | Points of a segment with its ends, at most @apart@ mm from one another.
 dense :: Double -> Segment -> [Point]
 dense apart s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
   where
     Mm l = Segment.length s
     n = max 1 (ceiling (l / apart)) :: Int
 
--- | One change of some frames, and what it is.
+-- | One change of some frames, with its description.
 change :: [Frame] -> Gen (String, [Frame])
 change frames = do
   n <- choose (0, length frames - 1)
   d <- Pulses <$> elements [1, -1, 2, -2, 3, -3, 100, -100]
   let f = frames !! n
       with f' = take n frames <> [f'] <> drop (n + 1) frames
-      -- The next frame goes back by as much.
-      made up f' = case drop (n + 1) frames of
+      -- If @isCompensated@, the next frame goes back by the same amount.
+      changed isCompensated f' = case drop (n + 1) frames of
         g : rest
-          | up ->
+          | isCompensated ->
             take n frames <> [f', g {increment = increment g + increment f - increment f'}] <> rest
         _ -> with f'
       Pulses3 x y _ = increment f
       Pulses2 i j = centre f
-  up <- arbitrary
+  isCompensated <- arbitrary
   oneof $
-    [ pure ("x by " <> show d, made up f {increment = increment f + Pulses3 d 0 0}),
-      pure ("y by " <> show d, made up f {increment = increment f + Pulses3 0 d 0}),
+    [ pure ("x by " <> show d, changed isCompensated f {increment = increment f + Pulses3 d 0 0}),
+      pure ("y by " <> show d, changed isCompensated f {increment = increment f + Pulses3 0 d 0}),
       pure ("lost", take n frames <> drop (n + 1) frames),
       pure ("doubled", take (n + 1) frames <> drop n frames)
     ]

@@ -1,4 +1,4 @@
--- | Millings beside random contours that a control is to keep the cutter beside by itself.
+-- | Random milling jobs with cutter compensation by the control.
 module Generate.ByControl
   ( cases,
     firstAndLast,
@@ -30,7 +30,7 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | A contour with a way in that comes from its beginning's free side, and a way out.
+-- | A contour with an approach from the free side of its beginning, and a retract.
 cases :: Gen (Case, Milling)
 cases = do
   drawn <- oneof [Generate.closedCase, Generate.openCase, Generate.smoothCase]
@@ -45,7 +45,7 @@ cases = do
     Just (begin, finish) ->
       let Mm r = radius c
           free = if side c == LeftOf then -1 else 1
-          -- Back along the first move and then to the free side.
+          -- Backwards along the first move, turned to the free side.
           from =
             Vec.shift
               ( Vec.scale
@@ -67,8 +67,8 @@ cases = do
   where
     stop p = Part.Stop (Located nowhere p) Nothing Part.Rapid
 
--- | With a cutter that is so much smaller than the smallest arc about whose inside it rolls, if
--- that fits.
+-- | The case with a cutter whose radius is smaller by @less@ mm than the smallest concave arc, if
+-- such a cutter fits.
 snug :: Case -> Double -> Case
 snug c less =
   case sort
@@ -94,22 +94,22 @@ firstAndLast job = case laid (beginning job) job of
               Just _ <- [Part.leadIn job]
           ]
         cuts = fmap Toolpath.segment cut
-        behind = map Toolpath.segment retract
+        retracting = map Toolpath.segment retract
      in Just
           ( fromMaybe (NonEmpty.head cuts) (listToMaybe leads),
-            fromMaybe (NonEmpty.last cuts) (listToMaybe (reverse behind))
+            fromMaybe (NonEmpty.last cuts) (listToMaybe (reverse retracting))
           )
   _ -> Nothing
 
--- | The blocks of a milling from a point.
+-- | The blocks of the toolpath of a milling job. The cutter begins at the point.
 laid :: Point -> Milling -> Maybe [Toolpath.Block]
 laid at job = Toolpath.blocks <$> path at job
 
--- | The path of a milling from a point.
+-- | The toolpath of a milling job. The cutter begins at the point.
 path :: Point -> Milling -> Maybe Toolpath
 path at job = Result.output (FromPart.lay (Generate.partOf at (Mill (Located nowhere job))))
 
--- | Where the contour begins.
+-- | The beginning of the contour.
 beginning :: Milling -> Point
 beginning job = Segment.start (Part.segment (NonEmpty.head (Part.elements (Part.contour job))))
 

@@ -1,5 +1,5 @@
--- | Random curves and shifts for the laws of curves: open and closed, gentle and doubling back,
--- with vertical tangents, of few points and of many.
+-- | Random curves and shifts: open and closed, gentle and reversing, with vertical tangents, with
+-- few points and with many.
 module Generate.Curve
   ( Table (..),
     anyCurve,
@@ -51,44 +51,45 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Test.QuickCheck
 
--- | A table of points and how it ends.
+-- | A table of points with its end condition.
 data Table = Table EndCondition [Point]
   deriving stock (Eq, Show)
 
 ok :: Show e => Either e a -> a
 ok = either (error . show) id
 
--- | Of every kind.
+-- | A curve of any kind.
 anyCurve :: Gen Curve
 anyCurve = frequency [(2, smooth), (1, polyline), (1, parabola), (1, chain), (1, pieces)]
 
--- | Splines.
+-- | A spline.
 smooth :: Gen Curve
 smooth = oneof [gentle, ring, ok . splineOf <$> winding]
 
 splineOf :: Table -> Either Curve.CurveFault Curve
 splineOf (Table ends points) = Curve.spline ends (Exts.fromList points)
 
--- | An open spline that turns by less than a right angle, few points or many.
+-- | An open spline with few points or many, that turns by less than a right angle.
 gentle :: Gen Curve
 gentle = do
   n <- frequency [(1, choose (2, 3)), (3, choose (4, 12)), (2, choose (30, 60))]
   begin <- choose (-3.1, 3.1)
   turns <- vectorOf (n - 1) (choose (-1 / fromIntegral n, 1 / fromIntegral n))
-  Table ends points <- walked begin turns
+  Table ends points <- fromTurns begin turns
   pure (ok (splineOf (Table ends points)))
 
--- | Points of a walk that turns as it likes: it doubles back, crosses itself, climbs straight up.
--- Now and then the direction at an end is given.
+-- | Points with arbitrary turns: their curve may reverse, cross itself, or be vertical. Some tables
+-- have given directions at the ends.
 winding :: Gen Table
 winding = do
   n <- choose (2, 20)
   begin <- elements [0, pi / 2, 1]
   turns <- vectorOf n (oneof [choose (-0.8, 0.8), elements [0, pi / 2]])
-  walked begin turns
+  fromTurns begin turns
 
-walked :: Double -> [Double] -> Gen Table
-walked begin turns = do
+-- | A table from a first direction and the turn at each point, in rad.
+fromTurns :: Double -> [Double] -> Gen Table
+fromTurns begin turns = do
   steps <- vectorOf (length turns) (choose (8, 20))
   at <- Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
   let headings = scanl1 (+) (begin : drop 1 turns)
@@ -102,7 +103,7 @@ walked begin turns = do
       ]
   pure (Table ends points)
 
--- | Splines through a few points anywhere, which bend back within a span.
+-- | A spline through a few arbitrary points. It may reverse within a span.
 zigzag :: Gen Curve
 zigzag = do
   ends <- elements [Natural, Periodic]
@@ -112,11 +113,11 @@ zigzag = do
       and [Vec.distance p q > Mm 5 | p : rest <- tails ps, q <- rest]
   pure (ok (splineOf (Table ends points)))
 
--- | A closed spline about a centre.
+-- | A closed spline round a centre.
 ring :: Gen Curve
 ring = ok . splineOf <$> closedRing
 
--- | Its table, walked either way, the first point repeated or not.
+-- | The table of a closed spline of either sense. The first point may be repeated.
 closedRing :: Gen Table
 closedRing = do
   n <- frequency [(1, pure 3), (3, choose (5, 12)), (2, choose (20, 60))]
@@ -128,16 +129,16 @@ closedRing = do
   centre <- Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
   repeated <- arbitrary
   let angle k = from + sense * 2 * pi * fromIntegral k / fromIntegral n
-      place k = Vec.shift (Vec.polar (Mm (a + b * cos (lobes * angle k))) (Rad (angle k))) centre
-      points = map place [0 .. n - 1 :: Int]
+      point k = Vec.shift (Vec.polar (Mm (a + b * cos (lobes * angle k))) (Rad (angle k))) centre
+      points = map point [0 .. n - 1 :: Int]
   pure (Table Periodic (points <> [p | repeated, p <- take 1 points]))
 
--- | Straight lines from point to point, now and then straight back.
+-- | A polyline. It may reverse at a point.
 polyline :: Gen Curve
 polyline = do
   n <- choose (1, 8)
   turns <- vectorOf n (frequency [(5, choose (-1.2, 1.2)), (1, pure pi), (1, pure (pi / 2))])
-  Table _ points <- walked 0 turns
+  Table _ points <- fromTurns 0 turns
   closing <- arbitrary
   let closedUp = points <> [p | closing, length points > 2, p <- take 1 points]
   pure
@@ -146,7 +147,7 @@ polyline = do
         (Curve.polyline (Exts.fromList closedUp))
     )
 
--- | Parabolas, the x rising or falling.
+-- | A chain of parabolas with rising or falling x.
 parabola :: Gen Curve
 parabola = do
   n <- (\k -> 2 * k + 1) <$> choose (1, 5)
@@ -157,7 +158,7 @@ parabola = do
       ys = scanl1 (+) (zipWith (*) slopes steps)
   pure (ok (Curve.parabola (Exts.fromList (zipWith Vec.point xs ys))))
 
--- | Lines and arcs that touch or meet at corners.
+-- | A chain of lines and arcs, with and without corners.
 chain :: Gen Curve
 chain = do
   n <- choose (1, 6)
@@ -185,7 +186,7 @@ chain = do
                 sweep = Rad sweep
               }
 
--- | A line, a parabola that touches it and an arc that touches the parabola, with rows anywhere on
+-- | A line, a parabola tangent to it and an arc tangent to the parabola, with rows anywhere on
 -- them.
 pieces :: Gen Curve
 pieces = do
@@ -213,14 +214,14 @@ pieces = do
         )
     )
 
--- | A place as a share of the curve, kept away from neither rows nor ends.
+-- | A parameter as a share of the curve's domain. It may be at a row or an end.
 parameter :: Gen Double
 parameter = frequency [(8, choose (0, 1)), (1, elements [0, 1, 0.5])]
 
 parameterOf :: Curve -> Double -> Double
 parameterOf curve share = share * Curve.domain curve
 
--- | The largest curvature found at many places, in 1/mm.
+-- | The largest curvature at many points, in 1/mm.
 tightest :: Curve -> Double
 tightest curve =
   maximum
@@ -231,7 +232,7 @@ tightest curve =
   where
     bs = Curve.breaks curve
 
--- | A column of so many values for a curve, from a range, that changes slowly.
+-- | A column of a curve: slowly changing values between @low@ and @high@.
 columnOf :: Curve -> Double -> Double -> Gen Curve.Column
 columnOf curve low high = do
   middle <- choose (low, high)
@@ -246,7 +247,7 @@ columnOf curve low high = do
           else middle + 0.5 * wave * sin (phase + turns * fromIntegral k)
   pure (Curve.column curve (Exts.fromList (map value [0 .. n - 1])))
 
--- | A distance no larger than a reach, of every kind.
+-- | A distance of any kind, at most @reach@ mm.
 distance :: Double -> Curve -> Gen Distance
 distance reach curve =
   oneof
@@ -291,7 +292,7 @@ distance reach curve =
             )
         )
 
--- | A shift that fits: well within the radius of curvature.
+-- | A shift of a curve, well within its radius of curvature.
 shifts :: Curve -> Gen Curve
 shifts curve = do
   side <- elements [LeftOf, RightOf]
@@ -299,7 +300,7 @@ shifts curve = do
   let s = Curve.shifted side d curve
   pure (case Curve.fold s of Nothing -> s; Just _ -> Curve.shifted side (Constant (Mm 0)) curve)
 
--- | A curve with up to so many shifts.
+-- | A curve with at most @most@ shifts.
 layered :: Int -> Gen Curve -> Gen Curve
 layered most gen = do
   curve <- gen
@@ -309,7 +310,7 @@ layered most gen = do
     go :: Int -> Curve -> Gen Curve
     go n curve = if n <= 0 then pure curve else shifts curve >>= go (n - 1)
 
--- | Motions, mirrors, scalings, one behind the other.
+-- | A product of motions, reflections and scalings.
 similarity :: Gen Transformation
 similarity = do
   v <- Vec.vec <$> choose (-50, 50) <*> choose (-50, 50)

@@ -1,5 +1,4 @@
--- | Grammars as the manual writes them: read, tried forwards as sentences, and backwards as a
--- recogniser.
+-- | The grammars of the manual: a reader, a generator of sentences, and a recogniser.
 module Generate.Grammar
   ( Grammar,
     fromText,
@@ -22,14 +21,15 @@ import Surface.Keyword qualified as Keyword
 import Surface.Token (Token (..), Token_ (..), unitName)
 import Test.QuickCheck
 
--- | Rules by their names; the first one written is @program@.
+-- | Rules by their names. The start symbol is @program@.
 newtype Grammar = Grammar (Map Text Rule)
   deriving stock (Show)
 
+-- | The right-hand side of a rule.
 data Rule
   = -- | a word or sign in quotation marks
     Literal Text
-  | -- | another rule, or what the lexer knows
+  | -- | another rule, or a terminal of the lexer
     Named Text
   | Sequence [Rule]
   | Choice [Rule]
@@ -37,7 +37,7 @@ data Rule
   | Optional Rule
   deriving stock (Show)
 
--- | What the lexer knows.
+-- | The terminals of the lexer.
 terminals :: [Text]
 terminals = ["name", "number", "text", "machine-name"]
 
@@ -47,7 +47,7 @@ terminals = ["name", "number", "text", "machine-name"]
 fromText :: Text -> Grammar
 fromText = Grammar . Map.fromList . rules . marks
 
--- | A grammar's own words.
+-- | The tokens of a grammar.
 marks :: Text -> [Text]
 marks text = case Text.uncons (Text.stripStart text) of
   Nothing -> []
@@ -98,7 +98,7 @@ sequence' rs = case rs of
   [r] -> r
   _ -> Sequence rs
 
--- | Names that stand for nothing, and rules that nothing uses.
+-- | Names without a rule, and rules without a use.
 loose :: Grammar -> [Text]
 loose (Grammar known) =
   (used \\ (Map.keys known <> terminals)) <> ((Map.keys known <> terminals) \\ ("program" : used))
@@ -126,7 +126,7 @@ literals (Grammar known) = sort (Set.toList (Set.fromList (concatMap inside (Map
 
 -- Sentences
 
--- | What a sentence is written with.
+-- | An element of a sentence: a word or sign, the end of a line, no space.
 data Mark = Written Text | LineEnd | Touching
   deriving stock (Eq, Show)
 
@@ -152,13 +152,13 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       Named "machine-name" -> word ["lkp-01f", "2.5-ax"]
       Named name ->
         around name (derive (below name fuel) (Map.findWithDefault (Sequence []) name known))
-    -- Blocks and values are not nested deeply: sentences would have no end.
+    -- The nesting of blocks and values is limited, so that sentences are finite.
     below name fuel
       | name `elem` ["items", "statements"] = fuel - 9
       | name == "expr" = min 32 fuel - 6
       | otherwise = fuel - 1
     word texts = (\text -> [Written text]) <$> elements texts
-    -- Statements and items come in numbers; operators seldom, or sentences would have no end.
+    -- Several statements and items, but few operators, so that sentences are finite.
     times r = case r of
       Named name | name `elem` ["statement", "item", "setting"] -> choose (0, 3 :: Int)
       _ -> frequency [(10, pure 0), (2, pure 1), (1, pure 2)]
@@ -171,7 +171,7 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       -- The manual asks for brackets here.
       "item" -> marked `suchThat` ((/= [Written "-"]) . take 1)
       _ -> marked
-    -- The alternatives that can be finished; those that can be finished soonest when none can.
+    -- The alternatives that fit the fuel, or else the shallowest ones.
     affordable fuel rs = case filter ((<= fuel) . height) rs of
       [] -> [r | r <- rs, height r == minimum (map height rs)]
       some -> some
@@ -179,7 +179,7 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
     heights = settle (fmap (const 1000) known)
     settle now = let new = fmap (heightIn now) known in if new == now then now else settle new
 
--- | How many rules deep the smallest sentence of a rule is.
+-- | The depth of the shallowest sentence of a rule, in rules.
 heightIn :: Map Text Int -> Rule -> Int
 heightIn heights rule = case rule of
   Literal _ -> 0
@@ -199,13 +199,13 @@ spaced written = case written of
 
 -- Recognition
 
--- | Whether tokens are a sentence. Where lines end does not matter here.
+-- | Are the tokens a sentence? The ends of lines are ignored.
 recognises :: Grammar -> [Token] -> Bool
 recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
   where
     words' = Map.fromAscList (zip [0 ..] (concatMap (parts . shape) tokens))
     finish = Map.size words'
-    -- The ends of every rule from every place, computed when asked for.
+    -- The ends of every rule from every index, computed lazily.
     table = Map.map (\rule -> Map.fromAscList [(at, ends at rule) | at <- [0 .. finish]]) known
     ends :: Int -> Rule -> Set Int
     ends at rule = case rule of
@@ -228,7 +228,7 @@ recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
          in closure r (Set.union seen new) new
     unions = Set.unions :: [Set Int] -> Set Int
 
--- | A token as the grammar counts: a number and its unit are two.
+-- | A token as the grammar has it: a number and its unit are two tokens.
 parts :: Token_ -> [Token_]
 parts token = case token of
   Number n (Just unit) -> [Number n Nothing, Word (unitName unit)]

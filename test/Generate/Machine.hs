@@ -1,9 +1,8 @@
--- | Random machines within the limits of their language, and random frames for them.
+-- | Random machines within the limits of machine descriptions, and random frames for them.
 --
--- A layout can be read only if a reader knows at every row what may stand there: words that may be
--- missing have addresses with beginnings of their own, numbers of unknown length are followed by
--- something that is no digit, and where blank rows between frames are passed over a frame begins
--- with a hole.
+-- A layout is readable only if a reader knows at every row what may follow. So words that may be
+-- missing have different first symbols; a number of unknown length is followed by something other
+-- than a digit; and if blank rows between frames are skipped, a frame begins with a hole.
 module Generate.Machine (machine, frames) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -24,10 +23,11 @@ import Machine.Machine hiding (braking, choose, orders)
 import Machine.Machine qualified as Machine
 import Test.QuickCheck
 
+-- | A machine of any kind.
 machine :: Gen Machine
-machine = oneof [inPlaces, lettered, printed]
+machine = oneof [withFixedRows, lettered, printed]
 
--- | What all kinds of machines share.
+-- | The properties that all kinds of machines share.
 data Shared = Shared
   { used :: [Axis],
     motions :: Maybe MotionCodes,
@@ -106,7 +106,7 @@ shared = do
           }
   pure Shared {used, motions, arcKind, how, feedTable, feedDigits, bottom}
 
--- | Codes that a feed word of so many digits can hold: a range, a list, a formula's values.
+-- | Feed codes for a word of @n@ digits: a range, a list, the values of a formula.
 feedCodes :: Int -> Gen FeedCodes
 feedCodes n = oneof [Direct 1 <$> choose (1, most), list, formula]
   where
@@ -124,12 +124,12 @@ feedCodes n = oneof [Direct 1 <$> choose (1, most), list, formula]
             )
         )
 
--- Digits in their places --------------------------------------------------------------------------
+-- Digits in fixed rows ----------------------------------------------------------------------------
 
--- | Words without addresses that stand in every frame; signs, commands and marks in the service
+-- | Every frame has the same words, without addresses. Signs, commands and marks are in the service
 -- track.
-inPlaces :: Gen Machine
-inPlaces = do
+withFixedRows :: Gen Machine
+withFixedRows = do
   s <- shared
   tracks <- choose (5, 8)
   spareTracks <- shuffle [5 .. tracks]
@@ -148,7 +148,7 @@ inPlaces = do
   spare <- if marked then elements [Counted, Skipped] else pure Counted
   modulus <- elements [Nothing, Just 10, Just 9, Just 7, Just 2]
   front <- arbitrary
-  ws <- placed s
+  ws <- fixedWords s
   let check = [CheckDigit m | Just m <- [modulus]]
       body = if front then check <> map AWord ws else map AWord ws <> check
   medium' <- mediumOf tracks spare (if marked then "*" else "")
@@ -172,9 +172,9 @@ inPlaces = do
             }
       }
 
--- | The words of a layout of places, in any order.
-placed :: Shared -> Gen [Word']
-placed s = do
+-- | The words of such a layout, in any order.
+fixedWords :: Shared -> Gen [Word']
+fixedWords s = do
   axisDigits <- choose (2, 6)
   centreDigits <- choose (2, 6)
   numberDigits <- choose (0, 3)
@@ -239,8 +239,8 @@ mediumOf tracks spare mark = do
 
 -- Letters -----------------------------------------------------------------------------------------
 
--- | Words with letters of one track more than the digits, an end of frame, and a check digit of any
--- modulus.
+-- | Words with letters, which have one track more than the digits; an end of frame; a check digit
+-- of any modulus.
 lettered :: Gen Machine
 lettered = do
   s <- shared
@@ -250,7 +250,7 @@ lettered = do
   modulus <- choose (2, 10)
   checked <- elements [0, 1, 2 :: Int]
   spare <- elements [Counted, Skipped]
-  -- Where something stands at the beginning of a frame nothing need stand at its end.
+  -- A frame with a mark at its beginning needs none at its end.
   ended <- if spare == Skipped then arbitrary else pure True
   let letterRows = zip letters (map (16 .|.) [0 .. 15])
       (begin, end, addresses) = case letters of
@@ -292,7 +292,7 @@ lettered = do
         a : b : c : d : _ -> Priority a b c d
         _ -> Priority 5 6 1 2
 
--- | Words with addresses, some of which stand only where they are needed.
+-- | Words with addresses. Some of them are present only when needed.
 addressed :: Shared -> [Text] -> Gen Sign -> Gen [Word']
 addressed s addresses signs = do
   sg <- signs
@@ -339,7 +339,7 @@ addressed s addresses signs = do
 
 -- Text --------------------------------------------------------------------------------------------
 
--- | Characters, with parity or without, on tape or as a text.
+-- | Characters with or without parity, on tape or as a text.
 printed :: Gen Machine
 printed = do
   s <- shared
@@ -386,7 +386,7 @@ ascii = Map.fromList [(c, fromIntegral (ord c)) | c <- '\n' : [' ' .. '~']]
 
 -- Frames ------------------------------------------------------------------------------------------
 
--- | Where the cutter stands, and frames that the machine can be told from there.
+-- | A position, and frames that the machine can execute from there.
 frames :: Machine -> Gen (Pulses3, [Frame])
 frames m = do
   n <- choose (0, 12)
@@ -410,7 +410,7 @@ feedOf m = case codes (feeds m) of
   Direct a b -> FeedCode <$> choose (a, b)
   Listed table -> elements (Map.keys table)
 
--- | A frame from where the cutter stands, at one of some feeds.
+-- | A frame from a position, at one of these feeds.
 frame :: Machine -> [FeedCode] -> Pulses3 -> Gen Frame
 frame m feeds' at = do
   f <-
@@ -446,8 +446,8 @@ frame m feeds' at = do
     only = Frame.still <$> ordersOf m 1
     round' = do
       base <- atFeed
-      (turn, d, c) <- arc m at
-      pure base {motion = Round turn, increment = d, centre = c}
+      (sense, d, c) <- arc m at
+      pure base {motion = Round sense, increment = d, centre = c}
     atFeed = do
       code' <- elements feeds'
       slow <-
@@ -468,7 +468,7 @@ frame m feeds' at = do
 parts :: Pulses3 -> [Pulses]
 parts (Pulses3 x y z) = [x, y, z]
 
--- | A move within what the words hold; now and then one axis only, or a small one.
+-- | An increment within the capacity of the words. It may be along one axis only, or small.
 move :: Machine -> Pulses3 -> Gen Pulses3
 move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
   where
@@ -486,7 +486,7 @@ move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
             (1, elements [low, high])
           ]
 
--- | An arc within what the words hold, in one quadrant or anywhere.
+-- | An arc within the capacity of the words, in one quadrant or arbitrary.
 arc :: Machine -> Pulses3 -> Gen (Sense, Pulses3, Pulses2)
 arc m at = case arcs m of
   Arcs {quadrants = True} -> do
@@ -500,11 +500,11 @@ arc m at = case arcs m of
         Pulses2 (Pulses (negate (p * a))) (Pulses (negate (q * b)))
       )
   _ -> do
-    turn <- elements [Clockwise, CounterClockwise]
+    sense <- elements [Clockwise, CounterClockwise]
     full <- arbitrary
     Pulses3 dx dy _ <- move m at
     (i, j) <- (,) <$> choose (negate reach, reach) <*> choose (negate reach, reach)
-    pure (turn, if full then 0 else Pulses3 dx dy 0, Pulses2 (Pulses i) (Pulses j))
+    pure (sense, if full then 0 else Pulses3 dx dy 0, Pulses2 (Pulses i) (Pulses j))
   where
     Pulses reach = centreCapacity m
     sign' = elements [-1, 1]
@@ -518,7 +518,7 @@ orderNames m =
       | w <- wordsOf m
     ]
 
--- | Some commands, each with odds of one in so many.
+-- | Some commands, each with a probability of one in @odds@.
 ordersOf :: Machine -> Int -> Gen [(CommandName, Int)]
 ordersOf m odds = concat <$> traverse some (orderNames m)
   where

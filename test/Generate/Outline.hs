@@ -1,6 +1,5 @@
--- | Random problems for the offset kernel, degenerate ones among them: unions of cells with
--- touching corners and spikes, polygons on a lattice, arcs from next to nothing to nearly a whole
--- turn, noise.
+-- | Random problems for offsets, with degenerate ones: unions of cells with touching corners and
+-- spikes, polygons with integer vertices, arcs from tiny to almost full circles, noise.
 module Generate.Outline
   ( Case (..),
     Family (..),
@@ -29,20 +28,22 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 import Test.QuickCheck
 
--- | What the kernel is asked, with how much further it stays from the segments (in turn, none if
--- empty); the winding number of the free places; whether the outlines are known not to cross
--- themselves.
+-- | An offset problem.
 data Case = Case
   { family :: Family,
     outlines :: [FlatPolyarc],
     side :: Side,
     radius :: Double,
+    -- | additional distances from the segments, repeated in turn; empty means none
     extras :: [Double],
+    -- | the winding number of the free region
     free :: Int,
+    -- | the polyarcs are known not to cross themselves
     sound :: Bool
   }
   deriving stock (Eq, Show)
 
+-- | The kind of a problem.
 data Family = Cells | Lattice | Arcs | Noise
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -52,11 +53,11 @@ type Vertex = (Double, Double, Double)
 loop :: [Vertex] -> FlatPolyarc
 loop = FlatPolyarc.outline Closed
 
--- | Closed outlines: a third on a lattice, a third with arcs, a third noisy.
+-- | Closed polyarcs: a third with integer vertices, a third with arcs, a third noisy.
 problem :: Gen Case
-problem = oneof [onLattice, withArcs, noisy] >>= eitherWay >>= somewhere
+problem = oneof [onIntegers, withArcs, noisy] >>= eitherSense >>= somewhere
 
--- | One open outline: a part of a closed one.
+-- | One open polyarc: a part of a closed one.
 open :: Gen Case
 open = do
   c <- problem
@@ -69,7 +70,7 @@ open = do
         if FlatPolyarc.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
--- | Some segments want more.
+-- | A problem with additional distances from some segments.
 uneven :: Gen Case
 uneven = do
   c <- oneof [problem, open]
@@ -77,9 +78,9 @@ uneven = do
   es <- replicateM k (elements [0, 0, 0.5, 0.1, 1.3])
   pure c {extras = map (* radius c) es}
 
--- | Walked one way or the other.
-eitherWay :: Case -> Gen Case
-eitherWay c =
+-- | A problem in either sense.
+eitherSense :: Case -> Gen Case
+eitherSense c =
   elements
     [ c,
       c {outlines = map FlatPolyarc.reverse (outlines c), side = other (side c), free = -(free c)}
@@ -89,7 +90,7 @@ eitherWay c =
       LeftOf -> RightOf
       RightOf -> LeftOf
 
--- | Scaled, moved and turned; more often not.
+-- | A problem, sometimes scaled, translated and rotated.
 somewhere :: Case -> Gen Case
 somewhere c = do
   size <- frequency [(5, pure 1), (1, elements [0.1, 10, 2, 25.4])]
@@ -107,7 +108,7 @@ somewhere c = do
         extras = map (size *) (extras c)
       }
 
--- | Scaled, turned, moved.
+-- | A polyarc, scaled, rotated and translated.
 turned :: Double -> Double -> (Double, Double) -> FlatPolyarc -> FlatPolyarc
 turned factor angle (mx, my) o =
   FlatPolyarc.outline
@@ -118,15 +119,15 @@ turned factor angle (mx, my) o =
   where
     (co, si) = if angle == 0 then (1, 0) else (cos angle, sin angle)
 
--- * On a lattice
+-- * Integer vertices
 
-onLattice :: Gen Case
-onLattice = do
+onIntegers :: Gen Case
+onIntegers = do
   radius <- elements [0.25, 0.5, 0.5, 1, 1, 1.5, 2, 3, 1 / 3, 0.7]
   inside <- arbitrary
   (family, loops) <-
     frequency
-      [(4, (Cells,) <$> (cells >>= mapM decorated)), (1, (Lattice,) . pure <$> latticePolygon)]
+      [(4, (Cells,) <$> (cells >>= mapM decorated)), (1, (Lattice,) . pure <$> integerPolygon)]
   pure
     Case
       { family,
@@ -153,7 +154,7 @@ cells = do
     _ -> pure (traced joined (Set.fromList (map fst chosen)))
 
 traced :: Bool -> Set (Int, Int) -> [[(Int, Int)]]
-traced joined filled = walks (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.toList edges])
+traced joined filled = loopsOf (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.toList edges])
   where
     edges =
       Set.fromList
@@ -168,12 +169,12 @@ traced joined filled = walks (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.to
         ((x + 1, y + 1), (x, y + 1), (x, y + 1)),
         ((x, y + 1), (x, y), (x - 1, y))
       ]
-    walks :: Map (Int, Int) [(Int, Int)] -> [[(Int, Int)]]
-    walks rest = case Map.toList rest of
+    loopsOf :: Map (Int, Int) [(Int, Int)] -> [[(Int, Int)]]
+    loopsOf rest = case Map.toList rest of
       [] -> []
       (a, bs) : _ -> case bs of
-        [] -> walks (Map.delete a rest)
-        b : _ -> let (vs, rest') = from a b (leave a b rest) in vs : walks rest'
+        [] -> loopsOf (Map.delete a rest)
+        b : _ -> let (vs, rest') = from a b (leave a b rest) in vs : loopsOf rest'
     leave a b = Map.update (\bs -> case filter (/= b) bs of [] -> Nothing; bs' -> Just bs') a
     from a b rest = go [a] a b rest
       where
@@ -181,7 +182,7 @@ traced joined filled = walks (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.to
           [] -> (reverse seen, left)
           [r] -> go (q : seen) q r (leave q r left)
           rs -> let r = best p q rs in go (q : seen) q r (leave q r left)
-    -- Where two cells touch at a corner only, the walk goes over to the other one or stays.
+    -- Where two cells touch only at a corner, the boundary continues on the other cell or stays.
     best (px, py) (qx, qy) rs =
       case [ r
              | r@(rx, ry) <- rs,
@@ -216,7 +217,7 @@ decorated vs = do
           (ox, oy) = (qx - x, qy - y)
           turn = ix * oy - iy * ox
           before = (x - cut * ix, y - cut * iy, b)
-          behind = (x + cut * ox, y + cut * oy, 0)
+          after = (x + cut * ox, y + cut * oy, 0)
           b = case this of
             1 -> signum turn * tan (pi / 8)
             3 -> -(signum turn * tan (pi / 8))
@@ -226,7 +227,7 @@ decorated vs = do
             | turn == 0 && merge = []
             | turn == 0 || this == 0 = [(x, y, 0)]
             | this == 4 = [(x - 0.25 * ix, y - 0.25 * iy, 0), (x, y, 0)]
-            | otherwise = [before, behind]
+            | otherwise = [before, after]
           (mx, my) = (x + 0.5 * ox, y + 0.5 * oy)
           spikes =
             if spike == 0 || this == 4
@@ -234,22 +235,23 @@ decorated vs = do
               else [(mx, my, 0), (mx - spike * oy, my + spike * ox, 0), (mx, my, 0)]
       pure (plain <> [v | twice, v@(_, _, g) <- take 1 (reverse plain), g == 0] <> spikes)
 
--- | A polygon through lattice points that does not touch itself.
-latticePolygon :: Gen [Vertex]
-latticePolygon = do
+-- | A polygon with integer vertices that does not touch itself.
+integerPolygon :: Gen [Vertex]
+integerPolygon = do
   k <- choose (3, 12)
   w <- choose (2, 8)
   points <- replicateM k ((,) <$> choose (0, w) <*> choose (0, w))
   let distinct = Set.toList (Set.fromList points)
   order <- shuffle distinct
   let polygon = untangled 60 [(fromIntegral x, fromIntegral y) | (x, y) <- order :: [(Int, Int)]]
-  if length distinct >= 3 && strictly polygon
+  if length distinct >= 3 && isSimple polygon
     then pure [(x, y, 0) | (x, y) <- counterClockwise polygon]
-    else latticePolygon
+    else integerPolygon
 
--- | Whether edges that are no neighbours keep apart, and neighbours do not fold.
-strictly :: [(Double, Double)] -> Bool
-strictly ps =
+-- | Is the polygon simple? Edges that are not neighbours do not touch, and neighbours do not fold
+-- back.
+isSimple :: [(Double, Double)] -> Bool
+isSimple ps =
   and
     [ apart e f
       | (i, e) : more <- tails (zip [0 :: Int ..] edges),
@@ -285,7 +287,8 @@ counterClockwise ps =
     then ps
     else reverse ps
 
--- | Two edges that cross are exchanged for two that do not, until there are none.
+-- | Exchanges two edges that cross for two that do not, until none cross, in at most @rounds@
+-- rounds.
 untangled :: Int -> [(Double, Double)] -> [(Double, Double)]
 untangled rounds ps
   | rounds <= 0 = ps
@@ -326,7 +329,7 @@ withArcs = do
         sound
       }
 
--- | A star-shaped polygon with some edges bent; it may cross itself.
+-- | A star-shaped polygon with some edges replaced by arcs. It may cross itself.
 bent :: Gen (Bool, [Vertex], [Double])
 bent = do
   ps <- starred
@@ -342,10 +345,10 @@ bent = do
           (1, elements [3, -3])
         ]
 
--- | Every corner rounded, tangent to its sides.
+-- | A polygon with every corner rounded by a tangent arc.
 rounded :: Gen (Bool, [Vertex], [Double])
 rounded = do
-  ps <- oneof [starred, map (\(x, y, _) -> (x, y)) <$> latticePolygon]
+  ps <- oneof [starred, map (\(x, y, _) -> (x, y)) <$> integerPolygon]
   share <- elements [0.3, 0.45, 0.5]
   let triples = zip3 (drop (length ps - 1) ps <> ps) ps (drop 1 ps <> ps)
       made = map (corner share) triples
@@ -365,7 +368,7 @@ rounded = do
     dist (ax, ay) (bx, by) = sqrt ((bx - ax) * (bx - ax) + (by - ay) * (by - ay))
     unit a@(ax, ay) b@(bx, by) = ((bx - ax) / dist a b, (by - ay) / dist a b)
 
--- | A circle of two to five arcs, or of one that is nearly the whole and a short line.
+-- | A circle of two to five arcs, or of one almost full arc and a short line.
 round' :: Gen (Bool, [Vertex], [Double])
 round' = do
   r <- elements [0.5, 1, 2, 3]
@@ -393,7 +396,7 @@ round' = do
           )
     ]
 
--- | A circle with a channel, which may be as narrow as the cutter.
+-- | A circle with a channel that may be as narrow as the cutter.
 keyhole :: Gen (Bool, [Vertex], [Double])
 keyhole = do
   r <- elements [1, 2]
@@ -418,7 +421,7 @@ slot = do
   long <- frequency [(1, choose (0.01, 6)), (1, elements [1, 2, 0.5])]
   pure (True, [(0, -r, 0), (long, -r, 1), (long, r, 0), (0, r, 1)], [r, r * 1.5, 2 * r])
 
--- | Round lobes that touch their neighbours smoothly, on a lattice: hollows and bosses by turns.
+-- | A row of tangent half circles, concave or convex, closed by lines.
 blob :: Gen (Bool, [Vertex], [Double])
 blob = do
   k <- choose (1, 4)
@@ -451,7 +454,7 @@ noisy = do
         sound = True
       }
 
--- | In the order of their angles.
+-- | A star-shaped polygon: vertices in the order of their angles.
 starred :: Gen [(Double, Double)]
 starred = do
   n <- frequency [(3, choose (3, 12)), (1, choose (12, 40))]
@@ -469,9 +472,9 @@ tangled = do
   n <- choose (3, 14)
   ps <- replicateM n ((,) <$> choose (0, 10) <*> choose (0, 10))
   let polygon = untangled 200 ps
-  if strictly polygon then pure (counterClockwise polygon) else tangled
+  if isSimple polygon then pure (counterClockwise polygon) else tangled
 
--- | A convex polygon, some corners rounded.
+-- | A convex polygon.
 convex :: Gen [Vertex]
 convex = do
   n <- choose (3, 12)
@@ -479,7 +482,7 @@ convex = do
   r <- choose (1, 10)
   pure [(r * cos t, r * sin t, 0) | t <- angles]
 
--- | One simple outline in general position.
+-- | A simple polygon in general position.
 simple :: Gen FlatPolyarc
 simple = do
   ps <- oneof [starred, tangled]

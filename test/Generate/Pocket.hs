@@ -1,4 +1,4 @@
--- | Random pockets, and a plain offset of their walls that takes its time.
+-- | Random pockets, and a simple, slow offset of their walls.
 module Generate.Pocket
   ( Pocket (..),
     pocket,
@@ -35,8 +35,8 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Pocket (Loop, PocketRoom (..))
 import Toolpath.Toolpath (Toolpath)
 
--- | Loops with the free space on their left: the outline, and islands; the cutter's radius; what it
--- leaves; the step.
+-- | Loops with the free space on their left (the wall, then the islands), the cutter's radius, the
+-- allowance, the stepover.
 data Pocket = Pocket {loops :: NonEmpty Loop, cutter :: Mm, left :: Mm, step :: Mm}
   deriving stock (Show)
 
@@ -45,7 +45,7 @@ pocket :: Gen Pocket
 pocket = do
   c <- Generate.contour <$> Generate.closedCase
   let outline = Polyarc.segments (if Polyarc.signedArea c > 0 then c else Polyarc.reverse c)
-  islands <- foldl (\before _ -> before >>= island outline) (pure []) [1 :: Int .. 3]
+  islands <- foldl (\earlier _ -> earlier >>= island outline) (pure []) [1 :: Int .. 3]
   sized' (outline :| islands)
 
 -- | A rectangle without islands, a few passes wide.
@@ -55,6 +55,7 @@ rectangle = do
   let ps = [Vec.point 0 0, Vec.point w 0, Vec.point w h, Vec.point 0 h]
   sized' (NonEmpty.fromList (zipWith Straight ps (drop 1 ps <> take 1 ps)) :| [])
 
+-- | A pocket with these loops, and a random cutter.
 sized' :: NonEmpty Loop -> Gen Pocket
 sized' loops = do
   r <- choose (2, 9)
@@ -62,7 +63,7 @@ sized' loops = do
   left <- oneof [pure 0, choose (0, 1)]
   pure Pocket {loops, cutter = Mm r, left = Mm left, step = Mm (r * s)}
 
--- | One island more, if it has room.
+-- | Adds an island, if it has room.
 island :: Loop -> [Loop] -> Gen [Loop]
 island outline before = do
   p <- Vec.point <$> choose (l, right) <*> choose (bottom, top)
@@ -97,8 +98,8 @@ island outline before = do
   where
     BoundingBox l bottom right top = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment outline)
 
--- | The pocket as a statement asks it, with the spindle clockwise, 1.5 mm deep; more is left first,
--- as much as is said.
+-- | The pocketing of a pocket 1.5 mm deep, with the spindle clockwise. The list contains the
+-- additional allowances of earlier passes.
 pocketing :: [Mm] -> Pocket -> Pocketing
 pocketing before p =
   Pocketing
@@ -138,7 +139,7 @@ pocketing before p =
         (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop)
         []
 
--- | The path of a pocket, if the cutter has room in it.
+-- | The toolpath of a pocket, if the cutter has room in it.
 laid :: Pocketing -> Maybe Toolpath
 laid p =
   case FromPart.lay
@@ -152,6 +153,7 @@ laid p =
 here :: a -> Located a
 here = Located (Region 0 0)
 
+-- | The room of the cutter's centre, with the simple offset.
 roomOf :: Pocket -> PocketRoom
 roomOf p =
   PocketRoom
@@ -163,10 +165,11 @@ roomOf p =
       turned = False
     }
 
--- | The loops at a distance to the left of some: all segments moved and all corners rounded, cut
--- where they meet one another; what is nowhere too near to the walls, joined again.
+-- | The offset loops at a distance on the left: moves all segments, rounds all corners, divides
+-- them where they meet, keeps the sections that are nowhere too near to the walls, and joins them.
 insetOf :: [Loop] -> Mm -> [Loop]
-insetOf walls d@(Mm d') = joined [piece | (i, s) <- numbered, piece <- cutUp i s, admissible piece]
+insetOf walls d@(Mm d') =
+  joined [section | (i, s) <- numbered, section <- divided i s, isAdmissible section]
   where
     numbered = zip [0 :: Int ..] (filter (\s -> Segment.length s > Mm 1e-9) (concatMap raw walls))
     raw loop =
@@ -197,7 +200,7 @@ insetOf walls d@(Mm d') = joined [piece | (i, s) <- numbered, piece <- cutUp i s
               }
             | t < -1e-9
           ]
-    cutUp i s =
+    divided i s =
       let marks =
             sort
               ( 0 :
@@ -215,16 +218,16 @@ insetOf walls d@(Mm d') = joined [piece | (i, s) <- numbered, piece <- cutUp i s
             | (a, b) <- zip marks (drop 1 marks),
               b - a > 1e-9
           ]
-    admissible piece =
-      Segment.length piece > Mm 1e-7
+    isAdmissible section =
+      Segment.length section > Mm 1e-7
         && all
-          (\w -> Distance.toPoint (Segment.at 0.5 piece) w > Mm (d' - 1e-7))
+          (\w -> Distance.toPoint (Segment.at 0.5 section) w > Mm (d' - 1e-7))
           (concatMap NonEmpty.toList walls)
         && d > Mm 0
 
--- | Pieces joined where they end and begin.
+-- | Joins segments whose ends coincide to loops.
 joined :: [Segment] -> [Loop]
-joined pieces = case pieces of
+joined segments = case segments of
   [] -> []
   first : rest -> go (first :| []) rest
   where
@@ -240,7 +243,7 @@ joined pieces = case pieces of
                   (zip [0 ..] [Vec.distance (end (NonEmpty.head chain)) (start s) | s <- some])
               (before, from) = splitAt k some
            in case from of
-                s : behind
+                s : others
                   | Vec.distance (end (NonEmpty.head chain)) (start s) < Mm 1e-5 ->
-                    go (NonEmpty.cons s chain) (before <> behind)
+                    go (NonEmpty.cons s chain) (before <> others)
                 _ -> joined rest

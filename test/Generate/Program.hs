@@ -1,4 +1,4 @@
--- | Random programs as trees, and random ways to write one down.
+-- | Random programs as syntax trees, and random layouts of their texts.
 module Generate.Program
   ( program,
     respaced,
@@ -24,7 +24,7 @@ import Surface.Syntax hiding (statements)
 import Surface.Token (Token (..), Token_ (..), columnUnits)
 import Test.QuickCheck
 
--- | A program that the parser can give: all of it at one place, and nothing broken in it.
+-- | A program that the parser can give, without errors. All its regions are equal.
 program :: Gen Program
 program =
   sized $ \n -> (`Program` []) <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
@@ -47,7 +47,7 @@ maybe' one = oneof [pure Nothing, Just <$> one]
 every :: (Enum a, Bounded a) => Gen a
 every = elements [minBound .. maxBound]
 
--- | Names, those included that are words of the language in other places.
+-- | A name. It may be a word of the language that is not reserved.
 name :: Gen Name
 name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
   where
@@ -273,23 +273,24 @@ expr n =
     argument =
       frequency [(3, Given <$> less), (1, Chosen <$> at every <*> less), (1, Ranked <$> at every)]
 
--- Ways to write
+-- Layouts
 
--- | The text of a program with comments, blank lines, indentation, line breaks and ends of lines
--- put in at random, as far as they mean nothing.
+-- | The text of a program with random comments, blank lines, indentation and line breaks, where
+-- they have no meaning.
 respaced :: Text -> Gen Text
 respaced text = do
   end' <- elements ["\n", "\r\n", "\r"]
   mark <- elements ["", "\xFEFF"]
   before <- Text.concat <$> ownLines
-  pieces <- traverse piece (zip3 (inTables tokens) tokens (map Just (drop 1 tokens) <> [Nothing]))
-  pure (mark <> Text.replace "\n" end' (before <> Text.concat pieces))
+  spacedTokens <-
+    traverse spaced (zip3 (inTables tokens) tokens (map Just (drop 1 tokens) <> [Nothing]))
+  pure (mark <> Text.replace "\n" end' (before <> Text.concat spacedTokens))
   where
     tokens = fst (Lexer.tokens 0 text)
-    piece (inTable, t, next) =
+    spaced (inTable, t, next) =
       (written text t <>) <$> maybe newLines (if inTable then inLine t else between t) next
 
--- | Whether each token stands in the braces of a table, where lines mean something.
+-- | For each token: is it in the braces of a table, where line breaks have a meaning?
 inTables :: [Token] -> [Bool]
 inTables = go False
   where
@@ -301,13 +302,13 @@ inTables = go False
       _ : rest -> inside : go inside rest
       [] -> []
 
--- | What may stand between two tokens of a table.
+-- | Random space between two tokens of a table.
 inLine :: Token -> Token -> Gen Text
 inLine _ u
   | newLine u = (<> "  ") <$> newLines
   | otherwise = pure (if attached u then "" else " ")
 
--- | What may stand between two tokens.
+-- | Random space between two tokens.
 between :: Token -> Token -> Gen Text
 between t u
   | newLine u && begins u = (<>) <$> newLines <*> indentation
@@ -322,12 +323,12 @@ between t u
   where
     indentation = elements ["", "  ", "\t", "        "]
 
--- | The end of a line, and more lines of blanks and comments.
+-- | The end of a line, and lines with blanks and comments.
 newLines :: Gen Text
 newLines = do
-  behind <- frequency [(3, pure ""), (2, elements ["  ", " -- behind", " --", "\t-- ещё один  "])]
+  ending <- frequency [(3, pure ""), (2, elements ["  ", " -- behind", " --", "\t-- ещё один  "])]
   more <- frequency [(3, pure []), (1, ownLines)]
-  pure (behind <> "\n" <> Text.concat more)
+  pure (ending <> "\n" <> Text.concat more)
 
 ownLines :: Gen [Text]
 ownLines = some' 4 (elements ["\n", "   \n", "-- own line\n", "    -- own, set in\n", "--x\n"])
@@ -335,13 +336,13 @@ ownLines = some' 4 (elements ["\n", "   \n", "-- own line\n", "    -- own, set i
 written :: Text -> Token -> Text
 written text t = Text.take (end (place t) - start (place t)) (Text.drop (start (place t)) text)
 
--- | Whether a token begins what has to begin a line.
+-- | Must this token begin a line?
 begins :: Token -> Bool
 begins t = case shape t of
   Word word -> word `elem` Keyword.statements <> Keyword.softStatements <> Keyword.blocks
   _ -> False
 
--- | Whether two tokens have to stay as they are: on one line, and touching or not.
+-- | Must the space between two tokens stay as it is?
 glued :: Token -> Token -> Bool
 glued t u = case (shape t, shape u) of
   (Word _, Symbol "(") -> True
@@ -351,7 +352,7 @@ glued t u = case (shape t, shape u) of
   (_, Symbol "{") -> True
   _ -> False
 
--- What a program is made of
+-- Constructors
 
 -- | The names of the constructors in a program.
 constructors :: Program -> Set Text
@@ -364,7 +365,7 @@ constructors =
     . show
   where
     capital word = Text.any (`elem` ['A' .. 'Z']) (Text.take 1 word)
-    -- What stands in quotation marks is no constructor.
+    -- Words between quotation marks are not constructors.
     unquoted text = Text.concat (evens (Text.splitOn "\"" text))
     evens ts = case ts of
       a : _ : rest -> a : evens rest

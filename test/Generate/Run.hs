@@ -1,5 +1,5 @@
--- | Random chains of arcs that stand for one curve: open ones that wind, turn back and pass through
--- vertical tangents, closed ones with waves, and lines and arcs cut into many.
+-- | Random chains of arcs that represent one curve: open ones with reversals and vertical tangents,
+-- closed ones with waves, and divided lines and arcs.
 module Generate.Run
   ( open,
     bent,
@@ -34,8 +34,7 @@ import Test.QuickCheck hiding (elements)
 import Test.QuickCheck qualified as QuickCheck
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
--- | Arcs and lines, few or many, each setting out as the one before arrives; from tight to nearly
--- straight.
+-- | A smooth chain of few or many arcs and lines, from tight to nearly straight.
 open :: Gen [Segment]
 open = do
   count <- oneof [choose (1, 6), choose (20, 120)]
@@ -48,14 +47,14 @@ open = do
       | count <= 0 = pure []
       | otherwise = do
         l <- choose (0.1 * reach, reach)
-        -- The curvature jumps now and then, and else changes a little.
+        -- The curvature sometimes jumps, otherwise it changes a little.
         bend' <-
           frequency [(1, pure 0), (2, choose (-0.3, 0.3)), (6, (bend +) <$> choose (-0.02, 0.02))]
         let turned = max (-6) (min 6 (bend' * l))
             s = arcFrom p heading turned l
         (s :) <$> go (count - 1) reach (Segment.end s) (heading + turned) bend'
 
--- | Arcs and lines of such lengths and curvatures, each setting out as the one before arrives.
+-- | A smooth chain of arcs and lines with these lengths in mm and curvatures in 1/mm.
 bent :: [(Double, Double)] -> [Segment]
 bent = go (Vec.point 0 0) 0
   where
@@ -66,7 +65,7 @@ bent = go (Vec.point 0 0) 0
               arcFrom p heading (bend * l) l
          in s : go (Segment.end s) (heading + bend * l) more
 
--- | An arc or a line from a point in a direction that turns by an angle on a length.
+-- | An arc or a line from a point in a direction, with this sweep and length.
 arcFrom :: Point -> Double -> Double -> Double -> Segment
 arcFrom p heading turned l
   | abs turned < 1e-9 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
@@ -80,8 +79,8 @@ arcFrom p heading turned l
   where
     centre = Vec.shift (Vec.scale (l / turned) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
 
--- | A closed curve without corners, as biarcs: a circle with waves. Now and then a small one of
--- arcs that are no longer than a tolerance.
+-- | A closed smooth curve as biarcs: a circle with waves. Some are small, with arcs no longer than
+-- a tolerance.
 closed :: Gen [Segment]
 closed = do
   (r, count) <-
@@ -92,14 +91,15 @@ closed = do
   waves <- choose (2, 5)
   deep <- choose (0, 0.8)
   turned <- choose (-pi, pi)
-  way <- QuickCheck.elements [1, -1]
-  pure (oval r waves (deep / fromIntegral (waves * waves)) turned way count)
+  sense <- QuickCheck.elements [1, -1]
+  pure (oval r waves (deep / fromIntegral (waves * waves)) turned sense count)
 
--- | The curve @ρ = r·(1 + d·cos kφ)@ as biarcs between so many points, from an angle, in a sense.
+-- | The curve @ρ = r·(1 + deep·cos (waves·φ))@ as biarcs between @count@ points, from the angle
+-- @from@, counter-clockwise for the sense 1, clockwise for -1.
 oval :: Double -> Int -> Double -> Double -> Double -> Int -> [Segment]
-oval r waves deep from way count =
+oval r waves deep from sense count =
   biarcs
-    [ at (from + way * 2 * pi * fromIntegral k / fromIntegral count)
+    [ at (from + sense * 2 * pi * fromIntegral k / fromIntegral count)
       | k <- map (`mod` count) [0 .. count]
     ]
   where
@@ -109,10 +109,10 @@ oval r waves deep from way count =
           rho' = -(r * deep * w * sin (w * phi))
           out = Vec.vec (cos phi) (sin phi)
        in ( Vec.shift (Vec.scale rho out) (Vec.point 3 (-2)),
-            Vec.scale way (Vec.unit (Vec.add (Vec.scale rho' out) (Vec.scale rho (Vec.left out))))
+            Vec.scale sense (Vec.unit (Vec.add (Vec.scale rho' out) (Vec.scale rho (Vec.left out))))
           )
 
--- | The wave @y = a·sin (2πx/l)@ from 0 to a place, as biarcs between so many points.
+-- | The wave @y = a·sin (2πx/l)@ from 0 to @far@, as biarcs between @count + 1@ points.
 wave :: Double -> Double -> Double -> Int -> [Segment]
 wave a l far count = biarcs [at (far * fromIntegral k / fromIntegral count) | k <- [0 .. count]]
   where
@@ -121,9 +121,9 @@ wave a l far count = biarcs [at (far * fromIntegral k / fromIntegral count) | k 
             2 * pi * x / l
        in (Vec.point x (a * sin p), Vec.unit (Vec.vec 1 (2 * pi * a / l * cos p)))
 
--- | Two arcs between each point and the next, with the directions given there.
+-- | Biarcs through points with given directions.
 biarcs :: [(Point, Vec)] -> [Segment]
-biarcs places = concat (zipWith pair places (drop 1 places))
+biarcs points = concat (zipWith pair points (drop 1 points))
   where
     pair (p, t) (q, u) =
       let v = Vec.to p q
@@ -136,7 +136,7 @@ biarcs places = concat (zipWith pair places (drop 1 places))
           m = Vec.between 0.5 (Vec.shift (Vec.scale d t) p) (Vec.shift (Vec.scale (-d) u) q)
        in [touching p t m, Segment.reverse (touching q (Vec.negate u) m)]
 
--- | From a point in a direction to another point.
+-- | The arc or line from a point in a direction to another point.
 touching :: Point -> Vec -> Point -> Segment
 touching p t q
   | abs turned < 1e-9 = Straight p q
@@ -152,19 +152,19 @@ touching p t q
     n = Vec.left t
     turned = let Rad half = Vec.turn t v in 2 * half
 
--- | A segment cut into so many of equal length.
+-- | A segment divided into @n@ parts of equal length.
 parts :: Int -> Segment -> [Segment]
 parts n s
   | n <= 1 = [s]
   | otherwise = let (a, b) = Segment.cutAt (1 / fromIntegral n) s in a : parts (n - 1) b
 
--- | Chains as the elements of a contour: of each the arcs behind the first continue.
+-- | Chains as the elements of a contour. All arcs of a chain but the first continue its curve.
 elements :: [[Segment]] -> [Element]
 elements =
   concatMap
     (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing) [0 :: Int ..])
 
--- | A chain as the moves of one run at a height.
+-- | A chain as the moves of one curve, at the height 0.
 run :: [Segment] -> NonEmpty Move
 run =
   NonEmpty.fromList
@@ -172,9 +172,8 @@ run =
       (\k s -> Move s (Manner (Mm 0, Mm 0) Part.Rapid False) (Region 0 0) (k > 0))
       [0 :: Int ..]
 
--- | A closed curve with a cutter that fits on one of its sides, and that is left a way to go: of
--- one whose path is hardly more than a point, shorter than the way of braking (1.6 mm) or narrower
--- than a tolerance, the laws do not hold.
+-- | A closed curve with a cutter that fits on one of its sides. Toolpaths shorter than the braking
+-- distance (1.6 mm) or narrower than a tolerance are excluded: the laws do not hold for them.
 curveCase :: Gen Case
 curveCase = do
   chain <- closed
@@ -182,16 +181,15 @@ curveCase = do
   r <- choose (0.5, 6)
   let contour = Polyarc Closed (NonEmpty.fromList chain)
   case Equidistant.equidistant side (Mm r) contour of
-    Right found | wide found -> pure Case {contour, side, radius = Mm r, pieces = found}
+    Right found | isWide found -> pure Case {contour, side, radius = Mm r, pieces = found}
     _ -> curveCase
   where
-    -- The curves are round enough that one that is as wide as this one way is about as wide in the
-    -- other.
-    wide found =
+    -- The curves are so round that their width is about the same in every direction.
+    isWide found =
       let p :| more = fmap (Segment.start . Equidistant.segment) found
        in any (\q -> Vec.distance p q >= Mm 2) more
 
--- | The milling of a case whose contour is one curve.
+-- | The milling job of a case whose contour is one curve.
 jobAlong :: Case -> Milling
 jobAlong c =
   job

@@ -1,4 +1,4 @@
--- | Random input sheets, whatever curves they may ask for.
+-- | Random input sheets, with arbitrary curves.
 module Generate.Sheet
   ( sheet,
     cut,
@@ -12,13 +12,13 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Sheet.Sheet
 import Test.QuickCheck hiding (tolerance)
 
--- | A sheet as reading one gives it, but all of it at one place.
+-- | An input sheet that the reader can give. All its regions are equal.
 sheet :: Gen Sheet
 sheet = do
   general <- generalData
   approach <- waypoints (0, 3)
-  onwards <- choose (0, 3) >>= \k -> vectorOf k (waypoints (0, 2))
-  before <- traverse array onwards
+  linking <- choose (0, 3) >>= \k -> vectorOf k (waypoints (0, 2))
+  before <- traverse array linking
   final <- waypoints (0, 2) >>= array . stopped
   pure $ case before <> [final] of
     [] -> Sheet {general, approach, first = final, others = []}
@@ -26,8 +26,8 @@ sheet = do
   where
     stopped ps = NonEmpty.fromList (NonEmpty.init ps <> [(NonEmpty.last ps) {feed = here 0}])
 
--- | One piece, far from its neighbours, that can be cut: an array with a cutter on the pieces
--- themselves, whose curves are nearly straight and whose distances are small beside them.
+-- | An input sheet that can be milled: the cutter's centre is on the pieces, which are far from one
+-- another and nearly straight, with distances small in comparison.
 cut :: Gen Sheet
 cut = do
   s <- sheet
@@ -101,7 +101,7 @@ gentle strip = do
 here :: a -> Located a
 here = Located (Region 0 0)
 
--- | A number that a sheet can hold.
+-- | A number of an input sheet.
 number :: Gen Double
 number =
   oneof
@@ -137,7 +137,7 @@ generalData = do
   where
     whole = here . fromIntegral <$> choose (0, 999999999 :: Int)
 
--- | Points, the last of which has a feed for pieces.
+-- | Waypoints. The last one has a feed for pieces, so it is not rapid.
 waypoints :: (Int, Int) -> Gen (NonEmpty Waypoint)
 waypoints range = do
   before <-
@@ -185,7 +185,7 @@ piece = do
         <*> if steep
           then Just <$> (Surface <$> coordinate <*> coordinate)
           else pure Nothing
-    -- The first distance before the points has the side's sign.
+    -- The sign of the first distance before the points is that of the side.
     normal list = case break isGiven list of
       (before, Growing a b : rest) -> before <> (Growing (fmap abs a) b : rest)
       (before, Constant a : rest) -> before <> (Constant (fmap abs a) : rest)

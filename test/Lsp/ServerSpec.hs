@@ -3,8 +3,6 @@ module Lsp.ServerSpec (spec) where
 
 import Base.Crash (bug)
 import Base.Region qualified as Region
-import Cli.Subcommand qualified as Cli
-import Compile qualified
 import Control.Concurrent (forkIO, newEmptyMVar, putMVar, takeMVar)
 import Control.Exception (bracket)
 import Control.Monad (forM_, void)
@@ -23,7 +21,9 @@ import Lsp.Session (Ending (..))
 import Lsp.Talk (about, addressOf, field)
 import Lsp.Transport (Received (..))
 import Lsp.Transport qualified as Transport
+import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot (Check)
+import Query.Snapshot qualified as Snapshot
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
 import System.IO (Handle, hClose, hFlush, hSetBinaryMode)
@@ -103,9 +103,9 @@ spec = do
   it "a failure refuses its own request, shows itself, and the server lives on" $
     inProcess
       ( \loaded ->
-          if "нет" `Text.isInfixOf` Region.text (Compile.source loaded)
+          if "нет" `Text.isInfixOf` Region.text (LoadedProgram.source loaded)
             then bug "a fault\nof ours"
-            else Cli.checked [] loaded
+            else Snapshot.checkWith [] loaded
       )
       $ \to from ->
         do
@@ -251,7 +251,12 @@ inProcess check act = within $ do
   _ <-
     forkIO
       ( Server.serve
-          Host {input, output, load = \_ path text -> pure (Compile.alone path text), check}
+          Host
+            { input,
+              output,
+              load = \_ path text -> pure (LoadedProgram.fromText path text),
+              check
+            }
           >>= putMVar done
       )
   act to from

@@ -3,8 +3,6 @@ module Lsp.SessionSpec (spec) where
 
 import Base.Region qualified as Region
 import Base.Result qualified as Result
-import Cli.Subcommand qualified as Cli
-import Compile qualified
 import Control.Monad (forM_)
 import Data.Aeson (Value (..), object, (.=))
 import Data.Either (lefts)
@@ -15,6 +13,8 @@ import Files (readText, walk)
 import Lsp.Message (ErrorCode (..), Failure (..), Incoming (..), Outgoing (..))
 import Lsp.Session (Effect (..), Ending (..))
 import Lsp.Talk
+import Project.LoadedProgram qualified as LoadedProgram
+import Query.Snapshot qualified as Snapshot
 import Report.Report (ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import System.FilePath (takeExtension)
@@ -244,7 +244,7 @@ reported text =
       let ReportCode c = Report.code r
   ]
   where
-    result = Cli.checked [] (Compile.alone "/tmp/a.part" text)
+    result = Snapshot.checkWith [] (LoadedProgram.fromText "/tmp/a.part" text)
     ends end r = case Report.place r of
       InSource region -> placeIn text (end region)
       InTape _ -> (0, 0)

@@ -24,8 +24,6 @@ module Lsp.Talk
   )
 where
 
-import Cli.Subcommand qualified as Cli
-import Compile qualified
 import Data.Aeson (Value (..), object, (.=))
 import Data.Aeson.Key (Key)
 import Data.Aeson.KeyMap qualified as KeyMap
@@ -38,6 +36,7 @@ import Data.Text.Encoding qualified as Encoding
 import Lsp.Message (Failure, Incoming (..), Outgoing (..))
 import Lsp.Session (Awaited (..), Effect (..), Event (..), Milliseconds (..), Session)
 import Lsp.Session qualified as Session
+import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
 import Surface.Import qualified as Import
 
@@ -76,8 +75,8 @@ happen event (Talk session now sent) = Talk session' now (reverse effects <> sen
       Session.supply
         path
         ( Snapshot.take
-            (Cli.checked [])
-            (runIdentity (Compile.load (Import.byName (opened s)) (Text.unpack path) text))
+            (Snapshot.checkWith [])
+            (runIdentity (LoadedProgram.load (Import.byName (opened s)) (Text.unpack path) text))
         )
         s
     -- What is imported is what is open.

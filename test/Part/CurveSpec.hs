@@ -24,6 +24,7 @@ import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report (ReportCode (..))
 import Report.Report qualified as Report
 import Test.Hspec hiding (after, before)
@@ -552,7 +553,7 @@ number x = Text.pack (if n < 0 then '-' : digits (-n) else digits n)
 
 -- | The elements of all contours of a program without mistakes.
 elementsOf :: Text -> Maybe [Segment]
-elementsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
+elementsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
   r
     | null (Result.errors r) ->
       concatMap (map Part.segment . NonEmpty.toList . Part.elements) . Part.contours . part
@@ -566,7 +567,7 @@ soundly elements' holds = maybe (counterexample "the program has mistakes" False
 -- | The cuts of a program's millings, if there are no mistakes. Ways in that cut are no concern
 -- here.
 cutsOf :: Text -> Maybe [Segment]
-cutsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
+cutsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
   r
     | all ((== ReportCode "E0405") . Report.code) (Result.errors r) ->
       concatMap cuts . Toolpath.blocks . path <$> Result.output r

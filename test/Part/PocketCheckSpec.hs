@@ -20,6 +20,7 @@ import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Operation (..), Pocketing)
 import Part.Part qualified as Part
 import Part.Transformation qualified as Transformation
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Test.Hspec.QuickCheck (prop)
 import Test.QuickCheck hiding (Result (..))
@@ -139,10 +140,11 @@ pocketOf statements = case [p | Pocket (Located _ p) <- operations statements] o
 
 operations :: [Text] -> [Operation]
 operations statements =
-  case Compile.evaluated [] (Compile.alone "pocket.part" (Text.unlines (start <> statements))) of
+  case Compile.evaluate [] (LoadedProgram.fromText "pocket.part" text) of
     Result {errors = [], output = Just (_, part)} -> Part.operations part
     _ -> []
   where
+    text = Text.unlines (start <> statements)
     start =
       [ "part tray",
         "tool mill(diameter 8 mm)",

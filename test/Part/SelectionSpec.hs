@@ -8,6 +8,7 @@ import Compile qualified
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report (ReportCode)
 import Report.Report qualified as Report
 import Test.Hspec
@@ -193,6 +194,7 @@ same kind n = Text.unlines $ case kind of
     image = "image" <> number n <> "(answer0)"
 
 codesOf :: [Text] -> [ReportCode]
-codesOf parts = sort (map Report.code (Result.errors (Compile.analyse [] (Compile.alone "p" text))))
+codesOf parts = sort (map Report.code (Result.errors (Compile.analyse [] loaded)))
   where
+    loaded = LoadedProgram.fromText "p" text
     text = Text.unlines ("part p" : parts)

@@ -23,6 +23,7 @@ import Part.ContourElement qualified as ContourElement
 import Part.Part (Milling, Operation (..))
 import Part.Part qualified as Part
 import Part.Transformation qualified as Transformation
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec hiding (after, before)
 import Test.QuickCheck hiding (total)
 import Toolpath.FromPart qualified as FromPart
@@ -297,7 +298,7 @@ program text = "part p\n" <> text
 
 -- | The elements of all contours of a program.
 elementsOf :: Text -> Maybe [Segment]
-elementsOf text = case Compile.analyse [] (Compile.alone "p.part" text) of
+elementsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
   r
     | null (Result.errors r) ->
       concatMap (map Part.segment . NonEmpty.toList . Part.elements) . Part.contours . Compile.part

@@ -19,7 +19,7 @@ spec = do
     Formatting.change text text === Nothing
   it "only the lines that differ change" $
     Formatting.change "a\nb  \nc\n" "a\nb\nc\n"
-      `shouldBe` Just Change {place = Region 2 6, put = "b\n"}
+      `shouldBe` Just Change {region = Region 2 6, newText = "b\n"}
 
 applied :: Text -> Change -> Text
 applied old (Change (Region from to) new) = Text.take from old <> new <> Text.drop to old

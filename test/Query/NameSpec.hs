@@ -2,10 +2,9 @@
 module Query.NameSpec (spec) where
 
 import Base.Region (Region (..))
-import Cli.Subcommand qualified as Cli
-import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.LoadedProgram qualified as LoadedProgram
 import Query.Name (Hover (..), Target (..))
 import Query.Name qualified as Name
 import Query.Snapshot (Snapshot)
@@ -56,7 +55,7 @@ header =
   \0)\n"
 
 look :: Text -> Snapshot
-look = Snapshot.take (Cli.checked []) . Compile.alone "a.part"
+look = Snapshot.take (Snapshot.checkWith []) . LoadedProgram.fromText "a.part"
 
 offsetOf :: Text -> Text -> Int
 offsetOf word = Text.length . fst . Text.breakOn word

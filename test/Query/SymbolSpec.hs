@@ -2,10 +2,9 @@
 module Query.SymbolSpec (spec) where
 
 import Base.Region (Region (..))
-import Cli.Subcommand qualified as Cli
-import Compile qualified
 import Data.Text (Text)
 import Files (readText)
+import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (DocumentSymbol (..), SymbolKind (..))
 import Query.Symbol qualified as Symbol
@@ -31,4 +30,5 @@ spec = do
       `shouldBe` []
 
 outline :: Text -> [DocumentSymbol]
-outline text = Symbol.symbols (Snapshot.take (Cli.checked []) (Compile.alone "a.part" text))
+outline text =
+  Symbol.symbols (Snapshot.take (Snapshot.checkWith []) (LoadedProgram.fromText "a.part" text))

@@ -15,6 +15,7 @@ import Data.Text qualified as Text
 import Files (expected, readText, walk)
 import Generate.Sheet qualified as Generate
 import Machines (lkp01f)
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Human qualified as Human
 import Report.Report (Report, ReportCode (..))
 import Report.Report qualified as Report
@@ -130,13 +131,14 @@ spec = do
     files <- runIO (sort . filter ((== ".part") . takeExtension) <$> listDirectory "test/unfit")
     forM_ files $ \file -> it file $ do
       text <- readText ("test/unfit" </> file)
-      let loaded = Compile.alone (Text.pack file) text
+      let loaded = LoadedProgram.fromText (Text.pack file) text
           outcome =
-            Compile.evaluated [] loaded
+            Compile.evaluate [] loaded
               `Result.thenSound` ( Result.mapErrors id Unsupported.toReport
                                      . uncurry FromPart.fromPart
                                  )
-          rendered r = Human.render Human.Plain (Text.pack file) (Compile.source loaded) r <> "\n"
+          source = LoadedProgram.source loaded
+          rendered r = Human.render Human.Plain (Text.pack file) source r <> "\n"
       errors outcome `shouldNotBe` []
       expected
         (("test/unfit" </> file) -<.> "report")
@@ -155,7 +157,7 @@ exported :: Text -> Text -> ([ReportCode], Maybe Text)
 exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.settled outcome)
   where
     outcome =
-      Compile.evaluated [] (Compile.alone path' text)
+      Compile.evaluate [] (LoadedProgram.fromText path' text)
         `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart) ::
         Result Report Report Sheet
 
@@ -176,8 +178,8 @@ judged path' text = case Result.settled outcome of
       <$ evaluate (sum (map (Text.length . shown) (errors outcome)))
   Just p -> Right (tape p) <$ evaluate (let Tape bytes = tape p in ByteString.length bytes)
   where
-    loaded = Compile.alone path' text
+    loaded = LoadedProgram.fromText path' text
     outcome =
       Compile.analyse [] loaded `Result.thenSound` \a ->
         Compile.punch lkp01f (path a) :: Result Report Report Punched
-    shown = Human.render Human.Plain path' (Compile.source loaded)
+    shown = Human.render Human.Plain path' (LoadedProgram.source loaded)

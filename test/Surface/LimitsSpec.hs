@@ -7,6 +7,7 @@ import Compile qualified
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report (Report, ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Keyword qualified as Keyword
@@ -65,7 +66,7 @@ spec = do
     nested (name, text) = it name $ codes text `shouldBe` ["E0110"]
 
 reports :: Text -> [Report]
-reports text = Result.errors (Compile.analyse [] (Compile.alone "p.part" text))
+reports text = Result.errors (Compile.analyse [] (LoadedProgram.fromText "p.part" text))
 
 codes :: Text -> [Text]
 codes text = [c | ReportCode c <- map Report.code (reports text)]

@@ -9,6 +9,8 @@ import Data.Text (Text)
 import Files (readText)
 import Frame.Frame (Frame (..))
 import Machines (kontur3p)
+import Project.LoadedProgram qualified as LoadedProgram
+import Project.Target qualified as Target
 import Tape.Punch qualified as Punch
 import Test.Hspec
 
@@ -39,5 +41,5 @@ spec =
 punchedFrom :: Text -> IO Punched
 punchedFrom text =
   maybe (fail "the program has errors") pure . Result.settled $
-    Compile.analyse [] (Compile.alone "lathe.part" text) `Result.thenSound` \a ->
-      Compile.punch (Compile.onMachine (path a) kontur3p) (path a)
+    Compile.analyse [] (LoadedProgram.fromText "lathe.part" text) `Result.thenSound` \a ->
+      Compile.punch (Target.setUpFor (path a) kontur3p) (path a)

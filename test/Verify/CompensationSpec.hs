@@ -26,6 +26,7 @@ import Machine.Machine (CommandName (..))
 import Machines (iso6983)
 import Part.Part (Milling)
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Test.QuickCheck hiding (Fixed)
 import Toolpath.Toolpath (Toolpath)
@@ -200,7 +201,7 @@ compiled :: String -> IO (Toolpath, FrameProgram)
 compiled name = do
   text <- readText ("test/programs/mill/good/compensation-" <> name <> ".part") :: IO Text
   case Result.settled
-    ( Compile.analyse [] (Compile.alone "p.part" text) `Result.thenSound` \a ->
+    ( Compile.analyse [] (LoadedProgram.fromText "p.part" text) `Result.thenSound` \a ->
         (,) (path a) . Compile.program <$> Compile.punch iso6983 (path a)
     ) of
     Just both -> pure both

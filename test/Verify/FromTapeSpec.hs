@@ -19,6 +19,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machines qualified
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Test.QuickCheck
 import Toolpath.FromPart qualified as Toolpath
@@ -75,7 +76,7 @@ spec = do
     \itself (catches a way taken for all of the circle on which it lies)"
     $ case Compile.analyse
       []
-      ( Compile.alone
+      ( LoadedProgram.fromText
           "p.part"
           "part p\ntool mill(diameter 10 mm)\nfeed 60\ntolerance 0.02\nfrom (30, 0)\ncontour c \
           \closed { ccw circle((0, 0), 20) }\nmill c on { }\n"
@@ -227,12 +228,13 @@ spec = do
               (path analysis)
               own
               (map Frame.frame (Frame.planned tapeProgram))
-    punched text = case Compile.analyse [] (Compile.alone "p.part" (deepHead <> text <> "\n")) of
+    punched text = case analysed (deepHead <> text <> "\n") of
       r
         | Just a <- Result.settled r,
           Just p <- Result.output (FromToolpath.quantise lkp01f (path a)) ->
           (a, p)
         | otherwise -> error (show (Result.errors r))
+    analysed = Compile.analyse [] . LoadedProgram.fromText "p.part"
     deepHead =
       "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\n\
       \from (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"

@@ -28,6 +28,7 @@ import Machine.Machine (Machine)
 import Machines qualified
 import Part.Part (Pocketing)
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
 import Test.QuickCheck
@@ -187,7 +188,10 @@ spec = modifyMaxSuccess (const 60) $ do
 -- | Three pockets beside one another, by what is asked in each.
 three :: [Text] -> Toolpath
 three pockets =
-  maybe (error "no path") path (Result.output (Compile.analyse [] (Compile.alone "p.part" text)))
+  maybe
+    (error "no path")
+    path
+    (Result.output (Compile.analyse [] (LoadedProgram.fromText "p.part" text)))
   where
     text =
       Text.unlines

@@ -9,6 +9,7 @@ import Files (readText)
 import Frame.Frame (Frame (..))
 import Frame.Frame qualified as Frame
 import Machines (iso6983)
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Verify.FromTape qualified as Verify
 import Verify.Proof qualified as Proof
@@ -22,7 +23,7 @@ spec =
       text <- readText "test/programs/tool/good/blade-upright-ends.part"
       (way, program) <-
         maybe (fail "the program has errors") pure . Result.settled $
-          Compile.analyse [] (Compile.alone "blade-upright-ends.part" text) `Result.thenSound` \a ->
+          Compile.analyse [] (LoadedProgram.fromText "blade.part" text) `Result.thenSound` \a ->
             Compile.punch iso6983 (path a) `Result.thenSound` \p -> pure (path a, program p)
       let frames = map Frame.frame (Frame.planned program)
           (onto, along) = break rises frames

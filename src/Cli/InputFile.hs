@@ -1,0 +1,116 @@
+-- | The files that commands read: part programs with all that belongs to them, tapes, and machine
+-- descriptions.
+module Cli.InputFile
+  ( Input (..),
+    source,
+    withoutSurface,
+    withInput,
+    ownFiles,
+    readProgram,
+    readBytes,
+    readerFrom,
+    readContents,
+    descriptionsFor,
+    displayName,
+  )
+where
+
+import Base.Region (Source)
+import Cli.Error (Error (..))
+import Cli.Error qualified as Cli
+import Cli.Outcome (failWith)
+import Cli.Output (Exit, Reporter)
+import Cli.Output qualified as Output
+import Control.Exception (IOException, try)
+import Data.ByteString (ByteString)
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
+import Project.MachineDescription (Descriptions)
+import Project.MachineDescription qualified as MachineDescription
+import Surface.Import qualified as Import
+import System.Directory (canonicalizePath)
+import System.FilePath (takeDirectory, (</>))
+
+-- | A loaded program, its name in reports, and the values for its parameters.
+data Input = Input {name :: Text, loaded :: LoadedProgram, values :: [(Text, Text)]}
+
+-- | The texts of a program.
+source :: Input -> Source
+source = LoadedProgram.source . loaded
+
+-- | Drops the syntax tree of a program. For a large one it takes more memory than the toolpath and
+-- the tape.
+withoutSurface :: Input -> Input
+withoutSurface input = input {loaded = LoadedProgram.withoutSurface (loaded input)}
+
+-- | Loads a program, what it imports, and the machine descriptions that the program or the command
+-- line names, and continues with it.
+withInput :: Reporter -> FilePath -> [Text] -> (Input -> IO Exit) -> IO Exit
+withInput reporter file targets continue = do
+  content <- readProgram file
+  case content of
+    Left e -> failWith reporter (displayName file) e
+    Right _
+      | LoadedProgram.isInputSheet file,
+        (parameter, _) : _ <- values ->
+        failWith reporter (displayName file) (SheetAssigned parameter)
+    Right text -> do
+      program <- LoadedProgram.load (readerFrom readContents) (Text.unpack (displayName file)) text
+      descriptions <- descriptionsFor targets (LoadedProgram.descriptions program)
+      continue
+        Input
+          { name = displayName file,
+            loaded = program {LoadedProgram.descriptions},
+            values
+          }
+  where
+    values = Output.values (Output.settings reporter)
+
+-- | The files that a program is made of: its own, those that it imports, its machine descriptions.
+ownFiles :: FilePath -> Input -> [FilePath]
+ownFiles file input = file : imported <> concatMap asWritten described
+  where
+    imported = map (Text.unpack . snd) (LoadedProgram.imports (loaded input))
+    described = map (Text.unpack . fst) (LoadedProgram.descriptions (loaded input))
+    -- The command line names a description by its own path, the program from its folder.
+    asWritten description = [description, takeDirectory file </> description]
+
+-- | Supplies files by this function. A file is the same by whatever path it is reached.
+readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
+readerFrom contents = Import.Reader {Import.contents, Import.identity}
+  where
+    identity path =
+      either (const path :: IOException -> FilePath) id <$> try (canonicalizePath path)
+
+-- | The text of a file on the disk, or the reason why there is none.
+readContents :: FilePath -> IO (Either Text Text)
+readContents file = either (Left . Cli.reason) Right <$> readProgram file
+
+-- | The text of a program file. A byte order mark is not part of it.
+readProgram :: FilePath -> IO (Either Error Text)
+readProgram file = do
+  bytes <- readBytes file
+  pure $ case fmap Encoding.decodeUtf8' bytes of
+    Left e -> Left e
+    Right (Left _) -> Left NotUtf8
+    Right (Right text) -> Right (fromMaybe text (Text.stripPrefix "\xFEFF" text))
+
+-- | The bytes of a file, or of standard input for @-@.
+readBytes :: FilePath -> IO (Either Error ByteString)
+readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
+
+-- | Loads the machine descriptions that the command line names, and adds those of the program.
+descriptionsFor :: [Text] -> Descriptions -> IO Descriptions
+descriptionsFor targets own =
+  (<> own)
+    <$> traverse
+      (MachineDescription.load readContents "")
+      (filter MachineDescription.isFileName targets)
+
+-- | The name of a file in reports.
+displayName :: FilePath -> Text
+displayName file = if file == "-" then "<stdin>" else Text.pack file

@@ -1,0 +1,85 @@
+-- | Errors that concern a program as a whole: its machine, and that there is something to punch.
+module Project.Error
+  ( Error (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name qualified as Name
+import Base.Region (Position (..), Region)
+import Base.Region qualified as Region
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Report (Report (..), ReportPlace (..), report)
+import Report.Report qualified as Report
+
+data Error
+  = -- | neither the program nor the command line names a machine; the built-in machines
+    NoMachine [Text]
+  | -- | the region of the statement that names the machine, the unknown name, the built-in machines
+    UnknownMachine (Maybe Region) Text [Text]
+  | -- | a description that cannot be read: the region that names it, its name, the reason
+    DescriptionMissing (Maybe Region) Text Text
+  | -- | a description with errors: the region that names it, its name, its text, the errors
+    DescriptionWrong (Maybe Region) Text Text [Report]
+  | -- | the program moves nothing
+    NothingToPunch
+  deriving stock (Eq, Show)
+
+-- | The report of an error.
+toReport :: Error -> Report
+toReport err = case err of
+  NoMachine known ->
+    (wrong "E0804" InFile "no machine is chosen")
+      { hints =
+          [ "Say in the program: machine NAME, or on the command line: -t NAME. Machines: "
+              <> Text.intercalate ", " known
+              <> "."
+          ]
+      }
+  UnknownMachine place name known ->
+    (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
+      { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
+        hints =
+          if ".machine" `Text.isSuffixOf` name
+            then ["A description stands in quotation marks: machine \"" <> name <> "\"."]
+            else ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
+      }
+  DescriptionMissing place file why ->
+    ( wrong
+        "E0806"
+        (maybe InFile InSource place)
+        ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why)
+    )
+      { hints =
+          [ "A description is looked for beside the program that names it, or where the \
+            \command line says."
+          ]
+      }
+  DescriptionWrong place file text reports ->
+    ( wrong
+        "E0810"
+        (maybe InFile InSource place)
+        ("the machine’s description ‘" <> file <> "’ has mistakes")
+    )
+      { message = [inOneLine file text r | r <- Report.sorted reports],
+        hints = ["partc machines " <> file <> " shows them in full."]
+      }
+  NothingToPunch ->
+    (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
+      { hints =
+          [ "Mill a contour (mill NAME outside { approach … retract … }), or go somewhere \
+            \(rapid, move)."
+          ]
+      }
+  where
+    wrong = report Report.Error
+
+-- | A report on a text in one line, with its position.
+inOneLine :: Text -> Text -> Report -> Text
+inOneLine file text r = case place r of
+  InSource region ->
+    let Position {line, column} = Region.position (Region.fromText file text) (Region.start region)
+     in Decimal.whole line <> ":" <> Decimal.whole column <> ": " <> title r
+  _ -> title r

@@ -1,0 +1,41 @@
+-- | The choices of one run of the compiler.
+module Project.Job
+  ( Job (..),
+    Verification (..),
+    forTargets,
+    forOwnMachine,
+  )
+where
+
+import Base.Result (Result)
+import Data.Text (Text)
+import Machine.Machine (Machine)
+import Part.Part (Part)
+import Project.LoadedProgram (LoadedProgram (descriptions))
+import Project.Target qualified as Target
+import Report.Report (Report)
+import Toolpath.Toolpath (Toolpath)
+
+-- | The choices of one run.
+data Job = Job
+  { -- | values for parameters of the program, by their names
+    values :: [(Text, Text)],
+    -- | chooses the machines; without machines no tape is made
+    machinesFor :: Part -> Toolpath -> Result Report Report [Machine],
+    verification :: Verification
+  }
+
+-- | Whether each tape is read back and compared with the part.
+data Verification = Verified | Unverified
+  deriving stock (Eq, Show)
+
+-- | A verified tape for each of these machines; without names, for the machine that the program
+-- names. It is an error if there is none.
+forTargets :: [Text] -> [(Text, Text)] -> LoadedProgram -> Job
+forTargets names values loaded =
+  Job {values, machinesFor = Target.targets (descriptions loaded) names, verification = Verified}
+
+-- | A verified tape for the machine that the program names, if it names one.
+forOwnMachine :: [(Text, Text)] -> LoadedProgram -> Job
+forOwnMachine values loaded =
+  Job {values, machinesFor = Target.ownMachines (descriptions loaded), verification = Verified}

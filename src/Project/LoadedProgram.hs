@@ -1,0 +1,92 @@
+-- | A part program with the files that belong to it: what it imports, and the machine descriptions
+-- that it names. An input sheet is loaded as the part program that it means.
+--
+-- Nothing here touches the disk: a 'Surface.Reader' supplies the texts. Names are not resolved and
+-- values are not computed; that is the work of the compiler passes.
+module Project.LoadedProgram
+  ( LoadedProgram (..),
+    load,
+    fromText,
+    isInputSheet,
+    withoutSurface,
+  )
+where
+
+import Base.Region (Located (..), Region, Source)
+import Base.Region qualified as Region
+import Base.Result (Result (..), mapErrors)
+import Data.Functor.Identity (runIdentity)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Project.MachineDescription (Descriptions)
+import Project.MachineDescription qualified as MachineDescription
+import Report.Report (Report)
+import Sheet.Error qualified as Sheet
+import Sheet.FromText qualified as Sheet
+import Sheet.ToSurface qualified as Sheet
+import Surface.Error qualified as Surface
+import Surface.Import qualified as Surface
+import Surface.Syntax qualified as Surface
+import System.FilePath (takeDirectory, takeExtension)
+
+-- | A part program and its files.
+data LoadedProgram = LoadedProgram
+  { -- | all texts, for the positions in reports
+    source :: Source,
+    -- | one syntax tree, with each import replaced by the definitions that it brings
+    surface :: Result Report Report Surface.Program,
+    -- | the region of each import, and the path of the file that it names
+    imports :: [(Region, Text)],
+    -- | the machine descriptions that the program names
+    descriptions :: Descriptions
+  }
+
+-- | Loads a program, or an input sheet. The path names the program in reports; imports and machine
+-- descriptions are looked for relative to its folder.
+load :: Monad m => Surface.Reader m -> FilePath -> Text -> m LoadedProgram
+load reader path text
+  | isInputSheet path = pure (fromInputSheet path text)
+  | otherwise = do
+    loaded <- Surface.load reader path text
+    descriptions <-
+      traverse
+        (MachineDescription.load (Surface.contents reader) (takeDirectory path))
+        (maybe [] describedMachines (output (Surface.surface loaded)))
+    pure
+      LoadedProgram
+        { source = Surface.source loaded,
+          surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
+          imports = Surface.imports loaded,
+          descriptions
+        }
+
+fromInputSheet :: FilePath -> Text -> LoadedProgram
+fromInputSheet path text =
+  LoadedProgram
+    { source = Region.fromText (Text.pack path) text,
+      surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
+      imports = [],
+      descriptions = []
+    }
+
+-- | The files of machine descriptions that a program names.
+describedMachines :: Surface.Program -> [Text]
+describedMachines program =
+  [ file
+    | Located _ (Surface.Machine (Located _ (Surface.Described file))) <-
+        Surface.statements program
+  ]
+
+-- | Loads a program of one text. Every import in it is an error.
+fromText :: Text -> Text -> LoadedProgram
+fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
+  where
+    withoutFiles = Surface.byName (const (pure (Left "only one text is looked at")))
+
+-- | Is this the name of an input sheet?
+isInputSheet :: FilePath -> Bool
+isInputSheet = (== ".sheet") . takeExtension
+
+-- | Drops the syntax tree, so that memory holds only what reports and file names need.
+withoutSurface :: LoadedProgram -> LoadedProgram
+withoutSurface loaded = loaded {surface = Result [] [] Nothing}

@@ -1,0 +1,70 @@
+-- | The machines that a program is compiled for: those of the command line, or else the program's
+-- own.
+module Project.Target
+  ( targets,
+    ownMachines,
+    setUpFor,
+    machineNamed,
+    builtInNames,
+  )
+where
+
+import Base.Region (Located (..), Region)
+import Base.Result (Result (..))
+import Base.Result qualified as Result
+import Data.Text (Text)
+import Machine.BuiltIn qualified as BuiltIn
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
+import Part.Part (MachineRef (..), Part)
+import Part.Part qualified as Part
+import Project.Error (Error (..))
+import Project.Error qualified as Project
+import Project.MachineDescription (Descriptions, Missing (..))
+import Project.MachineDescription qualified as MachineDescription
+import Report.Report (Report)
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+
+-- | The machines of these names, set up for the toolpath; without names, the machine that the
+-- program names. It is an error if there is none.
+targets :: Descriptions -> [Text] -> Part -> Toolpath -> Result w Report [Machine]
+targets descriptions names part path =
+  Result.mapErrors id Project.toReport $
+    map (setUpFor path) <$> case (names, Part.machine part) of
+      ([], Nothing) -> Result.failed (NoMachine builtInNames)
+      ([], Just reference) -> pure <$> ownMachine descriptions reference
+      (some, _) -> traverse (Result.fromEither . machineNamed descriptions) some
+
+-- | The machine that the program names, set up for the toolpath, or no machine.
+ownMachines :: Descriptions -> Part -> Toolpath -> Result w Report [Machine]
+ownMachines descriptions part path = case Part.machine part of
+  Nothing -> pure []
+  Just _ -> targets descriptions [] part path
+
+-- | Sets a machine up for a toolpath: on a lathe its axes may point the other way.
+setUpFor :: Toolpath -> Machine -> Machine
+setUpFor path machine = if Toolpath.isTurned path then Machine.forTurning machine else machine
+
+ownMachine :: Descriptions -> Located MachineRef -> Result w Error Machine
+ownMachine descriptions (Located region reference) = case reference of
+  Named name -> found name (MachineDescription.findBuiltIn name)
+  Described file -> found file (MachineDescription.findDescribed descriptions file)
+  where
+    found name = either (Result.failed . missing (Just region) name) pure
+
+-- | The machine of a name or of a description file, for commands that have no program.
+machineNamed :: Descriptions -> Text -> Either Error Machine
+machineNamed descriptions name =
+  either (Left . missing Nothing name) Right (MachineDescription.find descriptions name)
+
+-- | The error for a missing machine, with the region of the statement that names it.
+missing :: Maybe Region -> Text -> Missing -> Error
+missing region name why = case why of
+  NoSuchMachine -> UnknownMachine region name builtInNames
+  NoDescription reason -> DescriptionMissing region name reason
+  BadDescription text reports -> DescriptionWrong region name text reports
+
+-- | The names of the built-in machines.
+builtInNames :: [Text]
+builtInNames = [name | MachineName name <- BuiltIn.names]
