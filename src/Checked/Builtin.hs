@@ -10,14 +10,14 @@ module Checked.Builtin
     lookup,
     forms,
     labelled,
-    bare,
+    unlabelled,
     isOverloaded,
     isConstant,
     names,
     name,
-    written,
-    meaning,
-    formsOf,
+    formText,
+    description,
+    formTexts,
     formsHint,
   )
 where
@@ -42,7 +42,7 @@ data Form = Form {parameters :: [Parameter], result :: Type}
 data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
 -- | What stands before an argument.
-data ArgumentLabel = Bare | Word Selector | Rank
+data ArgumentLabel = NoLabel | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
 -- | Unknowns that are new at every call.
@@ -134,8 +134,8 @@ isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 forms :: Fresh -> Builtin -> [Form]
 forms Fresh {dimension = d, anything} builtin = case builtin of
   Pi -> [Form [] Type.number]
-  Truth -> [Form [] Truth']
-  Falsehood -> [Form [] Truth']
+  Truth -> [Form [] Boolean]
+  Falsehood -> [Form [] Boolean]
   Polar -> [Form [length', angle] (Spatial d)]
   Intersection ->
     [ Form ([given (word a) a, given (word b) b] <> selector) Type.aPoint
@@ -250,7 +250,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     ]
   Count -> [Form [given "list" (ListOf anything)] Type.number]
   ItemOf -> [Form [given "list" (ListOf anything), given "number" Type.number] anything]
-  Lift -> [Form [point, given "z" Type.len] Space]
+  Lift -> [Form [point, given "z" Type.len] SpacePoint]
   Sin -> [Form [angle] Type.number]
   Cos -> [Form [angle] Type.number]
   Tan -> [Form [angle] Type.number]
@@ -263,7 +263,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Max -> [Form [given "first" (Quantity d), given "second" (Quantity d)] (Quantity d)]
   Floor -> [Form [given "value" Type.number] Type.number]
   where
-    given = Parameter Bare
+    given = Parameter NoLabel
     length' = given "length" Type.len
     angle = given "angle" Type.angle
     radius = given "radius" Type.len
@@ -294,7 +294,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     -- Of a thing the thing moved; of nothing the motion itself.
     transforming extra =
       concat
-        [ Form more Placement :
+        [ Form more Transformation :
             [ Form (given "what" t : more) t
               | t <-
                   [ Type.aPoint,
@@ -323,7 +323,7 @@ labelled Fresh {dimension, anything} builtin labels =
           result = own (result form)
         }
     own =
-      Type.replaced
+      Type.substitute
         (Dimension.substitute anyUnknown dimension)
         (\n -> if n == anyUnknown then anything else Variable n)
 
@@ -341,8 +341,8 @@ template =
 
 -- | The forms of a function that take so many values without a word, and whether all types of each
 -- are known.
-bare :: Builtin -> Int -> [(Form, Bool)]
-bare builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
+unlabelled :: Builtin -> Int -> [(Form, Bool)]
+unlabelled builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
 
 byCount :: Lazy.Map Builtin (Map Int [(Form, Bool)])
 byCount =
@@ -351,7 +351,7 @@ byCount =
         Map.fromList
           [ (length ls, [(f, isKnown f) | f <- fs])
             | (ls, fs) <- Map.toList labels,
-              all (== Bare) ls
+              all (== NoLabel) ls
           ]
     )
     byLabels
@@ -370,12 +370,12 @@ anyUnknown :: Int
 anyUnknown = -1
 
 -- | A form as a call.
-written :: Builtin -> Form -> Text
-written builtin form =
+formText :: Builtin -> Form -> Text
+formText builtin form =
   name builtin <> "(" <> Text.intercalate ", " (map parameter (parameters form)) <> ")"
   where
     parameter p = case label p of
-      Bare -> title p
+      NoLabel -> title p
       Rank -> "first or last"
       Word choice -> word choice <> " " <> title p
     word choice = case choice of
@@ -387,15 +387,15 @@ written builtin form =
       UpTo -> "within"
 
 -- | A function for a reader, by the first of its forms.
-meaning :: Builtin -> Text
-meaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (formsOf builtin))
+description :: Builtin -> Text
+description builtin = "of the language: " <> Text.intercalate "; " (take 4 (formTexts builtin))
 
 -- | The forms of a function as calls, for a reader.
-formsOf :: Builtin -> [Text]
-formsOf builtin =
+formTexts :: Builtin -> [Text]
+formTexts builtin =
   nubOrd
-    (map (written builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
+    (map (formText builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
 
 -- | What to write instead of a function's bare name.
 formsHint :: Builtin -> [Text]
-formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formsOf builtin)) <> "."]
+formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formTexts builtin)) <> "."]

@@ -28,9 +28,9 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
--- | What dimensions are made of. 'Place' counts how far a pair is a point rather than a vector:
+-- | What dimensions are made of. 'PointWeight' counts how far a pair is a point rather than a vector:
 -- the difference of two points (1 each) is a vector (0).
-data Atom = Length | Angle | Time | Place | Unknown Int
+data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
 
 -- | The exponents that are not zero.
@@ -125,7 +125,7 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       Length -> "mm"
       Angle -> "deg"
       Time -> "min"
-      Place -> "point"
+      PointWeight -> "point"
       Unknown _ -> ""
 
 -- | The size of a bare number of a dimension: lengths in mm, times in minutes, angles in degrees.

@@ -51,7 +51,7 @@ data Error
   | -- | a sense for something that has one already
     SenseUnneeded Region Type
   | -- | something that can not be walked
-    NotWalkable Region Type
+    NotAnElement Region Type
   | NoPart Region
   | SettingTwice Region RequiredSetting Region
   | -- | the statement that needs them
@@ -71,11 +71,11 @@ data Error
   | -- | a setting given twice: the setting, where it stands first
     RepeatedSetting Region Text Region
   | -- | a tolerance of an assertion that is no comparison
-    WithinNothing Region
+    WithinWithoutEquality Region
   | -- | a table whose first line does not name its columns
     HeadingsMissing Region
   | -- | names of columns further down
-    HeadingsAgain Region
+    HeadingsRepeated Region
   | -- | a column named twice; where it stands first
     ColumnTwice Region Name Region
   | -- | a table without one of the columns x and y
@@ -89,7 +89,7 @@ data Error
   | -- | a name in a cipher that is neither a column nor a value; the columns
     NoColumn Region Name [Text]
   | -- | a column where a cipher takes one value for the whole piece: the cipher
-    ColumnForOne Region Text Name
+    ColumnForWholePiece Region Text Name
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
@@ -214,7 +214,7 @@ toReport err = case err of
           ["Leave the word out. " <> w | Just w <- [wayOf t]]
             <> ["Leave the word out." | Nothing <- [wayOf t]]
       }
-  NotWalkable region t ->
+  NotAnElement region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
       { message =
           [ "A contour walks along lines, circles, curves and open contours, and through \
@@ -284,7 +284,7 @@ toReport err = case err of
     (at region "E0224" "the first line of a table names its columns")
       { hints = ["Write above the numbers, for example: x y mu deg H"]
       }
-  HeadingsAgain region ->
+  HeadingsRepeated region ->
     (at region "E0224" "the columns of this table are named already")
       { hints = ["A row has a number for each column; a value in words stands in brackets: (2 * h)."]
       }
@@ -336,7 +336,7 @@ toReport err = case err of
           ],
         hints = ["Write " <> Text.intercalate ", or " (cipherForms digit) <> "."]
       }
-  ColumnForOne region digit (Name name) ->
+  ColumnForWholePiece region digit (Name name) ->
     ( at
         region
         "E0228"
@@ -367,7 +367,7 @@ toReport err = case err of
             ]
           ([], _) -> ["Its columns are " <> Text.intercalate ", " columns <> "."]
       }
-  WithinNothing region ->
+  WithinWithoutEquality region ->
     (at region "E0223" "‘within’ needs two values that are to be equal")
       { hints = ["Write: assert a = b within d"]
       }

@@ -13,7 +13,7 @@ import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
-import Checked.Deferred (Later, eagerly, solved)
+import Checked.Deferred (Deferred, mapStrict, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Inference (Infer)
@@ -21,7 +21,7 @@ import Checked.Inference qualified as Inference
 import Checked.Literal qualified as Literal
 import Checked.Piece (unitType)
 import Checked.Piece qualified as Piece
-import Checked.Scheme (Arithmetic (..), Binding (..), OverloadedCall (..), Pending (..))
+import Checked.Scheme (Arithmetic (..), Binding (..), OverloadedCall (..), DeferredConstraint (..))
 import Checked.Settings (settings)
 import Checked.Settings qualified as Settings
 import Checked.Syntax (Program (..))
@@ -90,7 +90,7 @@ definition (Located _ s) = case s of
 -- | The names that the program defines somewhere, and where.
 type Defined = Map Name Region
 
-statement :: Defined -> Statement -> Infer (Maybe (Later Checked.Statement))
+statement :: Defined -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement defined (Located at s) = case s of
   Surface.Part n _ ->
     Nothing
@@ -98,7 +98,7 @@ statement defined (Located at s) = case s of
         (region n)
         (Just (region n))
         (nameText n)
-        (Inference.Said "the name of the part")
+        (Inference.Described "the name of the part")
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
   Surface.Broken _ name ->
@@ -125,7 +125,7 @@ statement defined (Located at s) = case s of
   Surface.Contour name closure items -> do
     checked <- Inference.separately (unused name *> mapM (item defined) items)
     defining name (const (Value (region name) Type.Contour)) checked
-    pure (plain (\items' sol -> Checked.Contour name closure (solved sol items')) checked)
+    pure (plain (\items' sol -> Checked.Contour name closure (resolveAll sol items')) checked)
   Surface.Table name written -> do
     checked <-
       Inference.separately
@@ -144,7 +144,7 @@ statement defined (Located at s) = case s of
     pure
       ( plain
           ( \(_, (e', ciphers', joggles')) sol ->
-              Checked.Piece name (e' sol) (solved sol ciphers') side (solved sol joggles')
+              Checked.Piece name (e' sol) (resolveAll sol ciphers') side (resolveAll sol joggles')
           )
           checked
       )
@@ -174,7 +174,7 @@ statement defined (Located at s) = case s of
   Surface.Spindle spin -> one Checked.Spindle $ case spin of
     Surface.Still -> pure (const Checked.Still)
     Surface.Spinning sense speed -> do
-      speed' <- traverse (expect defined Type.turns) speed
+      speed' <- traverse (expect defined Type.spindleSpeed) speed
       pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
   Surface.Coolant switch -> one Checked.Coolant (pure (const switch))
   Surface.Auxiliary e -> one Checked.Auxiliary (expect defined Type.number e)
@@ -187,25 +187,25 @@ statement defined (Located at s) = case s of
         body
     pure
       ( plain
-          (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (solved sol body'))
+          (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (resolveAll sol body'))
           checked
       )
   Surface.When e body others -> do
-    checked <- Inference.separately (expect defined Type.Truth' e)
+    checked <- Inference.separately (expect defined Type.Boolean e)
     body' <- block' body
     others' <- block' others
-    pure (plain (\e' sol -> Checked.When (e' sol) (solved sol body') (solved sol others')) checked)
+    pure (plain (\e' sol -> Checked.When (e' sol) (resolveAll sol body') (resolveAll sol others')) checked)
   Surface.With e body -> do
-    checked <- Inference.separately (expect defined Type.Placement e)
+    checked <- Inference.separately (expect defined Type.Transformation e)
     body' <- block' body
-    pure (plain (\e' sol -> Checked.With (e' sol) (solved sol body')) checked)
+    pure (plain (\e' sol -> Checked.With (e' sol) (resolveAll sol body')) checked)
   where
     plain f = fmap (\x sol -> Located at (f x sol))
     one make inside = plain (\x sol -> make (x sol)) <$> Inference.separately inside
     binding name inside = do
       checked <- Inference.separately (unused name *> inside)
       defining name (\(t, _) -> Value (region name) t) checked
-      d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.known . fst) checked
+      d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.resolved . fst) checked
       pure (plain (\(_, e') sol -> Checked.LetValue name (sol d) (e' sol)) checked)
     machining make word e side options =
       one (\(c, o) -> make c side o) $ do
@@ -241,7 +241,7 @@ checker :: Defined -> Piece.Checker
 checker defined = Piece.Checker (expect defined)
 
 -- | A curve, of whatever table.
-curve :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+curve :: Defined -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 curve defined e = do
   t <- Type.Curve <$> Inference.freshType
   e' <- expect defined t e
@@ -254,7 +254,7 @@ piece ::
   Surface.Expr ->
   [Surface.Cipher] ->
   [Surface.Joggle] ->
-  Infer (Type, (Later Checked.Expr, [Later Checked.Cipher], [Later Checked.Joggle]))
+  Infer (Type, (Deferred Checked.Expr, [Deferred Checked.Cipher], [Deferred Checked.Joggle]))
 piece defined e ciphers joggles = do
   (t, e') <- curve defined e
   columns <- Piece.columnsOf t
@@ -276,7 +276,7 @@ paced motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
   _ -> s
 
-cutter :: Defined -> Surface.Cutter -> Infer (Later Checked.Cutter)
+cutter :: Defined -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
 cutter defined (Located at c) = fmap (Located at .) $ case c of
   Surface.MillCutter e -> (Checked.MillCutter .) <$> expect defined Type.len e
   Surface.DrillCutter e -> (Checked.DrillCutter .) <$> expect defined Type.len e
@@ -289,17 +289,17 @@ cutter defined (Located at c) = fmap (Located at .) $ case c of
       <$> expect defined Type.len d <*> expect defined Type.len g
 
 -- | Something that has to be true, or two quantities that have to be equal.
-assertion :: Defined -> Surface.Expr -> Maybe Surface.Expr -> Infer (Later Checked.Assertion)
+assertion :: Defined -> Surface.Expr -> Maybe Surface.Expr -> Infer (Deferred Checked.Assertion)
 assertion defined e within = case (value e, within) of
   (Surface.Binary Surface.Equal l r, _) -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
     _ <- operation (region e) Surface.Equal (region l, lt) (region r, rt)
-    kind <- Inference.known lt
+    kind <- Inference.resolved lt
     -- Things that cannot be compared differ by nothing.
     within' <-
       traverse (expect defined (case kind of Type.Quantity _ -> lt; _ -> Type.Wrong)) within
-    d <- Type.dimensionOf <$> Inference.known lt
+    d <- Type.dimensionOf <$> Inference.resolved lt
     pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
   (Surface.Binary op l r, Nothing)
     | op `elem` [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal] ->
@@ -307,12 +307,12 @@ assertion defined e within = case (value e, within) of
         (lt, l') <- infer defined l
         (rt, r') <- infer defined r
         _ <- operation (region e) op (region l, lt) (region r, rt)
-        d <- Type.dimensionOf <$> Inference.known lt
+        d <- Type.dimensionOf <$> Inference.resolved lt
         pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
   (_, Just d) ->
     (\e' sol -> Checked.Holds (e' sol))
-      <$> (Inference.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
-  (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
+      <$> (Inference.mistake (WithinWithoutEquality (region d)) *> (snd <$> infer defined e))
+  (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Boolean e
 
 -- | A name that can be given.
 unused :: Located Name -> Infer ()
@@ -331,13 +331,13 @@ function ::
   Located Name ->
   NonEmpty (Located Name) ->
   Surface.Expr ->
-  Infer (Binding, Later Checked.Expr)
+  Infer (Binding, Deferred Checked.Expr)
 function defined name parameters body = do
   mapM_
     (\(Located at n@(Name text)) -> when (isBuiltin text) (Inference.mistake (NameTaken at n)))
     parameters
   twice (NonEmpty.toList parameters)
-  (scheme, body') <- Inference.generalising $ do
+  (scheme, body') <- Inference.generalise $ do
     ts <- mapM (const Inference.freshType) (NonEmpty.toList parameters)
     (t, e) <- Inference.withLocals (zip (NonEmpty.toList parameters) ts) (infer defined body)
     pure (ts, t, e)
@@ -360,7 +360,7 @@ isBuiltin = isJust . Builtin.lookup
 nameText :: Located Name -> Text
 nameText (Located _ (Name text)) = text
 
-stop :: Defined -> Surface.Stop -> Infer (Later Checked.Stop)
+stop :: Defined -> Surface.Stop -> Infer (Deferred Checked.Stop)
 stop defined (Surface.Stop p pace) = do
   p' <- spot defined p
   pace' <- case pace of
@@ -370,25 +370,25 @@ stop defined (Surface.Stop p pace) = do
   pure (\sol -> Checked.Stop (p' sol) (pace' sol))
 
 -- | A point of the plane, or one with a height.
-spot :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
+spot :: Defined -> Surface.Expr -> Infer (Deferred Checked.Expr)
 spot defined e = do
   (t, e') <- infer defined e
-  t' <- Inference.known t
-  unless (t' == Type.Space) (equal (region e) Type.aPoint t)
+  t' <- Inference.resolved t
+  unless (t' == Type.SpacePoint) (equal (region e) Type.aPoint t)
   pure e'
 
 -- | A list of points, or one point.
-places :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
+places :: Defined -> Surface.Expr -> Infer (Deferred Checked.Expr)
 places defined e = do
   (t, e') <- infer defined e
-  t' <- Inference.known t
+  t' <- Inference.resolved t
   case t' of
     Type.Spatial _ -> equal (region e) Type.aPoint t
     _ -> equal (region e) (Type.ListOf Type.aPoint) t
   pure e'
 
 -- | The variable and the list of a repetition.
-repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 repetition defined counter list = do
   when
     (isBuiltin (nameText counter))
@@ -398,7 +398,7 @@ repetition defined counter list = do
   fine <- agrees (region list) (Type.ListOf t) found
   pure (if fine then t else Type.Wrong, list')
 
-item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
+item :: Defined -> Surface.Item -> Infer (Deferred Checked.Item)
 item defined (Located at i) = case i of
   Surface.BrokenItem name -> do
     mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
@@ -407,12 +407,12 @@ item defined (Located at i) = case i of
   Surface.For counter list items -> do
     (t, list') <- repetition defined counter list
     items' <- Inference.withLocals [(counter, t)] (mapM (item defined) items)
-    pure (\sol -> Located at (Checked.For (value counter) (list' sol) (solved sol items')))
+    pure (\sol -> Located at (Checked.For (value counter) (list' sol) (resolveAll sol items')))
   Surface.Choose e items others -> do
-    e' <- expect defined Type.Truth' e
+    e' <- expect defined Type.Boolean e
     items' <- mapM (item defined) items
     others' <- mapM (item defined) others
-    pure (\sol -> Located at (Checked.Choose (e' sol) (solved sol items') (solved sol others')))
+    pure (\sol -> Located at (Checked.Choose (e' sol) (resolveAll sol items') (resolveAll sol others')))
   Surface.Element walk e modifiers link -> do
     (t, e') <- walked defined walk e
     modifiers' <- if null modifiers then pure [] else Piece.columnsOf t >>= modified' modifiers
@@ -422,10 +422,10 @@ item defined (Located at i) = case i of
           Located
             at
             ( Checked.Element
-                (eagerly value walk)
+                (mapStrict value walk)
                 (e' sol)
-                (solved sol modifiers')
-                (eagerly ($ sol) link')
+                (resolveAll sol modifiers')
+                (mapStrict ($ sol) link')
             )
       )
   where
@@ -442,7 +442,7 @@ isBevel (Located _ m) = case m of
   Surface.ElementAllowance _ -> False
 
 -- | What is asked on an element with these columns, as far as they are known.
-modified :: Defined -> Maybe [(Text, Type)] -> Surface.Modifier -> Infer (Later Checked.Modifier)
+modified :: Defined -> Maybe [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
 modified defined columns (Located at m) = fmap (Located at .) $ case m of
   Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect defined Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
@@ -456,7 +456,7 @@ walked ::
   Defined ->
   Maybe (Located Surface.Sense) ->
   Surface.Expr ->
-  Infer (Type, Later Checked.Expr)
+  Infer (Type, Deferred Checked.Expr)
 walked defined walk e = case (walk, value e) of
   (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect defined Type.aPoint e
   _ -> do
@@ -465,7 +465,7 @@ walked defined walk e = case (walk, value e) of
   where
     inferred found = do
       (t, e') <- found
-      t' <- Inference.known t
+      t' <- Inference.resolved t
       case (t', walk) of
         (Type.Circle, Nothing) -> Inference.mistake (SenseMissing (region e))
         (Type.Circle, Just _) -> pure ()
@@ -479,10 +479,10 @@ walked defined walk e = case (walk, value e) of
         (Type.Spatial _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
         (Type.Variable _, Just _) -> equal (region e) Type.Circle t
         (Type.Wrong, _) -> pure ()
-        _ -> Inference.mistake (NotWalkable (region e) t')
+        _ -> Inference.mistake (NotAnElement (region e) t')
       pure (t, e')
 
-linked :: Defined -> Surface.Link -> Infer (Later Checked.Link)
+linked :: Defined -> Surface.Link -> Infer (Deferred Checked.Link)
 linked defined (Located at l) = fmap (Located at .) $ case l of
   Surface.Meet near -> do
     near' <- traverse (expect defined Type.aPoint) near
@@ -495,7 +495,7 @@ linked defined (Located at l) = fmap (Located at .) $ case l of
 -- Expressions
 
 -- | An expression where a type is needed.
-expect :: Defined -> Type -> Surface.Expr -> Infer (Later Checked.Expr)
+expect :: Defined -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 expect defined wanted e = case (value e, wanted) of
   _ | Just e' <- Literal.number wanted e -> pure (const e')
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> do
@@ -514,14 +514,14 @@ equal at wanted t = void (agrees at wanted t)
 -- | Whether the found type at a place is the wanted one; a mistake if not.
 agrees :: Region -> Type -> Type -> Infer Bool
 agrees at wanted t = do
-  found <- Inference.known t
-  wanted' <- Inference.known wanted
-  settled <- Inference.settledPlaces [(at, t, found), (at, wanted, wanted')]
+  found <- Inference.resolved t
+  wanted' <- Inference.resolved wanted
+  settled <- Inference.decidedElsewhere [(at, t, found), (at, wanted, wanted')]
   same <- Inference.unify at wanted t
   unless same (Inference.mistakeOnce (map fst settled) (Mismatch at wanted' found settled))
   pure same
 
-infer :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
+infer :: Defined -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 infer defined (Located at e) = case e of
   Surface.Literal (Numeral _ x) (Just unit) ->
     let (t, factor) = unitType unit in pure (t, const (Located at (Checked.Number (x * factor))))
@@ -546,12 +546,12 @@ infer defined (Located at e) = case e of
     result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
     pure (result, \sol -> Located at (Checked.Negate (inner' sol)))
   Surface.Not inner -> do
-    inner' <- expect defined Type.Truth' inner
-    pure (Type.Truth', \sol -> Located at (Checked.Not (inner' sol)))
+    inner' <- expect defined Type.Boolean inner
+    pure (Type.Boolean, \sol -> Located at (Checked.Not (inner' sol)))
   Surface.Binary op l r | op `elem` [Surface.And, Surface.Or] -> do
-    l' <- expect defined Type.Truth' l
-    r' <- expect defined Type.Truth' r
-    pure (Type.Truth', \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
+    l' <- expect defined Type.Boolean l
+    r' <- expect defined Type.Boolean r
+    pure (Type.Boolean, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
   Surface.Binary op l r -> do
     (lt, l') <- infer defined l
     (rt, r') <- infer defined r
@@ -573,7 +573,7 @@ infer defined (Located at e) = case e of
         \sol -> Located at (Checked.Range (low' sol) (high' sol) (Just (step' sol)))
       )
   Surface.If c a b -> do
-    c' <- expect defined Type.Truth' c
+    c' <- expect defined Type.Boolean c
     (t, a') <- infer defined a
     b' <- expect defined t b
     pure (t, \sol -> Located at (Checked.If (c' sol) (a' sol) (b' sol)))
@@ -586,11 +586,11 @@ infer defined (Located at e) = case e of
     x' <- expect defined Type.len x
     y' <- expect defined Type.len y
     z' <- expect defined Type.len z
-    pure (Type.Space, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
+    pure (Type.SpacePoint, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
   Surface.List es -> do
     t <- Inference.freshType
     es' <- mapM (expect defined t) es
-    pure (Type.ListOf t, \sol -> Located at (Checked.List (solved sol es')))
+    pure (Type.ListOf t, \sol -> Located at (Checked.List (resolveAll sol es')))
   Surface.Each inner counter list -> do
     (t, list') <- repetition defined counter list
     (result, inner') <- Inference.withLocals [(counter, t)] (infer defined inner)
@@ -606,7 +606,7 @@ operation place operator left right = do
   Inference.require (Operation Arithmetic {place, operator, left, right, outcome})
   pure outcome
 
-variable :: Defined -> Region -> Name -> Infer (Type, Later Checked.Expr)
+variable :: Defined -> Region -> Name -> Infer (Type, Deferred Checked.Expr)
 variable defined at name@(Name text) = do
   entry <- Inference.find name
   case entry of
@@ -627,7 +627,7 @@ variable defined at name@(Name text) = do
     Just (Poisoned _) -> nothing <$ Inference.taint
     Nothing -> case Builtin.lookup text of
       Just builtin -> do
-        Inference.mention at Nothing text (Inference.Said (Builtin.meaning builtin))
+        Inference.mention at Nothing text (Inference.Described (Builtin.description builtin))
         forms <- fresh builtin
         case forms of
           [Form [] t] -> pure (t, here (Checked.Builtin builtin []))
@@ -651,7 +651,7 @@ freshUnknowns = do
 -- | A name that means nothing here: it stands further down, it is being defined, or it is misspelt.
 unknown :: Defined -> Region -> Name -> Infer Error
 unknown defined at name = do
-  names <- Inference.entries
+  names <- Inference.namesInScope
   pure $ case Map.lookup name defined of
     Just place
       | start place > start at -> UsedBeforeDefinition at name place
@@ -664,7 +664,7 @@ call ::
   Region ->
   Located Name ->
   NonEmpty Surface.Argument ->
-  Infer (Type, Later Checked.Expr)
+  Infer (Type, Deferred Checked.Expr)
 call defined at (Located place name@(Name text)) arguments = do
   entry <- Inference.find name
   case entry of
@@ -689,7 +689,7 @@ call defined at (Located place name@(Name text)) arguments = do
       Just builtin
         | Builtin.isConstant builtin -> wrong (NotAFunction place name Nothing)
         | otherwise ->
-          Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin))
+          Inference.mention place Nothing text (Inference.Described (Builtin.description builtin))
             *> builtinCall builtin
       Nothing -> unknown defined place name >>= wrong
   where
@@ -721,8 +721,8 @@ call defined at (Located place name@(Name text)) arguments = do
           | Just es <- plain,
             [form] <- forms ->
             wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
-          | otherwise -> wrong (NoSuchCall at text (Builtin.formsOf builtin))
-        [form] | isOnly || any (/= Builtin.Bare) labels -> do
+          | otherwise -> wrong (NoSuchCall at text (Builtin.formTexts builtin))
+        [form] | isOnly || any (/= Builtin.NoLabel) labels -> do
           checked <-
             zipWithM
               argument
@@ -755,7 +755,7 @@ call defined at (Located place name@(Name text)) arguments = do
     labels =
       [ case a of
           Surface.Given _ ->
-            Builtin.Bare
+            Builtin.NoLabel
           Surface.Chosen word _ -> Builtin.Word (value word)
           Surface.Ranked _ -> Builtin.Rank
         | a <- given

@@ -17,21 +17,21 @@ module Checked.Inference
     define,
     scoped,
     withLocals,
-    entries,
+    namesInScope,
 
     -- * Unknowns
     freshType,
     freshDimension,
     monomorphic,
-    known,
+    resolved,
     decidedAs,
-    settledPlaces,
+    decidedElsewhere,
 
     -- * Equations
     unify,
 
     -- * Functions
-    generalising,
+    generalise,
     instantiate,
 
     -- * What is decided later
@@ -56,7 +56,7 @@ import Checked.Scheme
     Binding (..),
     Meaning (..),
     OverloadedCall (..),
-    Pending (..),
+    DeferredConstraint (..),
     Scheme (..),
   )
 import Checked.Syntax (Mention (Mention), Operator (..))
@@ -90,7 +90,7 @@ data Memory = Memory
     outside :: Int,
     -- | younger unknowns that must not be generalised
     shared :: IntSet,
-    pending :: [Pending],
+    pending :: [DeferredConstraint],
     mentioned :: [(Region, Maybe Region, Text, Meaning)],
     found :: [Error],
     tainted :: Bool,
@@ -128,7 +128,7 @@ run infer = case runState infer start of
             )
           <> ") giving "
           <> Type.describe (resolve memory (result scheme))
-      Said text -> text
+      Described text -> text
     start =
       Memory
         { next = 0,
@@ -182,8 +182,8 @@ separately infer = do
 find :: Name -> Infer (Maybe Binding)
 find name = gets (Map.lookup name . scope)
 
-entries :: Infer [Name]
-entries = gets (Map.keys . scope)
+namesInScope :: Infer [Name]
+namesInScope = gets (Map.keys . scope)
 
 define :: Name -> Binding -> Infer ()
 define name entry = modify' (\m -> m {scope = Map.insert name entry (scope m)})
@@ -238,14 +238,14 @@ monomorphic d =
   modify' (\m -> m {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared m)})
 
 -- | As far as it is known.
-known :: Type -> Infer Type
-known t = gets (\m -> resolve m t)
+resolved :: Type -> Infer Type
+resolved t = gets (\m -> resolve m t)
 
 knownDimension :: Dimension -> Infer Dimension
 knownDimension d = gets (\m -> resolveDimension (decisions m) d)
 
 resolve :: Memory -> Type -> Type
-resolve m t = Type.replaced (resolveDimension (decisions m)) unknown t
+resolve m t = Type.substitute (resolveDimension (decisions m)) unknown t
   where
     unknown n = case IntMap.lookup n (decisions m) of
       Just (TypeAt _ t') -> resolve m t'
@@ -282,8 +282,8 @@ decidedAt t = gets (\m -> listToMaybe (places m t))
 
 -- | Of some terms at their places, as they are written and as they are known: where else it was
 -- decided what they are.
-settledPlaces :: [(Region, Type, Type)] -> Infer [(Region, Type)]
-settledPlaces terms = concat <$> traverse one terms
+decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
+decidedElsewhere terms = concat <$> traverse one terms
   where
     one (at, written, found') = do
       place' <- decidedAt written
@@ -294,8 +294,8 @@ settledPlaces terms = concat <$> traverse one terms
 -- | Make two types equal at a place; False when they can not be.
 unify :: Region -> Type -> Type -> Infer Bool
 unify region a b = do
-  a' <- known a
-  b' <- known b
+  a' <- resolved a
+  b' <- resolved b
   case (a', b') of
     (Wrong, _) -> pure True
     (_, Wrong) -> pure True
@@ -342,24 +342,24 @@ share n others = do
 -- Functions
 
 -- | The scheme of a function whose parameters and result the action finds.
-generalising :: Infer ([Type], Type, a) -> Infer (Scheme, a)
-generalising infer = do
+generalise :: Infer ([Type], Type, a) -> Infer (Scheme, a)
+generalise infer = do
   before <- gets outside
   begin <- gets next
   modify' (\m -> m {outside = begin})
   (ps, r, a) <- infer
-  open <- undecided
-  ps' <- mapM known ps
-  r' <- known r
+  deferred <- undecided
+  ps' <- mapM resolved ps
+  r' <- resolved r
   m <- get
-  let inside = r' : ps' <> concatMap typesOf open
+  let inside = r' : ps' <> concatMap typesOf deferred
       mine =
         IntSet.fromList [n | t <- inside, n <- Type.variables t <> Type.dimensions t, n >= begin]
       kept =
         IntSet.fromList
           (concatMap (sharedNow m) (IntSet.toList (snd (IntSet.split (begin - 1) (shared m)))))
   put m {outside = before}
-  pure (Scheme {general = IntSet.difference mine kept, parameters = ps', result = r', open}, a)
+  pure (Scheme {quantified = IntSet.difference mine kept, parameters = ps', result = r', deferred}, a)
   where
     typesOf op = case op of
       Operation a -> [snd (left a), snd (right a), outcome a]
@@ -370,7 +370,7 @@ generalising infer = do
           (resolveDimension (decisions m) (Dimension.atom (Dimension.Unknown n)))
 
 -- | What stays open, each once. When there is too much, what is unknown is a quantity after all.
-undecided :: Infer [Pending]
+undecided :: Infer [DeferredConstraint]
 undecided = do
   waiting <- decide >>= mapM asKnown
   once <- merged waiting
@@ -383,13 +383,13 @@ undecided = do
   where
     asKnown op = case op of
       Operation a -> do
-        l <- traverse known (left a)
-        r <- traverse known (right a)
-        o <- known (outcome a)
+        l <- traverse resolved (left a)
+        r <- traverse resolved (right a)
+        o <- resolved (outcome a)
         pure (Operation a {left = l, right = r, outcome = o})
       Overloaded c -> do
-        arguments <- traverse (traverse known) (given c)
-        o <- known (chosen c)
+        arguments <- traverse (traverse resolved) (given c)
+        o <- resolved (chosen c)
         pure (Overloaded c {given = arguments, chosen = o})
     -- Equal operations on equal operands have equal outcomes.
     merged ops = case ops of
@@ -420,8 +420,8 @@ mostOpen = 50
 -- once the arguments are known.
 instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
 instantiate use scheme = do
-  renamed <- traverse (const freshNumber) (IntMap.fromSet id (general scheme))
-  let type' = Type.replaced dimension (\n -> Variable (IntMap.findWithDefault n n renamed))
+  renamed <- traverse (const freshNumber) (IntMap.fromSet id (quantified scheme))
+  let type' = Type.substitute dimension (\n -> Variable (IntMap.findWithDefault n n renamed))
       dimension d = foldl (\d' n -> Dimension.substitute n (fresh n) d') d (Dimension.unknowns d)
       fresh n = Dimension.atom (Dimension.Unknown (IntMap.findWithDefault n n renamed))
       operation op = case op of
@@ -438,19 +438,19 @@ instantiate use scheme = do
   pure
     ( map type' (parameters scheme),
       type' (result scheme),
-      mapM_ (require . operation) (open scheme)
+      mapM_ (require . operation) (deferred scheme)
     )
 
 -- What is decided later
 
 -- | Something has to make sense, now or when more is known.
-require :: Pending -> Infer ()
+require :: DeferredConstraint -> Infer ()
 require p = do
   done <- attempt p
   unless done (modify' (\m -> m {pending = p : pending m}))
 
 -- | Decide what waits as far as enough is known by now; the rest is returned, and waits no longer.
-decide :: Infer [Pending]
+decide :: Infer [DeferredConstraint]
 decide = do
   waiting <- gets pending
   if null waiting
@@ -466,20 +466,20 @@ decide = do
 -- meant.
 settle :: Infer ()
 settle = do
-  open <- decide
-  case open of
+  deferred <- decide
+  case deferred of
     [] -> pure ()
     Operation first : _ -> do
       quantity (left first)
       quantity (right first)
-      modify' (\m -> m {pending = reverse open}) *> settle
+      modify' (\m -> m {pending = reverse deferred}) *> settle
     Overloaded first : rest -> do
       remaining <- fitting first
       mapM_ (take' first) (take 1 remaining)
       modify' (\m -> m {pending = reverse rest}) *> settle
   where
     quantity (region, t) = do
-      t' <- known t
+      t' <- resolved t
       case t' of
         Variable _ -> do
           d <- freshDimension
@@ -487,7 +487,7 @@ settle = do
         _ -> pure ()
 
 -- | Decide something if enough is known; False when it has to wait.
-attempt :: Pending -> Infer Bool
+attempt :: DeferredConstraint -> Infer Bool
 attempt p = case p of
   Operation a -> operate a
   Overloaded c -> choose c
@@ -498,7 +498,7 @@ attempt p = case p of
 choose :: OverloadedCall -> Infer Bool
 choose c = do
   remaining <- fitting c
-  arguments <- traverse (known . snd) (given c)
+  arguments <- traverse (resolved . snd) (given c)
   case remaining of
     [] -> do
       unless (Wrong `elem` arguments) (misfit c arguments)
@@ -512,7 +512,7 @@ choose c = do
 misfit :: OverloadedCall -> [Type] -> Infer ()
 misfit c arguments = case mapMaybe near (alternatives c) of
   (region, wanted, written', found') : _ -> do
-    places <- settledPlaces [(region, written', found')]
+    places <- decidedElsewhere [(region, written', found')]
     mistakeOnce (map fst places) (Mismatch region wanted found' places)
   [] ->
     mistake
@@ -520,7 +520,7 @@ misfit c arguments = case mapMaybe near (alternatives c) of
           (at c)
           (Builtin.name (builtin c))
           (zip (map fst (given c)) arguments)
-          (nubOrd (map (Builtin.written (builtin c)) (alternatives c <> related)))
+          (nubOrd (map (Builtin.formText (builtin c)) (alternatives c <> related)))
       )
   where
     related =
@@ -554,9 +554,9 @@ take' c form = do
 -- | What was decided late has to be what its use took it for.
 settledAs :: Region -> Type -> Type -> Infer ()
 settledAs region wanted found' = do
-  w <- known wanted
-  f <- known found'
-  places <- settledPlaces [(region, wanted, w), (region, found', f)]
+  w <- resolved wanted
+  f <- resolved found'
+  places <- decidedElsewhere [(region, wanted, w), (region, found', f)]
   same <- unify region wanted found'
   unless same (mistakeOnce (region : map fst places) (Mismatch region w f places))
 
@@ -569,9 +569,9 @@ alternatives c =
 -- | The forms that the arguments fit as far as they are known.
 fitting :: OverloadedCall -> Infer [Form]
 fitting c = do
-  arguments <- traverse (known . snd) (given c)
+  arguments <- traverse (resolved . snd) (given c)
   fresh <- Fresh <$> freshDimension <*> freshType
-  outcome' <- known (chosen c)
+  outcome' <- resolved (chosen c)
   let same = Builtin.labelled fresh (builtin c) (labels c)
       fits = [f | f <- same, and (zipWith mayBe arguments (wantedBy f))]
   -- The use of the result helps to choose, but is not what is wrong when nothing fits.
@@ -597,8 +597,8 @@ mayBe found' wanted = case (found', wanted) of
 -- | Decide an operation if enough is known; False when it has to wait.
 operate :: Arithmetic -> Infer Bool
 operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcome') = do
-  l <- known left'
-  r <- known right'
+  l <- resolved left'
+  r <- resolved right'
   case (op, l, r) of
     (_, Wrong, _) -> result' Wrong
     (_, _, Wrong) -> result' Wrong
@@ -628,7 +628,7 @@ operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
       | otherwise -> wrong (NoOperation region "a product" [(leftRegion, l), (rightRegion, r)])
     (Divide, _, _) -> wrong (NoOperation region "a quotient" [(leftRegion, l), (rightRegion, r)])
     -- Comparisons are dealt with above; and, or are typed where they stand.
-    _ -> result' Truth'
+    _ -> result' Boolean
   where
     compares = op `elem` [Less, AtMost, Greater, AtLeast, Equal, Unequal]
     -- Only quantities of one kind can be compared.
@@ -637,12 +637,12 @@ operate a@(Arithmetic region op (leftRegion, left') (rightRegion, right') outcom
       _ -> do
         d <- freshDimension
         fine <- (&&) <$> unify leftRegion (Quantity d) l <*> unify rightRegion (Quantity d) r
-        if fine then result' Truth' else disagree l r
+        if fine then result' Boolean else disagree l r
     quotient d e = Dimension.times d (Dimension.power (-1) e)
     result' t = True <$ settledAs region outcome' t
     wrong e = mistakeOnce [region] e *> result' Wrong
     disagree l r = do
-      places <- settledPlaces [(leftRegion, left', l), (rightRegion, right', r)]
+      places <- decidedElsewhere [(leftRegion, left', l), (rightRegion, right', r)]
       mistakeOnce
         (region : map fst places)
         (Disagree region op (leftRegion, l) (rightRegion, r) places)

@@ -12,7 +12,7 @@ import Base.Name (Name (..))
 import Base.Region (Located (..))
 import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
-import Checked.Deferred (Later, solved)
+import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Inference (Infer)
@@ -55,8 +55,8 @@ number wanted (Located at e) = case (e, wanted) of
 -- length, @4 * 4@ an area.
 plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
 plainFactor op (l, lt) (r, rt) = do
-  lt' <- Inference.known lt
-  rt' <- Inference.known rt
+  lt' <- Inference.resolved lt
+  rt' <- Inference.resolved rt
   when
     (isBare l && not (isBare r) && hasDimension rt')
     (void (Inference.unify (region l) Type.number lt))
@@ -77,11 +77,11 @@ isBare (Located _ e) = case e of
   _ -> False
 
 -- | A call whose type is known at once; whether the function has other forms.
-data Call = Call {answer :: Type, overloaded :: Bool, checked :: Later Checked.Expr}
+data Call = Call {answer :: Type, overloaded :: Bool, checked :: Deferred Checked.Expr}
 
 -- | A call of a function of the language with numbers and pairs as they are written, if only one of
 -- its forms takes such, without a detour by unknowns. Its values are checked by the function given.
-call :: (Type -> Surface.Expr -> Infer (Later Checked.Expr)) -> Surface.Expr -> Infer (Maybe Call)
+call :: (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) -> Surface.Expr -> Infer (Maybe Call)
 call expect (Located at e) = case e of
   Surface.Call (Located place name@(Name text)) arguments
     | Just es <- traverse given (NonEmpty.toList arguments),
@@ -90,19 +90,19 @@ call expect (Located at e) = case e of
       [(form, True)] <-
         filter
           (and . zipWith fits kinds . map Builtin.type' . parameters . fst)
-          (Builtin.bare builtin (length es)) ->
+          (Builtin.unlabelled builtin (length es)) ->
       do
         entry <- Inference.find name
         case entry of
           Just _ -> pure Nothing
           Nothing -> do
-            Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin))
+            Inference.mention place Nothing text (Inference.Described (Builtin.description builtin))
             let types = map Builtin.type' (parameters form)
                 whole = Located at . Checked.Builtin builtin
             checked <- case zipWithM plain types es of
               Just arguments' -> let found = whole arguments' in found `seq` pure (const found)
               Nothing ->
-                (\es' sol -> whole (solved sol (map (Checked.Given .) es')))
+                (\es' sol -> whole (resolveAll sol (map (Checked.Given .) es')))
                   <$> zipWithM expect types es
             pure
               ( Just

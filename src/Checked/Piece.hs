@@ -15,7 +15,7 @@ import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (..), Region)
 import Checked.Builtin qualified as Builtin
-import Checked.Deferred (Later, solved)
+import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Inference (Infer, Solution)
@@ -70,7 +70,7 @@ table checker name written = case written of
                 ]
            in Columns
                 [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra]
-                (solved sol (map (filled order sizes) (gathered rows')))
+                (resolveAll sol (map (filled order sizes) (gathered rows')))
       )
     where
       twice (i, c) =
@@ -100,7 +100,7 @@ table checker name written = case written of
       x : _ -> Just x
 
 -- | The cells of rows, brought into order, with the sizes of the bare numbers of their columns.
-filled :: [Int] -> [Double] -> Row -> Later Cells
+filled :: [Int] -> [Double] -> Row -> Deferred Cells
 filled order sizes found sol = case found of
   Numbers rows -> arranged rows
   Bares at xs -> arranged (NumberTable.fromList [(at, xs)])
@@ -162,7 +162,7 @@ rowsOf checker columns = go 1 []
 -- | The rows of a line, the first of which has this number.
 row :: Checker -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
 row checker columns number (Located at line) = case line of
-  Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsAgain at)
+  Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsRepeated at)
   Surface.BrokenLine -> Nothing <$ Inference.taint
   Surface.Numbers numbers
     | NumberTable.width numbers /= length columns ->
@@ -201,7 +201,7 @@ cell checker c e = case bare e of
 -- | Not known of what is reported already.
 columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
-  t' <- Inference.known t
+  t' <- Inference.resolved t
   pure $ case t' of
     Type.Curve (Type.Fields cs) -> Just cs
     Type.Curve _ -> Nothing
@@ -249,7 +249,7 @@ cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
     one e = case [(r, n) | (r, n) <- namesIn e, n `elem` map (Name . fst) columns] of
       (r, n) : _ ->
         const (Located (region e) (Checked.Number 0))
-          <$ Inference.mistake (ColumnForOne r (digits digit) n)
+          <$ Inference.mistake (ColumnForWholePiece r (digits digit) n)
       [] -> expect checker Type.len e
     angle = along Type.angle
     point p = expect checker Type.aPoint p
@@ -319,4 +319,4 @@ unitType unit = case unit of
   MmPerMin -> (Type.feed, 1)
   MPerMin -> (Type.feed, 1000)
   InPerMin -> (Type.feed, 25.4)
-  Rpm -> (Type.turns, 1)
+  Rpm -> (Type.spindleSpeed, 1)

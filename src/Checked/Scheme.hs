@@ -3,7 +3,7 @@ module Checked.Scheme
   ( Binding (..),
     Scheme (..),
     Meaning (..),
-    Pending (..),
+    DeferredConstraint (..),
     Arithmetic (..),
     OverloadedCall (..),
   )
@@ -27,17 +27,17 @@ data Binding
 
 -- | The type of a function: the unknowns that are fresh at each use, and the operations of its body
 -- that can be decided only when the arguments are known.
-data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type, open :: [Pending]}
+data Scheme = Scheme {quantified :: IntSet, parameters :: [Type], result :: Type, deferred :: [DeferredConstraint]}
 
 -- | What a name stands for at a place, for a reader.
 data Meaning
   = Valued Type
   | Callable [Text] Scheme
   | -- | in words
-    Said Text
+    Described Text
 
 -- | What can be decided only when more is known.
-data Pending = Operation Arithmetic | Overloaded OverloadedCall
+data DeferredConstraint = Operation Arithmetic | Overloaded OverloadedCall
 
 -- | An operation whose operands may not be known yet.
 data Arithmetic = Arithmetic

@@ -208,11 +208,11 @@ contours ::
 contours expect e@(Located at _) = do
   t <- Inference.freshType
   e' <- expect t e
-  found <- Inference.known t
+  found <- Inference.resolved t
   let wanted = case found of
         Type.ListOf _ -> Type.ListOf Type.Contour
         _ -> Type.Contour
-  settled <- Inference.settledPlaces [(at, t, found)]
+  settled <- Inference.decidedElsewhere [(at, t, found)]
   same <- Inference.unify at wanted t
   unless same (Inference.mistake (Mismatch at wanted found settled))
   pure e'

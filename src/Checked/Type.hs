@@ -5,7 +5,7 @@ module Checked.Type
     len,
     angle,
     feed,
-    turns,
+    spindleSpeed,
     aPoint,
     aVector,
     describe,
@@ -13,8 +13,8 @@ module Checked.Type
     dimensions,
     dimensionOf,
     variables,
-    inner,
-    replaced,
+    components,
+    substitute,
   )
 where
 
@@ -33,11 +33,11 @@ data Type
   | Line
   | Contour
   | -- | true or false
-    Truth'
+    Boolean
   | -- | a point with a height
-    Space
+    SpacePoint
   | -- | a motion of the plane
-    Placement
+    Transformation
   | ListOf Type
   | -- | rows of values, by its columns
     Table Type
@@ -51,14 +51,14 @@ data Type
     Wrong
   deriving stock (Eq, Show)
 
-number, len, angle, feed, turns, aPoint, aVector :: Type
+number, len, angle, feed, spindleSpeed, aPoint, aVector :: Type
 number = Quantity Dimension.none
 len = Quantity (Dimension.atom Length)
 angle = Quantity (Dimension.atom Angle)
 feed =
   Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
-turns = Quantity (Dimension.power (-1) (Dimension.atom Time))
-aPoint = Spatial (Dimension.atom Place)
+spindleSpeed = Quantity (Dimension.power (-1) (Dimension.atom Time))
+aPoint = Spatial (Dimension.atom PointWeight)
 aVector = Spatial Dimension.none
 
 -- | In the words of a drawing, with its article.
@@ -66,16 +66,16 @@ describe :: Type -> Text
 describe t = case t of
   Quantity d -> Dimension.describe d
   Spatial d
-    | d == Dimension.atom Place -> "a point"
+    | d == Dimension.atom PointWeight -> "a point"
     | d == Dimension.none -> "a vector"
     | Dimension.isKnown d -> "a sum of points"
     | otherwise -> "a pair"
   Circle -> "a circle"
   Line -> "a line"
   Contour -> "a contour"
-  Truth' -> "true or false"
-  Space -> "a point with a height"
-  Placement -> "a transformation"
+  Boolean -> "true or false"
+  SpacePoint -> "a point with a height"
+  Transformation -> "a transformation"
   Table columns -> "a table" <> besides columns
   Curve columns -> "a curve" <> besides columns
   Fields _ -> "columns"
@@ -123,17 +123,17 @@ dimensions :: Type -> [Int]
 dimensions t = case t of
   Quantity d -> Dimension.unknowns d
   Spatial d -> Dimension.unknowns d
-  _ -> concatMap dimensions (inner t)
+  _ -> concatMap dimensions (components t)
 
 -- | The unknown types in a type.
 variables :: Type -> [Int]
 variables t = case t of
   Variable n -> [n]
-  _ -> concatMap variables (inner t)
+  _ -> concatMap variables (components t)
 
 -- | The types in a type, one level down.
-inner :: Type -> [Type]
-inner t = case t of
+components :: Type -> [Type]
+components t = case t of
   ListOf a -> [a]
   Table a -> [a]
   Curve a -> [a]
@@ -143,15 +143,15 @@ inner t = case t of
   Circle -> []
   Line -> []
   Contour -> []
-  Truth' -> []
-  Space -> []
-  Placement -> []
+  Boolean -> []
+  SpacePoint -> []
+  Transformation -> []
   Variable _ -> []
   Wrong -> []
 
 -- | A type with its dimensions and its unknown types replaced.
-replaced :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
-replaced dimension unknown t = case t of
+substitute :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
+substitute dimension unknown t = case t of
   Quantity d -> Quantity (dimension d)
   Spatial d -> Spatial (dimension d)
   Variable n -> unknown n
@@ -162,9 +162,9 @@ replaced dimension unknown t = case t of
   Circle -> t
   Line -> t
   Contour -> t
-  Truth' -> t
-  Space -> t
-  Placement -> t
+  Boolean -> t
+  SpacePoint -> t
+  Transformation -> t
   Wrong -> t
   where
-    again = replaced dimension unknown
+    again = substitute dimension unknown

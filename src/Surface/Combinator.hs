@@ -11,8 +11,8 @@
 module Surface.Combinator
   ( Parser,
     Grammar (..),
-    Memory (..),
-    Taken (..),
+    ParserState (..),
+    Consumed (..),
     Problem (..),
     run,
 
@@ -34,7 +34,7 @@ module Surface.Combinator
     statementBlock,
     sepBy1,
     nested,
-    deepest,
+    maxNesting,
 
     -- * Recovery
     recovering,
@@ -76,7 +76,7 @@ data Problem
   | -- | a keyword where a name is to be given
     NoName Text
   | -- | something behind a complete statement
-    Trailing Token_
+    TextAfterStatement Token_
   | -- | something in a row of a table that is no cell
     NotInRow Token_
   | -- | something among the names of columns that is none
@@ -93,17 +93,17 @@ data Problem
 -- | What the parser remembers: the failures that it recovered from, where the last token ended, and
 -- how many brackets are open; how many blocks of statements the statement at hand stands in;
 -- whether the rest is not read.
-data Memory = Memory
+data ParserState = ParserState
   { failures :: [Failure],
     lastEnd :: Int,
-    depth :: Int,
-    within :: Int,
-    gaveUp :: Bool
+    bracketDepth :: Int,
+    blockDepth :: Int,
+    hasGivenUp :: Bool
   }
 
 -- | What is made of some tokens, no more than two brackets deep; how many they are, and those
 -- behind them.
-data Taken a = Taken a Int [Token]
+data Consumed a = Consumed a Int [Token]
 
 -- | What the grammar is written in.
 class MonadParsec Problem Input p => Grammar p where
@@ -111,43 +111,43 @@ class MonadParsec Problem Input p => Grammar p where
   token :: Text -> (Token -> Maybe a) -> p a
 
   -- | As many as there are.
-  several :: p a -> p [a]
+  zeroOrMore :: p a -> p [a]
 
   -- | What is made of a mistake in a parser.
-  blaming :: (ParseError Input Problem -> p a) -> p a -> p a
+  onFailure :: (ParseError Input Problem -> p a) -> p a -> p a
 
   -- | What is left to read.
-  upcoming :: p [Token]
+  remaining :: p [Token]
 
   -- | What a function makes of the next tokens, if it knows them all, or else the other way, which
   -- would make the same of them. The reader that tells what is wrong goes this way always.
-  atOnce :: ([Token] -> Maybe (Taken Expr)) -> p Expr -> p Expr
+  fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
   -- | Whether the next token is a word, so that what begins with a keyword may follow. The reader
   -- that tells what is wrong says so in any case: it names the keywords that were expected.
-  wordAhead :: p Bool
+  isWordNext :: p Bool
 
-  memory :: p Memory
-  remember :: (Memory -> Memory) -> p ()
+  parserState :: p ParserState
+  modifyState :: (ParserState -> ParserState) -> p ()
 
 -- | A rule of the grammar, for either reader.
 type Parser a = forall p. Grammar p => p a
 
 -- | The reader that tells what is wrong.
-type Explaining = ParsecT Problem Input (State Memory)
+type Explaining = ParsecT Problem Input (State ParserState)
 
-instance Grammar (ParsecT Problem Input (State Memory)) where
+instance Grammar (ParsecT Problem Input (State ParserState)) where
   token expected accept = do
     (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
     lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
     pure a
-  several = Parsec.many
-  blaming blame p = Parsec.observing p >>= either blame pure
-  upcoming = (\(Input ts) -> ts) <$> Parsec.getInput
-  atOnce _ p = p
-  wordAhead = pure True
-  memory = lift get
-  remember f = lift (modify' f)
+  zeroOrMore = Parsec.many
+  onFailure blame p = Parsec.observing p >>= either blame pure
+  remaining = (\(Input ts) -> ts) <$> Parsec.getInput
+  fastPath _ p = p
+  isWordNext = pure True
+  parserState = lift get
+  modifyState f = lift (modify' f)
 
 -- | Run a parser over the tokens of a text that ends at an offset: the errors in order, and the
 -- output if there is one.
@@ -157,9 +157,9 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
     (result, remembered) =
       runState
         (Parsec.runParserT parser "" (Input tokens))
-        Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
+        ParserState {failures = [], lastEnd = 0, bracketDepth = 0, blockDepth = 0, hasGivenUp = False}
     inOrder =
-      sortOn Parsec.errorOffset ([f | not (gaveUp remembered), f <- final] <> failures remembered)
+      sortOn Parsec.errorOffset ([f | not (hasGivenUp remembered), f <- final] <> failures remembered)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
@@ -187,7 +187,7 @@ isWord word t = case shape t of
 -- | A name that is to be given to something. A keyword in its place is a mistake of its own.
 name :: Grammar p => p (Located Name)
 name = do
-  next <- upcoming
+  next <- remaining
   case next of
     Token {shape = Word word, newLine} : _
       | Keyword.isReserved word && not newLine ->
@@ -207,7 +207,7 @@ usedName = token "a name" nameOf
 -- | Only if the next token stands on the line of the last one.
 onThisLine :: Grammar p => p a -> p a
 onThisLine p = do
-  next <- upcoming
+  next <- remaining
   case next of
     t : _ | newLine t -> Parsec.empty
     _ -> p
@@ -216,21 +216,21 @@ onThisLine p = do
 -- | Nothing more stands on this line, but for the end of the block.
 endOfLine :: Grammar p => p ()
 endOfLine = do
-  next <- upcoming
-  inBlock <- (> 0) . within <$> memory
+  next <- remaining
+  inBlock <- (> 0) . blockDepth <$> parserState
   case next of
     t : _
       | not (newLine t) && not (inBlock && shape t == Symbol "}") ->
-        Parsec.customFailure (Trailing (shape t))
+        Parsec.customFailure (TextAfterStatement (shape t))
     _ -> pure ()
 {-# INLINEABLE endOfLine #-}
 
 -- | With the region from the first to the last token.
 located :: Grammar p => p a -> p (Located a)
 located p = do
-  input <- upcoming
+  input <- remaining
   x <- p
-  Memory {lastEnd} <- memory
+  ParserState {lastEnd} <- parserState
   let begin = case input of
         t : _ -> start (Token.place t)
         [] -> lastEnd
@@ -253,7 +253,7 @@ brackets = enclosed "[" "]"
 enclosed :: Grammar p => Text -> Text -> p a -> p a
 enclosed open close inside = do
   opened <- symbol open
-  x <- blaming (blame opened) (nested inside)
+  x <- onFailure (blame opened) (nested inside)
   ended <- lineEnds
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol close)
@@ -273,12 +273,12 @@ block :: Grammar p => Text -> (Maybe (Located Name) -> a) -> p a -> p [Located a
 block what broken one = do
   opened <- symbol "{"
   items <-
-    several (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+    zeroOrMore (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
   closing opened what "}"
   pure items
   where
     inside = do
-      rest <- upcoming
+      rest <- remaining
       case rest of
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
@@ -286,7 +286,7 @@ block what broken one = do
         _ -> pure ()
     -- A statement in a block whose closing brace follows further down.
     strayStatement = do
-      next <- upcoming
+      next <- remaining
       case next of
         t@Token {shape = Word word} : _ | beginsStatement t -> Parsec.customFailure (Misplaced word)
         _ -> pure ()
@@ -296,16 +296,16 @@ block what broken one = do
 statementBlock :: Grammar p => Text -> p Statement -> p [Statement]
 statementBlock what one = do
   opened <- symbol "{"
-  remember (\m -> m {within = within m + 1})
-  statements <- nested (several (inside *> recovering brokenStatement one))
-  remember (\m -> m {within = within m - 1})
-  ended <- null <$> upcoming
+  modifyState (\m -> m {blockDepth = blockDepth m + 1})
+  statements <- nested (zeroOrMore (inside *> recovering brokenStatement one))
+  modifyState (\m -> m {blockDepth = blockDepth m - 1})
+  ended <- null <$> remaining
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol "}")
   pure statements
   where
     inside = do
-      ts <- upcoming
+      ts <- remaining
       case ts of
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
@@ -334,7 +334,7 @@ closing opened what close = do
 
 -- | Whether something else than a closing bracket begins a new line, or nothing follows at all.
 lineEnds :: Grammar p => p Bool
-lineEnds = begins <$> upcoming
+lineEnds = begins <$> remaining
   where
     begins ts = case ts of
       [] -> True
@@ -343,27 +343,27 @@ lineEnds = begins <$> upcoming
 
 -- | Whether the program or the statement ends here.
 atEnd :: Grammar p => p Bool
-atEnd = maybe True beginsStatement . listToMaybe <$> upcoming
+atEnd = maybe True beginsStatement . listToMaybe <$> remaining
 {-# INLINEABLE atEnd #-}
 
 sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
-sepBy1 p separator = (:|) <$> p <*> several (symbol separator *> p)
+sepBy1 p separator = (:|) <$> p <*> zeroOrMore (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
 -- | One bracket deeper.
 nested :: Grammar p => p a -> p a
 nested p = do
-  open <- depth <$> memory
-  when (open >= deepest) (Parsec.customFailure TooDeep)
-  remember (\m -> m {depth = open + 1})
+  open <- bracketDepth <$> parserState
+  when (open >= maxNesting) (Parsec.customFailure TooDeep)
+  modifyState (\m -> m {bracketDepth = open + 1})
   a <- p
-  remember (\m -> m {depth = open})
+  modifyState (\m -> m {bracketDepth = open})
   pure a
 {-# INLINEABLE nested #-}
 
 -- | Expressions are not nested deeper.
-deepest :: Int
-deepest = 500
+maxNesting :: Int
+maxNesting = 500
 
 -- Recovery
 
@@ -372,25 +372,25 @@ deepest = 500
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
-  input <- upcoming
-  before <- memory
+  input <- remaining
+  before <- parserState
   Parsec.withRecovery (again before begin input) p
   where
     again before begin input failure = do
-      remember
+      modifyState
         ( \m ->
-            if gaveUp m
+            if hasGivenUp m
               then m
               else
                 m
                   { failures = failure : failures m,
-                    depth = depth before,
-                    within = within before,
-                    gaveUp = isTooDeep failure
+                    bracketDepth = bracketDepth before,
+                    blockDepth = blockDepth before,
+                    hasGivenUp = isTooDeep failure
                   }
         )
       -- What is nested too deep says nothing of what follows.
-      enough <- gaveUp <$> memory
+      enough <- hasGivenUp <$> parserState
       when enough (void (Parsec.takeWhileP Nothing (const True)))
       now <- Parsec.getOffset
       when (now == begin) (void Parsec.anySingle)
@@ -407,7 +407,7 @@ isTooDeep failure = case failure of
 -- like one, and the name that was to be defined.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
-  inBlock <- (> 0) . within <$> memory
+  inBlock <- (> 0) . blockDepth <$> parserState
   more <- skipped inBlock (sum (map braces taken))
   pure
     ( Located
@@ -418,7 +418,7 @@ brokenStatement taken = do
     -- What is skipped; the brace that closes the block in which the statement stands is not.
     skipped :: Bool -> Int -> Parser [Token]
     skipped inBlock open = do
-      rest <- upcoming
+      rest <- remaining
       case rest of
         t : others
           | not
@@ -518,13 +518,13 @@ fromFailure ts finish failure = case failure of
         word
         (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
     NoName word -> Error.Reserved region word
-    Trailing shape' -> Error.Trailing region shape' neighbours
+    TextAfterStatement shape' -> Error.Trailing region shape' neighbours
     NotInRow shape' -> Error.NotInRow region shape' neighbours
     NotInHeadings shape' -> Error.NotInHeadings region shape' neighbours
     NoSide -> Error.NoSide region found
     Misplaced word -> Error.Misplaced region word
     ManyCoordinates place -> Error.ManyCoordinates place
-    TooDeep -> Error.TooDeep region deepest
+    TooDeep -> Error.TooDeep region maxNesting
   FancyError _ _ -> Error.Unexpected region found [] neighbours
   TrivialError _ _ expected ->
     Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours

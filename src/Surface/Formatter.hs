@@ -17,14 +17,14 @@ import Data.Maybe qualified as Maybe
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.Alignment (AlignedLine (..), LineText (..))
+import Surface.Alignment (AlignedLine (..), LineCells (..))
 import Surface.Alignment qualified as Alignment
 import Surface.Error (Error)
 import Surface.Lexer qualified as Lexer
 import Surface.Parser qualified as Parser
-import Surface.PrintExpression (Commented (..))
+import Surface.PrintExpression (CommentPositions (..))
 import Surface.PrintProgram qualified as PrintProgram
-import Surface.SourceLine (Anchored (..))
+import Surface.SourceLine (SourceLine (..))
 import Surface.SourceLine qualified as SourceLine
 import Surface.Syntax (Program (..))
 import Surface.Token (Token, Token_ (Symbol))
@@ -66,28 +66,28 @@ laidOut text program = Text.unlines (written (tidy (entries source remarks rows)
     source = Region.fromText "" text
     remarks = map (remark source) (comments program)
     tokens = fst (Lexer.tokens 0 text)
-    places = map offset remarks
+    sources = map offset remarks
     between set from to = maybe False (< to) (Set.lookupGE from set)
     marks =
-      Commented
-        { anywhere = between (Set.fromList places),
-          atComma = between (Set.fromList (besideCommas tokens places))
+      CommentPositions
+        { isBetween = between (Set.fromList sources),
+          isAtComma = between (Set.fromList (besideCommas tokens sources))
         }
     rows =
       concatMap
         (parted marks)
-        (SourceLine.anchored tokens (PrintProgram.rows marks (statements program)))
+        (SourceLine.withSources tokens (PrintProgram.rows marks (statements program)))
 
 -- | Those of some places, in order, that have a comma directly before or behind them.
 besideCommas :: [Token] -> [Int] -> [Int]
 besideCommas = go False
   where
     -- Whether the last token was a comma.
-    go after tokens places = case (tokens, places) of
+    go after tokens sources = case (tokens, sources) of
       (_, []) -> []
-      ([], _) -> if after then places else []
+      ([], _) -> if after then sources else []
       (t : rest, at : others)
-        | start (Token.place t) < at -> go (comma t) rest places
+        | start (Token.place t) < at -> go (comma t) rest sources
         | after || comma t -> at : go after tokens others
         | otherwise -> go after tokens others
     comma t = Token.shape t == Symbol ","
@@ -120,19 +120,19 @@ blankAbove source at =
     Region.Position {Region.line} = Region.position source at
 
 -- | A row that ends with an empty block is two when a comment stands in the block.
-parted :: Commented -> Anchored -> [Anchored]
-parted marks anchor = case (reverse (shapes anchor), reverse (places anchor)) of
+parted :: CommentPositions -> SourceLine -> [SourceLine]
+parted marks anchor = case (reverse (shapes anchor), reverse (sources anchor)) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
-    | anywhere marks (start (Token.place open)) (start (Token.place close)) ->
+    | isBetween marks (start (Token.place open)) (start (Token.place close)) ->
       [ anchor
-          { row = (row anchor) {cells = Whole (Text.dropEnd 2 (Alignment.plain (row anchor)))},
+          { row = (row anchor) {cells = WholeLine (Text.dropEnd 2 (Alignment.unaligned (row anchor)))},
             shapes = init (shapes anchor),
-            places = init (places anchor)
+            sources = init (sources anchor)
           },
-        Anchored
-          { row = AlignedLine {indent = indent (row anchor), cells = Whole "}", continues = False},
+        SourceLine
+          { row = AlignedLine {indent = indent (row anchor), cells = WholeLine "}", isContinuation = False},
             shapes = [Symbol "}"],
-            places = [Just close]
+            sources = [Just close]
           }
       ]
   _ -> [anchor]
@@ -147,11 +147,11 @@ data Content
   = -- | a comment with its indentation
     Own Int Text
   | -- | a row, and the comment behind it
-    Printed Anchored (Maybe Text)
+    Printed SourceLine (Maybe Text)
   deriving stock (Eq, Show)
 
 -- | Rows with the comments among them.
-entries :: Source -> [Remark] -> [Anchored] -> [Entry]
+entries :: Source -> [Remark] -> [SourceLine] -> [Entry]
 entries source remarks rows = go (zip rows (starts rows)) remarks []
   where
     -- The first comments are those that go above the next row.
@@ -169,12 +169,12 @@ entries source remarks rows = go (zip rows (starts rows)) remarks []
             (moved, tail'') = case (within, tail') of
               ([r], Nothing) | trailing r -> ([], Just r)
               _ -> (within, tail')
-            deep = indent (row anchor) + (if SourceLine.closes anchor then 2 else 0)
+            deep = indent (row anchor) + (if SourceLine.isClosing anchor then 2 else 0)
             leading =
-              [(own deep r) {gap = apart r && not (continues (row anchor))} | r <- above <> early]
+              [(own deep r) {gap = apart r && not (isContinuation (row anchor))} | r <- above <> early]
             wanted =
-              not (SourceLine.closes anchor)
-                && not (continues (row anchor))
+              not (SourceLine.isClosing anchor)
+                && not (isContinuation (row anchor))
                 && firstOnLine anchor
                 && blankAbove source from
             shifted =
@@ -188,17 +188,17 @@ entries source remarks rows = go (zip rows (starts rows)) remarks []
                  )
     own deep r = Entry {gap = apart r, line = Own deep (text r)}
     firstOnLine anchor = maybe False Token.newLine (found anchor)
-    found anchor = Maybe.listToMaybe (Maybe.catMaybes (take 1 (places anchor)))
+    found anchor = Maybe.listToMaybe (Maybe.catMaybes (take 1 (sources anchor)))
 
 -- | Where each row begins and ends in the source; a row that is not there stands where the one
 -- before it ends. The comma at the end of a row does not count: a comment before it is one behind
 -- the row.
-starts :: [Anchored] -> [(Int, Int)]
+starts :: [SourceLine] -> [(Int, Int)]
 starts = go 0
   where
     go end' anchors = case anchors of
       [] -> []
-      anchor : rest -> case map Token.place (Maybe.catMaybes (places anchor)) of
+      anchor : rest -> case map Token.place (Maybe.catMaybes (sources anchor)) of
         [] -> (end', end') : go end' rest
         first : more ->
           let finish = end (last (first : beforeComma anchor more))
@@ -215,7 +215,7 @@ tidy list = zipWith keep (Nothing : map Just list) list
     keep before entry = entry {gap = gap entry && maybe False (not . opensBlock . line) before}
     opensBlock content = case content of
       Own _ _ -> False
-      Printed anchor _ -> SourceLine.opens anchor
+      Printed anchor _ -> SourceLine.isOpening anchor
 
 -- | The lines: columns line up in rows that nothing separates, and so do the comments behind them.
 written :: [Entry] -> [Text]
@@ -229,7 +229,7 @@ written list = commented (go list)
         let (run, others) = span joins rest
             together = (anchor, tail') : [(a, t) | Entry {line = Printed a t} <- run]
          in blank gap
-              <> zip (Alignment.aligned (map (row . fst) together)) (map snd together)
+              <> zip (Alignment.render (map (row . fst) together)) (map snd together)
               <> go others
     joins entry = not (gap entry) && isRow (line entry)
     isRow content = case content of

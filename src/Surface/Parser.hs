@@ -6,7 +6,7 @@
 -- goes on at the next one, so that one run finds them all.
 module Surface.Parser
   ( parse,
-    explained,
+    parseExplained,
     parseExpr,
   )
 where
@@ -37,7 +37,7 @@ import Prelude hiding (span)
 -- | Read a program whose text begins at an offset. The output holds all that could be read; there
 -- is none when the text is too long.
 parse :: Int -> Text -> Result w Error Program
-parse begin text = maybe (explained begin text) (Result [] [] . Just) (sound begin text)
+parse begin text = maybe (parseExplained begin text) (Result [] [] . Just) (sound begin text)
 
 -- | A program without mistakes. Its tokens are read as they are needed and kept nowhere.
 sound :: Int -> Text -> Maybe Program
@@ -47,8 +47,8 @@ sound begin text = case Lexer.tokens begin text of
 {-# NOINLINE sound #-}
 
 -- | The same by the reader that tells what is wrong, whether anything is or not.
-explained :: Int -> Text -> Result w Error Program
-explained begin text = case drop mostTokens tokens of
+parseExplained :: Int -> Text -> Result w Error Program
+parseExplained begin text = case drop mostTokens tokens of
   t : _ ->
     Result {warnings = [], errors = [Error.TooLong (Token.place t) mostTokens], output = Nothing}
   [] ->
@@ -60,7 +60,7 @@ explained begin text = case drop mostTokens tokens of
   where
     (tokens, comments) = Lexer.tokens begin text
     (errors, read') = run program (begin + Text.length text) tokens
-{-# NOINLINE explained #-}
+{-# NOINLINE parseExplained #-}
 
 -- | A program may have so many words and signs.
 mostTokens :: Int
@@ -221,7 +221,7 @@ line =
     <|> (Entries <$> onLine NotInRow cell)
     <|> misfit NotInRow
   where
-    onLine problem p = (:|) <$> p <*> several (onThisLine p) <* lineDone problem
+    onLine problem p = (:|) <$> p <*> zeroOrMore (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
     cell =
@@ -237,7 +237,7 @@ misfit problem =
 -- | Nothing more stands on the line of a table, but for the end of it.
 lineDone :: (Token_ -> Problem) -> Parser ()
 lineDone problem = do
-  next <- upcoming
+  next <- remaining
   case next of
     t : _ | not (newLine t) && shape t /= Symbol "}" -> misfit problem
     _ -> pure ()
@@ -250,11 +250,11 @@ piece = do
   ciphers <-
     Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> sideless)
-  Piece what base ciphers side <$> several (located joggle)
+  Piece what base ciphers side <$> zeroOrMore (located joggle)
   where
     -- The end of the statement, or a side of something else.
     sideless = do
-      next <- upcoming
+      next <- remaining
       case next of
         t : _
           | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] ->
@@ -277,7 +277,7 @@ piece = do
           <*> (keyword "radius" *> expr)
 
 item :: Parser Item_
-item = wordAhead >>= \ahead -> if ahead then repetition <|> choice <|> element else element
+item = isWordNext >>= \ahead -> if ahead then repetition <|> choice <|> element else element
 
 -- | @for x in list@, behind its first word.
 forEach :: Parser (Located Name, Expr)
@@ -296,7 +296,7 @@ choice = do
     Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
     Left (a, b) ->
       Element Nothing (Located region (If condition a b))
-        <$> several (located modifier) <*> Parsec.optional (located link)
+        <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
   where
     branch =
       (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
@@ -305,11 +305,11 @@ choice = do
 
 element :: Parser Item_
 element = do
-  walk <- wordAhead >>= \ahead -> if ahead then Parsec.optional (located sense) else pure Nothing
+  walk <- isWordNext >>= \ahead -> if ahead then Parsec.optional (located sense) else pure Nothing
   what <- expr
-  ahead <- wordAhead
+  ahead <- isWordNext
   if ahead
-    then Element walk what <$> several (located modifier) <*> Parsec.optional (located link)
+    then Element walk what <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
     else pure (Element walk what [] Nothing)
 
 modifier :: Parser Modifier_
@@ -399,7 +399,7 @@ stops = stop `sepBy1` ","
 -- | Most expressions are one operand, behind which no operator stands.
 expr :: Parser Expr
 expr = do
-  begin <- upcoming
+  begin <- remaining
   case begin of
     t : _ | Just first <- operand t -> first >>= operated
     _ -> conditional <|> disjunction
@@ -417,7 +417,7 @@ operand t = case shape t of
 -- | An expression that begins with an operand.
 operated :: Grammar p => Expr -> p Expr
 operated first = do
-  next <- upcoming
+  next <- remaining
   case next of
     t : _
       | mayOperate t ->
@@ -518,7 +518,7 @@ joined op left right =
 
 factor :: Parser Expr
 factor = do
-  begin <- upcoming
+  begin <- remaining
   case begin of
     t : _ | Just found <- operand t -> found
     _ -> Parsec.hidden negative <|> primary
@@ -542,20 +542,20 @@ list = located (brackets (Parsec.option (List []) (expr >>= more)))
   where
     more e =
       (each e <$> (Parsec.hidden (keyword "for") *> forEach))
-        <|> (List . (e :) <$> several (symbol "," *> expr))
+        <|> (List . (e :) <$> zeroOrMore (symbol "," *> expr))
     each e (variable, from) = Each e variable from
 
 variableOrCall :: Parser Expr
 variableOrCall = located $ do
   what <- usedName
-  next <- upcoming
+  next <- remaining
   case next of
     t : _ | touches t -> Call what <$> parens (argument `sepBy1` ",")
     _ -> pure (Variable (value what))
 
 argument :: Parser Argument
 argument = do
-  begin <- upcoming
+  begin <- remaining
   case begin of
     t : _ | not (isWord' t) -> Given <$> expr
     _ -> Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
@@ -582,30 +582,30 @@ touches :: Token -> Bool
 touches t = attached t && shape t == Symbol "("
 
 -- | Two numbers in brackets, as most points are written.
-plainPair :: [Token] -> Maybe (Taken Expr)
+plainPair :: [Token] -> Maybe (Consumed Expr)
 plainPair tokens = case tokens of
   opening : inside
     | isSymbol "(" opening,
-      Just (Taken x n (comma : behind)) <- plainNumber inside,
+      Just (Consumed x n (comma : behind)) <- plainNumber inside,
       isSymbol "," comma,
-      Just (Taken y m (closing : rest)) <- plainNumber behind,
+      Just (Consumed y m (closing : rest)) <- plainNumber behind,
       isSymbol ")" closing ->
-      Just (Taken (Located (span (place opening) (place closing)) (Pair x y)) (n + m + 3) rest)
+      Just (Consumed (Located (span (place opening) (place closing)) (Pair x y)) (n + m + 3) rest)
   _ -> Nothing
 
 -- | A number, or a number behind a minus.
-plainNumber :: [Token] -> Maybe (Taken Expr)
+plainNumber :: [Token] -> Maybe (Consumed Expr)
 plainNumber tokens = case tokens of
   Token {shape = Number x unit, place} : rest ->
-    Just (Taken (Located place (Literal x unit)) 1 rest)
+    Just (Consumed (Located place (Literal x unit)) 1 rest)
   minus : Token {shape = Number x unit, place = at} : rest
     | isSymbol "-" minus ->
-      Just (Taken (Located (span (place minus) at) (Negate (Located at (Literal x unit)))) 2 rest)
+      Just (Consumed (Located (span (place minus) at) (Negate (Located at (Literal x unit)))) 2 rest)
   _ -> Nothing
 
 -- | @(a)@ is a, @(a, b)@ a point or a vector, @(a, b, c)@ a point in space.
 pairOrGroup :: Parser Expr
-pairOrGroup = atOnce plainPair $ do
+pairOrGroup = fastPath plainPair $ do
   Located region es <- located (parens (expr `sepBy1` ","))
   case NonEmpty.toList es of
     [a] -> pure a

@@ -6,9 +6,9 @@ module Surface.PrettyPrinter
   ( Document (..),
     Member (..),
     PrintedLine (..),
-    widest,
+    maxWidth,
     firstText,
-    lay,
+    render,
   )
 where
 
@@ -28,7 +28,7 @@ data Document
   deriving stock (Eq, Show)
 
 -- | Whether it has to begin a line, and what it is.
-data Member = Member {fresh :: Bool, content :: Document}
+data Member = Member {startsLine :: Bool, content :: Document}
   deriving stock (Eq, Show)
 
 -- | A line of the output: its indentation and the text behind it.
@@ -36,8 +36,8 @@ data PrintedLine = PrintedLine {indent :: Int, text :: Text}
   deriving stock (Eq, Show)
 
 -- | A line is not longer if it can be helped.
-widest :: Int
-widest = 100
+maxWidth :: Int
+maxWidth = 100
 
 -- | The text with which a document begins.
 firstText :: Document -> Text
@@ -50,8 +50,8 @@ firstText doc = case doc of
   Brackets _ open _ _ -> open
 
 -- | The lines of a document whose first one is indented so far; there is at least one.
-lay :: Int -> Document -> [PrintedLine]
-lay from doc = map line (reverse (now pen : done pen))
+render :: Int -> Document -> [PrintedLine]
+render from doc = map line (reverse (now pen : done pen))
   where
     pen = write from 0 doc Pen {done = [], now = (from, []), column = from}
     line (indent, texts) = PrintedLine {indent, text = Text.concat (reverse texts)}
@@ -71,7 +71,7 @@ newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column 
 -- its last one.
 write :: Int -> Int -> Document -> Pen -> Pen
 write indent behind doc pen
-  | fits (widest - column pen - behind) doc = foldl (flip put) pen (flat doc)
+  | fits (maxWidth - column pen - behind) doc = foldl (flip put) pen (flat doc)
   | otherwise = case doc of
     Text t -> put t pen
     Beside ds -> foldl (\p (d, b) -> write indent b d p) pen (zip ds (followers behind ds))
@@ -95,9 +95,9 @@ fill indent behind pieces = case pieces of
   where
     go ps pen = case ps of
       [] -> pen
-      Member {fresh, content} : rest ->
+      Member {startsLine, content} : rest ->
         let after = if null rest then behind else 0
-            enough = not fresh && fits (widest - column pen - 1 - after) content
+            enough = not startsLine && fits (maxWidth - column pen - 1 - after) content
          in go
               rest
               (write indent after content (if enough then put " " pen else newLine indent pen))
@@ -121,7 +121,7 @@ spend doc room
 spendAll :: [Member] -> Int -> Maybe Int
 spendAll pieces room = if null pieces then Just room else foldl next (Just (room + 1)) pieces
   where
-    next left piece = if fresh piece then Nothing else left >>= \r -> spend (content piece) (r - 1)
+    next left piece = if startsLine piece then Nothing else left >>= \r -> spend (content piece) (r - 1)
 
 -- | The texts of a document on one line.
 flat :: Document -> [Text]

@@ -18,76 +18,76 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineText (..))
+import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineCells (..))
 import Surface.Alignment qualified as Alignment
 import Surface.PrettyPrinter (Document (..), Member)
 import Surface.PrettyPrinter qualified as PrettyPrinter
-import Surface.PrintExpression (Commented, words')
+import Surface.PrintExpression (CommentPositions, spaced)
 import Surface.PrintExpression qualified as PrintExpression
 import Surface.Syntax
 import Surface.Token (unitName)
 
 -- | The text of a program.
 program :: Program -> Text
-program = Text.unlines . Alignment.aligned . rows PrintExpression.uncommented . statements
+program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
 -- | The rows of statements. The first argument tells where comments stand: there
 -- a list is broken, so that they can stay.
-rows :: Commented -> [Statement] -> [AlignedLine]
+rows :: CommentPositions -> [Statement] -> [AlignedLine]
 rows commented = concatMap (statement commented 0)
 
 -- Rows
 
 -- | The rows of one document.
 whole :: Int -> Document -> [AlignedLine]
-whole indent doc = case PrettyPrinter.lay indent doc of
+whole indent doc = case PrettyPrinter.render indent doc of
   [] -> []
   first : more ->
     AlignedLine
       { indent = PrettyPrinter.indent first,
-        cells = Whole (PrettyPrinter.text first),
-        continues = False
+        cells = WholeLine (PrettyPrinter.text first),
+        isContinuation = False
       } :
     map continued more
 
 -- | Two cells, if the whole stands on one line.
 cells' :: AlignmentColumn -> Int -> Document -> Document -> [AlignedLine]
 cells' column indent first second =
-  case (PrettyPrinter.lay indent first, PrettyPrinter.lay indent second, alone) of
+  case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
     ([a], [b], [_]) ->
       [ AlignedLine
           { indent,
-            cells = LineText column (PrettyPrinter.text a) (PrettyPrinter.text b),
-            continues = False
+            cells = LineCells column (PrettyPrinter.text a) (PrettyPrinter.text b),
+            isContinuation = False
           }
       ]
     _ -> alone
   where
-    alone = whole indent (Beside [first, Text (Alignment.gap column), second])
+    alone = whole indent (Beside [first, Text (Alignment.separator column), second])
 
 continued :: PrettyPrinter.PrintedLine -> AlignedLine
 continued line =
   AlignedLine
     { indent = PrettyPrinter.indent line,
-      cells = Whole (PrettyPrinter.text line),
-      continues = True
+      cells = WholeLine (PrettyPrinter.text line),
+      isContinuation = True
     }
 
 -- | What stands before a brace, the rows in it, and the closing brace.
 braces :: Int -> Document -> [AlignedLine] -> [AlignedLine]
 braces indent before inside
-  | null inside = whole indent (words' [before, Text "{ }"])
+  | null inside = whole indent (spaced [before, Text "{ }"])
   | otherwise = opened indent before <> inside <> whole indent (Text "}")
 
 opened :: Int -> Document -> [AlignedLine]
-opened indent before = whole indent (words' [before, Text "{"])
+opened indent before = whole indent (spaced [before, Text "{"])
 
 -- Statements
 
-statement :: Commented -> Int -> Statement -> [AlignedLine]
+statement :: CommentPositions -> Int -> Statement -> [AlignedLine]
 statement commented indent (Located _ s) = case s of
   Part (Located _ (Name name)) title ->
-    plain (words' (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
+    plain (spaced (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
   Machine (Located _ ref) -> worded "machine" (Text (machineRef ref))
   Import (Located _ file) -> worded "import" (Text (quoted file))
   Tool c -> worded "tool" (cutter commented c)
@@ -114,53 +114,53 @@ statement commented indent (Located _ s) = case s of
       Definitions
       indent
       (Text ("piece " <> name))
-      (words' [Text "=", piece commented e ciphers side joggles])
+      (spaced [Text "=", piece commented e ciphers side joggles])
   Assert e within ->
-    plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
+    plain (spaced ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
   Mill e side settings -> machining "mill" e side settings
   Pocket e step settings ->
     braces
       indent
-      (words' [Text "pocket", value e, Text "step", value step])
+      (spaced [Text "pocket", value e, Text "step", value step])
       (concatMap (setting commented (indent + 2)) settings)
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
-    let before = words' [Text "drill at", value at, Text "depth", value depth]
+    let before = spaced [Text "drill at", value at, Text "depth", value depth]
      in if null settings
           then plain before
           else braces indent before (concatMap (setting commented (indent + 2)) settings)
   Travel RapidMotion to -> worded "rapid" (stops commented to)
   Travel FeedMotion to -> worded "move" (stops commented to)
-  Change place c -> worded "change" (words' [value place, cutter commented c])
+  Change place c -> worded "change" (spaced [value place, cutter commented c])
   Spindle spin -> worded "spindle" (spinning spin)
   Coolant SwitchOn -> worded "coolant" (Text "on")
   Coolant SwitchOff -> worded "coolant" (Text "off")
   Auxiliary e -> worded "aux" (value e)
   Repeat (Located _ (Name name)) from inside ->
-    braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
+    braces indent (spaced [Text ("for " <> name <> " in"), value from]) (block inside)
   When condition yes no -> alternatives indent (Text "if") value block whenOnly condition yes no
-  With e inside -> braces indent (words' [Text "with", value e]) (block inside)
+  With e inside -> braces indent (spaced [Text "with", value e]) (block inside)
   Broken _ _ -> []
   where
     plain = whole indent
     value = PrintExpression.value commented
     worded word = cells' Values indent (Text word)
-    defined what e = cells' Definitions indent (Text what) (words' [Text "=", value e])
+    defined what e = cells' Definitions indent (Text what) (spaced [Text "=", value e])
     block = concatMap (statement commented (indent + 2))
     machining word e (Located _ side) settings =
       braces
         indent
-        (words' [Text word, value e, Text (sideName side)])
+        (spaced [Text word, value e, Text (sideName side)])
         (concatMap (setting commented (indent + 2)) settings)
     spinning spin = case spin of
       Still -> Text "off"
-      Spinning sense speed -> words' (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
+      Spinning sense speed -> spaced (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
     whenOnly inside = case inside of
       [Located _ (When c yes no)] -> Just (c, yes, no)
       _ -> Nothing
 
 -- | The lines of a table, their cells lined up.
-table :: Commented -> Int -> [TableLine] -> [AlignedLine]
+table :: CommentPositions -> Int -> [TableLine] -> [AlignedLine]
 table commented indent ls = map row written
   where
     written = concat [cellsOf l | Located _ l <- ls]
@@ -168,8 +168,8 @@ table commented indent ls = map row written
       AlignedLine
         { indent,
           cells =
-            Whole (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))),
-          continues = False
+            WholeLine (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))),
+          isContinuation = False
         }
     place front width text' = Text.justifyLeft width ' ' (pointed front text')
     -- Decimal points stand below one another.
@@ -197,13 +197,13 @@ table commented indent ls = map row written
       Literal _ _ -> text (PrintExpression.value commented e)
       Negate (Located _ (Literal _ _)) -> text (PrintExpression.value commented e)
       _ -> "(" <> text (PrintExpression.value commented e) <> ")"
-    text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.lay 0 doc))
+    text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.render 0 doc))
 
-piece :: Commented -> Expr -> [Cipher] -> Side -> [Joggle] -> Document
+piece :: CommentPositions -> Expr -> [Cipher] -> Side -> [Joggle] -> Document
 piece commented e ciphers side joggles =
   Series
     ( map
-        PrintExpression.one
+        PrintExpression.member
         ([value e] <> recalculations <> [Text (sideName side)] <> concatMap joggle joggles)
     )
   where
@@ -211,11 +211,11 @@ piece commented e ciphers side joggles =
     recalculations = case zip ciphers (replicate (length ciphers - 1) "," <> [""]) of
       [] -> []
       (first, comma) : rest ->
-        words' [Text "cipher", cipher first comma] : map (uncurry cipher) rest
+        spaced [Text "cipher", cipher first comma] : map (uncurry cipher) rest
     cipher (Located region (Cipher (Located _ digit) es)) comma =
-      Beside [PrintExpression.group' commented region (digits digit <> "(") es, Text comma]
+      Beside [PrintExpression.callDocument commented region (digits digit <> "(") es, Text comma]
     joggle (Located _ (Joggle from to depth radius)) =
-      [ words'
+      [ spaced
           [ Text "joggle from",
             value from,
             Text "to",
@@ -247,7 +247,7 @@ alternatives indent before value block only condition yes no = case (no, only no
       <> alternatives indent (Text "} else if") value block only c yes' no'
   (_, Nothing) -> opened indent begin <> block yes <> braces indent (Text "} else") (block no)
   where
-    begin = words' [before, value condition]
+    begin = spaced [before, value condition]
 
 quoted :: Text -> Text
 quoted text = "\"" <> text <> "\""
@@ -260,7 +260,7 @@ machineRef ref = case ref of
   Named name -> name
   Described file -> quoted file
 
-cutter :: Commented -> Cutter -> Document
+cutter :: CommentPositions -> Cutter -> Document
 cutter commented (Located _ c) = case c of
   MillCutter e -> made "mill(diameter " e
   DrillCutter e -> made "drill(diameter " e
@@ -280,11 +280,11 @@ cutter commented (Located _ c) = case c of
     made before e = Beside [Text before, value e, Text ")"]
     value = PrintExpression.value commented
 
-accuracy :: Commented -> Accuracy -> Document
+accuracy :: CommentPositions -> Accuracy -> Document
 accuracy commented a = case a of
   Within e -> PrintExpression.value commented e
   Between inside outside ->
-    words'
+    spaced
       [ Text "inside",
         PrintExpression.value commented inside,
         Text "outside",
@@ -292,15 +292,15 @@ accuracy commented a = case a of
       ]
 
 -- | Points with commas between them; the pace stays on the line of its point.
-stops :: Commented -> NonEmpty Stop -> Document
+stops :: CommentPositions -> NonEmpty Stop -> Document
 stops commented = Series . NonEmpty.toList . PrintExpression.list commented . fmap stop
   where
     stop Stop {point, pace} = case pace of
       Cutting -> (Region.region point, value point)
-      Rapid -> (Region.region point, words' [value point, Text "rapid"])
+      Rapid -> (Region.region point, spaced [value point, Text "rapid"])
       AtFeed e ->
         ( Region.span (Region.region point) (Region.region e),
-          words' [value point, Text "feed", value e]
+          spaced [value point, Text "feed", value e]
         )
     value = PrintExpression.value commented
 
@@ -324,16 +324,16 @@ senseName sense = case sense of
 
 -- Items of a contour
 
-item :: Commented -> Int -> Item -> [AlignedLine]
+item :: CommentPositions -> Int -> Item -> [AlignedLine]
 item commented indent (Located _ i) = case i of
   Element sense e modifiers link ->
     let walked = case sense of
           Nothing -> PrintExpression.element commented e
-          Just (Located _ s) -> words' [Text (senseName s), value e]
-        first = words' (walked : map (modifier commented) modifiers)
+          Just (Located _ s) -> spaced [Text (senseName s), value e]
+        first = spaced (walked : map (modifier commented) modifiers)
      in maybe (whole indent first) (cells' Links indent first . linked commented) link
   For (Located _ (Name name)) from inside ->
-    braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
+    braces indent (spaced [Text ("for " <> name <> " in"), value from]) (block inside)
   Choose condition yes no -> alternatives indent (Text "if") value block chooseOnly condition yes no
   BrokenItem _ -> []
   where
@@ -343,31 +343,31 @@ item commented indent (Located _ i) = case i of
       [Located _ (Choose c yes no)] -> Just (c, yes, no)
       _ -> Nothing
 
-modifier :: Commented -> Modifier -> Document
+modifier :: CommentPositions -> Modifier -> Document
 modifier commented (Located _ m) = case m of
-  AtElementFeed e -> words' [Text "feed", PrintExpression.value commented e]
+  AtElementFeed e -> spaced [Text "feed", PrintExpression.value commented e]
   Slow -> Text "slow"
-  ElementAllowance e -> words' [Text "allowance", PrintExpression.value commented e]
-  Bevel e -> words' [Text "bevel", PrintExpression.value commented e]
+  ElementAllowance e -> spaced [Text "allowance", PrintExpression.value commented e]
+  Bevel e -> spaced [Text "bevel", PrintExpression.value commented e]
 
-linked :: Commented -> Link -> Document
+linked :: CommentPositions -> Link -> Document
 linked commented (Located _ l) = case l of
-  Meet near -> words' (Text "meet" : maybe [] (\p -> [Text "near", value p]) near)
+  Meet near -> spaced (Text "meet" : maybe [] (\p -> [Text "near", value p]) near)
   Smooth -> Text "smooth"
   Tangent -> Text "tangent"
-  Fillet e -> words' [Text "fillet", value e]
-  Chamfer e -> words' [Text "chamfer", value e]
+  Fillet e -> spaced [Text "fillet", value e]
+  Chamfer e -> spaced [Text "chamfer", value e]
   where
     value = PrintExpression.value commented
 
 -- Settings
 
-setting :: Commented -> Int -> Setting -> [AlignedLine]
+setting :: CommentPositions -> Int -> Setting -> [AlignedLine]
 setting commented indent (Located _ s) = case s of
   Approach to -> worded "approach" (stops commented to)
   Retract to -> worded "retract" (stops commented to)
-  Depth e step -> worded "depth" (words' (value e : maybe [] (\x -> [Text "step", value x]) step))
-  LeadBy lead form e -> worded ("lead " <> leadName lead) (words' [Text (formName form), value e])
+  Depth e step -> worded "depth" (spaced (value e : maybe [] (\x -> [Text "step", value x]) step))
+  LeadBy lead form e -> worded ("lead " <> leadName lead) (spaced [Text (formName form), value e])
   Allowances es -> worded "allowance" (Series (pieces es))
   CornerStyle Round -> worded "corners" (Text "round")
   CornerStyle Sharp -> worded "corners" (Text "sharp")

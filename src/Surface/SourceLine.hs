@@ -4,10 +4,10 @@
 -- not, so its rows find their places by their tokens. Comments and blank lines follow by these
 -- places.
 module Surface.SourceLine
-  ( Anchored (..),
-    anchored,
-    closes,
-    opens,
+  ( SourceLine (..),
+    withSources,
+    isClosing,
+    isOpening,
   )
 where
 
@@ -18,21 +18,21 @@ import Surface.Lexer qualified as Lexer
 import Surface.Token (Token (..), Token_ (..))
 
 -- | A row, and where its tokens stand in the text that was read; some may not stand there.
-data Anchored = Anchored {row :: AlignedLine, shapes :: [Token_], places :: [Maybe Token]}
+data SourceLine = SourceLine {row :: AlignedLine, shapes :: [Token_], sources :: [Maybe Token]}
   deriving stock (Eq, Show)
 
 -- | Rows with the tokens that they come from.
-anchored :: [Token] -> [AlignedLine] -> [Anchored]
-anchored source rows = dealt rows (zip printed (match source (map shape printed)))
+withSources :: [Token] -> [AlignedLine] -> [SourceLine]
+withSources source rows = dealt rows (zip printed (match source (map shape printed)))
   where
-    printed = fst (Lexer.tokens 0 (Text.unlines (map Alignment.plain rows)))
+    printed = fst (Lexer.tokens 0 (Text.unlines (map Alignment.unaligned rows)))
 
 -- | To each row its tokens.
-dealt :: [AlignedLine] -> [(Token, Maybe Token)] -> [Anchored]
+dealt :: [AlignedLine] -> [(Token, Maybe Token)] -> [SourceLine]
 dealt rows tokens = case (rows, tokens) of
   (row : more, first : rest) ->
     let (own, others) = break (newLine . fst) rest
-     in Anchored {row, shapes = map (shape . fst) (first : own), places = map snd (first : own)} :
+     in SourceLine {row, shapes = map (shape . fst) (first : own), sources = map snd (first : own)} :
         dealt more others
   _ -> []
 
@@ -53,9 +53,9 @@ optional :: Token_ -> Bool
 optional token = token `elem` Word "else" : map Symbol ["(", ")", "{", "}", "+"]
 
 -- | Whether a row closes brackets that were opened above it.
-closes :: Anchored -> Bool
-closes anchor = take 1 (shapes anchor) `elem` map (pure . Symbol) [")", "]", "}"]
+isClosing :: SourceLine -> Bool
+isClosing anchor = take 1 (shapes anchor) `elem` map (pure . Symbol) [")", "]", "}"]
 
 -- | Whether a row opens a block.
-opens :: Anchored -> Bool
-opens anchor = drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol "{"]
+isOpening :: SourceLine -> Bool
+isOpening anchor = drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol "{"]
