@@ -18,7 +18,7 @@ module Checked.Builtin
     formText,
     description,
     formTexts,
-    formsHint,
+    callText,
   )
 where
 
@@ -371,8 +371,7 @@ anyUnknown = -1
 
 -- | A form as a call.
 formText :: Builtin -> Form -> Text
-formText builtin form =
-  name builtin <> "(" <> Text.intercalate ", " (map parameter (parameters form)) <> ")"
+formText builtin form = callText (name builtin) (map parameter (parameters form))
   where
     parameter p = case label p of
       NoLabel -> title p
@@ -396,6 +395,6 @@ formTexts builtin =
   nubOrd
     (map (formText builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
 
--- | What to write instead of a function's bare name.
-formsHint :: Builtin -> [Text]
-formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formTexts builtin)) <> "."]
+-- | A call of a function with the names of its parameters.
+callText :: Text -> [Text] -> Text
+callText function titles = function <> "(" <> Text.intercalate ", " titles <> ")"

@@ -2,6 +2,7 @@
 module Checked.Error
   ( Error (..),
     RequiredSetting (..),
+    UndefinedOperation (..),
     toReport,
   )
 where
@@ -40,8 +41,8 @@ data Error
     Mismatch Region Type Type [(Region, Type)]
   | -- | the two operands of a sum or a comparison, and the places where they were settled before
     Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
-  | -- | an operation on things that have none: the operation in words, the operands
-    NoOperation Region Text [(Region, Type)]
+  | -- | an operation that the operands do not have
+    NoOperation Region UndefinedOperation [(Region, Type)]
   | -- | function, its parameters, how many arguments
     ArgumentCount Region Name [Text] Int
   | NotAFunction Region Name (Maybe Region)
@@ -90,6 +91,10 @@ data Error
     NoColumn Region Name [Text]
   | -- | a column where a cipher takes one value for the whole piece: the cipher
     ColumnForWholePiece Region Text Name
+  deriving stock (Eq, Show)
+
+-- | An operation of a 'NoOperation' error.
+data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
   deriving stock (Eq, Show)
 
 -- | The statements that a program needs once.
@@ -168,11 +173,11 @@ toReport err = case err of
               Spatial _ <- [right]
           ]
       }
-  NoOperation region what operands ->
+  NoOperation region operation operands ->
     ( at
         region
         "E0207"
-        ( what
+        ( operationWords operation
             <> " is not defined for "
             <> Text.intercalate " and " (map (Type.describe . snd) operands)
         )
@@ -198,10 +203,10 @@ toReport err = case err of
     (at region "E0209" (quote name <> " is a value, not a function"))
       { others = [Label r "defined here" | Just r <- [defined]]
       }
-  FunctionAsValue region (Name name) parameters ->
+  FunctionAsValue region (Name name) known ->
     (at region "E0210" (quote name <> " is a function and needs its arguments"))
       { hints =
-          parameters
+          ["Write " <> Text.intercalate ", or " (take 3 known) <> "."]
             <> ["For a feed write mm/min without spaces." | name == "min"]
       }
   SenseMissing region ->
@@ -419,6 +424,13 @@ arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 settledHere :: [(Region, Type)] -> [Label]
 settledHere settled =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- settled]
+
+-- | The noun of an operation, with its article.
+operationWords :: UndefinedOperation -> Text
+operationWords operation = case operation of
+  UndefinedNegation -> "a minus"
+  UndefinedProduct -> "a product"
+  UndefinedQuotient -> "a quotient"
 
 mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found

@@ -8,6 +8,7 @@ module Checked.Type
     spindleSpeed,
     aPoint,
     aVector,
+    ofUnit,
     describe,
     isSquare,
     dimensions,
@@ -22,12 +23,13 @@ import Checked.Dimension (Atom (..), Dimension)
 import Checked.Dimension qualified as Dimension
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Token (Unit (..))
 
--- | What a value is.
+-- | The type of a value.
 data Type
   = -- | a number with a dimension
     Quantity Dimension
-  | -- | a pair of lengths: a point (place 1) or a vector (place 0)
+  | -- | a pair of lengths: a point (weight 1) or a vector (weight 0)
     Spatial Dimension
   | Circle
   | Line
@@ -36,32 +38,66 @@ data Type
     Boolean
   | -- | a point with a height
     SpacePoint
-  | -- | a motion of the plane
+  | -- | a transformation of the plane
     Transformation
   | ListOf Type
-  | -- | rows of values, by its columns
+  | -- | a table, by the 'Fields' of its columns
     Table Type
-  | -- | by the columns of the table that it was made of
+  | -- | a curve, by the 'Fields' of the table through which it passes
     Curve Type
-  | -- | columns with their names, besides x and y
+  | -- | the columns besides x and y, with their names
     Fields [(Text, Type)]
-  | -- | not yet known
+  | -- | an unknown of type inference, by its number
     Variable Int
-  | -- | the type of a thing that is already reported as wrong; agrees with everything
+  | -- | the type of a term that is already reported as wrong; it agrees with every type
     Wrong
   deriving stock (Eq, Show)
 
-number, len, angle, feed, spindleSpeed, aPoint, aVector :: Type
+-- | A number without a dimension.
+number :: Type
 number = Quantity Dimension.none
+
+-- | A length, in mm after checking.
+len :: Type
 len = Quantity (Dimension.atom Length)
+
+-- | An angle, in radians after checking.
+angle :: Type
 angle = Quantity (Dimension.atom Angle)
+
+-- | A feed, in mm/min after checking.
+feed :: Type
 feed =
   Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
+
+-- | A spindle speed, in revolutions per minute.
+spindleSpeed :: Type
 spindleSpeed = Quantity (Dimension.power (-1) (Dimension.atom Time))
+
+-- | A point of the plane.
+aPoint :: Type
 aPoint = Spatial (Dimension.atom PointWeight)
+
+-- | A vector of the plane.
+aVector :: Type
 aVector = Spatial Dimension.none
 
--- | In the words of a drawing, with its article.
+-- | The type of a number with a unit, and the size of the unit in mm, radians, minutes and
+-- revolutions.
+ofUnit :: Unit -> (Type, Double)
+ofUnit unit = case unit of
+  Millimetre -> (len, 1)
+  Centimetre -> (len, 10)
+  Metre -> (len, 1000)
+  Inch -> (len, 25.4)
+  Degree -> (angle, pi / 180)
+  Radian -> (angle, 1)
+  MmPerMin -> (feed, 1)
+  MPerMin -> (feed, 1000)
+  InPerMin -> (feed, 25.4)
+  Rpm -> (spindleSpeed, 1)
+
+-- | Describes a type in the words of a drawing, with its article.
 describe :: Type -> Text
 describe t = case t of
   Quantity d -> Dimension.describe d
@@ -76,8 +112,8 @@ describe t = case t of
   Boolean -> "true or false"
   SpacePoint -> "a point with a height"
   Transformation -> "a transformation"
-  Table columns -> "a table" <> besides columns
-  Curve columns -> "a curve" <> besides columns
+  Table columns -> "a table" <> withColumns columns
+  Curve columns -> "a curve" <> withColumns columns
   Fields _ -> "columns"
   ListOf item -> case item of
     Quantity d | Dimension.isKnown d -> "a list of " <> plural item
@@ -91,27 +127,27 @@ describe t = case t of
   Variable _ -> "a value"
   Wrong -> "a value"
 
--- | The columns of a table besides x and y.
-besides :: Type -> Text
-besides t = case t of
+-- | Names the columns of a table besides x and y; empty if there are none.
+withColumns :: Type -> Text
+withColumns t = case t of
   Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
   _ -> ""
 
--- | Several of a known kind.
+-- | Describes several values of a known type, without an article.
 plural :: Type -> Text
 plural t = case Text.words (describe t) of
   [_, word, "in", unit] -> word <> " in " <> unit
   [_, "quantity"] -> "quantities"
-  article : words' | article `elem` ["a", "an"] -> Text.unwords words' <> "s"
-  words' -> Text.unwords words'
+  article : rest | article `elem` ["a", "an"] -> Text.unwords rest <> "s"
+  phrase -> Text.unwords phrase
 
--- | Whether it is known of a quantity only that it is a square.
+-- | Tells if only one thing is known of a quantity: that its dimension is a square.
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d
   _ -> False
 
--- | The dimension of the quantities of a type; of others that of a number.
+-- | The dimension of a quantity or of the quantities in a list; of other types that of a number.
 dimensionOf :: Type -> Dimension
 dimensionOf t = case t of
   Quantity d -> d
@@ -131,7 +167,7 @@ variables t = case t of
   Variable n -> [n]
   _ -> concatMap variables (components t)
 
--- | The types in a type, one level down.
+-- | The types inside a type, one level down.
 components :: Type -> [Type]
 components t = case t of
   ListOf a -> [a]
@@ -149,7 +185,7 @@ components t = case t of
   Variable _ -> []
   Wrong -> []
 
--- | A type with its dimensions and its unknown types replaced.
+-- | Replaces all dimensions and all unknown types in a type.
 substitute :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
 substitute dimension unknown t = case t of
   Quantity d -> Quantity (dimension d)

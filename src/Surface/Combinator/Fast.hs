@@ -174,7 +174,7 @@ instance Grammar FastParser where
 memoryOf :: Ahead -> ParserState
 memoryOf s =
   ParserState {failures = [], lastEnd = ended s, bracketDepth = open s, blockDepth = blocks s, hasGivenUp = False}
-{-# INLINE parserStateOf #-}
+{-# INLINE memoryOf #-}
 
 -- | Lines and columns, which are not counted here.
 nowhere :: [Token] -> Parsec.PosState Input
