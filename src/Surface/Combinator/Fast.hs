@@ -3,43 +3,64 @@
 {-# LANGUAGE RankNTypes #-}
 {-# LANGUAGE TypeFamilies #-}
 
--- | The reader for programs without a mistake: it goes straight through the tokens and gives up at
--- the first mistake, of which it says nothing. It gives what the one that explains would give
--- without errors.
+-- | The fast twin of the explaining parser, for programs without a mistake.
+--
+-- It runs through the tokens in continuation-passing style and stops at the first mistake without a
+-- report. For correct programs it gives the same output as the parser of "Surface.Combinator".
 module Surface.Combinator.Fast
   ( FastParser,
     run,
+    plainPair,
   )
 where
 
+import Base.Region (Located (..))
 import Base.Region qualified as Region
 import Control.Applicative (Alternative (..))
 import Control.Monad (MonadPlus)
-import Surface.Combinator (Grammar (..), ParserState (..), Problem, Consumed (..), maxNesting)
+import Surface.Combinator
+  ( Consumed (..),
+    Grammar (..),
+    ParserState (..),
+    Problem,
+    isSymbol,
+    maxNesting,
+  )
+import Surface.Syntax (Expr, Expr_ (..))
 import Surface.Token (Token)
 import Surface.Token qualified as Token
 import Surface.TokenStream (Input (..))
 import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
--- | What is left to read, how many tokens may still be read, where the last one ended, how many
--- brackets are open, and how many blocks of statements.
-data Ahead = Ahead {left :: [Token], room :: Int, ended :: Int, open :: Int, blocks :: Int}
+-- | The state of the parser.
+data Ahead = Ahead
+  { -- | the remaining tokens
+    left :: [Token],
+    -- | the number of tokens that may still be read
+    room :: Int,
+    -- | the offset after the last token
+    ended :: Int,
+    -- | the number of open brackets
+    open :: Int,
+    -- | the number of statement blocks around the present statement
+    blocks :: Int
+  }
 
--- | How to go on with what was read; how to go on when it could not be read, by the room that was
--- left at the mistake: another way may be tried only where this one began.
+-- | A parser with continuations for success and failure. The failure continuation gets the room at
+-- the mistake. An alternative is tried only if the mistake is where the first one began.
 newtype FastParser a = FastParser (forall r. Ahead -> (a -> Ahead -> r) -> (Int -> r) -> r)
 
--- | Run a parser over so many tokens at most; nothing when there are more, or a mistake.
+-- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more, or if it fails.
 run :: Int -> FastParser a -> [Token] -> Maybe a
-run most (FastParser p) ts =
-  p Ahead {left = ts, room = most, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
+run limit (FastParser p) ts =
+  p Ahead {left = ts, room = limit, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
 
--- | A mistake for which no other way may be tried.
+-- | The room of a failure after which no alternative is tried.
 final :: Int
 final = minBound
 
--- What is read is computed at once: put off it would hold the tokens that it was read from.
+-- Results are evaluated at once. Thunks would keep the tokens alive.
 instance Functor FastParser where
   fmap f (FastParser p) = FastParser (\s ok no -> p s (\a s' -> let !b = f a in ok b s') no)
   {-# INLINE fmap #-}
@@ -114,7 +135,7 @@ instance MonadParsec Problem Input FastParser where
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
--- | The state as megaparsec has it.
+-- | The state in megaparsec's form.
 stateOf :: Ahead -> Parsec.State Input Problem
 stateOf s =
   Parsec.State
@@ -160,23 +181,24 @@ instance Grammar FastParser where
           ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s
       )
   {-# INLINE isWordNext #-}
-  parserState = FastParser (\s ok _ -> ok (memoryOf s) s)
+  parserState = FastParser (\s ok _ -> ok (grammarStateOf s) s)
   {-# INLINE parserState #-}
   modifyState f =
     FastParser
       ( \s ok _ ->
           let m =
-                f (memoryOf s)
+                f (grammarStateOf s)
            in ok () s {ended = lastEnd m, open = bracketDepth m, blocks = blockDepth m}
       )
   {-# INLINE modifyState #-}
 
-memoryOf :: Ahead -> ParserState
-memoryOf s =
+-- | The state in the form of the grammar, which this parser needs only in part.
+grammarStateOf :: Ahead -> ParserState
+grammarStateOf s =
   ParserState {failures = [], lastEnd = ended s, bracketDepth = open s, blockDepth = blocks s, hasGivenUp = False}
-{-# INLINE memoryOf #-}
+{-# INLINE grammarStateOf #-}
 
--- | Lines and columns, which are not counted here.
+-- | A constant position: lines and columns are not counted.
 nowhere :: [Token] -> Parsec.PosState Input
 nowhere ts =
   Parsec.PosState
@@ -186,3 +208,29 @@ nowhere ts =
       Parsec.pstateTabWidth = Parsec.defaultTabWidth,
       Parsec.pstateLinePrefix = ""
     }
+
+-- Points
+
+-- | Parses a pair of numbers in parentheses, the form of most points, without the combinators.
+plainPair :: [Token] -> Maybe (Consumed Expr)
+plainPair ts = case ts of
+  opening : inside
+    | isSymbol "(" opening,
+      Just (Consumed x n (comma : afterComma)) <- plainNumber inside,
+      isSymbol "," comma,
+      Just (Consumed y m (closing : rest)) <- plainNumber afterComma,
+      isSymbol ")" closing ->
+      let region = Region.span (Token.place opening) (Token.place closing)
+       in Just (Consumed (Located region (Pair x y)) (n + m + 3) rest)
+  _ -> Nothing
+
+-- | Parses a number with an optional minus.
+plainNumber :: [Token] -> Maybe (Consumed Expr)
+plainNumber ts = case ts of
+  Token.Token {Token.shape = Token.Number x unit, Token.place} : rest ->
+    Just (Consumed (Located place (Literal x unit)) 1 rest)
+  minus : Token.Token {Token.shape = Token.Number x unit, Token.place} : rest
+    | isSymbol "-" minus ->
+      let negated = Negate (Located place (Literal x unit))
+       in Just (Consumed (Located (Region.span (Token.place minus) place) negated) 2 rest)
+  _ -> Nothing
