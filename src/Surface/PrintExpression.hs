@@ -1,5 +1,4 @@
--- | Expressions as documents, with brackets only where the tree would be read differently without
--- them.
+-- | The printer of expressions, with parentheses only where the syntax tree needs them.
 module Surface.PrintExpression
   ( CommentPositions (..),
     noComments,
@@ -25,17 +24,17 @@ import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
--- | Where the text that is laid out has comments: whether there is any between two offsets, and
--- whether there is one beside a comma.
+-- | The positions of comments in the source: 'isBetween' tells if any comment lies between two
+-- offsets, 'isAtComma' if one of these is next to a comma.
 data CommentPositions = CommentPositions {isBetween :: Int -> Int -> Bool, isAtComma :: Int -> Int -> Bool}
 
--- | No comments.
+-- | The positions in a text without comments.
 noComments :: CommentPositions
 noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
 
--- | How tightly an expression holds together. An operand is bracketed when it is looser than its
--- place asks.
-data Tightness
+-- | The precedence of an expression, lowest first. An operand is put in parentheses when its
+-- precedence is lower than its operator demands.
+data Precedence
   = Loose
   | Disjunction
   | Conjunction
@@ -48,19 +47,20 @@ data Tightness
   | Primary
   deriving stock (Eq, Ord)
 
--- | An expression where any may stand.
+-- | An expression without a demand on its precedence.
 value :: CommentPositions -> Expr -> Document
 value comments = operand comments Loose
 
--- | An element of a contour, which must not be taken for the rest of the one before it.
+-- | An element of a contour. Parentheses keep it apart from the element on the line before if it
+-- begins with a minus or with @by@.
 element :: CommentPositions -> Expr -> Document
-element comments e = if misleading (PrettyPrinter.firstText doc) then bracketed doc else doc
+element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracketed doc else doc
   where
     doc = value comments e
-    misleading text =
+    isContinuation text =
       "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
--- | Things with commas between them, each with its region; broken where a comment stands.
+-- | Documents with their regions, separated by commas; broken where a comment is.
 list :: CommentPositions -> NonEmpty (Region, Document) -> NonEmpty Member
 list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
   where
@@ -72,30 +72,30 @@ list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) comma
           content = Beside [doc, Text comma]
         }
 
--- | A piece that begins no line of itself.
+-- | A member that need not begin a line.
 member :: Document -> Member
 member = Member False
 
--- | Words and values with spaces between them.
+-- | Documents with spaces between them on one line.
 spaced :: [Document] -> Document
 spaced docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
 
 bracketed :: Document -> Document
 bracketed doc = Beside [Text "(", doc, Text ")"]
 
-operand :: CommentPositions -> Tightness -> Expr -> Document
-operand comments asked e = if tightness (Region.value e) < asked then bracketed doc else doc
+operand :: CommentPositions -> Precedence -> Expr -> Document
+operand comments asked e = if precedence (Region.value e) < asked then bracketed doc else doc
   where
-    doc = bare comments e
+    doc = withoutParentheses comments e
 
-tightness :: Expr_ -> Tightness
-tightness e = case e of
+precedence :: Expr_ -> Precedence
+precedence e = case e of
   Literal _ _ -> Primary
   Variable _ -> Primary
   Call _ _ -> Primary
   Negate _ -> Factor
   Not _ -> Negation
-  Binary operator _ _ -> ofOperator operator
+  Binary operator _ _ -> operatorPrecedence operator
   Range {} -> Ranged
   If {} -> Loose
   Pair _ _ -> Primary
@@ -103,8 +103,8 @@ tightness e = case e of
   List _ -> Primary
   Each {} -> Primary
 
-ofOperator :: Operator -> Tightness
-ofOperator operator = case operator of
+operatorPrecedence :: Operator -> Precedence
+operatorPrecedence operator = case operator of
   Add -> Sum
   Subtract -> Sum
   Multiply -> Product
@@ -133,9 +133,9 @@ sign operator = case operator of
   And -> "and"
   Or -> "or"
 
--- | An expression without brackets of its own.
-bare :: CommentPositions -> Expr -> Document
-bare comments (Located region e) = case e of
+-- | An expression without parentheses around it.
+withoutParentheses :: CommentPositions -> Expr -> Document
+withoutParentheses comments (Located region e) = case e of
   Literal number unit -> Text (digits number <> maybe "" ((" " <>) . unitName) unit)
   Variable (Name name) -> Text name
   Call (Located _ (Name name)) arguments ->
@@ -144,10 +144,10 @@ bare comments (Located region e) = case e of
     let doc = operand comments Factor inner
      in Beside [Text (if "-" `Text.isPrefixOf` PrettyPrinter.firstText doc then "- " else "-"), doc]
   Not inner -> spaced [Text "not", operand comments Negation inner]
-  Binary operator left right -> case ofOperator operator of
+  Binary operator left right -> case operatorPrecedence operator of
     Comparison ->
       Series [member (operand comments Ranged left), signed operator (operand comments Ranged right)]
-    looser -> Series (chain comments looser (Located region e))
+    rank -> Series (chain comments rank (Located region e))
   Range low high step ->
     Beside $
       [operand comments Sum low, Text "..", operand comments Sum high]
@@ -170,7 +170,8 @@ bare comments (Located region e) = case e of
     group = Brackets (isBetween comments (start region) (end region))
     coordinates es = NonEmpty.toList (list comments (fmap (\x -> (Region.region x, sub x)) es))
 
--- | Values with commas between them behind an opening bracket, with the region of the whole.
+-- | Values separated by commas between an opening text and a parenthesis, with the region of the
+-- whole.
 callDocument :: CommentPositions -> Region -> Text -> NonEmpty Expr -> Document
 callDocument comments region open es =
   Brackets
@@ -179,22 +180,22 @@ callDocument comments region open es =
     (NonEmpty.toList (list comments (fmap (\x -> (Region.region x, value comments x)) es)))
     ")"
 
--- | A chain of operators of one rank: @a@, @+ b@, @- c@.
-chain :: CommentPositions -> Tightness -> Expr -> [Member]
-chain comments looser = reverse . go
+-- | A chain of operators of one precedence: @a@, @+ b@, @- c@.
+chain :: CommentPositions -> Precedence -> Expr -> [Member]
+chain comments rank = reverse . go
   where
     go (Located region e) = case e of
       Binary operator left right
-        | ofOperator operator == looser ->
-          signed operator (operand comments (tighter looser) right) : go left
-      _ -> [member (operand comments looser (Located region e))]
+        | operatorPrecedence operator == rank ->
+          signed operator (operand comments (rightDemand rank) right) : go left
+      _ -> [member (operand comments rank (Located region e))]
 
 signed :: Operator -> Document -> Member
 signed operator right = member (spaced [Text (sign operator), right])
 
--- | What is asked of an operand to the right of an operator.
-tighter :: Tightness -> Tightness
-tighter looser = case looser of
+-- | The precedence that an operator demands of its right operand.
+rightDemand :: Precedence -> Precedence
+rightDemand rank = case rank of
   Loose -> Disjunction
   Disjunction -> Conjunction
   Conjunction -> Negation
