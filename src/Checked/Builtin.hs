@@ -1,7 +1,7 @@
--- | The functions and constants that the language brings along, with their types.
+-- | The built-in functions and constants of the language, with their types.
 --
--- A function may have several forms. Which one a call means is decided by the number of its
--- arguments, by the words before them, and by their types.
+-- A function may have several forms. A call chooses one by the number of its arguments, by their
+-- labels, and by their types.
 module Checked.Builtin
   ( Form (..),
     Parameter (..),
@@ -10,15 +10,15 @@ module Checked.Builtin
     lookup,
     forms,
     labelled,
-    bare,
+    unlabelled,
     isOverloaded,
     isConstant,
     names,
     name,
-    written,
-    meaning,
-    formsOf,
-    formsHint,
+    formText,
+    description,
+    formTexts,
+    callText,
   )
 where
 
@@ -35,31 +35,31 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (lookup)
 
--- | What a call takes, and what it gives.
+-- | The parameters of a call and the type of its result.
 data Form = Form {parameters :: [Parameter], result :: Type}
 
--- | A parameter: the word before it, its name, its type. A rank has neither name nor type.
+-- | A parameter. One with the label 'Rank' has neither name nor type.
 data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
--- | What stands before an argument.
-data ArgumentLabel = Bare | Word Selector | Rank
+-- | The label of an argument: none, a word such as @near@, or a rank, @first@ or @last@.
+data ArgumentLabel = NoLabel | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
--- | Unknowns that are new at every call.
+-- | Unknowns for one call of a function.
 data Fresh = Fresh {dimension :: Dimension, anything :: Type}
 
--- | The builtin of a name.
+-- | Looks a built-in function or constant up by its name.
 lookup :: Text -> Maybe Builtin
 lookup word = Map.lookup word table
 
--- | All names that are taken.
+-- | All names of the language's functions and constants.
 names :: [Text]
 names = Map.keys table
 
 table :: Map Text Builtin
 table = Map.fromList [(name b, b) | b <- [minBound .. maxBound]]
 
--- | How a program writes it.
+-- | The name of a built-in function or constant in programs.
 name :: Builtin -> Text
 name builtin = case builtin of
   Pi -> "pi"
@@ -126,16 +126,16 @@ name builtin = case builtin of
   Max -> "max"
   Floor -> "floor"
 
--- | Whether it stands for itself, without arguments.
+-- | Tells if a built-in name is a constant, which takes no arguments.
 isConstant :: Builtin -> Bool
 isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 
--- | The forms of a function. Where the types of a call leave several, the first of them is meant.
+-- | The forms of a function. If the types of a call leave several, the first of them is chosen.
 forms :: Fresh -> Builtin -> [Form]
 forms Fresh {dimension = d, anything} builtin = case builtin of
   Pi -> [Form [] Type.number]
-  Truth -> [Form [] Truth']
-  Falsehood -> [Form [] Truth']
+  Truth -> [Form [] Boolean]
+  Falsehood -> [Form [] Boolean]
   Polar -> [Form [length', angle] (Spatial d)]
   Intersection ->
     [ Form ([given (word a) a, given (word b) b] <> selector) Type.aPoint
@@ -199,14 +199,14 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   XOf -> [Form [given "point" (Spatial d)] Type.len]
   YOf -> [Form [given "point" (Spatial d)] Type.len]
   MakeSpline ->
-    laid [] <> laid [given "first_direction" Type.angle, given "last_direction" Type.angle]
-  ClosedSpline -> laid []
-  Polyline -> laid []
-  Parabola -> laid []
-  Biarcs -> laid [] <> [Form [curve, tolerance] (Curve (Fields []))]
-  ClosedBiarcs -> laid []
-  Fit -> laid [tolerance]
-  Sections -> laid [given "rows" (ListOf (ListOf Type.number))]
+    curveThrough [] <> curveThrough [given "first_direction" Type.angle, given "last_direction" Type.angle]
+  ClosedSpline -> curveThrough []
+  Polyline -> curveThrough []
+  Parabola -> curveThrough []
+  Biarcs -> curveThrough [] <> [Form [curve, tolerance] (Curve (Fields []))]
+  ClosedBiarcs -> curveThrough []
+  Fit -> curveThrough [tolerance]
+  Sections -> curveThrough [given "rows" (ListOf (ListOf Type.number))]
   RowsOf -> [Form [table', given "numbers" (ListOf Type.number)] (Table anything)]
   PointsOf -> [Form [table'] points]
   PointAtX ->
@@ -250,7 +250,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     ]
   Count -> [Form [given "list" (ListOf anything)] Type.number]
   ItemOf -> [Form [given "list" (ListOf anything), given "number" Type.number] anything]
-  Lift -> [Form [point, given "z" Type.len] Space]
+  Lift -> [Form [point, given "z" Type.len] SpacePoint]
   Sin -> [Form [angle] Type.number]
   Cos -> [Form [angle] Type.number]
   Tan -> [Form [angle] Type.number]
@@ -263,7 +263,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   Max -> [Form [given "first" (Quantity d), given "second" (Quantity d)] (Quantity d)]
   Floor -> [Form [given "value" Type.number] Type.number]
   where
-    given = Parameter Bare
+    given = Parameter NoLabel
     length' = given "length" Type.len
     angle = given "angle" Type.angle
     radius = given "radius" Type.len
@@ -273,28 +273,28 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     curve = given "curve" (Curve anything)
     table' = given "table" (Table anything)
     tolerance = Parameter (Word UpTo) "tolerance" Type.len
-    -- Through the points of a table, or through points without anything else.
-    laid more =
+    -- A curve through the rows of a table, or through points without further columns.
+    curveThrough more =
       [ Form (table' : more) (Curve anything),
         Form (given "points" points : more) (Curve (Fields []))
       ]
     points = ListOf Type.aPoint
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
-    -- How one of several answers is chosen.
+    -- The labels that choose one of several answers.
     chosen =
       [Parameter (Word Near) "point" Type.aPoint]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
-    -- What a circle of a given radius can touch or go through.
+    -- Elements that a circle of a given radius can touch or pass through.
     touched =
       [point, line, circle]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
-    -- Of a thing the thing moved; of nothing the motion itself.
+    -- A transformed value; without a value, the transformation itself.
     transforming extra =
       concat
-        [ Form more Placement :
+        [ Form more Transformation :
             [ Form (given "what" t : more) t
               | t <-
                   [ Type.aPoint,
@@ -312,7 +312,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
           | more <- extra
         ]
 
--- | The forms of a function with these labels, in order.
+-- | The forms of a function whose parameters have the given labels, in order.
 labelled :: Fresh -> Builtin -> [ArgumentLabel] -> [Form]
 labelled Fresh {dimension, anything} builtin labels =
   map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))
@@ -323,26 +323,26 @@ labelled Fresh {dimension, anything} builtin labels =
           result = own (result form)
         }
     own =
-      Type.replaced
+      Type.substitute
         (Dimension.substitute anyUnknown dimension)
         (\n -> if n == anyUnknown then anything else Variable n)
 
--- | All forms by their labels; what is new at every call is 'anyUnknown' in them.
+-- | All forms by their labels, with 'anyUnknown' for the unknowns of a call.
 byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
 byLabels =
   Lazy.fromList
-    [ (b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms template b])
+    [ (b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms unknownTemplate b])
       | b <- [minBound .. maxBound]
     ]
 
-template :: Fresh
-template =
+unknownTemplate :: Fresh
+unknownTemplate =
   Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
 
--- | The forms of a function that take so many values without a word, and whether all types of each
--- are known.
-bare :: Builtin -> Int -> [(Form, Bool)]
-bare builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
+-- | The forms of a function with @count@ parameters, all without labels. The flag tells if all types
+-- of the form are known.
+unlabelled :: Builtin -> Int -> [(Form, Bool)]
+unlabelled builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
 
 byCount :: Lazy.Map Builtin (Map Int [(Form, Bool)])
 byCount =
@@ -351,7 +351,7 @@ byCount =
         Map.fromList
           [ (length ls, [(f, isKnown f) | f <- fs])
             | (ls, fs) <- Map.toList labels,
-              all (== Bare) ls
+              all (== NoLabel) ls
           ]
     )
     byLabels
@@ -361,21 +361,20 @@ byCount =
         (\t -> null (Type.dimensions t) && null (Type.variables t))
         (result f : map type' (parameters f))
 
--- | Whether a function has several forms.
+-- | Tells if a function has several forms.
 isOverloaded :: Builtin -> Bool
-isOverloaded builtin = not (null (drop 1 (forms template builtin)))
+isOverloaded builtin = not (null (drop 1 (forms unknownTemplate builtin)))
 
--- | An unknown that no check has.
+-- | A number that no unknown of type inference has.
 anyUnknown :: Int
 anyUnknown = -1
 
--- | A form as a call.
-written :: Builtin -> Form -> Text
-written builtin form =
-  name builtin <> "(" <> Text.intercalate ", " (map parameter (parameters form)) <> ")"
+-- | A form written as a call.
+formText :: Builtin -> Form -> Text
+formText builtin form = callText (name builtin) (map parameter (parameters form))
   where
     parameter p = case label p of
-      Bare -> title p
+      NoLabel -> title p
       Rank -> "first or last"
       Word choice -> word choice <> " " <> title p
     word choice = case choice of
@@ -386,16 +385,16 @@ written builtin form =
       Beyond -> "outside"
       UpTo -> "within"
 
--- | A function for a reader, by the first of its forms.
-meaning :: Builtin -> Text
-meaning builtin = "of the language: " <> Text.intercalate "; " (take 4 (formsOf builtin))
+-- | Describes a function by its first forms, for editors.
+description :: Builtin -> Text
+description builtin = "of the language: " <> Text.intercalate "; " (take 4 (formTexts builtin))
 
--- | The forms of a function as calls, for a reader.
-formsOf :: Builtin -> [Text]
-formsOf builtin =
+-- | The forms of a function written as calls, each once.
+formTexts :: Builtin -> [Text]
+formTexts builtin =
   nubOrd
-    (map (written builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
+    (map (formText builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
 
--- | What to write instead of a function's bare name.
-formsHint :: Builtin -> [Text]
-formsHint builtin = ["Write " <> Text.intercalate ", or " (take 3 (formsOf builtin)) <> "."]
+-- | A call of a function with the names of its parameters.
+callText :: Text -> [Text] -> Text
+callText function titles = function <> "(" <> Text.intercalate ", " titles <> ")"

@@ -1,23 +1,25 @@
--- | Terms that are known when the whole program has been looked at. Once they are, nothing of them
--- is put off: what is put off holds all that it was found by.
+-- | Checked terms that need the solution of type inference for the whole program.
+--
+-- Once the solution is known, every part of such a term is evaluated at once. A lazy remainder
+-- would keep the state of inference alive.
 module Checked.Deferred
-  ( Later,
-    solved,
-    eagerly,
+  ( Deferred,
+    resolveAll,
+    mapStrict,
   )
 where
 
 import Checked.Inference (Solution)
 
--- | By what the unknowns turned out to be.
-type Later a = Solution -> a
+-- | A term that depends on the solution of type inference.
+type Deferred a = Solution -> a
 
--- | All of them.
-solved :: Solution -> [Later a] -> [a]
-solved solution laters = let found = map ($ solution) laters in foldr seq found found
+-- | Resolves a list of terms, each evaluated to its outermost constructor.
+resolveAll :: Solution -> [Deferred a] -> [a]
+resolveAll solution terms = let found = map ($ solution) terms in foldr seq found found
 
--- | What there is, changed at once.
-eagerly :: (a -> b) -> Maybe a -> Maybe b
-eagerly f thing = case thing of
+-- | Maps over an optional value and evaluates the result.
+mapStrict :: (a -> b) -> Maybe a -> Maybe b
+mapStrict f thing = case thing of
   Nothing -> Nothing
   Just a -> Just $! f a

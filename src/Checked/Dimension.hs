@@ -1,8 +1,7 @@
--- | Dimensions: products of powers of length, angle and time, possibly with unknowns,
--- and the solving of equations between them.
+-- | Dimensions of quantities: products of powers of length, angle, time and unknowns.
 --
--- The dimensions form a commutative group, so an equation is solved as a linear one
--- over the whole numbers (Kennedy's unification of units of measure).
+-- Dimensions form a free commutative group. Equations between them are solved as linear equations
+-- over the integers (Kennedy, Programming Languages and Dimensions, 1996).
 module Checked.Dimension
   ( Dimension,
     Atom (..),
@@ -28,12 +27,12 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
--- | What dimensions are made of. 'Place' counts how far a pair is a point rather than a vector:
--- the difference of two points (1 each) is a vector (0).
-data Atom = Length | Angle | Time | Place | Unknown Int
+-- | A generator of the group of dimensions. 'PointWeight' tells points from vectors: a point has
+-- weight 1, a vector 0, and the difference of two points is a vector.
+data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
 
--- | The exponents that are not zero.
+-- | A product of powers, by the exponents that are not zero.
 newtype Dimension = Dimension (Map Atom Int)
   deriving newtype (Eq)
   deriving stock (Show)
@@ -42,36 +41,44 @@ newtype Dimension = Dimension (Map Atom Int)
 none :: Dimension
 none = Dimension Map.empty
 
+-- | The first power of an atom.
 atom :: Atom -> Dimension
 atom a = Dimension (Map.singleton a 1)
 
+-- | The product of two dimensions.
 times :: Dimension -> Dimension -> Dimension
 times (Dimension a) (Dimension b) = Dimension (Map.filter (/= 0) (Map.unionWith (+) a b))
 
+-- | An integer power of a dimension.
 power :: Int -> Dimension -> Dimension
 power n (Dimension a) = if n == 0 then none else Dimension (fmap (n *) a)
 
 exponent :: Atom -> Dimension -> Int
 exponent a (Dimension m) = Map.findWithDefault 0 a m
 
+-- | The numbers of the unknowns in a dimension.
 unknowns :: Dimension -> [Int]
 unknowns (Dimension m) = [n | Unknown n <- Map.keys m]
 
+-- | Tells if a dimension has no unknowns.
 isKnown :: Dimension -> Bool
 isKnown = null . unknowns
 
--- | Whether it is known only that the dimension is a square.
+-- | Tells if a dimension has unknowns and all its exponents are even.
 isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 
--- | How an equation is solved: done, impossible, or one unknown replaced and the rest to be solved.
+-- | The result of one step towards the solution of an equation.
 data UnificationStep
   = Solved
   | Impossible
-  | -- | an unknown and what it is
+  | -- | an unknown has this value; the equation that remains is solved by further steps
     Replace Int Dimension
 
--- | One step towards making a dimension equal to 'none'; the number is a fresh unknown.
+-- | Makes one step towards a dimension equal to 'none'. The number is that of a fresh unknown.
+--
+-- The unknown with the smallest exponent is eliminated. If its exponent does not divide the
+-- others, the integer parts of the quotients are taken and a fresh unknown carries the rest.
 solve :: Int -> Dimension -> UnificationStep
 solve fresh (Dimension m) = case pivot of
   Nothing -> if Map.null m then Solved else Impossible
@@ -80,19 +87,19 @@ solve fresh (Dimension m) = case pivot of
     | length (unknowns (Dimension m)) == 1 -> Impossible
     | otherwise -> Replace n (times (atom (Unknown fresh)) (rest n (\k -> negate (k `div` e))))
   where
-    -- The unknown with the smallest exponent; of equal ones the youngest.
+    -- The unknown with the smallest exponent; of equal ones the newest.
     pivot = case [(abs e, negate n, e, n) | (Unknown n, e) <- Map.toList m] of
       [] -> Nothing
       candidates -> let (_, _, e, n) = minimum candidates in Just (n, e)
     rest n f = Dimension (Map.filter (/= 0) (fmap f (Map.delete (Unknown n) m)))
 
--- | Put a dimension in an unknown's place.
+-- | Replaces an unknown by a dimension.
 substitute :: Int -> Dimension -> Dimension -> Dimension
 substitute n d whole@(Dimension m) = case Map.lookup (Unknown n) m of
   Nothing -> whole
   Just e -> times (power e d) (Dimension (Map.delete (Unknown n) m))
 
--- | In the words of a drawing, with its article.
+-- | Describes a dimension in the words of a drawing, with its article.
 describe :: Dimension -> Text
 describe d@(Dimension m)
   | d == none = "a number"
@@ -108,7 +115,7 @@ describe d@(Dimension m)
   where
     known = Map.filterWithKey (\a _ -> case a of Unknown _ -> False; _ -> True) m
 
--- | The default unit of a dimension: @mm@, @deg@, @mm^2@, @mm/min@.
+-- | The name of a dimension's default unit: @mm@, @deg@, @mm^2@, @mm/min@.
 unitWord :: Dimension -> Text
 unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
   ([], []) -> ""
@@ -125,10 +132,11 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       Length -> "mm"
       Angle -> "deg"
       Time -> "min"
-      Place -> "point"
+      PointWeight -> "point"
       Unknown _ -> ""
 
--- | The size of a bare number of a dimension: lengths in mm, times in minutes, angles in degrees.
+-- | The factor from a number without a unit to mm, minutes and radians. Such numbers are in mm,
+-- minutes and degrees.
 defaultUnit :: Dimension -> Double
 defaultUnit d = case exponent Angle d of
   0 -> 1

@@ -1,7 +1,8 @@
--- | What can be wrong with names, types and the set of statements.
+-- | Mistakes in names, types and the order of statements, and their reports.
 module Checked.Error
   ( Error (..),
     RequiredSetting (..),
+    UndefinedOperation (..),
     toReport,
   )
 where
@@ -27,72 +28,79 @@ import Report.Report
     report,
   )
 
--- | A fact, and where it shows.
+-- | A mistake with the region that a report points at, and the facts of the report.
 data Error
-  = -- | a name that nothing has; the names that there are
+  = -- | an unknown name; the names in scope
     UndefinedName Region Name [Text]
-  | -- | a name that is defined further down
+  | -- | a name that is defined further down; the region of the definition
     UsedBeforeDefinition Region Name Region
-  | DefinedTwice Region Name Region
-  | -- | a name of the language itself
+  | -- | a name that is already defined; the region of the first definition
+    DefinedTwice Region Name Region
+  | -- | a definition of a built-in name
     NameTaken Region Name
-  | -- | what was expected, what is there, and the places where one of them was settled before
+  | -- | a term of the wrong type: the wanted type, the found type, other regions that decided types
     Mismatch Region Type Type [(Region, Type)]
-  | -- | the two operands of a sum or a comparison, and the places where they were settled before
+  | -- | a sum or a comparison of different kinds: the operands, other regions that decided types
     Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
-  | -- | an operation on things that have none: the operation in words, the operands
-    NoOperation Region Text [(Region, Type)]
-  | -- | function, its parameters, how many arguments
+  | -- | an operation that the operands do not have
+    NoOperation Region UndefinedOperation [(Region, Type)]
+  | -- | a wrong number of arguments: the function, its parameters, the number given
     ArgumentCount Region Name [Text] Int
-  | NotAFunction Region Name (Maybe Region)
-  | FunctionAsValue Region Name [Text]
-  | -- | a circle that is walked without a sense
+  | -- | a call of a value; the region of its definition
+    NotAFunction Region Name (Maybe Region)
+  | -- | a function without arguments: its name, its forms as calls
+    FunctionAsValue Region Name [Text]
+  | -- | a circle in a contour without a sense
     SenseMissing Region
-  | -- | a sense for something that has one already
+  | -- | a sense before an element that is not a circle
     SenseUnneeded Region Type
-  | -- | something that can not be walked
-    NotWalkable Region Type
-  | NoPart Region
-  | SettingTwice Region RequiredSetting Region
-  | -- | the statement that needs them
+  | -- | an item of a contour that cannot be an element
+    NotAnElement Region Type
+  | -- | a program that does not begin with @part@
+    NoPart Region
+  | -- | a setting of the whole program that is made again; the region of the first one
+    SettingTwice Region RequiredSetting Region
+  | -- | the keyword of a statement that needs settings
     SettingsMissing Region (NonEmpty RequiredSetting)
-  | -- | a function that uses itself
+  | -- | a name used in its own definition
     Recursive Region Name
-  | -- | a call that has none of the forms of a function: the function, what is given, its forms
+  | -- | arguments that fit no form: the function, the types given, its forms as calls
     NoForm Region Text [(Region, Type)] [Text]
-  | -- | a call with a wrong number of arguments, or with words that do not belong: the function,
-    -- its forms
+  | -- | a number of arguments, or labels, that no form has: the function, its forms as calls
     NoSuchCall Region Text [Text]
-  | -- | a statement that does not belong in a block
+  | -- | a statement that is not allowed in a block: its keyword
     NotInBlock Region Text
-  | -- | a setting that the statement in whose braces it stands does not take: the setting, the
-    -- statement, its settings
+  | -- | a setting that the statement does not have: the setting, the statement, its settings
     ForeignSetting Region Text Text [Text]
-  | -- | a setting given twice: the setting, where it stands first
+  | -- | a setting that occurs again in a block; the region of the first one
     RepeatedSetting Region Text Region
-  | -- | a tolerance of an assertion that is no comparison
-    WithinNothing Region
-  | -- | a table whose first line does not name its columns
+  | -- | a tolerance after an assertion that is not an equality
+    WithinWithoutEquality Region
+  | -- | a table whose first line does not name the columns
     HeadingsMissing Region
-  | -- | names of columns further down
-    HeadingsAgain Region
-  | -- | a column named twice; where it stands first
+  | -- | headings below the first line of a table
+    HeadingsRepeated Region
+  | -- | a column named again; the region of the first one
     ColumnTwice Region Name Region
-  | -- | a table without one of the columns x and y
+  | -- | a table without a column x or y
     ColumnMissing Region Name
-  | -- | a row: its number from 1, how many columns there are, how many cells it has
+  | -- | a row of the wrong length: its number from 1, the number of columns, the number of cells
     RowLength Region Int Int Int
-  | -- | the digit of a cipher that there is not
+  | -- | an unknown cipher: its digit
     NoSuchCipher Region Text
-  | -- | a cipher with a wrong number of values: its digit, how many
+  | -- | a cipher with a wrong number of values: its digit, the number given
     CipherMisfit Region Text Int
-  | -- | a name in a cipher that is neither a column nor a value; the columns
+  | -- | a name in a value along a curve that is neither a column nor a value; the columns
     NoColumn Region Name [Text]
-  | -- | a column where a cipher takes one value for the whole piece: the cipher
-    ColumnForOne Region Text Name
+  | -- | a column where a cipher takes one value for the whole piece: its digit, the column
+    ColumnForWholePiece Region Text Name
   deriving stock (Eq, Show)
 
--- | The statements that a program needs once.
+-- | An operation of a 'NoOperation' error.
+data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
+  deriving stock (Eq, Show)
+
+-- | The settings that statements need above them.
 data RequiredSetting
   = PartSetting
   | MachineSetting
@@ -103,7 +111,7 @@ data RequiredSetting
   | ClearanceSetting
   deriving stock (Eq, Ord, Show)
 
--- | The words for it.
+-- | The report of a mistake.
 toReport :: Error -> Report
 toReport err = case err of
   UndefinedName region (Name name) known ->
@@ -132,7 +140,7 @@ toReport err = case err of
     (at region "E0204" (quote name <> " already means something in the language"))
       { hints = ["Choose another name, for example " <> name <> "1."]
       }
-  Mismatch region expected found settled ->
+  Mismatch region expected found elsewhere ->
     ( at
         region
         "E0205"
@@ -144,10 +152,10 @@ toReport err = case err of
         )
     )
       { label = Type.describe found,
-        others = settledHere settled,
+        others = decidedLabels elsewhere,
         hints = mismatchHint expected found
       }
-  Disagree region operator (leftRegion, left) (rightRegion, right) settled ->
+  Disagree region operator (leftRegion, left) (rightRegion, right) elsewhere ->
     ( at
         region
         "E0206"
@@ -160,7 +168,7 @@ toReport err = case err of
     )
       { others =
           [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)]
-            <> settledHere settled,
+            <> decidedLabels elsewhere,
         hints =
           [ "Compare their distance: distance(p, q) < 0.001"
             | operator `notElem` [Add, Subtract],
@@ -168,11 +176,11 @@ toReport err = case err of
               Spatial _ <- [right]
           ]
       }
-  NoOperation region what operands ->
+  NoOperation region operation operands ->
     ( at
         region
         "E0207"
-        ( what
+        ( operationWords operation
             <> " is not defined for "
             <> Text.intercalate " and " (map (Type.describe . snd) operands)
         )
@@ -198,10 +206,10 @@ toReport err = case err of
     (at region "E0209" (quote name <> " is a value, not a function"))
       { others = [Label r "defined here" | Just r <- [defined]]
       }
-  FunctionAsValue region (Name name) parameters ->
+  FunctionAsValue region (Name name) known ->
     (at region "E0210" (quote name <> " is a function and needs its arguments"))
       { hints =
-          parameters
+          ["Write " <> Text.intercalate ", or " (take 3 known) <> "."]
             <> ["For a feed write mm/min without spaces." | name == "min"]
       }
   SenseMissing region ->
@@ -211,10 +219,10 @@ toReport err = case err of
   SenseUnneeded region t ->
     (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
       { hints =
-          ["Leave the word out. " <> w | Just w <- [wayOf t]]
-            <> ["Leave the word out." | Nothing <- [wayOf t]]
+          ["Leave the word out. " <> w | Just w <- [traversalHint t]]
+            <> ["Leave the word out." | Nothing <- [traversalHint t]]
       }
-  NotWalkable region t ->
+  NotAnElement region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
       { message =
           [ "A contour walks along lines, circles, curves and open contours, and through \
@@ -239,7 +247,7 @@ toReport err = case err of
     ( at
         region
         "E0217"
-        ( listed (NonEmpty.toList (fmap settingWord missing))
+        ( joinedWords (NonEmpty.toList (fmap settingWord missing))
             <> (if length missing == 1 then " is" else " are")
             <> " not given"
         )
@@ -254,7 +262,7 @@ toReport err = case err of
     ( at
         region
         "E0218"
-        (quote name <> " does not take " <> listed (map (Type.describe . snd) given))
+        (quote name <> " does not take " <> joinedWords (map (Type.describe . snd) given))
     )
       { others = [Label r (Type.describe t) | (r, t) <- given],
         hints = formsHint known
@@ -284,7 +292,7 @@ toReport err = case err of
     (at region "E0224" "the first line of a table names its columns")
       { hints = ["Write above the numbers, for example: x y mu deg H"]
       }
-  HeadingsAgain region ->
+  HeadingsRepeated region ->
     (at region "E0224" "the columns of this table are named already")
       { hints = ["A row has a number for each column; a value in words stands in brackets: (2 * h)."]
       }
@@ -322,7 +330,7 @@ toReport err = case err of
         hints =
           [ "One digit at a time: cipher "
               <> Text.intercalate ", " [Text.singleton d <> "(…)" | d <- Text.unpack digit]
-            | severalCiphers digit
+            | isSeveralCiphers digit
           ]
             <> [ "The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel \
                  \and height), 6 (a distance at each point)."
@@ -336,7 +344,7 @@ toReport err = case err of
           ],
         hints = ["Write " <> Text.intercalate ", or " (cipherForms digit) <> "."]
       }
-  ColumnForOne region digit (Name name) ->
+  ColumnForWholePiece region digit (Name name) ->
     ( at
         region
         "E0228"
@@ -367,7 +375,7 @@ toReport err = case err of
             ]
           ([], _) -> ["Its columns are " <> Text.intercalate ", " columns <> "."]
       }
-  WithinNothing region ->
+  WithinWithoutEquality region ->
     (at region "E0223" "‘within’ needs two values that are to be equal")
       { hints = ["Write: assert a = b within d"]
       }
@@ -379,9 +387,9 @@ toReport err = case err of
           ]
       }
 
--- | How something without a choice of sense is walked.
-wayOf :: Type -> Maybe Text
-wayOf t = case t of
+-- | Explains the direction in which an element without a sense is traversed.
+traversalHint :: Type -> Maybe Text
+traversalHint t = case t of
   Line -> Just "A line is walked from its first point to its second."
   Curve _ ->
     Just "A curve is walked from its beginning to its end; the other way, write reversed(c)."
@@ -389,11 +397,11 @@ wayOf t = case t of
     Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
   _ -> Nothing
 
--- | Whether a cipher is several written as one number.
-severalCiphers :: Text -> Bool
-severalCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
+-- | Tells if a number consists of several digits of ciphers.
+isSeveralCiphers :: Text -> Bool
+isSeveralCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
 
--- | How a cipher is written.
+-- | The forms of a cipher by its digit.
 cipherForms :: Text -> [Text]
 cipherForms digit = case digit of
   "1" ->
@@ -415,10 +423,17 @@ at region code = report Error code (InSource region)
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
--- | Where something came to be what it is.
-settledHere :: [(Region, Type)] -> [Label]
-settledHere settled =
-  [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- settled]
+-- | Labels for the regions that decided types.
+decidedLabels :: [(Region, Type)] -> [Label]
+decidedLabels elsewhere =
+  [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]
+
+-- | The noun of an operation, with its article.
+operationWords :: UndefinedOperation -> Text
+operationWords operation = case operation of
+  UndefinedNegation -> "a minus"
+  UndefinedProduct -> "a product"
+  UndefinedQuotient -> "a quotient"
 
 mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found
@@ -454,7 +469,7 @@ example setting = case setting of
   FromSetting -> "from (0, 0)"
   ClearanceSetting -> "clearance 5 mm"
 
--- | At most a handful of the forms of a function.
+-- | A hint with at most six forms of a function.
 formsHint :: [Text] -> [Text]
 formsHint known = case known of
   [] -> []
@@ -465,9 +480,9 @@ formsHint known = case known of
         <> (if length known > 6 then "; …" else ".")
     ]
 
--- | Words in a row: a, b and c.
-listed :: [Text] -> Text
-listed words' = case reverse words' of
+-- | Joins words to a list: a, b and c.
+joinedWords :: [Text] -> Text
+joinedWords words' = case reverse words' of
   [] -> ""
   [one] -> one
   final : before -> Text.intercalate ", " (reverse before) <> " and " <> final

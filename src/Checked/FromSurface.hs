@@ -1,777 +1,414 @@
--- | Names and types: the surface program into the checked one.
+-- | The checked program from the surface program: names resolved and types inferred.
 --
--- Definitions are looked at in the order of the text and see only what stands above them, so
--- no program can run for ever. A statement with a mistake is left out of the output and
--- the name it defines is poisoned: what uses it is left out as well, without a report.
+-- Definitions are checked in the order of the text and see only what is defined above them, so
+-- every program terminates. A statement with a mistake is left out of the output, and the name
+-- that it defines is poisoned: statements that use it are left out without further reports.
 module Checked.FromSurface
   ( check,
+    checkByInference,
   )
 where
 
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
-import Checked.Builtin (Form (..))
-import Checked.Builtin qualified as Builtin
-import Checked.Deferred (Later, eagerly, solved)
+import Checked.Contour (item)
+import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
+import Checked.Expression
+  ( Environment (..),
+    expect,
+    infer,
+    isBuiltin,
+    operation,
+    pointOrPoints,
+    repetition,
+    spatialPoint,
+  )
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
-import Checked.Literal qualified as Literal
-import Checked.Piece (unitType)
 import Checked.Piece qualified as Piece
-import Checked.Scheme (Arithmetic (..), Binding (..), OverloadedCall (..), Pending (..))
-import Checked.Settings (settings)
+import Checked.RequiredSetting qualified as RequiredSetting
+import Checked.Scheme (Binding (..))
 import Checked.Settings qualified as Settings
 import Checked.Syntax (Program (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (unless, void, when, zipWithM)
+import Control.Monad (when)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (catMaybes, isJust, isNothing)
+import Data.Maybe (catMaybes, listToMaybe)
 import Data.Text (Text)
-import Data.Text qualified as Text
-import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
-import Surface.Token (Numeral (..))
 
--- | Check a program.
+-- | Checks a program. The output holds all statements without mistakes.
 check :: Surface.Program -> Result w Error Program
-check Surface.Program {Surface.statements = written} =
+check = checkBy True
+
+-- | 'check' with full inference for all terms, which gives the same result. Tests compare the two.
+checkByInference :: Surface.Program -> Result w Error Program
+checkByInference = checkBy False
+
+checkBy :: Bool -> Surface.Program -> Result w Error Program
+checkBy isFast Surface.Program {Surface.statements = written} =
   Result
     { warnings = [],
-      errors = settings written <> filter (not . (importing &&) . isUndefined) found,
+      errors = RequiredSetting.check written <> filter (not . isExcused) found,
       output = Just program
     }
   where
-    defined = Map.fromListWith (\_ first -> first) (concatMap definition written)
-    importing = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
     (found, solution, checked, mentions) =
-      Inference.run (catMaybes <$> mapM (statement defined) written)
+      Inference.run
+        (catMaybes <$> mapM (statement Environment {definitions = definedIn written, isFast}) written)
+    -- A file that could not be imported may define any name.
+    isExcused e = isImportBroken && isUndefinedName e
+    isImportBroken = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
     program =
       Program
-        { name = firstOf [value n | Located _ (Surface.Part n _) <- written],
-          title = firstOf [value t | Located _ (Surface.Part _ (Just t)) <- written],
-          machine = firstOf [m | Located _ (Surface.Machine m) <- written],
+        { name = listToMaybe [value n | Located _ (Surface.Part n _) <- written],
+          title = listToMaybe [value t | Located _ (Surface.Part _ (Just t)) <- written],
+          machine = listToMaybe [m | Located _ (Surface.Machine m) <- written],
           statements = map ($ solution) checked,
           mentions
         }
-    firstOf xs = case xs of
-      [] -> Nothing
-      x : _ -> Just x
 
--- | Whether a name is not known: what could not be imported may have defined it.
-isUndefined :: Error -> Bool
-isUndefined e = case e of
+isUndefinedName :: Error -> Bool
+isUndefinedName e = case e of
   UndefinedName {} -> True
   _ -> False
 
--- | The name that a statement defines.
-definition :: Statement -> [(Name, Region)]
-definition (Located _ s) = case s of
-  Surface.LetValue n _ -> [(value n, region n)]
-  Surface.LetFunction n _ _ -> [(value n, region n)]
-  Surface.Param n _ -> [(value n, region n)]
-  Surface.Contour n _ _ -> [(value n, region n)]
-  Surface.Table n _ -> [(value n, region n)]
-  Surface.Curve n _ -> [(value n, region n)]
-  Surface.Piece n _ _ _ _ -> [(value n, region n)]
-  Surface.Broken _ (Just n) -> [(value n, region n)]
-  _ -> []
+-- | The names that statements define, with the regions of the first definitions. Statements in
+-- their blocks do not count.
+definedIn :: [Statement] -> Map Name Region
+definedIn statements =
+  Map.fromListWith
+    (\_ first -> first)
+    [(value n, region n) | Located _ s <- statements, Just n <- [definedName s]]
+
+definedName :: Surface.Statement_ -> Maybe (Located Name)
+definedName s = case s of
+  Surface.LetValue n _ -> Just n
+  Surface.LetFunction n _ _ -> Just n
+  Surface.Param n _ -> Just n
+  Surface.Contour n _ _ -> Just n
+  Surface.Table n _ -> Just n
+  Surface.Curve n _ -> Just n
+  Surface.Piece n _ _ _ _ -> Just n
+  Surface.Broken _ n -> n
+  _ -> Nothing
 
 -- Statements
 
--- | The names that the program defines somewhere, and where.
-type Defined = Map Name Region
-
-statement :: Defined -> Statement -> Infer (Maybe (Later Checked.Statement))
-statement defined (Located at s) = case s of
-  Surface.Part n _ ->
-    Nothing
-      <$ Inference.mention
-        (region n)
-        (Just (region n))
-        (nameText n)
-        (Inference.Said "the name of the part")
+-- | Checks a statement; 'Nothing' when it contains a mistake or leaves nothing to evaluate.
+statement :: Environment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
+statement env (Located at s) = case s of
+  Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
-  Surface.Broken _ name ->
-    Nothing <$ mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
-  Surface.Tool c -> one Checked.Tool (cutter defined c)
-  Surface.Feed e -> one Checked.Feed (expect defined Type.feed e)
-  Surface.Tolerance accuracy -> one Checked.Tolerance $ case accuracy of
-    Surface.Within e -> (Checked.Within .) <$> expect defined Type.len e
-    Surface.Between a b ->
-      (\a' b' sol -> Checked.Between (a' sol) (b' sol))
-        <$> expect defined Type.len a <*> expect defined Type.len b
-  Surface.Clearance e -> one Checked.Clearance (expect defined Type.len e)
-  Surface.From e -> one Checked.From (spot defined e)
-  Surface.LetValue name e -> binding name (infer defined e)
-  Surface.Param name e -> binding name (infer defined e)
-  Surface.LetFunction name parameters e -> do
-    checked <- Inference.separately (unused name *> function defined name parameters e)
-    defining name fst checked
-    pure
-      ( plain
-          (\(_, e') sol -> Checked.LetFunction (value name) (fmap value parameters) (e' sol))
-          checked
-      )
-  Surface.Contour name closure items -> do
-    checked <- Inference.separately (unused name *> mapM (item defined) items)
-    defining name (const (Value (region name) Type.Contour)) checked
-    pure (plain (\items' sol -> Checked.Contour name closure (solved sol items')) checked)
-  Surface.Table name written -> do
-    checked <-
-      Inference.separately
-        ( unused name
-            *> Piece.table
-              (checker defined)
-              name
-              (case written of Surface.WrittenLines ls -> ls; Surface.LinesOf _ -> [])
-        )
-    defining name (\(t, _) -> Value (region name) t) checked
-    pure (plain (\(_, columns) sol -> Checked.Table name (columns sol)) checked)
-  Surface.Curve name e -> binding name (curve defined e)
-  Surface.Piece name e ciphers side joggles -> do
-    checked <- Inference.separately (unused name *> piece defined e ciphers joggles)
-    defining name (\(t, _) -> Value (region name) t) checked
-    pure
-      ( plain
-          ( \(_, (e', ciphers', joggles')) sol ->
-              Checked.Piece name (e' sol) (solved sol ciphers') side (solved sol joggles')
-          )
-          checked
-      )
-  Surface.Assert e within -> one Checked.Assert (assertion defined e within)
-  Surface.Mill e side options -> machining Checked.Mill "mill" e side options
-  Surface.Pocket e apart options ->
-    one
-      (\(c, step', o) -> Checked.Pocket c step' o)
-      ( (\c step' o sol -> (c sol, step' sol, o sol))
-          <$> expect defined Type.Contour e
-            <*> expect defined Type.len apart
-            <*> Settings.check (expect defined) (stop defined) "pocket" options
-      )
-  Surface.Turn e side options -> machining Checked.Turn "turn" e side options
-  Surface.Drill points depth options ->
-    one (\(p, d, o) -> Checked.Drill p d o) $ do
-      points' <- places defined points
-      depth' <- expect defined Type.len depth
-      options' <- Settings.check (expect defined) (stop defined) "drill" options
-      pure (\sol -> (points' sol, depth' sol, options' sol))
-  Surface.Travel motion stops ->
-    one Checked.Travel ((\ps sol -> fmap ($ sol) ps) <$> mapM (stop defined . paced motion) stops)
-  Surface.Change e c ->
-    one
-      (uncurry Checked.Change)
-      ((\n c' sol -> (n sol, c' sol)) <$> expect defined Type.number e <*> cutter defined c)
-  Surface.Spindle spin -> one Checked.Spindle $ case spin of
-    Surface.Still -> pure (const Checked.Still)
-    Surface.Spinning sense speed -> do
-      speed' <- traverse (expect defined Type.turns) speed
-      pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
-  Surface.Coolant switch -> one Checked.Coolant (pure (const switch))
-  Surface.Auxiliary e -> one Checked.Auxiliary (expect defined Type.number e)
-  Surface.Repeat counter list body -> do
-    checked <- Inference.separately (repetition defined counter list)
-    body' <-
-      inBlock
-        (maybe (Poisoned (region counter)) (Local (region counter) . fst) checked)
-        (Just counter)
-        body
-    pure
-      ( plain
-          (\(_, list') sol -> Checked.Repeat (value counter) (list' sol) (solved sol body'))
-          checked
-      )
+  Surface.Broken _ n -> Nothing <$ mapM_ (\n' -> Inference.define (value n') (Poisoned (region n'))) n
+  Surface.LetValue n e -> done (valueDefinition n (infer env e))
+  Surface.Param n e -> done (valueDefinition n (infer env e))
+  Surface.LetFunction n parameters e -> done (functionDefinition env n parameters e)
+  Surface.Contour n closure items -> done (contourDefinition env n closure items)
+  Surface.Table n written -> done (tableDefinition env n written)
+  Surface.Curve n e -> done (valueDefinition n (curve env e))
+  Surface.Piece n e ciphers side joggles -> done (pieceDefinition env n e ciphers side joggles)
+  Surface.Repeat counter list body -> done (repeated env counter list body)
   Surface.When e body others -> do
-    checked <- Inference.separately (expect defined Type.Truth' e)
-    body' <- block' body
-    others' <- block' others
-    pure (plain (\e' sol -> Checked.When (e' sol) (solved sol body') (solved sol others')) checked)
+    checked <- Inference.separately (expect env Type.Boolean e)
+    body' <- block env body
+    others' <- block env others
+    let make e' sol = Checked.When (e' sol) (resolveAll sol body') (resolveAll sol others')
+    done (pure (make <$> checked))
   Surface.With e body -> do
-    checked <- Inference.separately (expect defined Type.Placement e)
-    body' <- block' body
-    pure (plain (\e' sol -> Checked.With (e' sol) (solved sol body')) checked)
+    checked <- Inference.separately (expect env Type.Transformation e)
+    body' <- block env body
+    done (pure ((\e' sol -> Checked.With (e' sol) (resolveAll sol body')) <$> checked))
+  Surface.Tool c -> one (fmap Checked.Tool <$> cutter env c)
+  Surface.Feed e -> one (fmap Checked.Feed <$> expect env Type.feed e)
+  Surface.Tolerance accuracy -> one (fmap Checked.Tolerance <$> tolerance env accuracy)
+  Surface.Clearance e -> one (fmap Checked.Clearance <$> expect env Type.len e)
+  Surface.From e -> one (fmap Checked.From <$> spatialPoint env e)
+  Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
+  Surface.Mill e side options -> one (machining env Checked.Mill "mill" e side options)
+  Surface.Turn e side options -> one (machining env Checked.Turn "turn" e side options)
+  Surface.Pocket e stepover options ->
+    one $
+      (\e' stepover' o sol -> Checked.Pocket (e' sol) (stepover' sol) (o sol))
+        <$> expect env Type.Contour e
+          <*> expect env Type.len stepover
+          <*> Settings.check env "pocket" options
+  Surface.Drill points depth options ->
+    one $
+      (\points' depth' o sol -> Checked.Drill (points' sol) (depth' sol) (o sol))
+        <$> pointOrPoints env points
+          <*> expect env Type.len depth
+          <*> Settings.check env "drill" options
+  Surface.Travel motion stops ->
+    one $
+      (\ps sol -> Checked.Travel (fmap ($ sol) ps))
+        <$> mapM (Settings.stop env . atPace motion) stops
+  Surface.Change e c ->
+    one $
+      (\e' c' sol -> Checked.Change (e' sol) (c' sol)) <$> expect env Type.number e <*> cutter env c
+  Surface.Spindle spin -> one (fmap Checked.Spindle <$> spindle env spin)
+  Surface.Coolant switch -> one (pure (const (Checked.Coolant switch)))
+  Surface.Auxiliary e -> one (fmap Checked.Auxiliary <$> expect env Type.number e)
   where
-    plain f = fmap (\x sol -> Located at (f x sol))
-    one make inside = plain (\x sol -> make (x sol)) <$> Inference.separately inside
-    binding name inside = do
-      checked <- Inference.separately (unused name *> inside)
-      defining name (\(t, _) -> Value (region name) t) checked
-      d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.known . fst) checked
-      pure (plain (\(_, e') sol -> Checked.LetValue name (sol d) (e' sol)) checked)
-    machining make word e side options =
-      one (\(c, o) -> make c side o) $ do
-        e' <- expect defined Type.Contour e
-        options' <- Settings.check (expect defined) (stop defined) word options
-        pure (\sol -> (e' sol, options' sol))
-    defining name entry checked = do
-      already <- Inference.find (value name)
-      case already of
-        Just _ -> pure ()
-        Nothing -> do
-          let entry' = maybe (Poisoned (region name)) entry checked
-          Inference.define (value name) entry'
-          mapM_
-            (Inference.mention (region name) (Just (region name)) (nameText name))
-            (meaningOf entry')
-    -- What is defined in a block is known only there.
-    block' body = catMaybes <$> Inference.scoped (mapM (statement (inner body)) body)
-    inBlock entry counter body = Inference.scoped $ do
-      mapM_
-        ( \n ->
-            Inference.define (value n) entry
-              *> mapM_
-                (Inference.mention (region n) (Just (region n)) (nameText n))
-                (meaningOf entry)
-        )
-        counter
-      catMaybes <$> mapM (statement (inner body)) body
-    inner body =
-      Map.union (Map.fromListWith (\_ first -> first) (concatMap definition body)) defined
+    done = fmap (fmap (Located at .))
+    one = done . Inference.separately
 
-checker :: Defined -> Piece.Checker
-checker defined = Piece.Checker (expect defined)
+-- | Statements of a block, whose definitions are known only there.
+block :: Environment -> [Statement] -> Infer [Deferred Checked.Statement]
+block env body = Inference.scoped (inBlock env body)
 
--- | A curve, of whatever table.
-curve :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
-curve defined e = do
+inBlock :: Environment -> [Statement] -> Infer [Deferred Checked.Statement]
+inBlock env body = catMaybes <$> mapM (statement inner) body
+  where
+    inner = env {definitions = Map.union (definedIn body) (definitions env)}
+
+-- | A repetition of statements. The variable is poisoned if the list contains a mistake.
+repeated ::
+  Environment ->
+  Located Name ->
+  Surface.Expr ->
+  [Statement] ->
+  Infer (Maybe (Deferred Checked.Statement_))
+repeated env counter list body = do
+  checked <- Inference.separately (repetition env counter list)
+  let binding = maybe (Poisoned (region counter)) (Local (region counter) . fst) checked
+  body' <- Inference.scoped $ do
+    Inference.define (value counter) binding
+    mapM_ (mentionDefinition counter) (meaningOf binding)
+    inBlock env body
+  let make (_, list') sol = Checked.Repeat (value counter) (list' sol) (resolveAll sol body')
+  pure (make <$> checked)
+
+-- Definitions
+
+-- | The definition of a value by the type and the term of its expression.
+valueDefinition ::
+  Located Name ->
+  Infer (Type, Deferred Checked.Expr) ->
+  Infer (Maybe (Deferred Checked.Statement_))
+valueDefinition name inside = do
+  checked <- defining name (Value (region name) . fst) inside
+  d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.resolved . fst) checked
+  pure ((\(_, e) sol -> Checked.LetValue name (sol d) (e sol)) <$> checked)
+
+-- | The definition of a function.
+functionDefinition ::
+  Environment ->
+  Located Name ->
+  NonEmpty (Located Name) ->
+  Surface.Expr ->
+  Infer (Maybe (Deferred Checked.Statement_))
+functionDefinition env name parameters body = do
+  checked <- defining name fst (function env name parameters body)
+  let make (_, e) sol = Checked.LetFunction (value name) (fmap value parameters) (e sol)
+  pure (make <$> checked)
+
+-- | A function with its generalised type.
+function ::
+  Environment ->
+  Located Name ->
+  NonEmpty (Located Name) ->
+  Surface.Expr ->
+  Infer (Binding, Deferred Checked.Expr)
+function env name parameters body = do
+  mapM_ reportBuiltin locals
+  reportRepeated locals
+  (scheme, body') <- Inference.generalise $ do
+    types <- mapM (const Inference.freshType) locals
+    (t, e) <- Inference.withLocals (zip locals types) (infer env body)
+    pure (types, t, e)
+  pure (Function (region name) [text | Located _ (Name text) <- locals] scheme, body')
+  where
+    locals = NonEmpty.toList parameters
+
+-- | Reports each name that occurs again in a list, once.
+reportRepeated :: [Located Name] -> Infer ()
+reportRepeated names = case names of
+  [] -> pure ()
+  n : rest -> do
+    mapM_
+      (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n)))
+      (take 1 (filter ((== value n) . value) rest))
+    reportRepeated rest
+
+-- | The definition of a contour.
+contourDefinition ::
+  Environment ->
+  Located Name ->
+  Surface.Closure ->
+  [Surface.Item] ->
+  Infer (Maybe (Deferred Checked.Statement_))
+contourDefinition env name closure items = do
+  checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) items)
+  pure ((\items' sol -> Checked.Contour name closure (resolveAll sol items')) <$> checked)
+
+-- | The definition of a table, whose file is already read.
+tableDefinition ::
+  Environment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
+tableDefinition env name written = do
+  checked <- defining name (Value (region name) . fst) (Piece.table env name tableLines)
+  pure ((\(_, columns) sol -> Checked.Table name (columns sol)) <$> checked)
+  where
+    tableLines = case written of
+      Surface.WrittenLines ls -> ls
+      Surface.LinesOf _ -> []
+
+-- | The definition of a piece.
+pieceDefinition ::
+  Environment ->
+  Located Name ->
+  Surface.Expr ->
+  [Surface.Cipher] ->
+  Located Surface.Side ->
+  [Surface.Joggle] ->
+  Infer (Maybe (Deferred Checked.Statement_))
+pieceDefinition env name e ciphers side joggles = do
+  checked <- defining name (Value (region name) . fst) $ do
+    (t, e') <- curve env e
+    columns <- Piece.columnsOf t
+    ciphers' <- catMaybes <$> mapM (Piece.cipher env columns) ciphers
+    joggles' <- mapM (Piece.joggle env) joggles
+    pure (t, (e', ciphers', joggles'))
+  let make (_, (e', ciphers', joggles')) sol =
+        Checked.Piece name (e' sol) (resolveAll sol ciphers') side (resolveAll sol joggles')
+  pure (make <$> checked)
+
+-- | A curve through any table or points.
+curve :: Environment -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
+curve env e = do
   t <- Type.Curve <$> Inference.freshType
-  e' <- expect defined t e
+  e' <- expect env t e
   Inference.settle
   pure (t, e')
 
--- | A curve with its recalculations and joggles.
-piece ::
-  Defined ->
-  Surface.Expr ->
-  [Surface.Cipher] ->
-  [Surface.Joggle] ->
-  Infer (Type, (Later Checked.Expr, [Later Checked.Cipher], [Later Checked.Joggle]))
-piece defined e ciphers joggles = do
-  (t, e') <- curve defined e
-  columns <- Piece.columnsOf t
-  ciphers' <- catMaybes <$> mapM (Piece.cipher (checker defined) columns) ciphers
-  joggles' <- mapM (Piece.joggle (checker defined)) joggles
-  pure (t, (e', ciphers', joggles'))
-
--- | What a reader is told of a name.
-meaningOf :: Binding -> Maybe Inference.Meaning
-meaningOf entry = case entry of
-  Value _ t -> Just (Inference.Valued t)
-  Local _ t -> Just (Inference.Valued t)
-  Function _ parameters scheme -> Just (Inference.Callable parameters scheme)
-  Poisoned _ -> Nothing
-
--- | The stops of @rapid@ are reached in rapid unless they say otherwise.
-paced :: Surface.DefaultPace -> Surface.Stop -> Surface.Stop
-paced motion s = case (motion, Surface.pace s) of
-  (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
-  _ -> s
-
-cutter :: Defined -> Surface.Cutter -> Infer (Later Checked.Cutter)
-cutter defined (Located at c) = fmap (Located at .) $ case c of
-  Surface.MillCutter e -> (Checked.MillCutter .) <$> expect defined Type.len e
-  Surface.DrillCutter e -> (Checked.DrillCutter .) <$> expect defined Type.len e
-  Surface.TurningCutter e -> (Checked.TurningCutter .) <$> expect defined Type.len e
-  Surface.ConeCutter d a h ->
-    (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol))
-      <$> expect defined Type.len d <*> expect defined Type.angle a <*> expect defined Type.len h
-  Surface.BladeCutter d g ->
-    (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol))
-      <$> expect defined Type.len d <*> expect defined Type.len g
-
--- | Something that has to be true, or two quantities that have to be equal.
-assertion :: Defined -> Surface.Expr -> Maybe Surface.Expr -> Infer (Later Checked.Assertion)
-assertion defined e within = case (value e, within) of
-  (Surface.Binary Surface.Equal l r, _) -> do
-    (lt, l') <- infer defined l
-    (rt, r') <- infer defined r
-    _ <- operation (region e) Surface.Equal (region l, lt) (region r, rt)
-    kind <- Inference.known lt
-    -- Things that cannot be compared differ by nothing.
-    within' <-
-      traverse (expect defined (case kind of Type.Quantity _ -> lt; _ -> Type.Wrong)) within
-    d <- Type.dimensionOf <$> Inference.known lt
-    pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
-  (Surface.Binary op l r, Nothing)
-    | op `elem` [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal] ->
-      do
-        (lt, l') <- infer defined l
-        (rt, r') <- infer defined r
-        _ <- operation (region e) op (region l, lt) (region r, rt)
-        d <- Type.dimensionOf <$> Inference.known lt
-        pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
-  (_, Just d) ->
-    (\e' sol -> Checked.Holds (e' sol))
-      <$> (Inference.mistake (WithinNothing (region d)) *> (snd <$> infer defined e))
-  (_, Nothing) -> (\e' sol -> Checked.Holds (e' sol)) <$> expect defined Type.Truth' e
-
--- | A name that can be given.
-unused :: Located Name -> Infer ()
-unused (Located at name@(Name text)) = do
-  already <- Inference.find name
+-- | Checks a definition and binds its name unless it is bound already. The name is poisoned if the
+-- definition contains a mistake.
+defining :: Located Name -> (a -> Binding) -> Infer a -> Infer (Maybe a)
+defining name bindingOf inside = do
+  checked <- Inference.separately (reportTaken name *> inside)
+  already <- Inference.find (value name)
   case already of
+    Just _ -> pure ()
+    Nothing -> do
+      let binding = maybe (Poisoned (region name)) bindingOf checked
+      Inference.define (value name) binding
+      mapM_ (mentionDefinition name) (meaningOf binding)
+  pure checked
+
+-- | Reports a name that is already defined or that belongs to the language.
+reportTaken :: Located Name -> Infer ()
+reportTaken located@(Located at name) = do
+  binding <- Inference.find name
+  case binding of
     Just (Value before _) -> Inference.mistake (DefinedTwice at name before)
     Just (Function before _ _) -> Inference.mistake (DefinedTwice at name before)
     Just (Poisoned before) -> Inference.mistake (DefinedTwice at name before)
     Just (Local _ _) -> pure ()
     Nothing -> pure ()
+  reportBuiltin located
+
+-- | Reports a name that belongs to the language.
+reportBuiltin :: Located Name -> Infer ()
+reportBuiltin (Located at name@(Name text)) =
   when (isBuiltin text) (Inference.mistake (NameTaken at name))
 
-function ::
-  Defined ->
-  Located Name ->
-  NonEmpty (Located Name) ->
+-- | Records the mention of a name in its own definition.
+mentionDefinition :: Located Name -> Inference.Meaning -> Infer ()
+mentionDefinition (Located at (Name text)) = Inference.mention at (Just at) text
+
+-- | The meaning of a bound name for editors; none for a poisoned one.
+meaningOf :: Binding -> Maybe Inference.Meaning
+meaningOf binding = case binding of
+  Value _ t -> Just (Inference.Valued t)
+  Local _ t -> Just (Inference.Valued t)
+  Function _ parameters scheme -> Just (Inference.Callable parameters scheme)
+  Poisoned _ -> Nothing
+
+-- Settings, motions and commands
+
+-- | A machining statement on a contour.
+machining ::
+  Environment ->
+  (Checked.Expr -> Located Surface.Side -> Checked.Settings -> Checked.Statement_) ->
+  Text ->
   Surface.Expr ->
-  Infer (Binding, Later Checked.Expr)
-function defined name parameters body = do
-  mapM_
-    (\(Located at n@(Name text)) -> when (isBuiltin text) (Inference.mistake (NameTaken at n)))
-    parameters
-  twice (NonEmpty.toList parameters)
-  (scheme, body') <- Inference.generalising $ do
-    ts <- mapM (const Inference.freshType) (NonEmpty.toList parameters)
-    (t, e) <- Inference.withLocals (zip (NonEmpty.toList parameters) ts) (infer defined body)
-    pure (ts, t, e)
-  pure
-    ( Function (region name) [text | Located _ (Name text) <- NonEmpty.toList parameters] scheme,
-      body'
-    )
+  Located Surface.Side ->
+  [Surface.Setting] ->
+  Infer (Deferred Checked.Statement_)
+machining env make keyword e side options =
+  (\e' o sol -> make (e' sol) side (o sol))
+    <$> expect env Type.Contour e
+      <*> Settings.check env keyword options
+
+-- | Gives the stops of a @rapid@ statement the rapid pace unless they say otherwise.
+atPace :: Surface.DefaultPace -> Surface.Stop -> Surface.Stop
+atPace motion s = case (motion, Surface.pace s) of
+  (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
+  _ -> s
+
+cutter :: Environment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
+cutter env (Located at c) = fmap (Located at .) $ case c of
+  Surface.MillCutter e -> (Checked.MillCutter .) <$> len e
+  Surface.DrillCutter e -> (Checked.DrillCutter .) <$> len e
+  Surface.TurningCutter e -> (Checked.TurningCutter .) <$> len e
+  Surface.ConeCutter d a h ->
+    (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol))
+      <$> len d <*> expect env Type.angle a <*> len h
+  Surface.BladeCutter d g ->
+    (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol)) <$> len d <*> len g
   where
-    twice ns = case ns of
-      [] -> pure ()
-      n : rest -> do
-        mapM_
-          (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n)))
-          (take 1 (filter ((== value n) . value) rest))
-        twice rest
+    len = expect env Type.len
 
-isBuiltin :: Text -> Bool
-isBuiltin = isJust . Builtin.lookup
+tolerance :: Environment -> Surface.Accuracy -> Infer (Deferred Checked.Accuracy)
+tolerance env accuracy = case accuracy of
+  Surface.Within e -> (Checked.Within .) <$> expect env Type.len e
+  Surface.Between a b ->
+    (\a' b' sol -> Checked.Between (a' sol) (b' sol))
+      <$> expect env Type.len a <*> expect env Type.len b
 
-nameText :: Located Name -> Text
-nameText (Located _ (Name text)) = text
+spindle :: Environment -> Surface.Spin -> Infer (Deferred Checked.Spin)
+spindle env spin = case spin of
+  Surface.Still -> pure (const Checked.Still)
+  Surface.Spinning sense speed -> do
+    speed' <- traverse (expect env Type.spindleSpeed) speed
+    pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
 
-stop :: Defined -> Surface.Stop -> Infer (Later Checked.Stop)
-stop defined (Surface.Stop p pace) = do
-  p' <- spot defined p
-  pace' <- case pace of
-    Surface.Cutting -> pure (const Checked.Cutting)
-    Surface.Rapid -> pure (const Checked.Rapid)
-    Surface.AtFeed f -> (Checked.AtFeed .) <$> expect defined Type.feed f
-  pure (\sol -> Checked.Stop (p' sol) (pace' sol))
-
--- | A point of the plane, or one with a height.
-spot :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
-spot defined e = do
-  (t, e') <- infer defined e
-  t' <- Inference.known t
-  unless (t' == Type.Space) (equal (region e) Type.aPoint t)
-  pure e'
-
--- | A list of points, or one point.
-places :: Defined -> Surface.Expr -> Infer (Later Checked.Expr)
-places defined e = do
-  (t, e') <- infer defined e
-  t' <- Inference.known t
-  case t' of
-    Type.Spatial _ -> equal (region e) Type.aPoint t
-    _ -> equal (region e) (Type.ListOf Type.aPoint) t
-  pure e'
-
--- | The variable and the list of a repetition.
-repetition :: Defined -> Located Name -> Surface.Expr -> Infer (Type, Later Checked.Expr)
-repetition defined counter list = do
-  when
-    (isBuiltin (nameText counter))
-    (Inference.mistake (NameTaken (region counter) (value counter)))
-  t <- Inference.freshType
-  (found, list') <- infer defined list
-  fine <- agrees (region list) (Type.ListOf t) found
-  pure (if fine then t else Type.Wrong, list')
-
-item :: Defined -> Surface.Item -> Infer (Later Checked.Item)
-item defined (Located at i) = case i of
-  Surface.BrokenItem name -> do
-    mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
-    Inference.taint
-    pure (const (Located at (Checked.For (Name "") (Located at (Checked.List [])) [])))
-  Surface.For counter list items -> do
-    (t, list') <- repetition defined counter list
-    items' <- Inference.withLocals [(counter, t)] (mapM (item defined) items)
-    pure (\sol -> Located at (Checked.For (value counter) (list' sol) (solved sol items')))
-  Surface.Choose e items others -> do
-    e' <- expect defined Type.Truth' e
-    items' <- mapM (item defined) items
-    others' <- mapM (item defined) others
-    pure (\sol -> Located at (Checked.Choose (e' sol) (solved sol items') (solved sol others')))
-  Surface.Element walk e modifiers link -> do
-    (t, e') <- walked defined walk e
-    modifiers' <- if null modifiers then pure [] else Piece.columnsOf t >>= modified' modifiers
-    link' <- traverse (linked defined) link
-    pure
-      ( \sol ->
-          Located
-            at
-            ( Checked.Element
-                (eagerly value walk)
-                (e' sol)
-                (solved sol modifiers')
-                (eagerly ($ sol) link')
-            )
-      )
+-- | Checks an assertion: a comparison, an equation with an optional tolerance, or another truth.
+assertion :: Environment -> Surface.Expr -> Maybe Surface.Expr -> Infer (Deferred Checked.Assertion)
+assertion env e within = case (value e, within) of
+  (Surface.Binary Surface.Equal l r, _) -> do
+    (t, l', r') <- compared Surface.Equal l r
+    kind <- Inference.resolved t
+    -- Operands that cannot be compared are reported already; any tolerance fits them.
+    let toleranceType = case kind of
+          Type.Quantity _ -> t
+          _ -> Type.Wrong
+    within' <- traverse (expect env toleranceType) within
+    d <- Type.dimensionOf <$> Inference.resolved t
+    pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
+  (Surface.Binary op l r, Nothing) | op `elem` inequalities -> do
+    (t, l', r') <- compared op l r
+    d <- Type.dimensionOf <$> Inference.resolved t
+    pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
+  (_, Just d) -> do
+    Inference.mistake (WithinWithoutEquality (region d))
+    (Checked.Holds .) . snd <$> infer env e
+  (_, Nothing) -> (Checked.Holds .) <$> expect env Type.Boolean e
   where
-    modified' modifiers columns =
-      mapM
-        (modified defined columns)
-        (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
-
-isBevel :: Surface.Modifier -> Bool
-isBevel (Located _ m) = case m of
-  Surface.Bevel _ -> True
-  Surface.AtElementFeed _ -> False
-  Surface.Slow -> False
-  Surface.ElementAllowance _ -> False
-
--- | What is asked on an element with these columns, as far as they are known.
-modified :: Defined -> Maybe [(Text, Type)] -> Surface.Modifier -> Infer (Later Checked.Modifier)
-modified defined columns (Located at m) = fmap (Located at .) $ case m of
-  Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect defined Type.feed e
-  Surface.Slow -> pure (const Checked.Slow)
-  Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect defined Type.len e
-  Surface.Bevel e ->
-    (Checked.Bevel .)
-      <$> Piece.withColumns (region e) (concat columns) (expect defined Type.angle e)
-
--- | A circle with its sense, or a line, a point, a curve or a contour without one.
-walked ::
-  Defined ->
-  Maybe (Located Surface.Sense) ->
-  Surface.Expr ->
-  Infer (Type, Later Checked.Expr)
-walked defined walk e = case (walk, value e) of
-  (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect defined Type.aPoint e
-  _ -> do
-    plain <- Literal.call (expect defined) e
-    inferred (maybe (infer defined e) (\c -> pure (Literal.answer c, Literal.checked c)) plain)
-  where
-    inferred found = do
-      (t, e') <- found
-      t' <- Inference.known t
-      case (t', walk) of
-        (Type.Circle, Nothing) -> Inference.mistake (SenseMissing (region e))
-        (Type.Circle, Just _) -> pure ()
-        (Type.Line, Nothing) -> pure ()
-        (Type.Contour, Nothing) -> pure ()
-        (Type.Curve _, Nothing) -> pure ()
-        (Type.Curve _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
-        (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
-        (Type.Line, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
-        (Type.Contour, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
-        (Type.Spatial _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
-        (Type.Variable _, Just _) -> equal (region e) Type.Circle t
-        (Type.Wrong, _) -> pure ()
-        _ -> Inference.mistake (NotWalkable (region e) t')
-      pure (t, e')
-
-linked :: Defined -> Surface.Link -> Infer (Later Checked.Link)
-linked defined (Located at l) = fmap (Located at .) $ case l of
-  Surface.Meet near -> do
-    near' <- traverse (expect defined Type.aPoint) near
-    pure (\sol -> Checked.Meet (($ sol) <$> near'))
-  Surface.Smooth -> pure (const Checked.Smooth)
-  Surface.Tangent -> pure (const Checked.Tangent)
-  Surface.Fillet e -> (Checked.Fillet .) <$> expect defined Type.len e
-  Surface.Chamfer e -> (Checked.Chamfer .) <$> expect defined Type.len e
-
--- Expressions
-
--- | An expression where a type is needed.
-expect :: Defined -> Type -> Surface.Expr -> Infer (Later Checked.Expr)
-expect defined wanted e = case (value e, wanted) of
-  _ | Just e' <- Literal.number wanted e -> pure (const e')
-  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> do
-    x' <- expect defined Type.len x
-    y' <- expect defined Type.len y
-    pure (\sol -> Located (region e) (Checked.Pair (x' sol) (y' sol)))
-  _ -> do
-    (t, e') <- infer defined e
-    equal (region e) wanted t
-    pure e'
-
--- | The found type at a place has to be the wanted one.
-equal :: Region -> Type -> Type -> Infer ()
-equal at wanted t = void (agrees at wanted t)
-
--- | Whether the found type at a place is the wanted one; a mistake if not.
-agrees :: Region -> Type -> Type -> Infer Bool
-agrees at wanted t = do
-  found <- Inference.known t
-  wanted' <- Inference.known wanted
-  settled <- Inference.settledPlaces [(at, t, found), (at, wanted, wanted')]
-  same <- Inference.unify at wanted t
-  unless same (Inference.mistakeOnce (map fst settled) (Mismatch at wanted' found settled))
-  pure same
-
-infer :: Defined -> Surface.Expr -> Infer (Type, Later Checked.Expr)
-infer defined (Located at e) = case e of
-  Surface.Literal (Numeral _ x) (Just unit) ->
-    let (t, factor) = unitType unit in pure (t, const (Located at (Checked.Number (x * factor))))
-  Surface.Literal (Numeral _ x) Nothing -> do
-    d <- Inference.freshDimension
-    -- A bare number means one thing everywhere; only nothing is nothing in every unit.
-    unless (x == 0) (Inference.monomorphic d)
-    pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
-  Surface.Variable name -> variable defined at name
-  Surface.Call name arguments -> do
-    plain <- Literal.call (expect defined) (Located at e)
-    case plain of
-      Nothing -> call defined at name arguments
-      Just c ->
-        (,Literal.checked c)
-          <$> ( if Literal.overloaded c
-                  then Inference.decidedAs at (Literal.answer c)
-                  else pure (Literal.answer c)
-              )
-  Surface.Negate inner -> do
-    (t, inner') <- infer defined inner
-    result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
-    pure (result, \sol -> Located at (Checked.Negate (inner' sol)))
-  Surface.Not inner -> do
-    inner' <- expect defined Type.Truth' inner
-    pure (Type.Truth', \sol -> Located at (Checked.Not (inner' sol)))
-  Surface.Binary op l r | op `elem` [Surface.And, Surface.Or] -> do
-    l' <- expect defined Type.Truth' l
-    r' <- expect defined Type.Truth' r
-    pure (Type.Truth', \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
-  Surface.Binary op l r -> do
-    (lt, l') <- infer defined l
-    (rt, r') <- infer defined r
-    when (op `elem` [Surface.Multiply, Surface.Divide]) (Literal.plainFactor op (l, lt) (r, rt))
-    result <- operation at op (region l, lt) (region r, rt)
-    pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
-  Surface.Range low high Nothing -> do
-    low' <- expect defined Type.number low
-    high' <- expect defined Type.number high
-    pure
-      (Type.ListOf Type.number, \sol -> Located at (Checked.Range (low' sol) (high' sol) Nothing))
-  Surface.Range low high (Just step) -> do
-    d <- Inference.freshDimension
-    low' <- expect defined (Type.Quantity d) low
-    high' <- expect defined (Type.Quantity d) high
-    step' <- expect defined (Type.Quantity d) step
-    pure
-      ( Type.ListOf (Type.Quantity d),
-        \sol -> Located at (Checked.Range (low' sol) (high' sol) (Just (step' sol)))
-      )
-  Surface.If c a b -> do
-    c' <- expect defined Type.Truth' c
-    (t, a') <- infer defined a
-    b' <- expect defined t b
-    pure (t, \sol -> Located at (Checked.If (c' sol) (a' sol) (b' sol)))
-  Surface.Pair x y -> do
-    x' <- expect defined Type.len x
-    y' <- expect defined Type.len y
-    d <- Inference.freshDimension
-    pure (Type.Spatial d, \sol -> Located at (Checked.Pair (x' sol) (y' sol)))
-  Surface.Triple x y z -> do
-    x' <- expect defined Type.len x
-    y' <- expect defined Type.len y
-    z' <- expect defined Type.len z
-    pure (Type.Space, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
-  Surface.List es -> do
-    t <- Inference.freshType
-    es' <- mapM (expect defined t) es
-    pure (Type.ListOf t, \sol -> Located at (Checked.List (solved sol es')))
-  Surface.Each inner counter list -> do
-    (t, list') <- repetition defined counter list
-    (result, inner') <- Inference.withLocals [(counter, t)] (infer defined inner)
-    pure
-      ( Type.ListOf result,
-        \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
-      )
-
--- | The result of an operation.
-operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
-operation place operator left right = do
-  outcome <- Inference.freshType
-  Inference.require (Operation Arithmetic {place, operator, left, right, outcome})
-  pure outcome
-
-variable :: Defined -> Region -> Name -> Infer (Type, Later Checked.Expr)
-variable defined at name@(Name text) = do
-  entry <- Inference.find name
-  case entry of
-    Just (Value there t) ->
-      (t, here (Checked.Variable name))
-        <$ Inference.mention at (Just there) text (Inference.Valued t)
-    Just (Local there t) ->
-      (t, here (Checked.Variable name))
-        <$ Inference.mention at (Just there) text (Inference.Valued t)
-    Just (Function there parameters scheme) -> do
-      Inference.mention at (Just there) text (Inference.Callable parameters scheme)
-      wrong
-        ( FunctionAsValue
-            at
-            name
-            ["Write " <> text <> "(" <> Text.intercalate ", " parameters <> ")."]
-        )
-    Just (Poisoned _) -> nothing <$ Inference.taint
-    Nothing -> case Builtin.lookup text of
-      Just builtin -> do
-        Inference.mention at Nothing text (Inference.Said (Builtin.meaning builtin))
-        forms <- fresh builtin
-        case forms of
-          [Form [] t] -> pure (t, here (Checked.Builtin builtin []))
-          _ -> wrong (FunctionAsValue at name (Builtin.formsHint builtin))
-      Nothing -> unknown defined at name >>= wrong
-  where
-    here e _ = Located at e
-    nothing = (Type.Wrong, here (Checked.Number 0))
-    wrong e = nothing <$ Inference.mistake e
-
--- | The forms of a builtin with unknowns of their own.
-fresh :: Checked.Builtin -> Infer [Form]
-fresh builtin = (`Builtin.forms` builtin) <$> freshUnknowns
-
-freshUnknowns :: Infer Builtin.Fresh
-freshUnknowns = do
-  d <- Inference.freshDimension
-  t <- Inference.freshType
-  pure Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t}
-
--- | A name that means nothing here: it stands further down, it is being defined, or it is misspelt.
-unknown :: Defined -> Region -> Name -> Infer Error
-unknown defined at name = do
-  names <- Inference.entries
-  pure $ case Map.lookup name defined of
-    Just place
-      | start place > start at -> UsedBeforeDefinition at name place
-      | otherwise -> Recursive at name
-    Nothing ->
-      UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
-
-call ::
-  Defined ->
-  Region ->
-  Located Name ->
-  NonEmpty Surface.Argument ->
-  Infer (Type, Later Checked.Expr)
-call defined at (Located place name@(Name text)) arguments = do
-  entry <- Inference.find name
-  case entry of
-    Just (Function there parameters scheme) -> do
-      Inference.mention place (Just there) text (Inference.Callable parameters scheme)
-      (ts, t, operations) <- Inference.instantiate at scheme
-      case plain of
-        Just es
-          | length es == length ts -> do
-            checked <- zipWithM argument ts es
-            operations
-            pure
-              ( if all fst checked then t else Type.Wrong,
-                \sol ->
-                  Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked)))
-              )
-        _ -> wrong (ArgumentCount at name parameters (length given))
-    Just (Value before _) -> wrong (NotAFunction place name (Just before))
-    Just (Local before _) -> wrong (NotAFunction place name (Just before))
-    Just (Poisoned _) -> nothing <$ (otherArguments *> Inference.taint)
-    Nothing -> case Builtin.lookup text of
-      Just builtin
-        | Builtin.isConstant builtin -> wrong (NotAFunction place name Nothing)
-        | otherwise ->
-          Inference.mention place Nothing text (Inference.Said (Builtin.meaning builtin))
-            *> builtinCall builtin
-      Nothing -> unknown defined place name >>= wrong
-  where
-    given = NonEmpty.toList arguments
-    nothing = (Type.Wrong, const (Located at (Checked.Number 0)))
-    -- The arguments, if no words stand before them.
-    plain =
-      sequence
-        [ case a of
-            Surface.Given e ->
-              Just e
-            Surface.Chosen _ _ -> Nothing
-            Surface.Ranked _ -> Nothing
-          | a <- given
-        ]
-    -- The arguments may contain mistakes of their own.
-    otherArguments = mapM_ (infer defined) (concatMap valueOf given)
-    wrong e = nothing <$ (otherArguments *> Inference.mistake e)
-    argument wanted e = do
-      (t, e') <- infer defined e
-      fine <- agrees (region e) wanted t
-      pure (fine, e')
-    builtinCall builtin = do
-      unknowns <- freshUnknowns
-      let forms = Builtin.forms unknowns builtin
-          isOnly = null (drop 1 forms)
-      case Builtin.labelled unknowns builtin labels of
-        []
-          | Just es <- plain,
-            [form] <- forms ->
-            wrong (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
-          | otherwise -> wrong (NoSuchCall at text (Builtin.formsOf builtin))
-        [form] | isOnly || any (/= Builtin.Bare) labels -> do
-          checked <-
-            zipWithM
-              argument
-              ( map
-                  Builtin.type'
-                  (filter ((/= Builtin.Rank) . Builtin.label) (Builtin.parameters form))
-              )
-              (concatMap valueOf given)
-          pure
-            ( if all fst checked then Builtin.result form else Type.Wrong,
-              \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked)))
-            )
-        _ -> do
-          checked <- mapM (infer defined) (concatMap valueOf given)
-          chosen <- Inference.freshType
-          Inference.require
-            ( Overloaded
-                OverloadedCall
-                  { at,
-                    builtin,
-                    labels,
-                    given = zip (map region (concatMap valueOf given)) (map fst checked),
-                    chosen
-                  }
-            )
-          pure
-            ( chosen,
-              \sol -> Located at (Checked.Builtin builtin (rebuilt (map (($ sol) . snd) checked)))
-            )
-    labels =
-      [ case a of
-          Surface.Given _ ->
-            Builtin.Bare
-          Surface.Chosen word _ -> Builtin.Word (value word)
-          Surface.Ranked _ -> Builtin.Rank
-        | a <- given
-      ]
-    -- The checked values with the words before them.
-    rebuilt values = go given values
-      where
-        go as vs = case (as, vs) of
-          (Surface.Given _ : more, v : rest) -> Checked.Given v : go more rest
-          (Surface.Chosen word _ : more, v : rest) -> Checked.Chosen (value word) v : go more rest
-          (Surface.Ranked rank : more, _) -> Checked.Ranked (value rank) : go more vs
-          _ -> []
-
--- | The value of an argument; a rank has none.
-valueOf :: Surface.Argument -> [Surface.Expr]
-valueOf argument = case argument of
-  Surface.Given e -> [e]
-  Surface.Chosen _ e -> [e]
-  Surface.Ranked _ -> []
+    compared op l r = do
+      (lt, l') <- infer env l
+      (rt, r') <- infer env r
+      _ <- operation (region e) op (region l, lt) (region r, rt)
+      pure (lt, l', r')
+    inequalities =
+      [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal]

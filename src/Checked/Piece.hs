@@ -1,12 +1,13 @@
--- | Tables and the pieces of curves that are made of them: columns, ciphers, joggles.
+-- | The checking of tables, and of the ciphers and joggles of pieces.
+--
+-- Cells and the values of ciphers may be numbers without units. Their dimensions follow from the
+-- headings of the columns or from the use of the columns anywhere in the program.
 module Checked.Piece
-  ( Checker (..),
-    table,
+  ( table,
     columnsOf,
     withColumns,
     cipher,
     joggle,
-    unitType,
   )
 where
 
@@ -15,154 +16,153 @@ import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (..), Region)
 import Checked.Builtin qualified as Builtin
-import Checked.Deferred (Later, solved)
+import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
-import Checked.Inference (Infer, Solution)
+import Checked.Expression (Environment, expect)
+import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Syntax (Cells, Columns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (when, zipWithM)
+import Control.Monad (unless, when, zipWithM)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, fromMaybe, isNothing)
+import Data.Maybe (catMaybes, fromMaybe, isJust, isNothing)
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Text (Text)
 import Surface.Syntax qualified as Surface
-import Surface.Token (Numeral (..), Unit (..))
+import Surface.Token (Numeral (..))
 
--- | Checks a value of a type.
-newtype Checker = Checker {expect :: Type -> Surface.Expr -> Infer (Solution -> Checked.Expr)}
+-- Columns
 
--- Tables
+-- | A column of a table. The size is that of its unit, if the heading gives one.
+data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
 
--- | A column of a table: its name, its type, the size of its bare numbers if its heading tells
--- their unit.
-data Column = Column {called :: Located Name, kind :: Type, size :: Maybe Double}
-
--- | The columns and the rows of a table, and its type.
-table :: Checker -> Located Name -> [Surface.TableLine] -> Infer (Type, Solution -> Columns)
-table checker name written = case written of
+-- | Checks a table and gives its type. The first line must name the columns.
+table :: Environment -> Located Name -> [Surface.TableLine] -> Infer (Type, Deferred Columns)
+table env name written = case written of
   Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
-    mapM_ twice (zip [0 ..] columns)
-    mapM_ (meant . called) columns
-    mapM_
-      (\n -> when (null (named n columns)) (Inference.mistake (ColumnMissing at (Name n))))
-      ["x", "y"]
-    rows' <- rowsOf checker columns rows
-    let extra = [c | c <- columns, value (called c) `notElem` map Name ["x", "y"]]
-        order =
-          concatMap (`named` columns) ["x", "y"]
-            <> [ i
-                 | (i, c) <- zip [0 ..] columns,
-                   value (called c) `elem` map (value . called) extra
-               ]
-    pure
-      ( Type.Table
-          (Type.Fields [(text, kind c) | c <- extra, let Located _ (Name text) = called c]),
-        \sol ->
-          let sizes =
-                [ fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c)
-                  | c <- columns
-                ]
-           in Columns
-                [(value (called c), sol (Type.dimensionOf (kind c))) | c <- extra]
-                (solved sol (map (filled order sizes) (gathered rows')))
-      )
-    where
-      twice (i, c) =
-        case [ region (called b)
-               | b <- take i columnsBefore,
-                 value (called b) == value (called c)
-             ] of
-          before : _ ->
-            Inference.mistake (ColumnTwice (region (called c)) (value (called c)) before)
-          [] -> pure ()
-        where
-          columnsBefore =
-            [Column n Type.Wrong Nothing | Surface.Heading n _ <- NonEmpty.toList headings]
-      -- In what is asked along a curve of the table a column stands by its bare name, as a constant
-      -- does.
-      meant (Located place n@(Name text)) =
-        when
-          (maybe False Builtin.isConstant (Builtin.lookup text))
-          (Inference.mistake (NameTaken place n))
+    reportRepeated (map heading columns)
+    mapM_ (reportConstant . heading) columns
+    unless (hasColumn "x" columns) (Inference.mistake (ColumnMissing at (Name "x")))
+    unless (hasColumn "y" columns) (Inference.mistake (ColumnMissing at (Name "y")))
+    rows' <- rowsOf env columns rows
+    pure (typeOfTable columns, columnsAndRows columns rows')
   Located _ Surface.BrokenLine : _ -> missing <$ Inference.taint
-  _ -> missing <$ Inference.mistake (HeadingsMissing (maybe (region name) region (firstOf written)))
+  first : _ -> missing <$ Inference.mistake (HeadingsMissing (region first))
+  [] -> missing <$ Inference.mistake (HeadingsMissing (region name))
   where
     missing = (Type.Wrong, const (Columns [] []))
-    named n columns = [i | (i, c) <- zip [0 :: Int ..] columns, value (called c) == Name n]
-    firstOf xs = case xs of
-      [] -> Nothing
-      x : _ -> Just x
+    hasColumn text = any ((== Name text) . value . heading)
 
--- | The cells of rows, brought into order, with the sizes of the bare numbers of their columns.
-filled :: [Int] -> [Double] -> Row -> Later Cells
-filled order sizes found sol = case found of
-  Numbers rows -> arranged rows
-  Bares at xs -> arranged (NumberTable.fromList [(at, xs)])
-  Cells at cells ->
-    let es =
-          zipWith expression sizes cells
-     in foldr seq (Checked.Written at [es !! i | i <- order]) es
-  where
-    arranged = Checked.Numbers . NumberTable.arranged [(i, sizes !! i) | i <- order]
-    expression s c = case c of
-      Bare at x -> Located at (Checked.Number (x * s))
-      Written later -> later sol
-
--- | Rows in order, given the last one first; those of bare numbers that follow one another
--- together.
-gathered :: [Row] -> [Row]
-gathered = go []
-  where
-    go behind rows = case rows of
-      [] -> behind
-      Bares at xs : before -> bare behind [(at, xs)] before
-      other : before -> go (other : behind) before
-    bare behind found rows = case rows of
-      Bares at xs : before -> bare behind ((at, xs) : found) before
-      _ -> go (Numbers (NumberTable.fromList found) : behind) rows
-
--- | The lengths x and y; what the others are is said by their unit, or by their use.
+-- | Checks a heading. Columns x and y are lengths. The dimension of another column follows from its
+-- unit or from its use.
 column :: Surface.Heading -> Infer Column
-column (Surface.Heading name unit) = case (unit, value name) of
-  (Just u, n) -> do
-    let (t, factor) = unitType u
+column (Surface.Heading name unit) = case unit of
+  Just u -> do
+    let (t, factor) = Type.ofUnit u
     when
-      (n `elem` map Name ["x", "y"] && t /= Type.len)
+      (isCoordinate (value name) && t /= Type.len)
       (Inference.mistake (Mismatch (region name) Type.len t []))
     pure (Column name t (Just factor))
-  (Nothing, n)
-    | n `elem` map Name ["x", "y"] -> pure (Column name Type.len Nothing)
+  Nothing
+    | isCoordinate (value name) -> pure (Column name Type.len Nothing)
     | otherwise -> do
       d <- Inference.freshDimension
       Inference.monomorphic d
       pure (Column name (Type.Quantity d) Nothing)
 
--- | Rows of bare numbers for all columns; one such row; one of other cells.
-data Row = Numbers NumberTable | Bares Region (PrimArray Double) | Cells Region [Cell]
+isCoordinate :: Name -> Bool
+isCoordinate name = name `elem` [Name "x", Name "y"]
 
--- | The rows of lines, the last one first.
-rowsOf :: Checker -> [Column] -> [Surface.TableLine] -> Infer [Row]
-rowsOf checker columns = go 1 []
+-- | Reports every column with the name of an earlier one, and points at the first.
+reportRepeated :: [Located Name] -> Infer ()
+reportRepeated names = mapM_ report (zip [0 ..] names)
+  where
+    report (i, name) = case [n | n <- take i names, value n == value name] of
+      first : _ -> Inference.mistake (ColumnTwice (region name) (value name) (region first))
+      [] -> pure ()
+
+-- | Reports a column with the name of a constant of the language. Both are written without
+-- arguments, so a value along the curve could not tell them apart.
+reportConstant :: Located Name -> Infer ()
+reportConstant (Located at name@(Name text)) =
+  when
+    (maybe False Builtin.isConstant (Builtin.lookup text))
+    (Inference.mistake (NameTaken at name))
+
+-- | The type of a table with columns.
+typeOfTable :: [Column] -> Type
+typeOfTable columns =
+  Type.Table (Type.Fields [(text, kind c) | c <- columns, let Name text = value (heading c), isExtra c])
+
+-- | Tells if a column is neither x nor y.
+isExtra :: Column -> Bool
+isExtra = not . isCoordinate . value . heading
+
+-- | The columns besides x and y, and the rows in the order x, y, other columns.
+columnsAndRows :: [Column] -> [Row] -> Deferred Columns
+columnsAndRows columns rows sol =
+  Columns
+    [(value (heading c), sol (Type.dimensionOf (kind c))) | c <- columns, isExtra c]
+    (resolveAll sol (map (cellsOf order sizes) (joinRows rows)))
+  where
+    sizes =
+      [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
+    numbered = zip [0 :: Int ..] columns
+    order =
+      [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]
+        <> [i | (i, c) <- numbered, isExtra c]
+
+-- | The columns of a curve or a table, which values along it may name; none for another type.
+-- 'Nothing' for what is already reported as wrong.
+columnsOf :: Type -> Infer (Maybe [(Text, Type)])
+columnsOf t = do
+  t' <- Inference.resolved t
+  pure $ case t' of
+    Type.Curve (Type.Fields cs) -> Just cs
+    Type.Curve _ -> Nothing
+    Type.Wrong -> Nothing
+    _ -> Just []
+
+-- | Runs an inference with columns as local names, which hide those of the program.
+withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
+withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (text, t) <- columns]
+
+-- Rows
+
+-- | Rows of a table.
+data Row
+  = -- | several rows of numbers without units, as a file has them
+    Numbers NumberTable
+  | -- | one row of numbers without units
+    Literals Region (PrimArray Double)
+  | -- | one row with other cells
+    Cells Region [Cell]
+
+-- | A cell: a number in the unit of its column, or another expression.
+data Cell = Literal Region Double | Written (Deferred Checked.Expr)
+
+-- | Checks the rows of a table; gives the last one first.
+rowsOf :: Environment -> [Column] -> [Surface.TableLine] -> Infer [Row]
+rowsOf env columns = go 1 []
   where
     go number found ls = case ls of
       [] -> pure found
       line : rest ->
-        row checker columns number line >>= \r ->
-          go (number + rowsIn (value line)) (maybe found (: found) r) rest
-    rowsIn line = case line of
+        row env columns number line >>= \r ->
+          go (number + rowCount (value line)) (maybe found (: found) r) rest
+    rowCount line = case line of
       Surface.Numbers numbers -> NumberTable.count numbers
       _ -> 1
 
--- | The rows of a line, the first of which has this number.
-row :: Checker -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
-row checker columns number (Located at line) = case line of
-  Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsAgain at)
+-- | Checks a line of a table below its headings. The number is that of its first row, from 1.
+row :: Environment -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
+row env columns number (Located at line) = case line of
+  Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsRepeated at)
   Surface.BrokenLine -> Nothing <$ Inference.taint
   Surface.Numbers numbers
     | NumberTable.width numbers /= length columns ->
@@ -174,149 +174,166 @@ row checker columns number (Located at line) = case line of
   Surface.Entries cells
     | length cells /= length columns -> Nothing <$ wrongLength at number (length cells)
     | otherwise -> do
-      cells' <- zipWithM (cell checker) columns (NonEmpty.toList cells)
-      pure
-        $! Just
-        $! maybe (Cells at cells') (Bares at . PrimArray.primArrayFromList) (traverse bare cells')
+      cells' <- zipWithM (cell env) columns (NonEmpty.toList cells)
+      let literals = PrimArray.primArrayFromList <$> traverse literalOf cells'
+      pure $! Just $! maybe (Cells at cells') (Literals at) literals
   where
-    wrongLength place k found = Inference.mistake (RowLength place k (length columns) found)
-    bare c = case c of
-      Bare _ x -> Just x
+    wrongLength rowRegion k count =
+      Inference.mistake (RowLength rowRegion k (length columns) count)
+    literalOf c = case c of
+      Literal _ x -> Just x
       Written _ -> Nothing
 
--- | What stands in a cell: a bare number, which has the unit of its column, or something else.
-data Cell = Bare Region Double | Written (Solution -> Checked.Expr)
-
-cell :: Checker -> Column -> Surface.Expr -> Infer Cell
-cell checker c e = case bare e of
-  Just x -> pure $! Bare (region e) x
-  Nothing -> Written <$> expect checker (kind c) e
+-- | Checks a cell of a column.
+cell :: Environment -> Column -> Surface.Expr -> Infer Cell
+cell env c e = case literalOf e of
+  Just x -> pure $! Literal (region e) x
+  Nothing -> Written <$> expect env (kind c) e
   where
-    bare (Located _ written) = case written of
+    literalOf (Located _ written) = case written of
       Surface.Literal (Numeral _ x) Nothing -> Just x
-      Surface.Negate inner -> negate <$> bare inner
+      Surface.Negate inner -> negate <$> literalOf inner
       _ -> Nothing
 
--- | The columns that the values of a curve's or a table's points stand in.
--- | Not known of what is reported already.
-columnsOf :: Type -> Infer (Maybe [(Text, Type)])
-columnsOf t = do
-  t' <- Inference.known t
-  pure $ case t' of
-    Type.Curve (Type.Fields cs) -> Just cs
-    Type.Curve _ -> Nothing
-    Type.Wrong -> Nothing
-    _ -> Just []
+-- | Reverses rows that are given the last one first, and joins neighbours that are all numbers.
+joinRows :: [Row] -> [Row]
+joinRows = go []
+  where
+    go done rows = case rows of
+      [] -> done
+      Literals at xs : before -> literals done [(at, xs)] before
+      other : before -> go (other : done) before
+    literals done found rows = case rows of
+      Literals at xs : before -> literals done ((at, xs) : found) before
+      _ -> go (Numbers (NumberTable.fromList found) : done) rows
 
--- | With the columns as values; their names win over those of the program.
-withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
-withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (text, t) <- columns]
+-- | The cells of rows in a new order. Numbers are multiplied by the sizes of their columns' units,
+-- which are given in the order as written.
+cellsOf :: [Int] -> [Double] -> Row -> Deferred Cells
+cellsOf order sizes rows sol = case rows of
+  Numbers numbers -> inOrder numbers
+  Literals at xs -> inOrder (NumberTable.fromList [(at, xs)])
+  Cells at cells ->
+    let es = zipWith expression sizes cells
+     in foldr seq (Checked.Written at [es !! i | i <- order]) es
+  where
+    inOrder = Checked.Numbers . NumberTable.arranged [(i, sizes !! i) | i <- order]
+    expression s c = case c of
+      Literal at x -> Located at (Checked.Number (x * s))
+      Written e -> e sol
 
 -- Ciphers
 
--- | A recalculation of a curve with these columns, as far as they are known; nothing when there is
--- none such.
+-- | Checks a cipher of a piece on a curve with columns. 'Nothing' when the digit or the number of
+-- values is wrong, or when the columns are unknown because of an earlier mistake.
 cipher ::
-  Checker ->
-  Maybe [(Text, Type)] ->
-  Surface.Cipher ->
-  Infer (Maybe (Solution -> Checked.Cipher))
-cipher checker known (Located at (Surface.Cipher (Located place digit) given)) =
-  case (digits digit, NonEmpty.toList given) of
-    ("1", [a, b]) -> made (Checked.Growing <$$> one a <**> one b <**> none <**> none)
-    ("1", [a, b, m]) -> made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> none)
-    ("1", [a, b, p, q]) ->
-      made (Checked.Growing <$$> one a <**> one b <**> none <**> some (between p q))
-    ("1", [a, b, m, p, q]) ->
-      made (Checked.Growing <$$> one a <**> one b <**> some (angle m) <**> some (between p q))
-    ("2", [h]) -> made (Checked.Constant <$$> one h <**> none)
-    ("2", [h, m]) -> made (Checked.Constant <$$> one h <**> some (angle m))
-    ("4", [m, h]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> none)
-    ("4", [m, h, d]) -> made (Checked.Bevelled <$$> angle m <**> len h <**> some (one d))
-    ("6", [h]) -> made (Checked.Pointwise <$$> len h <**> none)
-    ("6", [h, m]) -> made (Checked.Pointwise <$$> len h <**> some (angle m))
-    (d, es)
-      | d `elem` ["1", "2", "4", "6"] ->
-        Nothing <$ Inference.mistake (CipherMisfit at d (length es))
-      | otherwise -> Nothing <$ Inference.mistake (NoSuchCipher place d)
+  Environment -> Maybe [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Deferred Checked.Cipher))
+cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given)) =
+  case recalculation env columns (digits digit) (NonEmpty.toList given) of
+    Just checked
+      | isNothing known -> Nothing <$ Inference.taint
+      | otherwise -> Just . (Located at .) <$> checked
+    Nothing
+      | digits digit `elem` ["1", "2", "4", "6"] ->
+        Nothing <$ Inference.mistake (CipherMisfit at (digits digit) (length given))
+      | otherwise -> Nothing <$ Inference.mistake (NoSuchCipher digitRegion (digits digit))
   where
     columns = fromMaybe [] known
-    made later = case known of
-      Just _ -> Just . (Located at .) <$> later
-      Nothing -> Nothing <$ Inference.taint
-    len = along Type.len
-    -- One value for the whole piece.
-    one e = case [(r, n) | (r, n) <- namesIn e, n `elem` map (Name . fst) columns] of
-      (r, n) : _ ->
-        const (Located (region e) (Checked.Number 0))
-          <$ Inference.mistake (ColumnForOne r (digits digit) n)
-      [] -> expect checker Type.len e
-    angle = along Type.angle
-    point p = expect checker Type.aPoint p
-    between p q = (\a b sol -> (a sol, b sol)) <$> point p <*> point q
-    none = pure (const Nothing)
-    some = fmap (Just .)
-    f <$$> a = (f .) <$> a
-    f <**> a = (\g x sol -> g sol (x sol)) <$> f <*> a
-    -- A value at every point.
-    along t e = do
-      mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map fst columns))) =<< missing e
-      absent <- not . null <$> missing e
-      if absent
-        then pure (const (Located (region e) (Checked.Number 0)))
-        else withColumns (region e) columns (expect checker t e)
-    missing e = catMaybes <$> traverse unknown (namesIn e)
-    unknown (r, n@(Name text)) = do
-      entry <- Inference.find n
-      pure
-        ( if isNothing entry && text `notElem` map fst columns && isNothing (Builtin.lookup text)
-            then Just (r, n)
-            else Nothing
-        )
 
--- | The names in a value, as far as they are not its own.
-namesIn :: Surface.Expr -> [(Region, Name)]
-namesIn (Located at e) = case e of
+-- | The recalculation of a cipher by its digit and the number of its values; 'Nothing' when there is
+-- none.
+recalculation ::
+  Environment ->
+  [(Text, Type)] ->
+  Text ->
+  [Surface.Expr] ->
+  Maybe (Infer (Deferred Checked.Cipher_))
+recalculation env columns digit values = case (digit, values) of
+  ("1", [a, b]) -> Just (growing a b absent absent)
+  ("1", [a, b, m]) -> Just (growing a b (present (angleAlong m)) absent)
+  ("1", [a, b, p, q]) -> Just (growing a b absent (present (between p q)))
+  ("1", [a, b, m, p, q]) ->
+    Just (growing a b (present (angleAlong m)) (present (between p q)))
+  ("2", [h]) -> Just (apply2 Checked.Constant (constant h) absent)
+  ("2", [h, m]) -> Just (apply2 Checked.Constant (constant h) (present (angleAlong m)))
+  ("4", [m, h]) -> Just (apply3 Checked.Bevelled (angleAlong m) (lengthAlong h) absent)
+  ("4", [m, h, d]) ->
+    Just (apply3 Checked.Bevelled (angleAlong m) (lengthAlong h) (present (constant d)))
+  ("6", [h]) -> Just (apply2 Checked.Pointwise (lengthAlong h) absent)
+  ("6", [h, m]) -> Just (apply2 Checked.Pointwise (lengthAlong h) (present (angleAlong m)))
+  _ -> Nothing
+  where
+    growing a b bevel points =
+      (\f points' sol -> f sol (points' sol))
+        <$> apply3 Checked.Growing (constant a) (constant b) bevel
+          <*> points
+    apply2 f a b = (\a' b' sol -> f (a' sol) (b' sol)) <$> a <*> b
+    apply3 f a b c = (\a' b' c' sol -> f (a' sol) (b' sol) (c' sol)) <$> a <*> b <*> c
+    absent = pure (const Nothing)
+    present = fmap (Just .)
+    constant = constantLength env columns digit
+    lengthAlong = valueAlong env columns Type.len
+    angleAlong = valueAlong env columns Type.angle
+    between p q =
+      (\p' q' sol -> (p' sol, q' sol)) <$> expect env Type.aPoint p <*> expect env Type.aPoint q
+
+-- | Checks a length that holds for the whole piece, so that no column may occur in it.
+constantLength ::
+  Environment -> [(Text, Type)] -> Text -> Surface.Expr -> Infer (Deferred Checked.Expr)
+constantLength env columns digit e =
+  case [(r, n) | (r, n) <- freeNames e, n `elem` map (Name . fst) columns] of
+    (r, n) : _ -> zero e <$ Inference.mistake (ColumnForWholePiece r digit n)
+    [] -> expect env Type.len e
+
+-- | Checks a value at every point of a curve, which may name its columns.
+valueAlong ::
+  Environment -> [(Text, Type)] -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
+valueAlong env columns t e = do
+  unknown <- catMaybes <$> traverse unknownName (freeNames e)
+  mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map fst columns))) unknown
+  if null unknown
+    then withColumns (region e) columns (expect env t e)
+    else pure (zero e)
+  where
+    unknownName (r, n@(Name text)) = do
+      binding <- Inference.find n
+      let isKnown = text `elem` map fst columns || isJust (Builtin.lookup text)
+      pure (if isNothing binding && not isKnown then Just (r, n) else Nothing)
+
+-- | A substitute for a value that is reported as wrong.
+zero :: Surface.Expr -> Deferred Checked.Expr
+zero e = const (Located (region e) (Checked.Number 0))
+
+-- | The names in an expression that it does not bind itself, without the names of functions called.
+freeNames :: Surface.Expr -> [(Region, Name)]
+freeNames (Located at e) = case e of
   Surface.Literal _ _ -> []
   Surface.Variable name -> [(at, name)]
   Surface.Call _ arguments -> concatMap inArgument (NonEmpty.toList arguments)
-  Surface.Negate a -> namesIn a
-  Surface.Not a -> namesIn a
-  Surface.Binary _ a b -> namesIn a <> namesIn b
-  Surface.Range a b c -> namesIn a <> namesIn b <> maybe [] namesIn c
-  Surface.If c a b -> concatMap namesIn [c, a, b]
-  Surface.Pair a b -> namesIn a <> namesIn b
-  Surface.Triple a b c -> concatMap namesIn [a, b, c]
-  Surface.List es -> concatMap namesIn es
-  Surface.Each a name from -> namesIn from <> filter ((/= value name) . snd) (namesIn a)
+  Surface.Negate a -> freeNames a
+  Surface.Not a -> freeNames a
+  Surface.Binary _ a b -> freeNames a <> freeNames b
+  Surface.Range a b c -> freeNames a <> freeNames b <> maybe [] freeNames c
+  Surface.If c a b -> concatMap freeNames [c, a, b]
+  Surface.Pair a b -> freeNames a <> freeNames b
+  Surface.Triple a b c -> concatMap freeNames [a, b, c]
+  Surface.List es -> concatMap freeNames es
+  Surface.Each a name from -> freeNames from <> filter ((/= value name) . snd) (freeNames a)
   where
     inArgument a = case a of
-      Surface.Given x -> namesIn x
-      Surface.Chosen _ x -> namesIn x
+      Surface.Given x -> freeNames x
+      Surface.Chosen _ x -> freeNames x
       Surface.Ranked _ -> []
 
-joggle :: Checker -> Surface.Joggle -> Infer (Solution -> Checked.Joggle)
-joggle checker (Located at (Surface.Joggle from to depth radius)) = do
+-- Joggles
+
+-- | Checks a joggle: four lengths.
+joggle :: Environment -> Surface.Joggle -> Infer (Deferred Checked.Joggle)
+joggle env (Located at (Surface.Joggle from to depth radius)) = do
   from' <- len from
   to' <- len to
   depth' <- len depth
   radius' <- len radius
   pure (\sol -> Located at (Checked.Joggle (from' sol) (to' sol) (depth' sol) (radius' sol)))
   where
-    len = expect checker Type.len
-
--- Units
-
--- | What a unit measures, and its size in mm, radians and minutes.
-unitType :: Unit -> (Type, Double)
-unitType unit = case unit of
-  Millimetre -> (Type.len, 1)
-  Centimetre -> (Type.len, 10)
-  Metre -> (Type.len, 1000)
-  Inch -> (Type.len, 25.4)
-  Degree -> (Type.angle, pi / 180)
-  Radian -> (Type.angle, 1)
-  MmPerMin -> (Type.feed, 1)
-  MPerMin -> (Type.feed, 1000)
-  InPerMin -> (Type.feed, 25.4)
-  Rpm -> (Type.turns, 1)
+    len = expect env Type.len

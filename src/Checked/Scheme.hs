@@ -1,9 +1,9 @@
--- | What a name stands for while types are inferred, and what of it is still open.
+-- | Meanings of names during type inference, and constraints that wait for more information.
 module Checked.Scheme
   ( Binding (..),
     Scheme (..),
     Meaning (..),
-    Pending (..),
+    DeferredConstraint (..),
     Arithmetic (..),
     OverloadedCall (..),
   )
@@ -16,43 +16,58 @@ import Checked.Type (Type)
 import Data.IntSet (IntSet)
 import Data.Text (Text)
 
--- | What a name stands for.
+-- | The meaning of a name in scope. The region is that of the name in its definition.
 data Binding
-  = Value Region Type
-  | Function Region [Text] Scheme
-  | -- | a parameter or the variable of a repetition
+  = -- | a constant of the program
+    Value Region Type
+  | -- | a function with the names of its parameters
+    Function Region [Text] Scheme
+  | -- | a parameter of a function or the variable of a repetition
     Local Region Type
   | -- | a definition that is already reported as wrong
     Poisoned Region
 
--- | The type of a function: the unknowns that are fresh at each use, and the operations of its body
--- that can be decided only when the arguments are known.
-data Scheme = Scheme {general :: IntSet, parameters :: [Type], result :: Type, open :: [Pending]}
+-- | The polymorphic type of a function.
+data Scheme = Scheme
+  { -- | unknowns that are replaced by fresh ones at each use
+    quantified :: IntSet,
+    parameters :: [Type],
+    result :: Type,
+    -- | constraints of the body that only the arguments of a use can solve
+    deferred :: [DeferredConstraint]
+  }
 
--- | What a name stands for at a place, for a reader.
+-- | The meaning of one mention of a name, from which editors describe it.
 data Meaning
-  = Valued Type
-  | Callable [Text] Scheme
-  | -- | in words
-    Said Text
+  = -- | a value of a type
+    Valued Type
+  | -- | a function with the names of its parameters
+    Callable [Text] Scheme
+  | -- | anything else, described in words
+    Described Text
 
--- | What can be decided only when more is known.
-data Pending = Operation Arithmetic | Overloaded OverloadedCall
+-- | A constraint that can be solved only when more types are known.
+data DeferredConstraint = Operation Arithmetic | Overloaded OverloadedCall
 
--- | An operation whose operands may not be known yet.
+-- | An operation whose operands may still be unknown.
 data Arithmetic = Arithmetic
-  { place :: Region,
+  { -- | the whole operation
+    arithmeticRegion :: Region,
     operator :: Operator,
     left :: (Region, Type),
     right :: (Region, Type),
+    -- | the type of the result
     outcome :: Type
   }
 
--- | A call of a function that has several forms.
+-- | A call of a built-in function that has several forms.
 data OverloadedCall = OverloadedCall
-  { at :: Region,
+  { -- | the whole call
+    callRegion :: Region,
     builtin :: Builtin,
     labels :: [ArgumentLabel],
-    given :: [(Region, Type)],
-    chosen :: Type
+    -- | the arguments that have values, which @first@ and @last@ have not
+    arguments :: [(Region, Type)],
+    -- | the type of the result
+    callType :: Type
   }

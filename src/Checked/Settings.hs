@@ -1,225 +1,111 @@
--- | What has to stand somewhere: the settings that statements need before them, and those in the
--- braces of a machining statement.
+-- | The checking of the settings in the block of a machining statement, and of stops.
 module Checked.Settings
-  ( settings,
-    check,
+  ( check,
+    stop,
   )
 where
 
-import Base.Region (Located (..), Region (..))
-import Checked.Error (Error (..), RequiredSetting (..))
-import Checked.Inference (Infer, Solution)
+import Base.Region (Located (..))
+import Checked.Deferred (Deferred)
+import Checked.Error (Error (..))
+import Checked.Expression (Environment, expect, spatialPoint)
+import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Syntax (Settings (..))
 import Checked.Syntax qualified as Checked
-import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Applicative ((<|>))
 import Control.Monad (unless)
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict (Map)
-import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
-import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
--- | The statements that a program needs: the part's name first, the others once and before their
--- use.
-settings :: [Statement] -> [Error]
-settings written = begins <> go Map.empty (concatMap (flat False) written)
+-- | Checks the block of a statement with the given keyword. Each setting is allowed once, except
+-- @approach@ and @retract@, whose stops follow one another.
+check :: Environment -> Text -> [Surface.Setting] -> Infer (Deferred Settings)
+check env statement written = do
+  mapM_ reportRepeated (zip (drop 1 (scanl (flip (:)) [] written)) written)
+  changes <- mapM (setting env statement) written
+  pure (\sol -> foldl (\settings change -> change sol settings) unset changes)
+
+-- | Reports a setting that is among the earlier ones. The first list ends with the setting itself.
+reportRepeated :: ([Surface.Setting], Surface.Setting) -> Infer ()
+reportRepeated (upToHere, Located at s) =
+  case [ r
+         | Located r other <- drop 1 upToHere,
+           subject other == subject s,
+           keyword s `notElem` ["approach", "retract", ""]
+       ] of
+    before : _ -> Inference.mistake (RepeatedSetting at (subject s) before)
+    [] -> pure ()
+
+-- | Checks a setting, and that the statement allows it. Gives the change to the settings.
+setting :: Environment -> Text -> Surface.Setting -> Infer (Deferred (Settings -> Settings))
+setting env statement (Located at s) = do
+  unless
+    (keyword s `elem` "" : Keyword.settingsOf statement)
+    (Inference.mistake (ForeignSetting at (keyword s) statement (Keyword.settingsOf statement)))
+  case s of
+    Surface.Approach to ->
+      (\ps sol o -> o {approach = approach o <> ps sol}) <$> stops env to
+    Surface.Retract to ->
+      (\ps sol o -> o {retract = retract o <> ps sol}) <$> stops env to
+    Surface.Depth d most -> do
+      d' <- len d
+      most' <- traverse len most
+      pure (\sol o -> o {depth = Just (d' sol, ($ sol) <$> most')})
+    Surface.LeadBy Surface.LeadIn form e ->
+      (\e' sol o -> o {leadIn = Just (form, e' sol)}) <$> len e
+    Surface.LeadBy Surface.LeadOut form e ->
+      (\e' sol o -> o {leadOut = Just (form, e' sol)}) <$> len e
+    Surface.Allowances es ->
+      (\es' sol o -> o {allowances = Just (fmap ($ sol) es')}) <$> mapM len es
+    Surface.CornerStyle style -> pure (\_ o -> o {corners = style})
+    Surface.CutBy sense -> pure (\_ o -> o {sense = Just (Located at sense)})
+    Surface.CompensationBy who -> pure (\_ o -> o {compensation = Just (Located at who)})
+    Surface.StartNear e ->
+      (\e' sol o -> o {startNear = Just (e' sol)}) <$> expect env Type.aPoint e
+    Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> expect env Type.feed e
+    Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> len e
+    Surface.Islands es ->
+      (\es' sol o -> o {islands = map ($ sol) es'})
+        <$> mapM (contourOrContours env) (NonEmpty.toList es)
+    Surface.RestAllowed -> pure (\_ o -> o {restAllowed = Just at})
+    Surface.BrokenSetting -> (\_ o -> o) <$ Inference.taint
   where
-    go seen ss = case ss of
-      s : rest | (seen', errors) <- step seen s -> seen' `seq` (errors <> go seen' rest)
-      [] -> []
-    begins = case written of
-      Located _ (Surface.Part _ _) : _ -> []
-      Located _ (Surface.Broken (Just "part") _) : _ -> []
-      Located at _ : _ -> [NoPart at {end = start at}]
-      [] -> [NoPart (Region 0 0)]
+    len = expect env Type.len
 
--- | A statement and those in its blocks, each with whether it stands in a block.
-flat :: Bool -> Statement -> [(Bool, Statement)]
-flat inBlock s = case s of
-  Located _ (Surface.Repeat _ _ body) -> concatMap (flat True) body
-  Located _ (Surface.When _ body others) -> concatMap (flat True) (body <> others)
-  Located _ (Surface.With _ body) -> concatMap (flat True) body
-  _ -> [(inBlock, s)]
+stops :: Environment -> NonEmpty Surface.Stop -> Infer (Deferred [Checked.Stop])
+stops env to = (\ps sol -> map ($ sol) ps) <$> mapM (stop env) (NonEmpty.toList to)
 
--- | From the places at which settings were first given, none for one that was missed before.
-step ::
-  Map RequiredSetting (Maybe Region) ->
-  (Bool, Statement) ->
-  (Map RequiredSetting (Maybe Region), [Error])
-step seen (inBlock, Located at s) = (seen', misplaced <> missing <> twice)
-  where
-    Use {word, given, needed, global} = use s
-    keyword = at {end = start at + word}
-    misplaced = [NotInBlock keyword (firstWord s) | inBlock && global]
-    missing =
-      maybe
-        []
-        (\some -> [SettingsMissing keyword some])
-        (NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed))
-    twice =
-      [ SettingTwice at one before
-        | Just one <- [given],
-          one `notElem` [FeedSetting, ClearanceSetting],
-          not (isChange s),
-          null misplaced,
-          Just (Just before) <- [Map.lookup one seen]
-      ]
-    seen' =
-      Map.unionWith
-        (<|>)
-        seen
-        (Map.fromList ([(one, Nothing) | one <- needed] <> [(one, Just at) | Just one <- [given]]))
-    isChange statement' = case statement' of
-      Surface.Change _ _ -> True
-      Surface.Broken (Just "change") _ -> True
-      _ -> False
+-- | Checks a stop of a motion: its point and its feed.
+stop :: Environment -> Surface.Stop -> Infer (Deferred Checked.Stop)
+stop env (Surface.Stop p pace) = do
+  p' <- spatialPoint env p
+  pace' <- case pace of
+    Surface.Cutting -> pure (const Checked.Cutting)
+    Surface.Rapid -> pure (const Checked.Rapid)
+    Surface.AtFeed f -> (Checked.AtFeed .) <$> expect env Type.feed f
+  pure (\sol -> Checked.Stop (p' sol) (pace' sol))
 
--- | What a statement sets and what it needs: the length of its keyword; whether it holds for the
--- whole program.
-data Use = Use
-  { word :: Int,
-    given :: Maybe RequiredSetting,
-    needed :: [RequiredSetting],
-    global :: Bool
-  }
-
-use :: Surface.Statement_ -> Use
-use s = case s of
-  Surface.Part _ _ -> setting PartSetting
-  Surface.Machine _ -> setting MachineSetting
-  Surface.Tool _ -> setting ToolSetting
-  Surface.Tolerance _ -> setting ToleranceSetting
-  Surface.From _ -> setting FromSetting
-  Surface.Import _ -> plain {word = 6, global = True}
-  Surface.Param _ _ -> plain {word = 5, global = True}
-  Surface.Feed _ -> plain {given = Just FeedSetting}
-  Surface.Clearance _ -> plain {given = Just ClearanceSetting}
-  Surface.Change _ _ -> plain {given = Just ToolSetting}
-  Surface.Mill _ _ options -> plain {needed = cutting <> [ClearanceSetting | goesDeep options]}
-  Surface.Pocket _ _ options ->
-    plain {word = 6, needed = cutting <> [ClearanceSetting | goesDeep options]}
-  Surface.Turn {} -> plain {needed = cutting}
-  Surface.Drill {} ->
-    plain {word = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}
-  Surface.Travel motion stops ->
-    plain
-      { word = case motion of Surface.RapidMotion -> 5; Surface.FeedMotion -> 4,
-        needed =
-          FromSetting :
-            [ FeedSetting
-              | motion == Surface.FeedMotion,
-                any ((== Surface.Cutting) . Surface.pace) (NonEmpty.toList stops)
-            ]
-      }
-  Surface.Broken broken _ -> plain {given = broken >>= (`lookup` words')}
-  _ -> plain
-  where
-    plain = Use {word = 4, given = Nothing, needed = [], global = False}
-    setting one =
-      Use {word = Text.length (firstWord s), given = Just one, needed = [], global = True}
-    cutting = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
-    goesDeep options = or [True | Located _ (Surface.Depth _ _) <- options]
-    words' =
-      [ ("part", PartSetting),
-        ("machine", MachineSetting),
-        ("tool", ToolSetting),
-        ("change", ToolSetting),
-        ("feed", FeedSetting),
-        ("tolerance", ToleranceSetting),
-        ("clearance", ClearanceSetting),
-        ("from", FromSetting)
-      ]
-
-firstWord :: Surface.Statement_ -> Text
-firstWord s = case s of
-  Surface.Part _ _ -> "part"
-  Surface.Machine _ -> "machine"
-  Surface.Tool _ -> "tool"
-  Surface.Tolerance _ -> "tolerance"
-  Surface.From _ -> "from"
-  Surface.Import _ -> "import"
-  Surface.Param _ _ -> "param"
-  _ -> "this"
-
--- | Check what stands in the braces of a statement. The first function checks a value of a type,
--- the second a stop; the text is the statement's keyword.
-check ::
-  (Type -> Surface.Expr -> Infer (Solution -> Checked.Expr)) ->
-  (Surface.Stop -> Infer (Solution -> Checked.Stop)) ->
-  Text ->
-  [Surface.Setting] ->
-  Infer (Solution -> Settings)
-check expect stop statement written = do
-  mapM_ (uncurry twice) (zip (drop 1 (scanl (flip (:)) [] written)) written)
-  foldl (\before after sol -> after sol (before sol)) (const none) <$> mapM one written
-  where
-    twice seen (Located at s) =
-      case [ r
-             | Located r other <- drop 1 seen,
-               subject other == subject s,
-               name s `notElem` ["approach", "retract", ""]
-           ] of
-        before : _ -> Inference.mistake (RepeatedSetting at (subject s) before)
-        [] -> pure ()
-    one (Located at s) = do
-      unless
-        (name s `elem` "" : Keyword.settingsOf statement)
-        (Inference.mistake (ForeignSetting at (name s) statement (Keyword.settingsOf statement)))
-      case s of
-        Surface.Approach stops ->
-          (\ps sol o -> o {approach = approach o <> map ($ sol) ps})
-            <$> mapM stop (NonEmpty.toList stops)
-        Surface.Retract stops ->
-          (\ps sol o -> o {retract = retract o <> map ($ sol) ps})
-            <$> mapM stop (NonEmpty.toList stops)
-        Surface.Depth d most -> do
-          d' <- expect Type.len d
-          most' <- traverse (expect Type.len) most
-          pure (\sol o -> o {depth = Just (d' sol, ($ sol) <$> most')})
-        Surface.LeadBy Surface.LeadIn form e ->
-          (\e' sol o -> o {leadIn = Just (form, e' sol)}) <$> expect Type.len e
-        Surface.LeadBy Surface.LeadOut form e ->
-          (\e' sol o -> o {leadOut = Just (form, e' sol)}) <$> expect Type.len e
-        Surface.Allowances es ->
-          (\es' sol o -> o {allowances = Just (fmap ($ sol) es')}) <$> mapM (expect Type.len) es
-        Surface.CornerStyle style -> pure (\_ o -> o {corners = style})
-        Surface.CutBy sense -> pure (\_ o -> o {sense = Just (Located at sense)})
-        Surface.CompensationBy who -> pure (\_ o -> o {compensation = Just (Located at who)})
-        Surface.StartNear e -> (\e' sol o -> o {startNear = Just (e' sol)}) <$> expect Type.aPoint e
-        Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> expect Type.feed e
-        Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> expect Type.len e
-        Surface.Islands es ->
-          (\es' sol o -> o {islands = map ($ sol) es'})
-            <$> mapM (contours expect) (NonEmpty.toList es)
-        Surface.RestAllowed -> pure (\_ o -> o {restAllowed = Just at})
-        Surface.BrokenSetting -> (\_ o -> o) <$ Inference.taint
-
--- | A contour, or a list of contours.
-contours ::
-  (Type -> Surface.Expr -> Infer (Solution -> Checked.Expr)) ->
-  Surface.Expr ->
-  Infer (Solution -> Checked.Expr)
-contours expect e@(Located at _) = do
+-- | Checks a contour or a list of contours.
+contourOrContours :: Environment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+contourOrContours env e@(Located at _) = do
   t <- Inference.freshType
-  e' <- expect t e
-  found <- Inference.known t
+  e' <- expect env t e
+  found <- Inference.resolved t
   let wanted = case found of
         Type.ListOf _ -> Type.ListOf Type.Contour
         _ -> Type.Contour
-  settled <- Inference.settledPlaces [(at, t, found)]
+  elsewhere <- Inference.decidedElsewhere [(at, t, found)]
   same <- Inference.unify at wanted t
-  unless same (Inference.mistake (Mismatch at wanted found settled))
+  unless same (Inference.mistake (Mismatch at wanted found elsewhere))
   pure e'
 
--- | Nothing set.
-none :: Settings
-none =
+-- | The settings of an empty block.
+unset :: Settings
+unset =
   Settings
     { approach = [],
       retract = [],
@@ -237,9 +123,9 @@ none =
       restAllowed = Nothing
     }
 
--- | How a setting begins.
-name :: Surface.Setting_ -> Text
-name s = case s of
+-- | The first words of a setting; empty for one that could not be read.
+keyword :: Surface.Setting_ -> Text
+keyword s = case s of
   Surface.Approach _ -> "approach"
   Surface.Retract _ -> "retract"
   Surface.Depth _ _ -> "depth"
@@ -257,8 +143,8 @@ name s = case s of
   Surface.RestAllowed -> "rest"
   Surface.BrokenSetting -> ""
 
--- | What a setting is about: of one thing a statement is told once.
+-- | The thing that a setting decides. A block may decide it once.
 subject :: Surface.Setting_ -> Text
 subject s = case s of
   Surface.CutBy _ -> "climb or conventional"
-  _ -> name s
+  _ -> keyword s

@@ -1,5 +1,7 @@
--- | The program after checking: every name known, every term of the right type, every number in
--- mm, radians, minutes and turns.
+-- | The program after checking.
+--
+-- Every name is resolved and every term has the right type. All numbers are in mm, radians,
+-- minutes and revolutions. Statements that contain a mistake are left out.
 module Checked.Syntax
   ( Program (..),
     Mention (..),
@@ -69,46 +71,48 @@ import Surface.Syntax
     Switch (..),
   )
 
--- | A program. Statements that contain a mistake are left out.
+-- | A checked program.
 data Program = Program
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
     statements :: [Statement],
-    -- | every place at which a name stands, in no order
+    -- | all mentions of names, in no order
     mentions :: [Mention]
   }
   deriving stock (Eq, Show)
 
--- | A name where it is defined or used: its place, where it is defined unless the language brings
--- it along, and what it means.
+-- | A name where it is defined or used: its region, the region of its definition unless it is
+-- built in, the word, and its meaning in words.
 data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Text, meaning :: Text}
   deriving stock (Eq, Show)
 
+-- | A statement with its region.
 type Statement = Located Statement_
 
+-- | A statement. Imports are resolved, so that none occurs.
 data Statement_
   = Tool Cutter
   | Feed Expr
   | Tolerance Accuracy
   | Clearance Expr
   | From Expr
-  | -- | with the dimension of its quantities
+  | -- | the name, the dimension of its quantities, the value
     LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
   | Table (Located Name) Columns
-  | -- | the curve, the columns of its table, its recalculations, the side, the joggles
+  | -- | the name, the curve, its ciphers, the side, the joggles
     Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
   | Contour (Located Name) Closure [Item]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
-  | -- | the outline, how far the passes lie apart
+  | -- | the contour, the stepover in mm
     Pocket Expr Expr Settings
   | Turn Expr (Located Side) Settings
-  | -- | the points, the depth
+  | -- | the points, the depth in mm
     Drill Expr Expr Settings
   | Travel (NonEmpty Stop)
-  | -- | the number of the tool
+  | -- | the number of the tool, the tool
     Change Expr Cutter
   | Spindle Spin
   | Coolant Switch
@@ -118,72 +122,75 @@ data Statement_
   | With Expr [Statement]
   deriving stock (Eq, Show)
 
--- | The columns of a table besides x and y with their dimensions, and its rows: x, y, and the
--- others in order.
+-- | The columns of a table besides x and y, with their dimensions, and the rows. The cells of a row
+-- are x, y, and the other columns in this order.
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
--- | Rows of a table: bare numbers, which most have, or one of anything else.
+-- | Several rows of numbers, or one row of other expressions with its region.
 data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
   deriving stock (Eq, Show)
 
+-- | A cipher with its region.
 type Cipher = Located Cipher_
 
--- | The recalculations of a curve (Kolsanova, section 5). Lengths and angles may name columns:
--- their values go along the curve.
+-- | A recalculation of a curve (Kolsanova, section 5). With a bevel, distances are measured square
+-- to the surface. Distances and bevels may name columns, whose values vary along the curve.
 data Cipher_
-  = -- square to the surface; between two points of the curve, or along all of it
-
-    -- | 1: a distance that changes uniformly along the curve, from one to another; the bevel if it
-    -- is measured
+  = -- | 1: a distance that varies uniformly from the first to the second value, with an optional
+    -- bevel, along the whole curve or between two of its points
     Growing Expr Expr (Maybe Expr) (Maybe (Expr, Expr))
-  | -- | 2: one distance, square to the surface if there is a bevel
+  | -- | 2: one distance, with an optional bevel
     Constant Expr (Maybe Expr)
-  | -- | 4: what the bevel makes of the height, and an allowance
+  | -- | 4: the distance that follows from a bevel and a height, with an optional allowance
     Bevelled Expr Expr (Maybe Expr)
-  | -- | 6: a distance for each point, square to the surface if there is a bevel
+  | -- | 6: a distance at each point, with an optional bevel
     Pointwise Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
+-- | A joggle with its region.
 type Joggle = Located Joggle_
 
--- | From where to where along x, how deep, with what radius.
+-- | A joggle: its first and last x, its depth and its radius, in mm.
 data Joggle_ = Joggle Expr Expr Expr Expr
   deriving stock (Eq, Show)
 
+-- | A cutter with its region.
 type Cutter = Located Cutter_
 
--- | A mill or a drill by its diameter, a turning tool by the radius of its nose.
+-- | A cutter: a mill or a drill by its diameter, a turning tool by its nose radius.
 data Cutter_
   = MillCutter Expr
   | DrillCutter Expr
   | TurningCutter Expr
-  | -- | by its diameter, its angle, the height of what it cuts
+  | -- | a conical mill by its diameter, the bevel of its flank, and the height that it cuts
     ConeCutter Expr Expr Expr
-  | -- | by its diameter and that of the wheel that swivels it
+  | -- | a swivelling blade by its diameter and that of the gear wheel that swivels it
     BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
+-- | The tolerance of chords in mm: to either side, or inside and outside of the material.
 data Accuracy = Within Expr | Between Expr Expr
   deriving stock (Eq, Show)
 
+-- | The command to a spindle: a sense with an optional speed in rpm, or a stop.
 data Spin = Spinning Sense (Maybe Expr) | Still
   deriving stock (Eq, Show)
 
--- | What has to hold.
+-- | A condition that must be true.
 data Assertion
   = Holds Expr
-  | -- | two quantities, one of which has to be larger, or another, than the other
+  | -- | a comparison other than equality: the dimension of the operands, the region of the whole
     Compares Dimension Region Operator Expr Expr
-  | -- | two quantities that have to be equal, within a third
+  | -- | an equality with an optional tolerance: the dimension of the operands
     Agrees Dimension Expr Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
--- | What stands in the braces of a machining statement.
+-- | The settings in the block of a machining statement.
 data Settings = Settings
   { approach :: [Stop],
     retract :: [Stop],
-    -- | how deep, and the most of it in one pass
+    -- | the depth and the largest stepdown
     depth :: Maybe (Expr, Maybe Expr),
     leadIn :: Maybe (LeadForm, Expr),
     leadOut :: Maybe (LeadForm, Expr),
@@ -194,19 +201,22 @@ data Settings = Settings
     startNear :: Maybe Expr,
     plunge :: Maybe Expr,
     peck :: Maybe Expr,
-    -- | each a contour or a list of them
+    -- | each a contour or a list of contours
     islands :: [Expr],
-    -- | where it is said that what the cutter cannot reach may stay
+    -- | the region of the setting that allows rest material
     restAllowed :: Maybe Region
   }
   deriving stock (Eq, Show)
 
+-- | An expression with its region.
 type Expr = Located Expr_
 
+-- | An expression.
 data Expr_
-  = Number Double
+  = -- | in mm, radians, minutes and revolutions
+    Number Double
   | Variable Name
-  | -- | a function of the program
+  | -- | a call of a function of the program
     Apply Name {-# UNPACK #-} (NonEmpty Expr)
   | Builtin Builtin [Argument]
   | Negate {-# UNPACK #-} Expr
@@ -220,10 +230,11 @@ data Expr_
   | Each Expr Name Expr
   deriving stock (Eq, Show)
 
+-- | An argument of a built-in function: a value, a value with a label, or a rank.
 data Argument = Given {-# UNPACK #-} Expr | Chosen Selector Expr | Ranked Rank
   deriving stock (Eq, Show)
 
--- | What the language brings along.
+-- | The built-in functions and constants, which "Checked.Builtin" names and types.
 data Builtin
   = Pi
   | Truth
@@ -290,24 +301,29 @@ data Builtin
   | Floor
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
+-- | An item of a contour with its region.
 type Item = Located Item_
 
--- | What stands in the braces of a contour.
+-- | An item in the braces of a contour.
 data Item_
-  = -- | a circle in its sense, a line, a point or a contour, what is asked on it, and the link
-    -- behind it
+  = -- | a circle with its sense, or a line, a point, a curve or a contour without one; its
+    -- modifiers and the link to the next element
     Element (Maybe Sense) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | For Name Expr [Item]
   | Choose Expr [Item] [Item]
   deriving stock (Eq, Show)
 
+-- | A modifier with its region.
 type Modifier = Located Modifier_
 
+-- | A property of one element of a contour.
 data Modifier_ = AtElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
   deriving stock (Eq, Show)
 
+-- | A link with its region.
 type Link = Located Link_
 
+-- | The link between two elements of a contour.
 data Link_
   = Meet (Maybe Expr)
   | Smooth
@@ -316,8 +332,11 @@ data Link_
   | Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
+-- | The end of a motion and the pace to it.
 data Stop = Stop {point :: Expr, pace :: Pace}
   deriving stock (Eq, Show)
 
+-- | The pace of a motion: the present feed, rapid, or a feed of its own.
 data Pace = Cutting | Rapid | AtFeed Expr
+
   deriving stock (Eq, Show)

@@ -5,16 +5,17 @@ module Checked.Type
     len,
     angle,
     feed,
-    turns,
+    spindleSpeed,
     aPoint,
     aVector,
+    ofUnit,
     describe,
     isSquare,
     dimensions,
     dimensionOf,
     variables,
-    inner,
-    replaced,
+    components,
+    substitute,
   )
 where
 
@@ -22,62 +23,97 @@ import Checked.Dimension (Atom (..), Dimension)
 import Checked.Dimension qualified as Dimension
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Token (Unit (..))
 
--- | What a value is.
+-- | The type of a value.
 data Type
   = -- | a number with a dimension
     Quantity Dimension
-  | -- | a pair of lengths: a point (place 1) or a vector (place 0)
+  | -- | a pair of lengths: a point (weight 1) or a vector (weight 0)
     Spatial Dimension
   | Circle
   | Line
   | Contour
   | -- | true or false
-    Truth'
+    Boolean
   | -- | a point with a height
-    Space
-  | -- | a motion of the plane
-    Placement
+    SpacePoint
+  | -- | a transformation of the plane
+    Transformation
   | ListOf Type
-  | -- | rows of values, by its columns
+  | -- | a table, by the 'Fields' of its columns
     Table Type
-  | -- | by the columns of the table that it was made of
+  | -- | a curve, by the 'Fields' of the table through which it passes
     Curve Type
-  | -- | columns with their names, besides x and y
+  | -- | the columns besides x and y, with their names
     Fields [(Text, Type)]
-  | -- | not yet known
+  | -- | an unknown of type inference, by its number
     Variable Int
-  | -- | the type of a thing that is already reported as wrong; agrees with everything
+  | -- | the type of a term that is already reported as wrong; it agrees with every type
     Wrong
   deriving stock (Eq, Show)
 
-number, len, angle, feed, turns, aPoint, aVector :: Type
+-- | A number without a dimension.
+number :: Type
 number = Quantity Dimension.none
+
+-- | A length, in mm after checking.
+len :: Type
 len = Quantity (Dimension.atom Length)
+
+-- | An angle, in radians after checking.
+angle :: Type
 angle = Quantity (Dimension.atom Angle)
+
+-- | A feed, in mm/min after checking.
+feed :: Type
 feed =
   Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
-turns = Quantity (Dimension.power (-1) (Dimension.atom Time))
-aPoint = Spatial (Dimension.atom Place)
+
+-- | A spindle speed, in revolutions per minute.
+spindleSpeed :: Type
+spindleSpeed = Quantity (Dimension.power (-1) (Dimension.atom Time))
+
+-- | A point of the plane.
+aPoint :: Type
+aPoint = Spatial (Dimension.atom PointWeight)
+
+-- | A vector of the plane.
+aVector :: Type
 aVector = Spatial Dimension.none
 
--- | In the words of a drawing, with its article.
+-- | The type of a number with a unit, and the size of the unit in mm, radians, minutes and
+-- revolutions.
+ofUnit :: Unit -> (Type, Double)
+ofUnit unit = case unit of
+  Millimetre -> (len, 1)
+  Centimetre -> (len, 10)
+  Metre -> (len, 1000)
+  Inch -> (len, 25.4)
+  Degree -> (angle, pi / 180)
+  Radian -> (angle, 1)
+  MmPerMin -> (feed, 1)
+  MPerMin -> (feed, 1000)
+  InPerMin -> (feed, 25.4)
+  Rpm -> (spindleSpeed, 1)
+
+-- | Describes a type in the words of a drawing, with its article.
 describe :: Type -> Text
 describe t = case t of
   Quantity d -> Dimension.describe d
   Spatial d
-    | d == Dimension.atom Place -> "a point"
+    | d == Dimension.atom PointWeight -> "a point"
     | d == Dimension.none -> "a vector"
     | Dimension.isKnown d -> "a sum of points"
     | otherwise -> "a pair"
   Circle -> "a circle"
   Line -> "a line"
   Contour -> "a contour"
-  Truth' -> "true or false"
-  Space -> "a point with a height"
-  Placement -> "a transformation"
-  Table columns -> "a table" <> besides columns
-  Curve columns -> "a curve" <> besides columns
+  Boolean -> "true or false"
+  SpacePoint -> "a point with a height"
+  Transformation -> "a transformation"
+  Table columns -> "a table" <> withColumns columns
+  Curve columns -> "a curve" <> withColumns columns
   Fields _ -> "columns"
   ListOf item -> case item of
     Quantity d | Dimension.isKnown d -> "a list of " <> plural item
@@ -91,27 +127,27 @@ describe t = case t of
   Variable _ -> "a value"
   Wrong -> "a value"
 
--- | The columns of a table besides x and y.
-besides :: Type -> Text
-besides t = case t of
+-- | Names the columns of a table besides x and y; empty if there are none.
+withColumns :: Type -> Text
+withColumns t = case t of
   Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
   _ -> ""
 
--- | Several of a known kind.
+-- | Describes several values of a known type, without an article.
 plural :: Type -> Text
 plural t = case Text.words (describe t) of
   [_, word, "in", unit] -> word <> " in " <> unit
   [_, "quantity"] -> "quantities"
-  article : words' | article `elem` ["a", "an"] -> Text.unwords words' <> "s"
-  words' -> Text.unwords words'
+  article : rest | article `elem` ["a", "an"] -> Text.unwords rest <> "s"
+  phrase -> Text.unwords phrase
 
--- | Whether it is known of a quantity only that it is a square.
+-- | Tells if only one thing is known of a quantity: that its dimension is a square.
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d
   _ -> False
 
--- | The dimension of the quantities of a type; of others that of a number.
+-- | The dimension of a quantity or of the quantities in a list; of other types that of a number.
 dimensionOf :: Type -> Dimension
 dimensionOf t = case t of
   Quantity d -> d
@@ -123,17 +159,17 @@ dimensions :: Type -> [Int]
 dimensions t = case t of
   Quantity d -> Dimension.unknowns d
   Spatial d -> Dimension.unknowns d
-  _ -> concatMap dimensions (inner t)
+  _ -> concatMap dimensions (components t)
 
 -- | The unknown types in a type.
 variables :: Type -> [Int]
 variables t = case t of
   Variable n -> [n]
-  _ -> concatMap variables (inner t)
+  _ -> concatMap variables (components t)
 
--- | The types in a type, one level down.
-inner :: Type -> [Type]
-inner t = case t of
+-- | The types inside a type, one level down.
+components :: Type -> [Type]
+components t = case t of
   ListOf a -> [a]
   Table a -> [a]
   Curve a -> [a]
@@ -143,15 +179,15 @@ inner t = case t of
   Circle -> []
   Line -> []
   Contour -> []
-  Truth' -> []
-  Space -> []
-  Placement -> []
+  Boolean -> []
+  SpacePoint -> []
+  Transformation -> []
   Variable _ -> []
   Wrong -> []
 
--- | A type with its dimensions and its unknown types replaced.
-replaced :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
-replaced dimension unknown t = case t of
+-- | Replaces all dimensions and all unknown types in a type.
+substitute :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
+substitute dimension unknown t = case t of
   Quantity d -> Quantity (dimension d)
   Spatial d -> Spatial (dimension d)
   Variable n -> unknown n
@@ -162,9 +198,9 @@ replaced dimension unknown t = case t of
   Circle -> t
   Line -> t
   Contour -> t
-  Truth' -> t
-  Space -> t
-  Placement -> t
+  Boolean -> t
+  SpacePoint -> t
+  Transformation -> t
   Wrong -> t
   where
-    again = replaced dimension unknown
+    again = substitute dimension unknown

@@ -1,98 +1,102 @@
--- | Rows of a program's text, and how their columns line up.
+-- | Lines of a printed program whose second cells are aligned in columns.
 module Surface.Alignment
   ( AlignedLine (..),
-    LineText (..),
+    LineCells (..),
     AlignmentColumn (..),
-    plain,
-    gap,
-    aligned,
+    unaligned,
+    separator,
+    render,
   )
 where
 
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.PrettyPrinter (widest)
+import Surface.PrettyPrinter (maxWidth)
 
--- | One line of a program.
+-- | One line of a printed program.
 data AlignedLine = AlignedLine
   { indent :: Int,
-    cells :: LineText,
-    -- | it goes on with what the row above began
-    continues :: Bool
+    cells :: LineCells,
+    -- | it continues the statement or item of the line above
+    isContinuation :: Bool
   }
   deriving stock (Eq, Show)
 
-data LineText
-  = Whole Text
-  | -- | two cells, the second of which lines up with its neighbours
-    LineText AlignmentColumn Text Text
+-- | The text of a line.
+data LineCells
+  = WholeLine Text
+  | -- | two cells, the second aligned with those of the neighbouring lines
+    LineCells AlignmentColumn Text Text
   deriving stock (Eq, Show)
 
--- | What lines up.
+-- | The kinds of aligned columns. Only cells of one kind are aligned with one another.
 data AlignmentColumn
-  = -- | the values behind the first words of statements
+  = -- | the values after the keywords of statements
     Values
   | -- | the @=@ of definitions
     Definitions
-  | -- | the links behind the elements of a contour
+  | -- | the links after the elements of a contour
     Links
-  | -- | the values behind the first words of settings
+  | -- | the values after the keywords of settings
     SettingValues
   deriving stock (Eq, Show)
 
--- | The text of a row without its indentation, as if it stood alone.
-plain :: AlignedLine -> Text
-plain row = case cells row of
-  Whole text -> text
-  LineText column first second -> first <> gap column <> second
+-- | The text of a line without indentation and alignment.
+unaligned :: AlignedLine -> Text
+unaligned row = case cells row of
+  WholeLine text -> text
+  LineCells column first second -> first <> separator column <> second
 
--- | What stands between two cells at least.
-gap :: AlignmentColumn -> Text
-gap column = case column of
+-- | The shortest separator of two cells.
+separator :: AlignmentColumn -> Text
+separator column = case column of
   Values -> " "
   Definitions -> " "
   Links -> "   "
   SettingValues -> " "
 
--- | The texts of rows that follow one another, their second cells lined up wherever rows of one
--- kind and indentation stand together. A row of one cell among them does no harm.
-aligned :: [AlignedLine] -> [Text]
-aligned rows = case rows of
+-- | Renders lines. The second cells of neighbours of one kind and indentation are aligned. Some
+-- kinds allow lines without a second cell in between.
+render :: [AlignedLine] -> [Text]
+render rows = case rows of
   [] -> []
   row : rest -> case cells row of
-    Whole _ -> written row : aligned rest
-    LineText column _ _ ->
-      let (run, others) = span (belongs row column) rest
-       in lineUp (row : run) <> aligned others
+    WholeLine _ -> indented row : render rest
+    LineCells column _ _ ->
+      let (run, others) = span (isAlignedWith row column) rest
+       in align (row : run) <> render others
 
--- | Whether a row can stand in a run that a row with such a column began.
-belongs :: AlignedLine -> AlignmentColumn -> AlignedLine -> Bool
-belongs begin column row =
-  indent row == indent begin && not (continues row) && case cells row of
-    Whole _ -> single
-    LineText other _ _ -> other == column
+-- | Tells if a line continues a run of aligned lines that began with a line of the given column.
+isAlignedWith :: AlignedLine -> AlignmentColumn -> AlignedLine -> Bool
+isAlignedWith begin column row =
+  indent row == indent begin && not (isContinuation row) && case cells row of
+    WholeLine _ -> isSingleAllowed
+    LineCells other _ _ -> other == column
   where
-    -- Links may be left out, and some settings have no value.
-    single = case column of
+    -- Links are optional, and some settings have no value.
+    isSingleAllowed = case column of
       Values -> False
       Definitions -> False
-      Links -> simple
-      SettingValues -> simple
-    simple = not (Text.any (`elem` ("{}" :: String)) (plain row))
+      Links -> hasNoBlock
+      SettingValues -> hasNoBlock
+    hasNoBlock = not (Text.any (`elem` ("{}" :: String)) (unaligned row))
 
-lineUp :: [AlignedLine] -> [Text]
-lineUp run = if any tooLong padded then map written run else padded
+-- | Aligns the second cells of lines, unless a line would exceed 'maxWidth'.
+align :: [AlignedLine] -> [Text]
+align run = if any isTooLong padded then map indented run else padded
   where
     padded = map pad run
-    tooLong text = Text.length text > widest
-    width = maximum [Text.length first | AlignedLine {cells = LineText _ first _} <- run]
+    isTooLong text = Text.length text > maxWidth
+    width = maximum [Text.length first | AlignedLine {cells = LineCells _ first _} <- run]
     pad row = case cells row of
-      Whole _ -> written row
-      LineText column first second ->
-        spaces (indent row) <> Text.justifyLeft width ' ' first <> gap column <> second
+      WholeLine _ -> indented row
+      LineCells column first second ->
+        spaces (indent row) <> Text.justifyLeft width ' ' first <> separator column <> second
 
-written :: AlignedLine -> Text
-written row = spaces (indent row) <> plain row
+-- | The text of a line with its indentation.
+indented :: AlignedLine -> Text
+indented row =
+ spaces (indent row) <> unaligned row
 
 spaces :: Int -> Text
 spaces n = Text.replicate n " "

@@ -3,16 +3,15 @@
 {-# LANGUAGE FlexibleInstances #-}
 {-# LANGUAGE RankNTypes #-}
 
--- | What the grammar is built from: tokens, names, brackets, blocks, and the way on after a
--- mistake.
+-- | The combinators of the grammar: tokens, names, brackets, blocks, and recovery from mistakes.
 --
--- There is one grammar and two readers of it: this module has the one that tells what is wrong and
--- goes on behind it; "Surface.Combinator.Fast" has the one that gives up.
+-- One grammar has two parsers. The explaining parser of this module reports mistakes and recovers
+-- from them. Its fast twin, "Surface.Combinator.Fast", stops at the first mistake.
 module Surface.Combinator
   ( Parser,
     Grammar (..),
-    Memory (..),
-    Taken (..),
+    ParserState (..),
+    Consumed (..),
     Problem (..),
     run,
 
@@ -25,7 +24,6 @@ module Surface.Combinator
     onThisLine,
     endOfLine,
     located,
-    quoted,
 
     -- * Brackets
     parens,
@@ -34,7 +32,7 @@ module Surface.Combinator
     statementBlock,
     sepBy1,
     nested,
-    deepest,
+    maxNesting,
 
     -- * Recovery
     recovering,
@@ -56,7 +54,7 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
-import Surface.Error (Error, FoundText (..))
+import Surface.Error (Enclosure (..), Error, FoundText (..))
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr, Statement, Statement_ (..))
@@ -66,114 +64,126 @@ import Surface.TokenStream (Input (..))
 import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 
+-- | A failure of megaparsec.
 type Failure = ParseError Input Problem
 
--- | Failures with words of their own.
+-- | Failures that are more specific than an unexpected token.
 data Problem
-  = UnclosedBlock Region Text
+  = -- | an enclosure without its closing bracket: the region of the opening one
+    UnclosedBlock Region Enclosure
   | -- | a word that begins no statement
     NoStatement Text
-  | -- | a keyword where a name is to be given
+  | -- | a keyword where a name is defined
     NoName Text
-  | -- | something behind a complete statement
-    Trailing Token_
-  | -- | something in a row of a table that is no cell
+  | -- | a token after a complete statement on the same line
+    TextAfterStatement Token_
+  | -- | a token in a row of a table that begins no cell
     NotInRow Token_
-  | -- | something among the names of columns that is none
+  | -- | a token among the headings of a table that begins no heading
     NotInHeadings Token_
-  | -- | a piece of which nothing says on which side of its curve it lies
+  | -- | a piece without the side of its curve
     NoSide
-  | -- | a statement in a block
+  | -- | a statement in the block of another that holds none
     Misplaced Text
-  | -- | brackets with more than three values
+  | -- | parentheses with more than three values
     ManyCoordinates Region
-  | TooDeep
+  | -- | brackets nested deeper than 'maxNesting'
+    TooDeep
   deriving stock (Eq, Ord, Show)
 
--- | What the parser remembers: the failures that it recovered from, where the last token ended, and
--- how many brackets are open; how many blocks of statements the statement at hand stands in;
--- whether the rest is not read.
-data Memory = Memory
-  { failures :: [Failure],
+-- | The state of a parser besides the remaining tokens.
+data ParserState = ParserState
+  { -- | the failures that the parser recovered from, the newest first
+    failures :: [Failure],
+    -- | the offset after the last token
     lastEnd :: Int,
-    depth :: Int,
-    within :: Int,
-    gaveUp :: Bool
+    -- | the number of open brackets
+    bracketDepth :: Int,
+    -- | the number of statement blocks around the present statement
+    blockDepth :: Int,
+    -- | the rest of the text is skipped after a failure
+    hasGivenUp :: Bool
   }
 
--- | What is made of some tokens, no more than two brackets deep; how many they are, and those
--- behind them.
-data Taken a = Taken a Int [Token]
+-- | A value parsed from tokens that are nested at most two brackets deep, the number of these
+-- tokens, and the remaining tokens.
+data Consumed a = Consumed a Int [Token]
 
--- | What the grammar is written in.
+-- | The operations from which the grammar is built.
 class MonadParsec Problem Input p => Grammar p where
-  -- | A token that the function accepts; the label names what was expected.
+  -- | Accepts a token for which the function gives a value. The label describes the expectation.
   token :: Text -> (Token -> Maybe a) -> p a
 
-  -- | As many as there are.
-  several :: p a -> p [a]
+  -- | Repeats a parser until it fails without consuming a token.
+  zeroOrMore :: p a -> p [a]
 
-  -- | What is made of a mistake in a parser.
-  blaming :: (ParseError Input Problem -> p a) -> p a -> p a
+  -- | Replaces a failure of a parser.
+  onFailure :: (ParseError Input Problem -> p a) -> p a -> p a
 
-  -- | What is left to read.
-  upcoming :: p [Token]
+  -- | The remaining tokens.
+  remaining :: p [Token]
 
-  -- | What a function makes of the next tokens, if it knows them all, or else the other way, which
-  -- would make the same of them. The reader that tells what is wrong goes this way always.
-  atOnce :: ([Token] -> Maybe (Taken Expr)) -> p Expr -> p Expr
+  -- | Tries a function on the remaining tokens before the parser that would give the same result.
+  -- The explaining parser ignores the function.
+  fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
-  -- | Whether the next token is a word, so that what begins with a keyword may follow. The reader
-  -- that tells what is wrong says so in any case: it names the keywords that were expected.
-  wordAhead :: p Bool
+  -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser always
+  -- answers 'True', so that its reports name the expected keywords.
+  isWordNext :: p Bool
 
-  memory :: p Memory
-  remember :: (Memory -> Memory) -> p ()
+  -- | The state of the parser.
+  parserState :: p ParserState
 
--- | A rule of the grammar, for either reader.
+  -- | Changes the state of the parser.
+  modifyState :: (ParserState -> ParserState) -> p ()
+
+-- | A rule of the grammar for both parsers.
 type Parser a = forall p. Grammar p => p a
 
--- | The reader that tells what is wrong.
-type Explaining = ParsecT Problem Input (State Memory)
+-- | The parser that reports mistakes.
+type Explaining = ParsecT Problem Input (State ParserState)
 
-instance Grammar (ParsecT Problem Input (State Memory)) where
+instance Grammar (ParsecT Problem Input (State ParserState)) where
   token expected accept = do
     (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
     lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
     pure a
-  several = Parsec.many
-  blaming blame p = Parsec.observing p >>= either blame pure
-  upcoming = (\(Input ts) -> ts) <$> Parsec.getInput
-  atOnce _ p = p
-  wordAhead = pure True
-  memory = lift get
-  remember f = lift (modify' f)
+  zeroOrMore = Parsec.many
+  onFailure replace p = Parsec.observing p >>= either replace pure
+  remaining = (\(Input ts) -> ts) <$> Parsec.getInput
+  fastPath _ p = p
+  isWordNext = pure True
+  parserState = lift get
+  modifyState f = lift (modify' f)
 
--- | Run a parser over the tokens of a text that ends at an offset: the errors in order, and the
--- output if there is one.
+-- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in order and
+-- the output, if any.
 run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
     (result, remembered) =
       runState
         (Parsec.runParserT parser "" (Input tokens))
-        Memory {failures = [], lastEnd = 0, depth = 0, within = 0, gaveUp = False}
+        ParserState {failures = [], lastEnd = 0, bracketDepth = 0, blockDepth = 0, hasGivenUp = False}
     inOrder =
-      sortOn Parsec.errorOffset ([f | not (gaveUp remembered), f <- final] <> failures remembered)
+      sortOn Parsec.errorOffset ([f | not (hasGivenUp remembered), f <- final] <> failures remembered)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
 
 -- Tokens
 
+-- | Parses a symbol and gives its region.
 symbol :: Grammar p => Text -> p Region
 symbol s = token ("‘" <> s <> "’") (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
 {-# INLINE symbol #-}
 
+-- | Parses a keyword.
 keyword :: Grammar p => Text -> p ()
 keyword word = token ("‘" <> word <> "’") (\t -> if isWord word t then Just () else Nothing)
 {-# INLINE keyword #-}
 
+-- | Tells if a token is the given symbol.
 isSymbol :: Text -> Token -> Bool
 isSymbol s t = case shape t of
   Symbol s' -> s' == s
@@ -184,10 +194,10 @@ isWord word t = case shape t of
   Word word' -> word' == word
   _ -> False
 
--- | A name that is to be given to something. A keyword in its place is a mistake of its own.
+-- | Parses a name in its definition. A keyword on the same line is reported as such.
 name :: Grammar p => p (Located Name)
 name = do
-  next <- upcoming
+  next <- remaining
   case next of
     Token {shape = Word word, newLine} : _
       | Keyword.isReserved word && not newLine ->
@@ -195,7 +205,7 @@ name = do
     _ -> usedName
 {-# INLINEABLE name #-}
 
--- | A name that is no keyword.
+-- | Parses a name that is not reserved.
 usedName :: Grammar p => p (Located Name)
 usedName = token "a name" nameOf
   where
@@ -204,115 +214,114 @@ usedName = token "a name" nameOf
       _ -> Nothing
 {-# INLINEABLE usedName #-}
 
--- | Only if the next token stands on the line of the last one.
+-- | Runs a parser if the next token is on the line of the last one, else fails.
 onThisLine :: Grammar p => p a -> p a
 onThisLine p = do
-  next <- upcoming
+  next <- remaining
   case next of
     t : _ | newLine t -> Parsec.empty
     _ -> p
 {-# INLINEABLE onThisLine #-}
 
--- | Nothing more stands on this line, but for the end of the block.
+-- | Demands the end of the line or, in a block of statements, its closing brace.
 endOfLine :: Grammar p => p ()
 endOfLine = do
-  next <- upcoming
-  inBlock <- (> 0) . within <$> memory
+  next <- remaining
+  inBlock <- (> 0) . blockDepth <$> parserState
   case next of
     t : _
       | not (newLine t) && not (inBlock && shape t == Symbol "}") ->
-        Parsec.customFailure (Trailing (shape t))
+        Parsec.customFailure (TextAfterStatement (shape t))
     _ -> pure ()
 {-# INLINEABLE endOfLine #-}
 
--- | With the region from the first to the last token.
+-- | Adds the region from the first to the last token.
 located :: Grammar p => p a -> p (Located a)
 located p = do
-  input <- upcoming
+  input <- remaining
   x <- p
-  Memory {lastEnd} <- memory
+  ParserState {lastEnd} <- parserState
   let begin = case input of
         t : _ -> start (Token.place t)
         [] -> lastEnd
   pure (Located (Region begin (max begin lastEnd)) x)
 {-# INLINE located #-}
 
-quoted :: Name -> Text
-quoted (Name text) = "‘" <> text <> "’"
-
 -- Brackets
 
+-- | Parses something in parentheses.
 parens :: Grammar p => p a -> p a
 parens = enclosed "(" ")"
 {-# INLINEABLE parens #-}
 
+-- | Parses something in square brackets.
 brackets :: Grammar p => p a -> p a
 brackets = enclosed "[" "]"
 {-# INLINEABLE brackets #-}
 
+-- | Parses something between brackets. If the line ends inside, the opening bracket is reported as
+-- unclosed.
 enclosed :: Grammar p => Text -> Text -> p a -> p a
 enclosed open close inside = do
   opened <- symbol open
-  x <- blaming (blame opened) (nested inside)
-  ended <- lineEnds
-  when ended (Parsec.customFailure (UnclosedBlock opened what))
+  x <- onFailure (replaceFailure opened) (nested inside)
+  ended <- isLineEnd
+  when ended (Parsec.customFailure (UnclosedBlock opened (BracketOf open)))
   void (symbol close)
   pure x
   where
-    what = quoted (Name open)
-    -- What is missing where the statement or the line ends is the closing bracket.
-    blame opened failure = do
-      ended <- lineEnds
+    replaceFailure opened failure = do
+      ended <- isLineEnd
       case failure of
-        TrivialError {} | ended -> Parsec.customFailure (UnclosedBlock opened what)
+        TrivialError {} | ended -> Parsec.customFailure (UnclosedBlock opened (BracketOf open))
         _ -> Parsec.parseError failure
 {-# INLINEABLE enclosed #-}
 
--- | Items in braces. An item that can not be read is skipped.
-block :: Grammar p => Text -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
+-- | Parses items in braces. An item with a mistake is skipped and replaced by a broken one.
+block :: Grammar p => Enclosure -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
   items <-
-    several (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+    zeroOrMore (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
   closing opened what "}"
   pure items
   where
     inside = do
-      rest <- upcoming
+      rest <- remaining
       case rest of
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
         t : _ | beginsStatement t && not (closesBlock rest) -> Parsec.empty
         _ -> pure ()
-    -- A statement in a block whose closing brace follows further down.
+    -- Fails at a statement in a block that is closed further down.
     strayStatement = do
-      next <- upcoming
+      next <- remaining
       case next of
         t@Token {shape = Word word} : _ | beginsStatement t -> Parsec.customFailure (Misplaced word)
         _ -> pure ()
 {-# INLINEABLE block #-}
 
--- | Statements in braces.
-statementBlock :: Grammar p => Text -> p Statement -> p [Statement]
+-- | Parses statements in braces.
+statementBlock :: Grammar p => Enclosure -> p Statement -> p [Statement]
 statementBlock what one = do
   opened <- symbol "{"
-  remember (\m -> m {within = within m + 1})
-  statements <- nested (several (inside *> recovering brokenStatement one))
-  remember (\m -> m {within = within m - 1})
-  ended <- null <$> upcoming
+  modifyState (\m -> m {blockDepth = blockDepth m + 1})
+  statements <- nested (zeroOrMore (inside *> recovering brokenStatement one))
+  modifyState (\m -> m {blockDepth = blockDepth m - 1})
+  ended <- null <$> remaining
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol "}")
   pure statements
   where
     inside = do
-      ts <- upcoming
+      ts <- remaining
       case ts of
         [] -> Parsec.empty
         t : _ | shape t == Symbol "}" -> Parsec.empty
         _ -> pure ()
 {-# INLINEABLE statementBlock #-}
 
--- | Whether the tokens hold a closing brace that belongs to a block which is open already.
+-- | Tells if tokens contain the closing brace of a block that is already open.
 closesBlock :: [Token] -> Bool
 closesBlock = go (0 :: Int)
   where
@@ -323,79 +332,76 @@ closesBlock = go (0 :: Int)
         Symbol "}" -> open == 0 || go (open - 1) rest
         _ -> go open rest
 
--- | The closing bracket. When the program or the statement ends before it, the opening one is
--- blamed.
-closing :: Grammar p => Region -> Text -> Text -> p ()
+-- | Parses the closing bracket. If the program or the statement ends before it, the opening one is
+-- reported as unclosed.
+closing :: Grammar p => Region -> Enclosure -> Text -> p ()
 closing opened what close = do
   ended <- atEnd
   when ended (Parsec.customFailure (UnclosedBlock opened what))
   void (symbol close)
 {-# INLINEABLE closing #-}
 
--- | Whether something else than a closing bracket begins a new line, or nothing follows at all.
-lineEnds :: Grammar p => p Bool
-lineEnds = begins <$> upcoming
+-- | Tells if the text ends or a new line begins with something other than a closing bracket.
+isLineEnd :: Grammar p => p Bool
+isLineEnd = isEnd <$> remaining
   where
-    begins ts = case ts of
+    isEnd ts = case ts of
       [] -> True
       t : _ -> newLine t && shape t `notElem` map Symbol [")", "]", "}"]
-{-# INLINEABLE lineEnds #-}
+{-# INLINEABLE isLineEnd #-}
 
--- | Whether the program or the statement ends here.
+-- | Tells if the program or the statement ends here.
 atEnd :: Grammar p => p Bool
-atEnd = maybe True beginsStatement . listToMaybe <$> upcoming
+atEnd = maybe True beginsStatement . listToMaybe <$> remaining
 {-# INLINEABLE atEnd #-}
 
+-- | Parses one or more things with separators between them.
 sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
-sepBy1 p separator = (:|) <$> p <*> several (symbol separator *> p)
+sepBy1 p separator = (:|) <$> p <*> zeroOrMore (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
--- | One bracket deeper.
+-- | Runs a parser one bracket deeper; fails beyond 'maxNesting'.
 nested :: Grammar p => p a -> p a
 nested p = do
-  open <- depth <$> memory
-  when (open >= deepest) (Parsec.customFailure TooDeep)
-  remember (\m -> m {depth = open + 1})
+  open <- bracketDepth <$> parserState
+  when (open >= maxNesting) (Parsec.customFailure TooDeep)
+  modifyState (\m -> m {bracketDepth = open + 1})
   a <- p
-  remember (\m -> m {depth = open})
+  modifyState (\m -> m {bracketDepth = open})
   pure a
 {-# INLINEABLE nested #-}
 
--- | Expressions are not nested deeper.
-deepest :: Int
-deepest = 500
+-- | The largest number of brackets and operands inside one another.
+maxNesting :: Int
+maxNesting = 500
 
 -- Recovery
 
--- | Run a parser. If it fails, keep the failure and let the other make something of the tokens that
--- were read up to there; at least one token is consumed either way.
+-- | Runs a parser. If it fails, records the failure and gives the tokens read so far to @repair@,
+-- which makes a replacement. At least one token is consumed in either case.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
-  input <- upcoming
-  before <- memory
-  Parsec.withRecovery (again before begin input) p
+  input <- remaining
+  before <- parserState
+  Parsec.withRecovery (recover before begin input) p
   where
-    again before begin input failure = do
-      remember
-        ( \m ->
-            if gaveUp m
-              then m
-              else
-                m
-                  { failures = failure : failures m,
-                    depth = depth before,
-                    within = within before,
-                    gaveUp = isTooDeep failure
-                  }
-        )
-      -- What is nested too deep says nothing of what follows.
-      enough <- gaveUp <$> memory
-      when enough (void (Parsec.takeWhileP Nothing (const True)))
+    recover before begin input failure = do
+      modifyState (\m -> if hasGivenUp m then m else recorded before failure m)
+      -- The text after brackets that are nested too deep is not worth reports.
+      isEnough <- hasGivenUp <$> parserState
+      when isEnough (void (Parsec.takeWhileP Nothing (const True)))
       now <- Parsec.getOffset
       when (now == begin) (void Parsec.anySingle)
       after <- Parsec.getOffset
       repair (take (after - begin) input)
+    recorded before failure m =
+      m
+        { failures = failure : failures m,
+          bracketDepth = bracketDepth before,
+          blockDepth = blockDepth before,
+          hasGivenUp = isTooDeep failure
+        }
 {-# INLINEABLE recovering #-}
 
 isTooDeep :: Failure -> Bool
@@ -403,45 +409,49 @@ isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
--- | Skip to the line on which a statement begins; keep the statement's keyword, or what is spelt
--- like one, and the name that was to be defined.
+-- | Skips to the line on which the next statement begins. Keeps the keyword of the broken statement,
+-- or the keyword that its first word resembles, and the name that it was to define.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
-  inBlock <- (> 0) . within <$> memory
-  more <- skipped inBlock (sum (map braces taken))
+  isInBlock <- (> 0) . blockDepth <$> parserState
+  skipped <- skipStatement (beginsBlock taken) isInBlock (braceBalance taken)
   pure
     ( Located
-        (foldr (Region.merge . Token.place) (place' taken) taken)
-        (uncurry Broken (meaning (taken <> more)))
+        (foldr (Region.merge . Token.place) (firstRegion taken) taken)
+        (uncurry Broken (keywordAndName (taken <> skipped)))
     )
+{-# INLINEABLE brokenStatement #-}
+
+-- | Skips the rest of a broken statement and gives the tokens skipped. The statement has @open@ open
+-- braces. The closing brace of the block around it is not skipped.
+skipStatement :: Grammar p => Bool -> Bool -> Int -> p [Token]
+skipStatement hasBlock isInBlock open = do
+  rest <- remaining
+  case rest of
+    t : others
+      | not (isStatementEnd hasBlock isInBlock open t others) ->
+        Parsec.anySingle *> ((t :) <$> skipStatement hasBlock isInBlock (open + braceBalance [t]))
+    _ -> pure []
+{-# INLINEABLE skipStatement #-}
+
+-- | Tells if a broken statement with @open@ open braces ends before a token.
+isStatementEnd :: Bool -> Bool -> Int -> Token -> [Token] -> Bool
+isStatementEnd hasBlock isInBlock open t others =
+  beginsStatement t && not isInOwnBlock
+    || isBlockStatement
+    || isMisspeltKeyword
+    || isInBlock && open <= 0 && shape t == Symbol "}"
   where
-    -- What is skipped; the brace that closes the block in which the statement stands is not.
-    skipped :: Bool -> Int -> Parser [Token]
-    skipped inBlock open = do
-      rest <- upcoming
-      case rest of
-        t : others
-          | not
-              ( beginsStatement t && not (inItsBlock open rest)
-                  || opensBlock open t
-                  || misspelt open t others
-                  || inBlock && open <= 0 && shape t == Symbol "}"
-              ) ->
-            Parsec.anySingle *> ((t :) <$> skipped inBlock (open + braces t))
-        _ -> pure []
-    -- The block that belongs to the mistake, if it is closed further down: its statements make no
-    -- sense alone, nor does its closing brace.
-    inItsBlock open rest = open > 0 && withBlock && closesBlock rest
-    withBlock = case map shape (take 1 taken) of
-      [Word word] -> word `elem` "with" : Keyword.blocks
-      _ -> False
-    -- A block of statements, unless it stands in braces that belong to the mistake.
-    opensBlock open t = case shape t of
+    -- The block of a broken @for@, @if@ or @with@ is skipped with it, if it is closed further down:
+    -- its statements and its closing brace make no sense alone.
+    isInOwnBlock = open > 0 && hasBlock && closesBlock (t : others)
+    -- Another @for@ or @if@, unless it is inside braces of the broken statement.
+    isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- Two words in a row on a new line are a misspelt statement rather than the rest of this one,
-    -- but not in braces that belong to the mistake.
-    misspelt open t others = case (shape t, others) of
+    -- Two words in a row at the start of a line are a misspelt statement rather than a continuation,
+    -- unless they are inside braces of the broken statement.
+    isMisspeltKeyword = case (shape t, others) of
       (Word word, next : _)
         | Word _ <- shape next ->
           open <= 0
@@ -449,58 +459,68 @@ brokenStatement taken = do
             && not (newLine next)
             && not (Keyword.isReserved word || Keyword.beginsItem word)
       _ -> False
-    braces t = case shape t of
-      Symbol "{" -> 1 :: Int
-      Symbol "}" -> -1
-      _ -> 0
-    meaning ts = case map shape (take 2 ts) of
-      [Word word, Word what]
-        | not (Keyword.isReserved what) ->
-          (spelt word, Just (Located (place' (drop 1 ts)) (Name what)))
-      Word word : _ -> (spelt word, Nothing)
-      _ -> (Nothing, Nothing)
-    spelt word = case filter (== word) known <> Name.nearest word known of
-      w : _ -> Just w
-      [] -> Nothing
-    known = Keyword.statements <> Keyword.softStatements
-    place' ts = case ts of
-      t : _ -> Token.place t
-      [] -> Region 0 0
-{-# INLINEABLE brokenStatement #-}
 
--- | Skip to the next line of the block that is in no braces of this item, or to the block's end. A
--- line that ends with a comma or an operator goes on. Tell the name that a definition in the wrong
--- place was to define.
-brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
-brokenItem broken taken = do
-  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
-  skip (sum (map opens taken)) False
-  pure (broken (defined taken next))
+-- | Tells if tokens begin a statement that has a block of statements.
+beginsBlock :: [Token] -> Bool
+beginsBlock ts = case map shape (take 1 ts) of
+  [Word word] -> word `elem` "with" : Keyword.blocks
+  _ -> False
+
+-- | The number of opening braces less that of closing ones.
+braceBalance :: [Token] -> Int
+braceBalance = sum . map balance
   where
-    defined ts next = case (map shape ts, next) of
-      ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
-      _ -> Nothing
-    -- How many braces are open, and whether the last sign says that the item goes on.
-    skip :: Int -> Bool -> Parser ()
-    skip open goesOn = do
-      next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
-      case next of
-        Nothing -> pure ()
-        Just t
-          | beginsStatement t -> pure ()
-          | shape t == Symbol "}" && open <= 0 -> pure ()
-          | newLine t && open <= 0 && not goesOn -> pure ()
-          | otherwise ->
-            Parsec.anySingle
-              *> skip
-                (open + opens t)
-                (shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"])
-    opens t = case shape t of
+    balance t = case shape t of
       Symbol "{" -> 1
       Symbol "}" -> -1
       _ -> 0
+
+-- | The keyword of a broken statement, possibly corrected, and the name that it defines.
+keywordAndName :: [Token] -> (Maybe Text, Maybe (Located Name))
+keywordAndName ts = case map shape (take 2 ts) of
+  [Word word, Word what]
+    | not (Keyword.isReserved what) ->
+      (corrected word, Just (Located (firstRegion (drop 1 ts)) (Name what)))
+  Word word : _ -> (corrected word, Nothing)
+  _ -> (Nothing, Nothing)
+  where
+    corrected word = listToMaybe (filter (== word) known <> Name.nearest word known)
+    known = Keyword.statements <> Keyword.softStatements
+
+firstRegion :: [Token] -> Region
+firstRegion ts = case ts of
+  t : _ -> Token.place t
+  [] -> Region 0 0
+
+-- | Skips to the next line of the block that is in no braces of the broken item, or to the end of
+-- the block. A line that ends with a comma or an operator continues. Keeps the name that a misplaced
+-- definition was to define.
+brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
+brokenItem broken taken = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  skipItem (braceBalance taken) False
+  pure $ broken $ case (map shape taken, next) of
+    ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
+    _ -> Nothing
 {-# INLINEABLE brokenItem #-}
 
+-- | Skips the rest of a broken item with @open@ open braces. The flag tells if the last token asks
+-- for a continuation.
+skipItem :: Grammar p => Int -> Bool -> p ()
+skipItem open isContinued = do
+  next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
+  case next of
+    Nothing -> pure ()
+    Just t
+      | beginsStatement t -> pure ()
+      | shape t == Symbol "}" && open <= 0 -> pure ()
+      | newLine t && open <= 0 && not isContinued -> pure ()
+      | otherwise -> Parsec.anySingle *> skipItem (open + braceBalance [t]) (isUnfinished t)
+  where
+    isUnfinished t = shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"]
+{-# INLINEABLE skipItem #-}
+
+-- | Tells if a token is a keyword that begins a statement at the start of a line.
 beginsStatement :: Token -> Bool
 beginsStatement t = case shape t of
   Word word -> newLine t && word `elem` Keyword.statements
@@ -508,6 +528,7 @@ beginsStatement t = case shape t of
 
 -- Failures into errors
 
+-- | The error of a failure, with the tokens around it.
 fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
 fromFailure ts finish failure = case failure of
   FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of
@@ -518,13 +539,13 @@ fromFailure ts finish failure = case failure of
         word
         (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
     NoName word -> Error.Reserved region word
-    Trailing shape' -> Error.Trailing region shape' neighbours
+    TextAfterStatement shape' -> Error.Trailing region shape' neighbours
     NotInRow shape' -> Error.NotInRow region shape' neighbours
     NotInHeadings shape' -> Error.NotInHeadings region shape' neighbours
     NoSide -> Error.NoSide region found
     Misplaced word -> Error.Misplaced region word
     ManyCoordinates place -> Error.ManyCoordinates place
-    TooDeep -> Error.TooDeep region deepest
+    TooDeep -> Error.TooDeep region maxNesting
   FancyError _ _ -> Error.Unexpected region found [] neighbours
   TrivialError _ _ expected ->
     Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours

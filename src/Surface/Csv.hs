@@ -1,9 +1,11 @@
 -- | Tables from files of comma-separated values.
 --
--- The first line names the columns, each with the unit of its numbers or without one; every other
--- line has a number for each of them. Between them stand commas, semicolons or tabs, whichever the
--- first line has; where it is not commas, a number may have a decimal comma. Empty lines count for
--- nothing.
+-- The first line names the columns, each with an optional unit. Every other line has one number for
+-- each column. The separator is the comma, the semicolon or the tab, whichever the first line
+-- contains. If it is not the comma, numbers may have a decimal comma. Empty lines are ignored.
+--
+-- Runs of plain rows are read into unboxed arrays. The other rows are read one by one with full
+-- error messages.
 module Surface.Csv
   ( table,
   )
@@ -34,26 +36,27 @@ import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
 import Surface.Error (Error (..))
 import Surface.Keyword qualified as Keyword
-import Surface.Syntax (Expr_ (..), Heading (..), Numeral (..), TableLine, TableLine_ (..))
+import Surface.Syntax (Expr, Expr_ (..), Heading (..), Numeral (..), TableLine, TableLine_ (..))
 import Surface.Token (columnUnits, unitName)
 
--- | The lines of a text whose first character has the offset given, and what cannot be read.
+-- | Reads a text whose first character has the given offset. Gives the errors and the lines of the
+-- table; lines with errors are broken.
 table :: Int -> Text -> ([Error], [TableLine])
 table begin text = case filter (not . Text.all isSpace . value) (linesOf begin text) of
   [] -> ([EmptyTable (Region begin begin)], [])
   header : rest ->
     let separator = separatorOf (value header)
-        (wrong, first) = headings separator header
+        (headingErrors, first) = headings separator header
         columns = case value first of
           Header hs -> Just (length hs)
           Entries _ -> Nothing
           Numbers _ -> Nothing
           BrokenLine -> Nothing
-        (wrongs, others) = unzip (rowsFrom separator columns 1 rest)
-     in (wrong <> concat wrongs, first : others)
+        (rowErrors, rows) = unzip (rowsFrom separator columns 1 rest)
+     in (headingErrors <> concat rowErrors, first : rows)
 
--- | The rows from one with a number on, if the columns are known so many in each, and what is wrong
--- with them.
+-- | Reads rows, the first of which has the number @k@. The number of columns is unknown if the
+-- headings are broken.
 rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], TableLine)]
 rowsFrom separator columns k texts =
   [ ( [],
@@ -65,67 +68,75 @@ rowsFrom separator columns k texts =
   ]
     <> other
   where
-    (found, behind) = maybe (NumberTable.joined 0 [],) (plain separator) columns texts
+    (found, remaining) = maybe (NumberTable.joined 0 [],) (plainRows separator) columns texts
     count = NumberTable.count found
-    other = case behind of
+    other = case remaining of
       [] -> []
       text : rest ->
-        numbers separator columns (k + count) text : rowsFrom separator columns (k + count + 1) rest
+        fullRow separator columns (k + count) text :
+        rowsFrom separator columns (k + count + 1) rest
 
--- | The lines at the front with so many numbers without spaces, signs other than minus, and
--- exponents, as most are; and those behind them.
-plain :: Char -> Int -> [Located Text] -> (NumberTable, [Located Text])
-plain separator width texts = runST $ do
-  ends <- newPrimArray (2 * few)
-  cells <- newPrimArray (width * few)
-  go 0 few ends cells texts
+-- Plain rows
+
+-- | Reads rows from the front as long as they are plain: @width@ numbers without spaces, exponents
+-- and plus signs. Gives the remaining lines.
+plainRows :: Char -> Int -> [Located Text] -> (NumberTable, [Located Text])
+plainRows separator width texts = runST $ do
+  ends <- newPrimArray (2 * initialRoom)
+  cells <- newPrimArray (width * initialRoom)
+  fillRows separator width 0 initialRoom (Rows ends cells) texts
   where
-    few = 8
-    -- So many rows are there, and room for so many.
-    go ::
-      Int ->
-      Int ->
-      MutablePrimArray s Int ->
-      MutablePrimArray s Double ->
-      [Located Text] ->
-      ST s (NumberTable, [Located Text])
-    go k room ends cells rest = case rest of
-      Located (Region from to) text : more
-        | k >= room -> do
+    initialRoom = 8
+
+-- | Growing arrays of plain rows: the two offsets of each row, and its cells.
+data Rows s = Rows (MutablePrimArray s Int) (MutablePrimArray s Double)
+
+-- | Fills arrays that hold @count@ rows and have room for @room@.
+fillRows ::
+  Char -> Int -> Int -> Int -> Rows s -> [Located Text] -> ST s (NumberTable, [Located Text])
+fillRows separator width = go
+  where
+    go count room rows@(Rows ends cells) texts = case texts of
+      Located (Region from to) text : rest
+        | count >= room -> do
           ends' <- resizeMutablePrimArray ends (4 * room)
           cells' <- resizeMutablePrimArray cells (2 * width * room)
-          go k (2 * room) ends' cells' rest
+          go count (2 * room) (Rows ends' cells') texts
         | otherwise -> do
-          fits <- row cells (width * k) width text
-          if fits
-            then
-              writePrimArray ends (2 * k) from
-                >> writePrimArray ends (2 * k + 1) to
-                >> go (k + 1) room ends cells more
-            else done k ends cells rest
-      [] -> done k ends cells rest
-    done k ends cells rest = do
-      shrinkMutablePrimArray ends (2 * k)
-      shrinkMutablePrimArray cells (width * k)
+          isPlain <- plainRow separator cells (width * count) width text
+          if isPlain
+            then do
+              writePrimArray ends (2 * count) from
+              writePrimArray ends (2 * count + 1) to
+              go (count + 1) room rows rest
+            else finish count rows texts
+      [] -> finish count rows texts
+    finish count (Rows ends cells) texts = do
+      shrinkMutablePrimArray ends (2 * count)
+      shrinkMutablePrimArray cells (width * count)
       places <- unsafeFreezePrimArray ends
       found <- unsafeFreezePrimArray cells
-      pure (NumberTable {NumberTable.width, NumberTable.places, NumberTable.numbers = found}, rest)
-    -- Whether a text is so many numbers; they are put one behind the other from a place on.
-    row :: MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
-    row cells i wanted text = case Text.uncons text of
-      Just ('-', digits) -> number cells i wanted negate digits
-      _ -> number cells i wanted id text
-    number :: MutablePrimArray s Double -> Int -> Int -> (Double -> Double) -> Text -> ST s Bool
-    number cells i wanted signed text = case Decimal.leading text of
+      pure (NumberTable {NumberTable.width, NumberTable.places, NumberTable.numbers = found}, texts)
+
+-- | Writes @wanted@ numbers from an index on; 'False' if the text is not exactly these numbers.
+plainRow :: Char -> MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
+plainRow separator cells = row
+  where
+    row i wanted text = case Text.uncons text of
+      Just ('-', unsigned) -> cell i wanted negate unsigned
+      _ -> cell i wanted id text
+    cell i wanted signed text = case Decimal.leading text of
       Leading {size, worth = Just x, behind} | size > 0 -> do
         writePrimArray cells i (signed x)
         case Text.uncons behind of
           Nothing -> pure (wanted == 1)
-          Just (c, more) | c == separator && wanted > 1 -> row cells (i + 1) (wanted - 1) more
+          Just (c, more) | c == separator && wanted > 1 -> row (i + 1) (wanted - 1) more
           _ -> pure False
       _ -> pure False
 
--- | The lines with their places, without a mark of the byte order.
+-- Lines and cells
+
+-- | The lines with their regions, without byte order marks.
 linesOf :: Int -> Text -> [Located Text]
 linesOf begin text = go begin text
   where
@@ -136,102 +147,113 @@ linesOf begin text = go begin text
          in Located (Region at (at + Text.length line)) line :
             go (at + Text.length line + 1) (Text.drop 1 after)
 
+-- | The separator by the first line: a semicolon before a tab before a comma.
 separatorOf :: Text -> Char
-separatorOf header = case filter (`Text.any` header) [(== ';'), (== '\t')] of
-  _ : _ | Text.any (== ';') header -> ';'
-  _ : _ -> '\t'
-  [] -> ','
+separatorOf header
+  | Text.any (== ';') header = ';'
+  | Text.any (== '\t') header = '\t'
+  | otherwise = ','
 
--- | What stands between the separators, without the spaces around it and a pair of quotation marks.
--- A single one stays: it belongs to nothing.
-fields :: Char -> Located Text -> NonEmpty (Located Text)
-fields separator (Located (Region at _) line) = NonEmpty.zipWith field starts parts
+-- | Splits a line into cells. Removes spaces and a pair of quotation marks around a cell. A single
+-- quotation mark remains and makes the cell wrong.
+cellsOf :: Char -> Located Text -> NonEmpty (Located Text)
+cellsOf separator (Located (Region at _) line) = NonEmpty.zipWith trimmed starts parts
   where
     parts = NonEmpty.fromList (Text.split (== separator) line)
     starts = NonEmpty.scanl (\a p -> a + Text.length p + 1) at (NonEmpty.toList parts)
-    field from part =
-      let spaced = Text.dropAround isSpace part
-          inside =
-            maybe
-              spaced
-              (Text.dropAround isSpace)
-              (Text.stripPrefix "\"" spaced >>= Text.stripSuffix "\"")
-          before =
-            Text.length (Text.takeWhile isSpace part)
-              + (if Text.length inside == Text.length spaced then 0 else quotedFrom spaced)
-          size = Text.length inside
-       in Located
-            ( if size == 0
-                then Region from (from + Text.length part)
-                else Region (from + before) (from + before + size)
-            )
-            inside
-    -- Behind the quotation mark and the spaces that follow it.
-    quotedFrom spaced = 1 + Text.length (Text.takeWhile isSpace (Text.drop 1 spaced))
 
+-- | A cell without spaces and quotation marks, with the region of what is left. An empty cell keeps
+-- the region of the whole part, which starts at an offset.
+trimmed :: Int -> Text -> Located Text
+trimmed from part
+  | size == 0 = Located (Region from (from + Text.length part)) inside
+  | otherwise = Located (Region (from + before) (from + before + size)) inside
+  where
+    stripped = Text.dropAround isSpace part
+    inside = case Text.stripPrefix "\"" stripped >>= Text.stripSuffix "\"" of
+      Just unquoted -> Text.dropAround isSpace unquoted
+      Nothing -> stripped
+    size = Text.length inside
+    before = Text.length (Text.takeWhile isSpace part) + quoteWidth
+    -- The quotation mark and the spaces after it.
+    quoteWidth
+      | size == Text.length stripped = 0
+      | otherwise = 1 + Text.length (Text.takeWhile isSpace (Text.drop 1 stripped))
+
+-- Headings
+
+-- | Reads the line that names the columns.
 headings :: Char -> Located Text -> ([Error], TableLine)
 headings separator line =
-  case partitionEithers (map heading (NonEmpty.toList (fields separator line))) of
+  case partitionEithers (map heading (NonEmpty.toList (cellsOf separator line))) of
     ([], h : hs) -> ([], Located (region line) (Header (h :| hs)))
-    (wrong, _) -> (wrong, Located (region line) BrokenLine)
-  where
-    heading (Located at text) =
-      case if isHollow text
-        then []
-        else Text.words (Text.map (\c -> if c `elem` ("[]()" :: String) then ' ' else c) text) of
-        [word] | isName word -> Right (Heading (Located at (Name word)) Nothing)
-        [word, unit]
-          | isName word,
-            u : _ <- [u | u <- columnUnits, unitName u == unit] ->
-            Right
-              ( Heading
-                  (Located (Region (start at) (start at + Text.length word)) (Name word))
-                  (Just u)
-              )
-        _ -> Left (BadHeading at text)
-    -- Brackets without a unit say nothing.
-    isHollow text = any (`Text.isInfixOf` Text.filter (not . isSpace) text) ["[]", "()"]
-    isName word =
-      Text.all (\c -> isAlphaNum c || c == '_') word
-        && Text.any isAlpha (Text.take 1 word)
-        && not (Keyword.isReserved word)
+    (errors, _) -> (errors, Located (region line) BrokenLine)
 
--- | A row, which has its number from 1, with a cell for each column, if those are known.
-numbers :: Char -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
-numbers separator columns k line = case partitionEithers (map number cells) of
+-- | Reads a heading: a name with an optional unit, which may be in brackets.
+heading :: Located Text -> Either Error Heading
+heading (Located at text) = case if hasEmptyBrackets then [] else Text.words unbracketed of
+  [word] | isColumnName word -> Right (Heading (Located at (Name word)) Nothing)
+  [word, unit]
+    | isColumnName word,
+      u : _ <- [u | u <- columnUnits, unitName u == unit] ->
+      let wordRegion = Region (start at) (start at + Text.length word)
+       in Right (Heading (Located wordRegion (Name word)) (Just u))
+  _ -> Left (BadHeading at text)
+  where
+    unbracketed = Text.map (\c -> if c `elem` ("[]()" :: String) then ' ' else c) text
+    hasEmptyBrackets = any (`Text.isInfixOf` Text.filter (not . isSpace) text) ["[]", "()"]
+
+isColumnName :: Text -> Bool
+isColumnName word =
+  Text.all (\c -> isAlphaNum c || c == '_') word
+    && Text.any isAlpha (Text.take 1 word)
+    && not (Keyword.isReserved word)
+
+-- Other rows
+
+-- | Reads a row with the number @k@, which counts from 1. Every column must have a cell if the
+-- number of columns is known.
+fullRow :: Char -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
+fullRow separator columns k line = case partitionEithers (map (number separator) cells) of
   ([], _)
     | Just n <- columns,
       n /= length cells ->
-      ([CellCount (region line) k n (length cells) (decimal n)], Located (region line) BrokenLine)
+      ( [CellCount (region line) k n (length cells) (isDecimalComma n)],
+        Located (region line) BrokenLine
+      )
   ([], e : es) -> ([], Located (region line) (Entries (e :| es)))
-  (wrong, _) -> (wrong, Located (region line) BrokenLine)
+  (errors, _) -> (errors, Located (region line) BrokenLine)
   where
-    cells = filled (NonEmpty.toList (fields separator line))
-    -- Too many cells of digits alone may be the halves of numbers with a decimal comma.
-    decimal n =
+    cells = withoutLastEmpty (NonEmpty.toList (cellsOf separator line))
+    -- Too many cells that consist of digits may be the halves of numbers with a decimal comma.
+    isDecimalComma n =
       separator == ','
         && length cells > n
         && all (Text.all isDigit . Text.dropWhile (`elem` ['-', '+']) . value) cells
-    -- Nothing behind the last separator is no cell.
-    filled found = case reverse found of
-      Located _ "" : rest@(_ : _ : _) -> reverse rest
-      _ -> found
-    number (Located at text) = case Text.uncons text of
-      Just ('-', rest) ->
-        maybe
-          (wrongly at text)
-          (Right . Located at . Negate . Located (Region (start at + 1) (end at)))
-          (numeral (Text.stripStart rest))
-      Just ('+', rest) -> maybe (wrongly at text) (Right . Located at) (numeral rest)
-      _ -> maybe (wrongly at text) (Right . Located at) (numeral text)
-    wrongly at text = Left (BadCell at text)
-    -- Behind its sign.
-    numeral text =
-      let digits = if separator == ',' then text else Text.replace "," "." text
-       in case Read.rational digits :: Either String (Double, Text) of
-            Right (x, "")
-              | Text.all (`elem` ("0123456789.eE+-" :: String)) digits,
-                not (isInfinite x),
-                not (any ((`elem` ("+-" :: String)) . fst) (Text.uncons digits)) ->
-                Just (Literal (Numeral digits x) Nothing)
-            _ -> Nothing
+
+-- | Drops an empty cell after the last separator.
+withoutLastEmpty :: [Located Text] -> [Located Text]
+withoutLastEmpty cells = case reverse cells of
+  Located _ "" : rest@(_ : _ : _) -> reverse rest
+  _ -> cells
+
+-- | Reads a cell: a number with an optional sign.
+number :: Char -> Located Text -> Either Error Expr
+number separator (Located at text) = maybe (Left (BadCell at text)) (Right . Located at) $
+  case Text.uncons text of
+    Just ('-', rest) ->
+      Negate . Located (Region (start at + 1) (end at)) <$> numeral separator (Text.stripStart rest)
+    Just ('+', rest) -> numeral separator rest
+    _ -> numeral separator text
+
+-- | Reads a number without a sign. Unless the separator is the comma, a decimal comma is allowed.
+numeral :: Char -> Text -> Maybe Expr_
+numeral separator text = case Read.rational digits :: Either String (Double, Text) of
+  Right (x, "")
+    | Text.all (`elem` ("0123456789.eE+-" :: String)) digits,
+      not (isInfinite x),
+      not (any ((`elem` ("+-" :: String)) . fst) (Text.uncons digits)) ->
+      Just (Literal (Numeral digits x) Nothing)
+  _ -> Nothing
+  where
+    digits = if separator == ',' then text else Text.replace "," "." text

@@ -1,7 +1,8 @@
--- | What can be wrong with the form of a program.
+-- | Mistakes in the syntax of a program, its imports and its table files, and their reports.
 module Surface.Error
   ( Error (..),
     FoundText (..),
+    Enclosure (..),
     toReport,
   )
 where
@@ -24,63 +25,79 @@ import Report.Report
 import Surface.Keyword qualified as Keyword
 import Surface.Token (Token_ (..), columnUnits, describe, unitName)
 
--- | A fact about the text, and where it stands.
+-- | A mistake with the region that a report points at, and the facts of the report.
 data Error
-  = -- | a token where something else was expected, and the tokens beside it
+  = -- | a token where others were expected, and its neighbours
     Unexpected Region FoundText [Text] Neighbours
-  | -- | a bracket that is never closed: where it was missed, the bracket, what it opened
-    Unclosed Region Region Text
-  | -- | a word that begins no statement; the words that do
+  | -- | an enclosure without its closing bracket: the region where that was expected, the opening
+    -- bracket, the enclosure
+    Unclosed Region Region Enclosure
+  | -- | a word that begins no statement; the keywords that do
     UnknownStatement Region Text [Text]
-  | -- | a keyword or a unit where a name was to be given
+  | -- | a reserved word where a name is defined
     Reserved Region Text
-  | -- | something behind a complete statement or item
+  | -- | a token after a complete statement on the same line
     Trailing Region Token_ Neighbours
-  | -- | something in a row of a table that is no cell
+  | -- | a token in a row of a table that begins no cell
     NotInRow Region Token_ Neighbours
-  | -- | something among the names of a table's columns that is none
+  | -- | a token among the headings of a table that begins no heading
     NotInHeadings Region Token_ Neighbours
-  | -- | a piece of which nothing says on which side of its curve it lies; what stands there instead
+  | -- | a piece without the side of its curve; the text found instead
     NoSide Region FoundText
-  | -- | a statement in the braces of another
+  | -- | a statement in the braces of another: its keyword
     Misplaced Region Text
-  | -- | brackets nested deeper than so many
+  | -- | brackets nested deeper than the limit
     TooDeep Region Int
-  | -- | more words and signs than so many
+  | -- | a program with more tokens than the limit
     TooLong Region Int
   | -- | brackets with more than three values
     ManyCoordinates Region
-  | -- | a file that cannot be imported: its name as it is written, and why
+  | -- | a file that cannot be imported: its name as written, the reason
     ImportMissing Region Text Text
-  | -- | a file of a table that cannot be read: its name as it is written, and why
+  | -- | imports inside one another beyond the limit: the name of the file as written
+    ImportTooDeep Region Text Int
+  | -- | an import of an input sheet: the name of the file as written
+    ImportOfSheet Region Text
+  | -- | a table file that cannot be read: its name as written, the reason
     LinesMissing Region Text Text
   | -- | files that import one another, the first again at the end
     ImportCycle Region [Text]
-  | -- | a file for a table with nothing in it
+  | -- | an empty table file
     EmptyTable Region
-  | -- | what should name a column, as it is written
+  | -- | a text in a file that cannot name a column
     BadHeading Region Text
-  | -- | what should be a number of a table, as it is written
+  | -- | a text in a file that is not a number
     BadCell Region Text
-  | -- be those of decimals
-
-    -- | a row in a file: its number from 1, how many columns there are, how many cells it has, and
-    -- whether its commas may
+  | -- | a row of the wrong length in a file: its number from 1, the number of columns, the number
+    -- of cells. The flag tells if its commas may be decimal commas
     CellCount Region Int Int Int Bool
-  | -- | a value from outside for a name that is no parameter; the parameters
+  | -- | a command-line value for an unknown parameter; the parameters
     NoSuchParam Text [Text]
-  | -- | a value from outside that is none: the parameter, its name, the text
+  | -- | a command-line value that cannot be parsed: the parameter, its name, the text, the number of
+    -- errors in it
     BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
--- | The token before, and the token behind if it touches.
+-- | The token before, and the token after if nothing separates it.
 type Neighbours = (Maybe Token_, Maybe Token_)
 
--- | What stands there.
+-- | The text at a region.
 data FoundText = FoundToken Token_ | FoundEnd
   deriving stock (Eq, Ord, Show)
 
--- | The words for it.
+-- | A part of a program between two brackets.
+data Enclosure
+  = -- | an opening parenthesis or square bracket
+    BracketOf Text
+  | -- | the contour of a name
+    ContourBlock Text
+  | TableBlock
+  | RepetitionBlock
+  | -- | the block after a keyword
+    BlockOf Text
+  deriving stock (Eq, Ord, Show)
+
+-- | The report of a mistake.
 toReport :: Error -> Report
 toReport err = case err of
   Unexpected region (FoundToken (Stray c)) _ _ ->
@@ -113,7 +130,7 @@ toReport err = case err of
           FoundEnd -> []
       }
   Unclosed region opened what ->
-    (at region "E0105" (what <> " is not closed"))
+    (at region "E0105" (enclosureWords what <> " is not closed"))
       { label = "the closing bracket was expected before this",
         others = [Label opened "opened here"]
       }
@@ -185,10 +202,14 @@ toReport err = case err of
     (at region "E0112" ("the table " <> quote name <> " cannot be read: " <> why))
       { hints = ["The name is looked for from the folder of the file that names it."]
       }
-  ImportMissing region name why ->
-    (at region "E0112" (quote name <> " cannot be imported: " <> why))
-      { hints = ["The name is looked for from the folder of the file that imports it."]
-      }
+  ImportMissing region name why -> notImported region name why
+  ImportTooDeep region name limit ->
+    notImported
+      region
+      name
+      ("imports are nested more than " <> Decimal.whole limit <> " deep")
+  ImportOfSheet region name ->
+    notImported region name "it is an input sheet, of which partc import makes a program"
   ImportCycle region files ->
     (at region "E0113" "this file imports itself")
       { message = [Text.intercalate " imports " files <> "."],
@@ -264,7 +285,23 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
 
--- | A keyword that is nearly what stands there, if one was expected.
+-- | The report of a file that cannot be imported.
+notImported :: Region -> Text -> Text -> Report
+notImported region name why =
+  (at region "E0112" (quote name <> " cannot be imported: " <> why))
+    { hints = ["The name is looked for from the folder of the file that imports it."]
+    }
+
+-- | The noun of an enclosure.
+enclosureWords :: Enclosure -> Text
+enclosureWords enclosure = case enclosure of
+  BracketOf bracket -> quote bracket
+  ContourBlock name -> "the contour " <> quote name
+  TableBlock -> "the table"
+  RepetitionBlock -> "the repetition"
+  BlockOf keyword -> "the block of " <> quote keyword
+
+-- | Suggests an expected keyword that resembles the token.
 meant :: Token_ -> [Text] -> [Text]
 meant token expected = case token of
   Word word ->
@@ -275,7 +312,7 @@ meant token expected = case token of
   where
     words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
 
--- | What is probably meant by a token in the wrong place, from what stands beside it.
+-- | Suggests the intention of a misplaced token by its neighbours.
 advice :: Token_ -> Neighbours -> [Text]
 advice token neighbours = case (token, neighbours) of
   (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
@@ -300,7 +337,7 @@ advice token neighbours = case (token, neighbours) of
       ]
   _ -> []
 
--- | What is probably meant by a token that is no cell of a row.
+-- | Suggests the intention of a token that begins no cell of a row.
 rowAdvice :: Token_ -> Neighbours -> [Text]
 rowAdvice token neighbours = case (token, neighbours) of
   (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
@@ -318,7 +355,7 @@ rowAdvice token neighbours = case (token, neighbours) of
     spaces = "The values of a row stand one after another with spaces between them: 0 40"
     computed what = "What is no plain number stands in brackets: (" <> what <> ")."
 
--- | The same among the names of columns.
+-- | Suggests the intention of a token that begins no heading of a table.
 headingAdvice :: Token_ -> [Text]
 headingAdvice token = case token of
   Symbol "/" -> [units]
@@ -339,13 +376,13 @@ headingAdvice token = case token of
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
--- | Whether only one certain word fits: then there is nothing to guess.
+-- | Tells if exactly one word was expected, so that no suggestion is needed.
 isWord :: [Text] -> Bool
 isWord expected = case expected of
   [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one
   _ -> False
 
--- | Whether a token is wrong wherever it stands.
+-- | Tells if a token is wrong anywhere in a program.
 isBroken :: Token_ -> Bool
 isBroken token = case token of
   Stray _ -> True

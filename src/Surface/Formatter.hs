@@ -1,8 +1,9 @@
--- | The canonical layout of a program text, its comments included.
+-- | The formatter: the canonical layout of a program text with its comments.
 --
--- The tree is printed anew. Comments stay where they stood: on a line of their own above what
--- follows, or behind what they follow. A comment within something that now stands on one line goes
--- behind that line, or above it when the place is taken.
+-- The syntax tree is printed anew and comments are placed among the printed lines. A comment on a
+-- line of its own stays above the text that it precedes, a trailing comment after the text that it
+-- follows. A comment inside a text that is now printed on one line goes to the end of that line, or
+-- above it if the end is taken.
 module Surface.Formatter
   ( format,
     layout,
@@ -17,86 +18,94 @@ import Data.Maybe qualified as Maybe
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.Alignment (AlignedLine (..), LineText (..))
+import Surface.Alignment (AlignedLine (..), LineCells (..))
 import Surface.Alignment qualified as Alignment
 import Surface.Error (Error)
 import Surface.Lexer qualified as Lexer
 import Surface.Parser qualified as Parser
-import Surface.PrintExpression (Commented (..))
+import Surface.PrintExpression (CommentPositions (..))
 import Surface.PrintProgram qualified as PrintProgram
-import Surface.SourceLine (Anchored (..))
+import Surface.SourceLine (SourceLine (..))
 import Surface.SourceLine qualified as SourceLine
 import Surface.Syntax (Program (..))
 import Surface.Token (Token, Token_ (Symbol))
 import Surface.Token qualified as Token
 import Surface.Unlocated qualified as Unlocated
 
--- | The text in the canonical layout; nothing when it has mistakes. The meaning and the comments
--- stay: should the layout ever fail in that, which would be a bug, the text stays as it is.
+-- | Formats a text; 'Nothing' if it has mistakes. If the new layout ever changed the meaning or the
+-- comments, which would be a bug, the text is left unchanged.
 format :: Text -> Maybe Text
 format text = fmap checked (layout text)
   where
-    checked new = if (same `on` program) (normal text) new then new else text
-    same a b = Maybe.isJust a && a == b
-    program t =
+    checked new = if (isSame `on` content) (normalised text) new then new else text
+    isSame a b = Maybe.isJust a && a == b
+    content t =
       fmap
         (\p -> (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p)))
         (parsed t)
 
--- | The layout as it comes, without the check that nothing is lost.
+-- | 'format' without the check that meaning and comments are kept.
 layout :: Text -> Maybe Text
-layout text = fmap (laidOut (normal text)) (parsed (normal text))
+layout text = fmap (laidOut (normalised text)) (parsed (normalised text))
 
+-- | The program of a text without mistakes.
 parsed :: Text -> Maybe Program
 parsed text = case Parser.parse 0 text :: Result () Error Program of
   Result {errors = [], output} -> output
   _ -> Nothing
 
--- | Lines end with LF, and no mark of the byte order is there.
-normal :: Text -> Text
-normal text =
+-- | A text with LF as line end and without a byte order mark.
+normalised :: Text -> Text
+normalised text =
   Text.replace
     "\r"
     "\n"
     (Text.replace "\r\n" "\n" (Maybe.fromMaybe text (Text.stripPrefix "\xFEFF" text)))
 
+-- | The canonical layout of a text and its program.
 laidOut :: Text -> Program -> Text
-laidOut text program = Text.unlines (written (tidy (entries source remarks rows)))
+laidOut text program = Text.unlines (renderEntries (withoutLeadingGaps (entries source remarks rows)))
   where
     source = Region.fromText "" text
     remarks = map (remark source) (comments program)
     tokens = fst (Lexer.tokens 0 text)
-    places = map offset remarks
-    between set from to = maybe False (< to) (Set.lookupGE from set)
-    marks =
-      Commented
-        { anywhere = between (Set.fromList places),
-          atComma = between (Set.fromList (besideCommas tokens places))
+    offsets = map offset remarks
+    isAnyBetween set from to = maybe False (< to) (Set.lookupGE from set)
+    positions =
+      CommentPositions
+        { isBetween = isAnyBetween (Set.fromList offsets),
+          isAtComma = isAnyBetween (Set.fromList (offsetsAtCommas tokens offsets))
         }
     rows =
       concatMap
-        (parted marks)
-        (SourceLine.anchored tokens (PrintProgram.rows marks (statements program)))
+        (splitEmptyBlock positions)
+        (SourceLine.withSources tokens (PrintProgram.rows positions (statements program)))
 
--- | Those of some places, in order, that have a comma directly before or behind them.
-besideCommas :: [Token] -> [Int] -> [Int]
-besideCommas = go False
+-- | Selects the offsets, given in order, that have a comma directly before or after them.
+offsetsAtCommas :: [Token] -> [Int] -> [Int]
+offsetsAtCommas = go False
   where
-    -- Whether the last token was a comma.
-    go after tokens places = case (tokens, places) of
+    -- The flag tells if the last token was a comma.
+    go isAfterComma tokens offsets = case (tokens, offsets) of
       (_, []) -> []
-      ([], _) -> if after then places else []
+      ([], _) -> if isAfterComma then offsets else []
       (t : rest, at : others)
-        | start (Token.place t) < at -> go (comma t) rest places
-        | after || comma t -> at : go after tokens others
-        | otherwise -> go after tokens others
-    comma t = Token.shape t == Symbol ","
+        | start (Token.place t) < at -> go (isComma t) rest offsets
+        | isAfterComma || isComma t -> at : go isAfterComma tokens others
+        | otherwise -> go isAfterComma tokens others
+    isComma t = Token.shape t == Symbol ","
 
 -- Comments
 
--- | A comment, where it stands, whether something stands before it on its line, and whether the
--- line above is blank.
-data Remark = Remark {offset :: Int, text :: Text, trailing :: Bool, apart :: Bool}
+-- | A comment of the text.
+data Remark = Remark
+  { offset :: Int,
+    text :: Text,
+    -- | other text precedes it on its line
+    isTrailing :: Bool,
+    -- | it has a line of its own, and the line above is blank
+    isApart :: Bool
+  }
   deriving stock (Eq, Show)
 
 remark :: Source -> Located Text -> Remark
@@ -104,102 +113,131 @@ remark source (Located region text) =
   Remark
     { offset = start region,
       text = Text.stripEnd text,
-      trailing,
-      apart = not trailing && blankAbove source (start region)
+      isTrailing,
+      isApart = not isTrailing && isBlankAbove source (start region)
     }
   where
     Region.Position {Region.column} = Region.position source (start region)
-    trailing =
-      not (Text.null (Text.strip (Text.take (column - 1) (Region.lineText source (start region)))))
+    before = Text.take (column - 1) (Region.lineText source (start region))
+    isTrailing = not (Text.null (Text.strip before))
 
--- | Whether the line above that of an offset is blank.
-blankAbove :: Source -> Int -> Bool
-blankAbove source at =
+-- | Tells if the line above that of an offset is blank.
+isBlankAbove :: Source -> Int -> Bool
+isBlankAbove source at =
   line > 1 && Text.null (Text.strip (Region.lineText source (Region.offset source (line - 1) 1)))
   where
     Region.Position {Region.line} = Region.position source at
 
--- | A row that ends with an empty block is two when a comment stands in the block.
-parted :: Commented -> Anchored -> [Anchored]
-parted marks anchor = case (reverse (shapes anchor), reverse (places anchor)) of
+-- | Splits a row that ends with an empty block, if a comment is inside the block.
+splitEmptyBlock :: CommentPositions -> SourceLine -> [SourceLine]
+splitEmptyBlock positions anchor = case (reverse (shapes anchor), reverse (sources anchor)) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
-    | anywhere marks (start (Token.place open)) (start (Token.place close)) ->
+    | isBetween positions (start (Token.place open)) (start (Token.place close)) ->
       [ anchor
-          { row = (row anchor) {cells = Whole (Text.dropEnd 2 (Alignment.plain (row anchor)))},
+          { row = (row anchor) {cells = WholeLine (Text.dropEnd 2 (Alignment.unaligned (row anchor)))},
             shapes = init (shapes anchor),
-            places = init (places anchor)
+            sources = init (sources anchor)
           },
-        Anchored
-          { row = AlignedLine {indent = indent (row anchor), cells = Whole "}", continues = False},
+        SourceLine
+          { row = AlignedLine {indent = indent (row anchor), cells = WholeLine "}", isContinuation = False},
             shapes = [Symbol "}"],
-            places = [Just close]
+            sources = [Just close]
           }
       ]
   _ -> [anchor]
 
 -- Lines
 
--- | A line of the output, and whether a blank one is wanted above it.
-data Entry = Entry {gap :: Bool, line :: Content}
+-- | A line of the output. The flag asks for a blank line above it.
+data Entry = Entry {hasGap :: Bool, line :: Content}
   deriving stock (Eq, Show)
 
+-- | The content of a line.
 data Content
   = -- | a comment with its indentation
     Own Int Text
-  | -- | a row, and the comment behind it
-    Printed Anchored (Maybe Text)
+  | -- | a row with its trailing comment
+    Printed SourceLine (Maybe Text)
   deriving stock (Eq, Show)
 
--- | Rows with the comments among them.
-entries :: Source -> [Remark] -> [Anchored] -> [Entry]
-entries source remarks rows = go (zip rows (starts rows)) remarks []
+-- | Places comments among rows.
+entries :: Source -> [Remark] -> [SourceLine] -> [Entry]
+entries source remarks rows = go (zip rows (extents rows)) remarks []
   where
-    -- The first comments are those that go above the next row.
+    -- The last argument has the comments that go above the next row.
     go left rest above = case left of
-      [] -> map (own 0) (above <> rest)
-      (anchor, (from, finish)) : more ->
-        let (early, others) = span ((< from) . offset) rest
-            (mine, later) = case more of
-              (_, (next, _)) : _ -> span ((< next) . offset) others
-              [] -> (others, [])
-            (within, behind) = span ((< finish) . offset) mine
-            (tail', below) = case behind of
-              r : rs | trailing r -> (Just r, rs)
-              _ -> (Nothing, behind)
-            (moved, tail'') = case (within, tail') of
-              ([r], Nothing) | trailing r -> ([], Just r)
-              _ -> (within, tail')
-            deep = indent (row anchor) + (if SourceLine.closes anchor then 2 else 0)
-            leading =
-              [(own deep r) {gap = apart r && not (continues (row anchor))} | r <- above <> early]
-            wanted =
-              not (SourceLine.closes anchor)
-                && not (continues (row anchor))
-                && firstOnLine anchor
-                && blankAbove source from
-            shifted =
-              [ Entry {gap = wanted && first, line = Own deep (text r)}
-                | (r, first) <- zip moved (True : repeat False)
-              ]
-         in leading
-              <> shifted
-              <> ( Entry {gap = wanted && null moved, line = Printed anchor (fmap text tail'')} :
-                   go more later below
-                 )
-    own deep r = Entry {gap = apart r, line = Own deep (text r)}
-    firstOnLine anchor = maybe False Token.newLine (found anchor)
-    found anchor = Maybe.listToMaybe (Maybe.catMaybes (take 1 (places anchor)))
+      [] -> map (ownLine 0) (above <> rest)
+      (anchor, extent) : more ->
+        let next = fst . snd <$> Maybe.listToMaybe more
+            shares = shareOut extent next rest
+         in rowEntries source anchor (fst extent) above shares <> go more (later shares) (below shares)
 
--- | Where each row begins and ends in the source; a row that is not there stands where the one
--- before it ends. The comma at the end of a row does not count: a comment before it is one behind
--- the row.
-starts :: [Anchored] -> [(Int, Int)]
-starts = go 0
+-- | The comments from a row on, by the line that they go to.
+data Shares = Shares
+  { -- | above the row
+    early :: [Remark],
+    -- | above the row, although they were inside it
+    displaced :: [Remark],
+    -- | at the end of the row
+    trailing :: Maybe Remark,
+    -- | between the row and the next one
+    below :: [Remark],
+    -- | after the offset at which the next row begins
+    later :: [Remark]
+  }
+
+-- | Shares comments out between a row of an extent and the rows after it, of which the next begins
+-- at an offset.
+shareOut :: (Int, Int) -> Maybe Int -> [Remark] -> Shares
+shareOut (from, finish) next remarks = case (inside, trailingRemark) of
+  ([r], Nothing) | isTrailing r -> Shares {early, displaced = [], trailing = Just r, below, later}
+  _ -> Shares {early, displaced = inside, trailing = trailingRemark, below, later}
   where
-    go end' anchors = case anchors of
+    (early, others) = span ((< from) . offset) remarks
+    (own, later) = maybe (others, []) (\n -> span ((< n) . offset) others) next
+    (inside, after) = span ((< finish) . offset) own
+    (trailingRemark, below) = case after of
+      r : rs | isTrailing r -> (Just r, rs)
+      _ -> (Nothing, after)
+
+-- | The lines of a row that begins at an offset: the comments above it, and the row itself.
+rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
+rowEntries source anchor from above shares =
+  [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
+    <> [ Entry {hasGap = isGapWanted && isFirst, line = Own deep (text r)}
+         | (r, isFirst) <- zip (displaced shares) (True : repeat False)
+       ]
+    <> [ Entry
+           { hasGap = isGapWanted && null (displaced shares),
+             line = Printed anchor (text <$> trailing shares)
+           }
+       ]
+  where
+    deep = indent (row anchor) + (if SourceLine.isClosing anchor then 2 else 0)
+    isStart = not (isContinuation (row anchor))
+    isGapWanted =
+      isStart
+        && not (SourceLine.isClosing anchor)
+        && isFirstOnLine
+        && isBlankAbove source from
+    isFirstOnLine = case sources anchor of
+      Just t : _ -> Token.newLine t
+      _ -> False
+
+-- | A comment on a line of its own.
+ownLine :: Int -> Remark -> Entry
+ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
+
+-- | The first and the last offset of each row in the source. A row without tokens in the source is
+-- at the end of the row before it. A comma at the end of a row does not count, so that a comment
+-- before the comma is at the end of the row.
+extents :: [SourceLine] -> [(Int, Int)]
+extents = go 0
+  where
+    go previousEnd anchors = case anchors of
       [] -> []
-      anchor : rest -> case map Token.place (Maybe.catMaybes (places anchor)) of
-        [] -> (end', end') : go end' rest
+      anchor : rest -> case map Token.place (Maybe.catMaybes (sources anchor)) of
+        [] -> (previousEnd, previousEnd) : go previousEnd rest
         first : more ->
           let finish = end (last (first : beforeComma anchor more))
            in (start first, finish) : go (end (last (first : more))) rest
@@ -208,46 +246,48 @@ starts = go 0
         then take (length regions - 1) regions
         else regions
 
--- | No blank line at the beginning of the text or of a block.
-tidy :: [Entry] -> [Entry]
-tidy list = zipWith keep (Nothing : map Just list) list
+-- | Removes blank lines at the beginning of the text and of blocks.
+withoutLeadingGaps :: [Entry] -> [Entry]
+withoutLeadingGaps list = zipWith keep (Nothing : map Just list) list
   where
-    keep before entry = entry {gap = gap entry && maybe False (not . opensBlock . line) before}
-    opensBlock content = case content of
+    keep before entry =
+      entry {hasGap = hasGap entry && maybe False (not . isBlockStart . line) before}
+    isBlockStart content = case content of
       Own _ _ -> False
-      Printed anchor _ -> SourceLine.opens anchor
+      Printed anchor _ -> SourceLine.isOpening anchor
 
--- | The lines: columns line up in rows that nothing separates, and so do the comments behind them.
-written :: [Entry] -> [Text]
-written list = commented (go list)
+-- | Renders the lines. Columns are aligned in runs of rows without gaps and comments between them,
+-- and so are trailing comments.
+renderEntries :: [Entry] -> [Text]
+renderEntries list = withComments (go list)
   where
     go es = case es of
       [] -> []
-      Entry {gap, line = Own deep text} : rest ->
-        blank gap <> [(Text.replicate deep " " <> text, Nothing)] <> go rest
-      Entry {gap, line = Printed anchor tail'} : rest ->
-        let (run, others) = span joins rest
-            together = (anchor, tail') : [(a, t) | Entry {line = Printed a t} <- run]
-         in blank gap
-              <> zip (Alignment.aligned (map (row . fst) together)) (map snd together)
+      Entry {hasGap, line = Own deep text} : rest ->
+        blank hasGap <> [(Text.replicate deep " " <> text, Nothing)] <> go rest
+      Entry {hasGap, line = Printed anchor comment} : rest ->
+        let (run, others) = span isJoined rest
+            together = (anchor, comment) : [(a, t) | Entry {line = Printed a t} <- run]
+         in blank hasGap
+              <> zip (Alignment.render (map (row . fst) together)) (map snd together)
               <> go others
-    joins entry = not (gap entry) && isRow (line entry)
+    isJoined entry = not (hasGap entry) && isRow (line entry)
     isRow content = case content of
       Own _ _ -> False
       Printed _ _ -> True
-    blank gap = [("", Nothing) | gap]
+    blank isWanted = [("", Nothing) | isWanted]
 
--- | Put the comments behind their lines.
-commented :: [(Text, Maybe Text)] -> [Text]
-commented list = case list of
+-- | Puts trailing comments after their lines, aligned within each run of lines that have them.
+withComments :: [(Text, Maybe Text)] -> [Text]
+withComments list = case list of
   [] -> []
-  (line, Nothing) : rest -> line : commented rest
+  (line, Nothing) : rest -> line : withComments rest
   _ ->
     let (run, others) = span (Maybe.isJust . snd) list
         column = maximum (commentColumn : [Text.length line + 2 | (line, _) <- run])
      in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run]
-          <> commented others
+          <> withComments others
 
--- | Comments stand so far from the margin, unless the lines before them are longer.
+-- | The column of trailing comments, from 0, unless the lines before them are longer.
 commentColumn :: Int
 commentColumn = 39

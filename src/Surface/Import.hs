@@ -1,7 +1,7 @@
--- | A program together with what it imports.
+-- | A program together with the files that it imports.
 --
--- An imported file gives its definitions (@let@, @param@, @contour@, and what it imports itself);
--- its settings and motions stay behind. Each file is read once, however often it is imported.
+-- An import is replaced by the definitions of the imported file and of the files that it imports
+-- itself. Settings and motions of an imported file are dropped. Each file is read once.
 module Surface.Import
   ( Reader (..),
     byName,
@@ -10,7 +10,6 @@ module Surface.Import
   )
 where
 
-import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -33,38 +32,44 @@ import System.FilePath
     (</>),
   )
 
--- | How files are read.
+-- | Access to files.
 data Reader m = Reader
-  { -- | the text of a file, or why it cannot be read
+  { -- | the text of a file, or the reason why it cannot be read
     contents :: FilePath -> m (Either Text Text),
-    -- | a name that is the same for all paths to one file
+    -- | one name for all paths to the same file
     identity :: FilePath -> m FilePath
   }
 
--- | Where each file has one path.
+-- | A reader for files that have one path each.
 byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
 byName contents = Reader {contents, identity = pure}
 
--- | All texts, and one program of them; where each import stands, and the file that it names.
+-- | A program with all its texts.
 data ImportedProgram = ImportedProgram
-  { source :: Source,
+  { -- | the texts of the program and of all files read
+    source :: Source,
+    -- | the program with its imports replaced
     surface :: Result Error Error Program,
+    -- | the regions of imports and of table files, with the paths that they name
     imports :: [(Region, Text)]
   }
 
--- | What is known between two files.
+-- | The state between two files.
 data Progress = Progress
   { texts :: Source,
+    -- | the identities of the programs read
     seen :: Set FilePath,
+    -- | the newest first
     found :: [Error],
+    -- | the newest first
     named :: [(Region, Text)]
   }
 
--- | Read a program and what it imports: the name of its file, for reports and for the places of the
--- others; its text.
+-- | Reads a program and the files that it imports. The path of the program appears in reports; the
+-- paths of imports are relative to it.
 load :: Monad m => Reader m -> FilePath -> Text -> m ImportedProgram
 load reader path text = do
-  itself <- identity reader (simple path)
+  itself <- identity reader (simplified path)
   let Result {errors, output} = Parser.parse 0 text
       begin =
         Progress
@@ -77,8 +82,9 @@ load reader path text = do
     Nothing ->
       pure ImportedProgram {source = texts begin, surface = Result [] errors Nothing, imports = []}
     Just whole -> do
+      let chain = Chain {open = [(itself, simplified path)], file = path}
       (statements', progress) <-
-        runStateT (imported reader [(itself, simple path)] path (statements whole)) begin
+        runStateT (replaceImports reader chain (statements whole)) begin
       pure
         ImportedProgram
           { source = texts progress,
@@ -90,113 +96,126 @@ load reader path text = do
             imports = reverse (named progress)
           }
 
--- | The statements of a file with its imports replaced by what they bring. The files that are being
--- read stand on a stack, by what they are and by the paths that they were named by.
-imported ::
-  Monad m =>
-  Reader m ->
-  [(FilePath, FilePath)] ->
-  FilePath ->
-  [Statement] ->
-  StateT Progress m [Statement]
-imported reader stack path = fmap concat . mapM one
+-- | The files between the program and the present file.
+data Chain = Chain
+  { -- | identities and paths, the present file first
+    open :: [(FilePath, FilePath)],
+    -- | the path of the present file
+    file :: FilePath
+  }
+
+-- | An @import@ statement: its region, the name as written, the path and the identity of the file.
+data ImportedFile = ImportedFile
+  { importRegion :: Region,
+    importName :: Text,
+    importPath :: FilePath,
+    importIdentity :: FilePath
+  }
+
+-- | Replaces the imports and the table files in the statements of a file.
+replaceImports :: Monad m => Reader m -> Chain -> [Statement] -> StateT Progress m [Statement]
+replaceImports reader chain = fmap concat . mapM replace
   where
-    one s = case s of
+    replace s = case s of
       Located _ (Import (Located at name)) -> do
-        let file = simple (takeDirectory path </> Text.unpack name)
-        modify' (\p -> p {named = (at, Text.pack file) : named p})
-        itself <- lift (identity reader file)
-        bring at itself file name
+        path <- namedPath chain at name
+        itself <- lift (identity reader path)
+        importFile
+          reader
+          chain
+          ImportedFile {importRegion = at, importName = name, importPath = path, importIdentity = itself}
       Located region (Table name (LinesOf (Located at file))) -> do
-        let path' = simple (takeDirectory path </> Text.unpack file)
-        modify' (\p -> p {named = (at, Text.pack path') : named p})
-        rows <- linesIn reader at path' file
+        path <- namedPath chain at file
+        rows <- tableLines reader at path file
         pure
-          [ maybe
-              (Located region (Broken (Just "table") (Just name)))
-              (Located region . Table name . WrittenLines)
-              rows
+          [ case rows of
+              Just ls -> Located region (Table name (WrittenLines ls))
+              Nothing -> Located region (Broken (Just "table") (Just name))
           ]
       _ -> pure [s]
-    bring at itself file name
-      | Just begun <- lookup itself stack =
-        mistake
-          at
-          ( ImportCycle
-              at
-              ( map
-                  Text.pack
-                  (reverse (file : map snd (takeWhile ((/= itself) . fst) stack) <> [begun]))
-              )
-          )
-      | length stack > deepest =
-        mistake
-          at
-          ( ImportMissing
-              at
-              name
-              ("imports are nested more than " <> Decimal.whole deepest <> " deep")
-          )
-      | otherwise = do
-        known <- gets (Set.member itself . seen)
-        if known then pure [] else readIn at itself file name
-    readIn at itself file name
-      | takeExtension file == ".sheet" =
-        mistake
-          at
-          (ImportMissing at name "it is an input sheet, of which partc import makes a program")
-      | otherwise = readPart at itself file name
-    readPart at itself file name = do
-      content <- lift (contents reader file)
-      case content of
-        Left why -> mistake at (ImportMissing at name why)
-        Right text -> do
-          progress <- get
-          let Result {errors, output} = Parser.parse (Region.next (texts progress)) text
-          put
-            progress
-              { texts = Region.add (Text.pack file) text (texts progress),
-                seen = Set.insert itself (seen progress),
-                found = reverse errors <> found progress
-              }
-          filter defines
-            <$> imported reader ((itself, file) : stack) file (maybe [] statements output)
 
--- | The lines of a table in a file. It may be read several times; each reading has places of its
--- own.
-linesIn ::
+-- | Records the name of a file that the present file names, and gives its path.
+namedPath :: Monad m => Chain -> Region -> Text -> StateT Progress m FilePath
+namedPath chain at name = do
+  let path = simplified (takeDirectory (file chain) </> Text.unpack name)
+  modify' (\p -> p {named = (at, Text.pack path) : named p})
+  pure path
+
+-- | The definitions of an imported file. A file that is already read gives none.
+importFile :: Monad m => Reader m -> Chain -> ImportedFile -> StateT Progress m [Statement]
+importFile reader chain i
+  | Just firstPath <- lookup (importIdentity i) (open chain) =
+    let between = map snd (takeWhile ((/= importIdentity i) . fst) (open chain))
+        cycle' = reverse (importPath i : between <> [firstPath])
+     in failed (importRegion i) (ImportCycle (importRegion i) (map Text.pack cycle'))
+  | length (open chain) > maxDepth =
+    failed (importRegion i) (ImportTooDeep (importRegion i) (importName i) maxDepth)
+  | otherwise = do
+    isKnown <- gets (Set.member (importIdentity i) . seen)
+    if isKnown
+      then pure []
+      else
+        if takeExtension (importPath i) == ".sheet"
+          then failed (importRegion i) (ImportOfSheet (importRegion i) (importName i))
+          else readProgram reader chain i
+
+-- | Reads an imported program and gives its definitions.
+readProgram :: Monad m => Reader m -> Chain -> ImportedFile -> StateT Progress m [Statement]
+readProgram reader chain i = do
+  content <- lift (contents reader (importPath i))
+  case content of
+    Left reason -> failed (importRegion i) (ImportMissing (importRegion i) (importName i) reason)
+    Right text -> do
+      progress <- get
+      let Result {errors, output} = Parser.parse (Region.next (texts progress)) text
+      put
+        progress
+          { texts = Region.add (Text.pack (importPath i)) text (texts progress),
+            seen = Set.insert (importIdentity i) (seen progress),
+            found = reverse errors <> found progress
+          }
+      filter isDefinition
+        <$> replaceImports
+          reader
+          Chain {open = (importIdentity i, importPath i) : open chain, file = importPath i}
+          (maybe [] statements output)
+
+-- | Reads the lines of a table from a file. A file that several tables name is read for each of
+-- them, so that their lines have different regions.
+tableLines ::
   Monad m =>
   Reader m ->
   Region ->
   FilePath ->
   Text ->
   StateT Progress m (Maybe [TableLine])
-linesIn reader at file name = do
-  content <- lift (contents reader file)
+tableLines reader at path name = do
+  content <- lift (contents reader path)
   case content of
-    Left why -> Nothing <$ modify' (\p -> p {found = LinesMissing at name why : found p})
+    Left reason -> Nothing <$ modify' (\p -> p {found = LinesMissing at name reason : found p})
     Right text -> do
       progress <- get
       let (errors, rows) = Csv.table (Region.next (texts progress)) text
       put
         progress
-          { texts = Region.add (Text.pack file) text (texts progress),
+          { texts = Region.add (Text.pack path) text (texts progress),
             found = reverse errors <> found progress
           }
       pure (if null errors then Just rows else Nothing)
 
--- | What is missing leaves a gap, so that nobody misses the names that it would have brought.
-mistake :: Monad m => Region -> Error -> StateT Progress m [Statement]
-mistake at e =
+-- | Records an error of an import and leaves a broken statement in its place. Checking then excuses
+-- the names that the import would have defined.
+failed :: Monad m => Region -> Error -> StateT Progress m [Statement]
+failed at e =
   [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
 
--- | Imports are not nested deeper.
-deepest :: Int
-deepest = 100
+-- | The largest number of imports inside one another.
+maxDepth :: Int
+maxDepth = 100
 
--- | Whether a statement is something that an import brings.
-defines :: Statement -> Bool
-defines (Located _ s) = case s of
+-- | Tells if a statement is a definition, which an import keeps.
+isDefinition :: Statement -> Bool
+isDefinition (Located _ s) = case s of
   LetValue _ _ -> True
   LetFunction {} -> True
   Param _ _ -> True
@@ -208,9 +227,9 @@ defines (Located _ s) = case s of
   Broken (Just "import") _ -> True
   _ -> False
 
--- | A path without detours, so that one file has one name.
-simple :: FilePath -> FilePath
-simple path = if null parts then "." else joinPath parts
+-- | A path without detours, so that a file has one path.
+simplified :: FilePath -> FilePath
+simplified path = if null parts then "." else joinPath parts
   where
     parts = foldl step [] (splitDirectories (normalise path))
     step before part = case (part, reverse before) of

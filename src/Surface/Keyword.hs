@@ -1,6 +1,7 @@
--- | The words that the language keeps for itself.
+-- | The keywords of the language.
 --
--- Words that only ever stand where no name can (@depth@, @step@, @by@ …) are not among them.
+-- Only reserved words are refused as names. Words that occur only where no name can (@depth@,
+-- @step@, @by@ …) are not reserved.
 module Surface.Keyword
   ( statements,
     softStatements,
@@ -17,46 +18,35 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Surface.Token (unitName)
 
--- | The words that begin a statement and nothing else.
+-- | The keywords that begin a statement and nothing else.
 statements :: [Text]
 statements =
   ["part", "machine", "import", "tool", "feed", "tolerance", "clearance", "from"]
     <> ["let", "param", "table", "curve", "piece", "contour", "assert"]
     <> ["mill", "turn", "drill", "rapid", "move", "change", "spindle", "coolant", "aux", "with"]
 
--- | The words that begin a statement where one can begin, and are names elsewhere: @contour pocket
--- closed@.
+-- | The words that begin a statement at the start of a line and are names elsewhere, as in
+-- @contour pocket closed@.
 softStatements :: [Text]
 softStatements = ["pocket"]
 
--- | The words that begin a statement with a block, and an item of a contour as well.
+-- | The keywords that begin a statement with a block, or an item of a contour.
 blocks :: [Text]
 blocks = ["for", "if"]
 
--- | Whether a word begins an item of a block.
+-- | Tells if a word begins an item of a contour or a setting.
 beginsItem :: Text -> Bool
-beginsItem word = word `elem` (["for", "if", "cw", "ccw", "approach", "retract"] <> settings)
+beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
   where
     settings =
-      [ "depth",
-        "lead",
-        "allowance",
-        "corners",
-        "climb",
-        "conventional",
-        "compensation",
-        "start",
-        "plunge",
-        "peck",
-        "islands",
-        "rest"
-      ]
+      ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
+        <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
 
--- | How the settings begin that may stand in the block of a statement.
+-- | The first words of the settings that are allowed in the block of a statement.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
   "mill" ->
-    ways
+    linkingMoves
       <> ["start near", "climb", "conventional"]
       <> passes
       <> ["depth", "plunge", "compensation", "rest"]
@@ -71,34 +61,25 @@ settingsOf statement = case statement of
       "plunge",
       "rest"
     ]
-  "turn" -> ways <> passes
+  "turn" -> linkingMoves <> passes
   _ -> ["peck", "plunge"]
   where
-    ways = ["approach", "retract", "lead in", "lead out"]
+    linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]
 
--- | Whether a word can not be the name of a value.
+-- | Tells if a word is refused as a name.
 isReserved :: Text -> Bool
 isReserved word = Set.member word reserved
 
--- | The words that can not be names, in the order of the manual.
+-- | The words that are refused as names, in the order of the manual.
 reservedWords :: [Text]
 reservedWords =
   statements
     <> blocks
     <> ["open", "closed", "in", "cw", "ccw", "else", "then", "and", "or", "not"]
     <> ["meet", "near", "smooth", "tangent", "fillet", "chamfer", "slow", "allowance", "bevel"]
-    <> [ "outside",
-         "inside",
-         "left",
-         "right",
-         "on",
-         "within",
-         "first",
-         "last",
-         "approach",
-         "retract"
-       ]
+    <> ["outside", "inside", "left", "right", "on", "within", "first", "last"]
+    <> ["approach", "retract"]
     <> filter (/= "in") (map unitName [minBound .. maxBound])
 
 reserved :: Set Text

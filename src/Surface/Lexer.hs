@@ -1,7 +1,9 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | Text into tokens and comments. Total: whatever is no token becomes one of the
--- broken shapes and is reported by the parser where it stands.
+-- | The lexer: tokens and comments from a text.
+--
+-- The lexer is total. Text that is not a token becomes one of the broken shapes of "Surface.Token",
+-- which the parser reports.
 module Surface.Lexer
   ( tokens,
   )
@@ -18,86 +20,94 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Token (Numeral (Numeral), Token (..), Token_ (..), Unit, unitName)
 
--- | What the lexer knows between two tokens.
+-- | The state of the lexer between two tokens.
 data Before = Before
-  { at :: Int,
-    -- | nothing stands on this line yet
-    fresh :: Bool,
-    -- | the last token ends right here
-    touching :: Bool,
+  { -- | the offset of the next character
+    at :: Int,
+    -- | the line has no token yet
+    isLineStart :: Bool,
+    -- | the last token ends here
+    isTouching :: Bool,
     -- | the last token was the keyword of a @machine@ statement
-    machine :: Bool
+    isMachineNext :: Bool
   }
 
--- | All tokens of a text and all its comments, in order; the first character has the offset given.
--- Each of the two is read for itself, so that none of them waits in memory for the other.
+-- | All tokens and all comments of a text in order. The first character has the given offset. The
+-- two lists are read independently, so that neither keeps the other in memory.
 tokens :: Int -> Text -> ([Token], [Located Text])
 tokens begin text =
-  (tokensFrom before text, if "--" `Text.isInfixOf` text then remarks [] before text else [])
+  (tokensFrom before text, if "--" `Text.isInfixOf` text then commentsFrom [] before text else [])
   where
-    before = Before {at = begin, fresh = True, touching = False, machine = False}
+    before = Before {at = begin, isLineStart = True, isTouching = False, isMachineNext = False}
 
--- | The tokens, piece by piece: what nobody asks for is not read.
+-- | The tokens as a lazy list, read in chunks.
 tokensFrom :: Before -> Text -> [Token]
-tokensFrom before rest = case piece pieceSize [] [] before rest of
-  Piece {ts, stopped, left} ->
+tokensFrom before rest = case chunk chunkSize [] [] before rest of
+  Chunk {ts, stopped, left} ->
     foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
 
--- | The comments behind some others, of which the last one comes first.
-remarks :: [Located Text] -> Before -> Text -> [Located Text]
-remarks found before rest = case piece pieceSize [] found before rest of
-  Piece {cs, stopped, left} -> if Text.null left then reverse cs else remarks cs stopped left
+-- | The comments after those found so far, of which the last one comes first.
+commentsFrom :: [Located Text] -> Before -> Text -> [Located Text]
+commentsFrom found before rest = case chunk chunkSize [] found before rest of
+  Chunk {cs, stopped, left} -> if Text.null left then reverse cs else commentsFrom cs stopped left
 
--- | So many tokens are read at once.
-pieceSize :: Int
-pieceSize = 512
+-- | The number of tokens in a chunk.
+chunkSize :: Int
+chunkSize = 512
 
--- | Some tokens and comments, the last ones first, and what is left of the text.
-data Piece = Piece {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}
+-- | Tokens and comments, the last ones first, and the text that remains.
+data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}
 
--- | Read so many tokens.
-piece :: Int -> [Token] -> [Located Text] -> Before -> Text -> Piece
-piece !count ts cs before rest = case Text.uncons rest of
+-- | Reads @count@ tokens and the comments between them.
+chunk :: Int -> [Token] -> [Located Text] -> Before -> Text -> Chunk
+chunk !count ts cs before rest = case Text.uncons rest of
   Just (c, after)
-    | count <= 0 -> Piece {ts, cs, stopped = before, left = rest}
+    | count <= 0 -> Chunk {ts, cs, stopped = before, left = rest}
     | isLineEnd c ->
-      piece
-        count
-        ts
-        cs
-        Before {at = at before + 1, fresh = True, touching = False, machine = False}
-        after
-    | isBlank c -> piece count ts cs before {at = at before + 1, touching = False} after
+      let next =
+            Before
+              { at = at before + 1,
+                isLineStart = True,
+                isTouching = False,
+                isMachineNext = False
+              }
+       in chunk count ts cs next after
+    | isBlank c -> chunk count ts cs before {at = at before + 1, isTouching = False} after
     | c == '-' && begins (== '-') after ->
-      let (comment, more) = Text.break isLineEnd rest
-          region = Region (at before) (at before + Text.length comment)
-          !remark = Located region comment
-       in piece count ts (remark : cs) before {at = end region, touching = False} more
+      let (text, more) = Text.break isLineEnd rest
+          region = Region (at before) (at before + Text.length text)
+          !comment = Located region text
+       in chunk count ts (comment : cs) before {at = end region, isTouching = False} more
     | otherwise ->
-      case if machine before then machineName rest else token c after rest of
+      case if isMachineNext before then machineName rest else token c after rest of
         First shape size more ->
           let region = Region (at before) (at before + size)
               next =
                 Before
                   { at = end region,
-                    fresh = False,
-                    touching = True,
-                    machine = fresh before && shape == Word "machine"
+                    isLineStart = False,
+                    isTouching = True,
+                    isMachineNext = isLineStart before && shape == Word "machine"
                   }
               found =
-                Token {place = region, shape, newLine = fresh before, attached = touching before}
-           in found `seq` piece (count - 1) (found : ts) cs next more
-  Nothing -> Piece {ts, cs, stopped = before, left = rest}
+                Token
+                  { place = region,
+                    shape,
+                    newLine = isLineStart before,
+                    attached = isTouching before
+                  }
+           in found `seq` chunk (count - 1) (found : ts) cs next more
+  Nothing -> Chunk {ts, cs, stopped = before, left = rest}
 
--- | Whether a text begins with a character for which something holds.
+-- | Tells if a text begins with a character that satisfies the predicate.
 begins :: (Char -> Bool) -> Text -> Bool
 begins holds rest = maybe False (holds . fst) (Text.uncons rest)
 {-# INLINE begins #-}
 
--- | The token that a text begins with, its length, and the text behind it.
+-- | The first token of a text, its length in characters, and the text after it.
 data First = First Token_ Int {-# UNPACK #-} Text
 
--- | The first token of a text, by its first character and what stands behind this.
+-- | Reads the first token of a text, given its first character and the text after that.
 token :: Char -> Text -> Text -> First
 token c !after !rest
   | isDigit c = numeral rest
@@ -119,8 +129,8 @@ token c !after !rest
     sign s = First (Symbol s) 1 after
     two = Text.take 2 rest
 
--- | The name of a machine: letters, digits, @.@ and @-@; a quoted text is the name of a description
--- file.
+-- | Reads the name of a machine, which may contain @.@ and @-@, or the quoted name of a file with a
+-- machine description.
 machineName :: Text -> First
 machineName rest
   | "\"" `Text.isPrefixOf` rest = quoted rest
@@ -131,7 +141,7 @@ machineName rest
     name =
       fst (Text.breakOn "--" (Text.takeWhile (\c -> isAlphaNum c || c == '.' || c == '-') rest))
 
--- | A text in quotation marks, on one line.
+-- | Reads a text in quotation marks, which must end on its line.
 quoted :: Text -> First
 quoted rest = case Text.uncons after of
   Just ('"', more) -> First (Text inside) (Text.length inside + 2) more
@@ -139,44 +149,43 @@ quoted rest = case Text.uncons after of
   where
     (inside, after) = Text.break (\c -> c == '"' || isLineEnd c) (Text.drop 1 rest)
 
--- | A number with the unit that may stand behind it on its line.
+-- | Reads a number and an optional unit on the same line.
 numeral :: Text -> First
 numeral rest = case Decimal.leading rest of
-  Leading {size, worth, behind} -> case (worth, unitBehind behind) of
-    (Just x, unit) | not (junk (Text.take size rest) behind unit) -> case unit of
-      Just (Behind u before length') ->
+  Leading {size, worth, behind} -> case (worth, unitAfter behind) of
+    (Just x, unit) | not (isMalformed (Text.take size rest) behind unit) -> case unit of
+      Just (UnitAfter u gap width) ->
         First
           (Number (Numeral (Text.take size rest) x) (Just u))
-          (size + before + length')
-          (Text.drop (before + length') behind)
+          (size + gap + width)
+          (Text.drop (gap + width) behind)
       Nothing -> First (Number (Numeral (Text.take size rest) x) Nothing) size behind
     _ ->
-      let (written, more) =
-            Text.span (\c -> isWordPart c || c == '.') rest
+      let (written, more) = Text.span (\c -> isWordPart c || c == '.') rest
        in First (BadNumber written) (Text.length written) more
   where
-    -- Letters or a further decimal point that touch the number and are no unit.
-    junk digits behind unit = case Text.uncons behind of
+    -- A second decimal point, or letters that touch the number and are not a unit.
+    isMalformed digits after unit = case Text.uncons after of
       Just ('.', more) -> Text.any (== '.') digits && not (begins (== '.') more)
-      Just (c, _) -> isWordPart c && maybe True (\(Behind _ gap _) -> gap > 0) unit
+      Just (c, _) -> isWordPart c && maybe True (\(UnitAfter _ gap _) -> gap > 0) unit
       Nothing -> False
 
--- | A unit behind a number, the spaces before it, its length.
-data Behind = Behind Unit Int Int
+-- | A unit after a number, the number of spaces before it, and its length in characters.
+data UnitAfter = UnitAfter Unit Int Int
 
--- | A unit at most some spaces away.
-unitBehind :: Text -> Maybe Behind
-unitBehind = go 0
+-- | Reads a unit after any number of spaces.
+unitAfter :: Text -> Maybe UnitAfter
+unitAfter = go 0
   where
     go gap text = case Text.uncons text of
       Just (c, more)
         | isBlankInLine c -> go (gap + 1) more
         | isWordStart c ->
-          (\(unit, _, size) -> Behind unit gap size) <$> find (fits text) longestFirst
+          (\(unit, _, size) -> UnitAfter unit gap size) <$> find (fits text) longestFirst
       _ -> Nothing
     fits word (_, name, _) = maybe False (not . begins isWordPart) (Text.stripPrefix name word)
 
--- | The units with their names and the lengths of these.
+-- | The units with their names and the lengths of the names, the longest first.
 longestFirst :: [(Unit, Text, Int)]
 longestFirst =
   sortOn
@@ -186,8 +195,9 @@ longestFirst =
 isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
--- | Most characters are those of ASCII, of which the answer is known without tables.
-isBlank :: Char -> Bool
+-- | Tells if a character is white space. ASCII characters, which are most, need no Unicode tables.
+isBlank
+ :: Char -> Bool
 isBlank c = c == ' ' || (c < '!' || c > '~') && isSpace c
 
 isBlankInLine :: Char -> Bool

@@ -1,4 +1,4 @@
--- | Values from outside for the parameters of a program.
+-- | Values for the parameters of a program that its user gives on the command line.
 module Surface.Parameter
   ( assign,
   )
@@ -14,28 +14,32 @@ import Surface.Error (Error (..))
 import Surface.Parser qualified as Parser
 import Surface.Syntax
 
--- | Give @param@ statements other values: names, and values as they would stand in the program. The
--- later of two values for one name counts.
+-- | Replaces the values of @param@ statements. Each value is a name and the text of an expression.
+-- The last of several values for one name counts.
 assign :: [(Text, Text)] -> Program -> Result w Error Program
-assign values program = foldl' (\before v -> before >>= one v) (pure program) values
-  where
-    one (name, text) before =
-      case [at | Located _ (Param (Located at (Name n)) _) <- statements before, n == name] of
-        [] ->
-          Result.failing
-            [NoSuchParam name [n | Located _ (Param (Located _ (Name n)) _) <- statements program]]
-            before
-        at : _ -> case Parser.parseExpr text of
-          Result {errors = [], output = Just e} ->
-            pure before {statements = map (replaced name (placed at e)) (statements before)}
-          Result {errors} -> Result.failing [BadAssignment at name text (length errors)] before
-    replaced name e s = case s of
-      Located at (Param n@(Located _ (Name n')) _) | n' == name -> Located at (Param n e)
-      _ -> s
+assign values program = foldl' (\before v -> before >>= assignOne v) (pure program) values
 
--- | An expression from outside stands where the parameter's name stands.
-placed :: Region -> Expr -> Expr
-placed at (Located _ e) = Located at $ case e of
+assignOne :: (Text, Text) -> Program -> Result w Error Program
+assignOne (name, text) program =
+  case [at | Located at (Name n) <- parameters, n == name] of
+    [] -> Result.failing [NoSuchParam name [n | Located _ (Name n) <- parameters]] program
+    at : _ -> case Parser.parseExpr text of
+      Result {errors = [], output = Just e} ->
+        pure program {statements = map (withValue name (atRegion at e)) (statements program)}
+      Result {errors} -> Result.failing [BadAssignment at name text (length errors)] program
+  where
+    parameters = [n | Located _ (Param n _) <- statements program]
+
+-- | A statement with a new value if it is the parameter of the given name.
+withValue :: Text -> Expr -> Statement -> Statement
+withValue name e s = case s of
+  Located at (Param n@(Located _ (Name n')) _) | n' == name -> Located at (Param n e)
+  _ -> s
+
+-- | An expression with all regions replaced by that of the parameter's name, since its own text is
+-- not part of the program.
+atRegion :: Region -> Expr -> Expr
+atRegion at (Located _ e) = Located at $ case e of
   Literal _ _ -> e
   Variable _ -> e
   Call (Located _ n) arguments -> Call (Located at n) (fmap argument arguments)
@@ -49,7 +53,8 @@ placed at (Located _ e) = Located at $ case e of
   List es -> List (map again es)
   Each a (Located _ n) b -> Each (again a) (Located at n) (again b)
   where
-    again = placed at
+    again = atRegion at
+
     argument a = case a of
       Given x -> Given (again x)
       Chosen (Located _ c) x -> Chosen (Located at c) (again x)

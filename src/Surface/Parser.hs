@@ -1,17 +1,19 @@
 {-# LANGUAGE RankNTypes #-}
 
--- | Tokens into the syntax tree.
+-- | The parser: the syntax tree from the tokens of a text.
 --
--- A mistake ends the statement or the item of a block in which it stands; reading
--- goes on at the next one, so that one run finds them all.
+-- The grammar is written by recursive descent, with one token of lookahead. A mistake ends the
+-- statement or the item of a block that contains it. Parsing continues at the next one, so that one
+-- run finds all mistakes.
 module Surface.Parser
   ( parse,
-    explained,
+    parseExplained,
     parseExpr,
   )
 where
 
 import Base.Name (Name (..))
+import Base.Name qualified as Name
 import Base.Region (Located (..), span)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -23,7 +25,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Combinator
 import Surface.Combinator.Fast qualified as FastCombinator
-import Surface.Error (Error)
+import Surface.Error (Enclosure (..), Error)
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
@@ -34,39 +36,40 @@ import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
 
--- | Read a program whose text begins at an offset. The output holds all that could be read; there
--- is none when the text is too long.
+-- | Parses a program whose text begins at an offset. The output holds all statements without
+-- mistakes; there is none if the text is too long.
 parse :: Int -> Text -> Result w Error Program
-parse begin text = maybe (explained begin text) (Result [] [] . Just) (sound begin text)
+parse begin text = maybe (parseExplained begin text) (Result [] [] . Just) (parseFast begin text)
 
--- | A program without mistakes. Its tokens are read as they are needed and kept nowhere.
-sound :: Int -> Text -> Maybe Program
-sound begin text = case Lexer.tokens begin text of
+-- | Parses a program without mistakes by "Surface.Combinator.Fast". Its tokens are produced on demand
+-- and not kept.
+parseFast :: Int -> Text -> Maybe Program
+parseFast begin text = case Lexer.tokens begin text of
   (tokens, comments) ->
-    (\statements -> Program {statements, comments}) <$> FastCombinator.run mostTokens program tokens
-{-# NOINLINE sound #-}
+    (\statements -> Program {statements, comments}) <$> FastCombinator.run maxTokens program tokens
+{-# NOINLINE parseFast #-}
 
--- | The same by the reader that tells what is wrong, whether anything is or not.
-explained :: Int -> Text -> Result w Error Program
-explained begin text = case drop mostTokens tokens of
+-- | 'parse' by the explaining parser alone, which gives the same result. Tests compare the two.
+parseExplained :: Int -> Text -> Result w Error Program
+parseExplained begin text = case drop maxTokens tokens of
   t : _ ->
-    Result {warnings = [], errors = [Error.TooLong (Token.place t) mostTokens], output = Nothing}
+    Result {warnings = [], errors = [Error.TooLong (Token.place t) maxTokens], output = Nothing}
   [] ->
     Result
       { warnings = [],
         errors,
-        output = Just Program {statements = Maybe.fromMaybe [] read', comments}
+        output = Just Program {statements = Maybe.fromMaybe [] parsed, comments}
       }
   where
     (tokens, comments) = Lexer.tokens begin text
-    (errors, read') = run program (begin + Text.length text) tokens
-{-# NOINLINE explained #-}
+    (errors, parsed) = run program (begin + Text.length text) tokens
+{-# NOINLINE parseExplained #-}
 
--- | A program may have so many words and signs.
-mostTokens :: Int
-mostTokens = 6000000
+-- | The largest number of tokens in a program.
+maxTokens :: Int
+maxTokens = 6000000
 
--- | Read one expression, which is the whole text; its offsets count from 0.
+-- | Parses a text that is one expression. Its regions count from offset 0.
 parseExpr :: Text -> Result w Error Expr
 parseExpr text = Result {warnings = [], errors, output}
   where
@@ -85,13 +88,13 @@ statement_ :: Parser Statement_
 statement_ = do
   begin <- Parsec.lookAhead Parsec.anySingle
   case shape begin of
-    Word word | Just rest <- lookup word forms -> keyword word *> rest
+    Word word | Just rest <- lookup word statementForms -> keyword word *> rest
     Word word -> Parsec.customFailure (NoStatement word)
     _ -> Parsec.empty <?> "a statement"
 
--- | The rest of a statement by its first word.
-forms :: Grammar p => [(Text, p Statement_)]
-forms =
+-- | The rules for the rest of a statement by its keyword.
+statementForms :: Grammar p => [(Text, p Statement_)]
+statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
     ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
     ("import", Import <$> (text' <?> "the name of a file in quotation marks")),
@@ -125,25 +128,26 @@ forms =
     ("aux", Auxiliary <$> expr),
     ( "for",
       forEach >>= \(variable, from) ->
-        Repeat variable from <$> statementBlock "the repetition" statement
+        Repeat variable from <$> statementBlock RepetitionBlock statement
     ),
     ( "if",
-      When <$> expr <*> statementBlock "the block of ‘if’" statement <*> Parsec.option [] otherwise'
+      When <$> expr <*> statementBlock (BlockOf "if") statement <*> Parsec.option [] otherwise'
     ),
-    ("with", With <$> expr <*> statementBlock "the block of ‘with’" statement)
+    ("with", With <$> expr <*> statementBlock (BlockOf "with") statement)
   ]
   where
     otherwise' =
       keyword "else"
-        *> ((: []) <$> located elseIf <|> statementBlock "the block of ‘else’" statement)
+        *> ((: []) <$> located elseIf <|> statementBlock (BlockOf "else") statement)
     elseIf =
       keyword "if"
         *> ( When
                <$> expr
-                 <*> statementBlock "the block of ‘if’" statement
+                 <*> statementBlock (BlockOf "if") statement
                  <*> Parsec.option [] otherwise'
            )
 
+-- | A text in quotation marks.
 text' :: Parser (Located Text)
 text' = located (token "a text" textOf)
   where
@@ -151,6 +155,7 @@ text' = located (token "a text" textOf)
       Text x -> Just x
       _ -> Nothing
 
+-- | The name of a machine or of a file that describes one.
 machine :: Parser MachineRef
 machine = token "the name of a machine" machineOf
   where
@@ -159,7 +164,7 @@ machine = token "the name of a machine" machineOf
       Text x -> Just (Described x)
       _ -> Nothing
 
--- | @mill(diameter 20 mm)@
+-- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
 cutter :: Parser Cutter
 cutter =
   located $
@@ -184,16 +189,19 @@ cutter =
     coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
+-- | A tolerance: to either side, or inside and outside.
 accuracy :: Parser Accuracy
 accuracy =
   (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
 
+-- | The command of a spindle.
 spin :: Parser Spin
 spin = (Still <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
 
 sense :: Parser Sense
 sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
 
+-- | A value or a function after @let@.
 definition :: Parser Statement_
 definition = do
   what <- name
@@ -202,26 +210,27 @@ definition = do
   body <- expr
   pure (maybe (LetValue what body) (\ps -> LetFunction what ps body) parameters)
 
+-- | A contour after its keyword.
 contour :: Parser Statement_
 contour = do
   what <- name
   closure <- (Closed <$ keyword "closed") <|> (Open <$ keyword "open")
-  Contour what closure <$> block ("the contour " <> quoted (value what)) BrokenItem item
+  Contour what closure <$> block (ContourBlock (Name.text (value what))) BrokenItem item
 
--- | The lines of a table, in braces or in a file.
+-- | The lines of a table in braces, or the name of a file.
 lines' :: Parser Lines
 lines' =
   (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
-    <|> (WrittenLines <$> block "the table" (const BrokenLine) line)
+    <|> (WrittenLines <$> block TableBlock (const BrokenLine) line)
 
--- | The columns of a table, or a value for each of them, and nothing else on the line.
+-- | A line of a table: its headings, or one cell for each column.
 line :: Parser TableLine_
 line =
   (Header <$> onLine NotInHeadings column)
     <|> (Entries <$> onLine NotInRow cell)
     <|> misfit NotInRow
   where
-    onLine problem p = (:|) <$> p <*> several (onThisLine p) <* lineDone problem
+    onLine problem p = (:|) <$> p <*> zeroOrMore (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
     cell =
@@ -229,32 +238,32 @@ line =
         <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
         <|> parens expr
 
--- | What stands here does not belong in the line of a table.
+-- | Fails because of the next token in a line of a table.
 misfit :: (Token_ -> Problem) -> Parser a
 misfit problem =
   Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
 
--- | Nothing more stands on the line of a table, but for the end of it.
+-- | Demands the end of a table's line or the closing brace of the table.
 lineDone :: (Token_ -> Problem) -> Parser ()
 lineDone problem = do
-  next <- upcoming
+  next <- remaining
   case next of
     t : _ | not (newLine t) && shape t /= Symbol "}" -> misfit problem
     _ -> pure ()
 
--- | @skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@
+-- | A piece: @q = skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@.
 piece :: Parser Statement_
 piece = do
   what <- name <* symbol "="
   base <- expr
   ciphers <-
     Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
-  side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> sideless)
-  Piece what base ciphers side <$> several (located joggle)
+  side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> missingSide)
+  Piece what base ciphers side <$> zeroOrMore (located joggle)
   where
-    -- The end of the statement, or a side of something else.
-    sideless = do
-      next <- upcoming
+    -- Explains a missing side where the statement ends or a joggle follows.
+    missingSide = do
+      next <- remaining
       case next of
         t : _
           | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] ->
@@ -276,19 +285,21 @@ piece = do
           <*> (keyword "depth" *> expr)
           <*> (keyword "radius" *> expr)
 
+-- | An item of a contour.
 item :: Parser Item_
-item = wordAhead >>= \ahead -> if ahead then repetition <|> choice <|> element else element
+item = isWordNext >>= \ahead -> if ahead then repetition <|> choice <|> element else element
 
--- | @for x in list@, behind its first word.
+-- | A variable and its list after @for@: @x in list@.
 forEach :: Parser (Located Name, Expr)
 forEach = (,) <$> name <* (keyword "in" <?> "‘in’") <*> expr
 
+-- | A repetition of items.
 repetition :: Parser Item_
 repetition = do
   (variable, from) <- keyword "for" *> forEach
-  For variable from <$> nested (block "the repetition" BrokenItem item)
+  For variable from <$> nested (block RepetitionBlock BrokenItem item)
 
--- | @if c { … }@, or an element whose value begins with @if@.
+-- | A choice of items, @if c { … }@, or an element with a conditional value, @if c then a else b@.
 choice :: Parser Item_
 choice = do
   Located region (condition, then') <- located (keyword "if" *> ((,) <$> expr <*> branch))
@@ -296,22 +307,25 @@ choice = do
     Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
     Left (a, b) ->
       Element Nothing (Located region (If condition a b))
-        <$> several (located modifier) <*> Parsec.optional (located link)
+        <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
   where
     branch =
-      (Left <$> alternatives) <|> (Right <$> nested (block "the block of ‘if’" BrokenItem item))
+      (Left <$> alternatives) <|> (Right <$> nested (block (BlockOf "if") BrokenItem item))
     otherwise' =
-      ((: []) <$> located choice) <|> nested (block "the block of ‘else’" BrokenItem item)
+      ((: []) <$> located choice) <|> nested (block (BlockOf "else") BrokenItem item)
 
+-- | An element with its modifiers and the link to the next one.
 element :: Parser Item_
 element = do
-  walk <- wordAhead >>= \ahead -> if ahead then Parsec.optional (located sense) else pure Nothing
+  isWord <- isWordNext
+  direction <- if isWord then Parsec.optional (located sense) else pure Nothing
   what <- expr
-  ahead <- wordAhead
-  if ahead
-    then Element walk what <$> several (located modifier) <*> Parsec.optional (located link)
-    else pure (Element walk what [] Nothing)
+  isWordAfter <- isWordNext
+  if isWordAfter
+    then Element direction what <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
+    else pure (Element direction what [] Nothing)
 
+-- | A modifier of an element.
 modifier :: Parser Modifier_
 modifier =
   (keyword "feed" *> (AtElementFeed <$> expr))
@@ -319,6 +333,7 @@ modifier =
     <|> (keyword "allowance" *> (ElementAllowance <$> expr))
     <|> (keyword "bevel" *> (Bevel <$> expr))
 
+-- | A link to the next element.
 link :: Parser Link_
 link =
   (keyword "meet" *> (Meet <$> Parsec.optional (keyword "near" *> expr)))
@@ -327,7 +342,7 @@ link =
     <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
     <|> (keyword "chamfer" *> (Chamfer <$> expr))
 
--- | A contour, a side, and settings.
+-- | The rest of a machining statement: a contour, a side, and settings.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
 machining word make =
   make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
@@ -340,15 +355,16 @@ machining word make =
         ("on", On)
       ]
 
+-- | The block of settings of a statement, given its keyword.
 settings :: Text -> Parser [Setting]
 settings word =
   block
-    ("the block of " <> quoted (Name word))
+    (BlockOf word)
     (const BrokenSetting)
     (setting (concatMap (take 1 . Text.words) (Keyword.settingsOf word)))
 
--- | A setting. Those of a statement are offered; what another one has is read, too, and refused
--- with its name.
+-- | A setting. Reports of a mistake name the settings that the statement offers. Settings of other
+-- statements are parsed as well, so that checking can refuse them by name.
 setting :: [Text] -> Parser Setting_
 setting offered = do
   begin <- Parsec.lookAhead Parsec.anySingle
@@ -361,7 +377,7 @@ setting offered = do
             word `elem` offered
         ]
 
--- | The rest of a setting by its first word.
+-- | The rules for the rest of a setting by its first word.
 settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
@@ -388,23 +404,24 @@ settingForms =
     ("rest", RestAllowed <$ keyword "allowed")
   ]
 
+-- | Points with the pace of the motion to each.
 stops :: Parser (NonEmpty Stop)
 stops = stop `sepBy1` ","
   where
     stop = Stop <$> expr <*> (Maybe.fromMaybe Cutting <$> Parsec.optional (onThisLine pace'))
     pace' = (Rapid <$ keyword "rapid") <|> (AtFeed <$> (keyword "feed" *> expr))
 
--- Expressions, the loosest operators first
+-- Expressions, the operators of lowest precedence first
 
--- | Most expressions are one operand, behind which no operator stands.
+-- | An expression. Most are a single operand, which is tried first.
 expr :: Parser Expr
 expr = do
-  begin <- upcoming
+  begin <- remaining
   case begin of
     t : _ | Just first <- operand t -> first >>= operated
     _ -> conditional <|> disjunction
 
--- | An operand by its first token.
+-- | The rule for an operand by its first token.
 operand :: Grammar p => Token -> Maybe (p Expr)
 operand t = case shape t of
   Number _ _ -> Just number
@@ -414,13 +431,13 @@ operand t = case shape t of
   Symbol "-" -> Just negative
   _ -> Nothing
 
--- | An expression that begins with an operand.
+-- | The rest of an expression after its first operand.
 operated :: Grammar p => Expr -> p Expr
 operated first = do
-  next <- upcoming
+  next <- remaining
   case next of
     t : _
-      | mayOperate t ->
+      | isOperator t ->
         moreFactors first
           >>= moreSummands
           >>= moreOfRange
@@ -429,17 +446,17 @@ operated first = do
           >>= moreDisjuncts
     _ -> pure first
   where
-    mayOperate t = case shape t of
-      Symbol s -> Text.any isOperating s
+    isOperator t = case shape t of
+      Symbol s -> Text.any isOperatorCharacter s
       Word word -> word == "and" || word == "or"
       _ -> False
-    isOperating c = case c of
+    isOperatorCharacter c = case c of
       '(' -> False
       ')' -> False
       ',' -> False
       _ -> c `elem` ("+-*/<>=!." :: String)
 
--- | @if c then a else b@
+-- | A conditional expression: @if c then a else b@.
 conditional :: Parser Expr
 conditional = located ((\c (a, b) -> If c a b) <$> (keyword "if" *> nested expr) <*> alternatives)
 
@@ -464,7 +481,7 @@ negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) 
 comparison :: Parser Expr
 comparison = range >>= compared
 
--- | At most one comparison: @a < b < c@ is none.
+-- | At most one comparison: @a < b < c@ is not an expression.
 compared :: Grammar p => Expr -> p Expr
 compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
   where
@@ -474,7 +491,7 @@ compared left = (operators table >>= \op -> joined op left <$> range) <|> pure l
 range :: Parser Expr
 range = sum' >>= moreOfRange
 
--- | @a..b by s@
+-- | The rest of a range after its lower end: @..b by s@.
 moreOfRange :: Grammar p => Expr -> p Expr
 moreOfRange low =
   ( Parsec.hidden (symbol "..")
@@ -506,7 +523,7 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | Operands joined by operators, from left to right, behind the first of them.
+-- | The operators and operands after a first operand, joined from left to right.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
 chain operator next = more
   where
@@ -518,7 +535,7 @@ joined op left right =
 
 factor :: Parser Expr
 factor = do
-  begin <- upcoming
+  begin <- remaining
   case begin of
     t : _ | Just found <- operand t -> found
     _ -> Parsec.hidden negative <|> primary
@@ -536,26 +553,26 @@ number = token "a number" numberOf
       Number x unit -> Just (Located (Token.place t) (Literal x unit))
       _ -> Nothing
 
--- | @[a, b, c]@ and @[e for x in list]@
+-- | A list, @[a, b, c]@, or a comprehension, @[e for x in list]@.
 list :: Parser Expr
 list = located (brackets (Parsec.option (List []) (expr >>= more)))
   where
     more e =
       (each e <$> (Parsec.hidden (keyword "for") *> forEach))
-        <|> (List . (e :) <$> several (symbol "," *> expr))
+        <|> (List . (e :) <$> zeroOrMore (symbol "," *> expr))
     each e (variable, from) = Each e variable from
 
 variableOrCall :: Parser Expr
 variableOrCall = located $ do
   what <- usedName
-  next <- upcoming
+  next <- remaining
   case next of
-    t : _ | touches t -> Call what <$> parens (argument `sepBy1` ",")
+    t : _ | isTouchingParenthesis t -> Call what <$> parens (argument `sepBy1` ",")
     _ -> pure (Variable (value what))
 
 argument :: Parser Argument
 argument = do
-  begin <- upcoming
+  begin <- remaining
   case begin of
     t : _ | not (isWord' t) -> Given <$> expr
     _ -> Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
@@ -574,38 +591,17 @@ argument = do
       Word _ -> True
       _ -> False
 
--- | Only if a parenthesis follows without a space.
+-- | Demands a parenthesis without a space before it.
 touching :: Parser ()
-touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy touches)))
+touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy isTouchingParenthesis)))
 
-touches :: Token -> Bool
-touches t = attached t && shape t == Symbol "("
+isTouchingParenthesis :: Token -> Bool
+isTouchingParenthesis t = attached t && shape t == Symbol "("
 
--- | Two numbers in brackets, as most points are written.
-plainPair :: [Token] -> Maybe (Taken Expr)
-plainPair tokens = case tokens of
-  opening : inside
-    | isSymbol "(" opening,
-      Just (Taken x n (comma : behind)) <- plainNumber inside,
-      isSymbol "," comma,
-      Just (Taken y m (closing : rest)) <- plainNumber behind,
-      isSymbol ")" closing ->
-      Just (Taken (Located (span (place opening) (place closing)) (Pair x y)) (n + m + 3) rest)
-  _ -> Nothing
-
--- | A number, or a number behind a minus.
-plainNumber :: [Token] -> Maybe (Taken Expr)
-plainNumber tokens = case tokens of
-  Token {shape = Number x unit, place} : rest ->
-    Just (Taken (Located place (Literal x unit)) 1 rest)
-  minus : Token {shape = Number x unit, place = at} : rest
-    | isSymbol "-" minus ->
-      Just (Taken (Located (span (place minus) at) (Negate (Located at (Literal x unit)))) 2 rest)
-  _ -> Nothing
-
--- | @(a)@ is a, @(a, b)@ a point or a vector, @(a, b, c)@ a point in space.
+-- | An expression in parentheses, a point or a vector @(a, b)@, or a point with a height
+-- @(a, b, c)@.
 pairOrGroup :: Parser Expr
-pairOrGroup = atOnce plainPair $ do
+pairOrGroup = fastPath FastCombinator.plainPair $ do
   Located region es <- located (parens (expr `sepBy1` ","))
   case NonEmpty.toList es of
     [a] -> pure a

@@ -1,64 +1,71 @@
--- | Text that knows where it may be broken.
+-- | A pretty-printer for documents that know where they may be broken.
 --
--- A document stands on one line when it fits; otherwise its outermost brackets and series are
--- broken first. What must stand on one line with its neighbours is joined by 'Beside'.
+-- A document is printed on one line if it fits. Otherwise its outermost brackets and series are
+-- broken first. Documents that must stay on one line are joined by 'Beside'.
 module Surface.PrettyPrinter
   ( Document (..),
     Member (..),
     PrintedLine (..),
-    widest,
+    maxWidth,
     firstText,
-    lay,
+    render,
   )
 where
 
 import Data.Text (Text)
 import Data.Text qualified as Text
 
+-- | A text with possible line breaks.
 data Document
   = -- | never broken
     Text Text
-  | -- | one directly behind the other
+  | -- | documents next to one another, without a break between them
     Beside [Document]
-  | -- | pieces with a space or a line break between them; broken, its lines hang four spaces in
+  | -- | members with a space or a line break between them; further lines are indented by four
     Series [Member]
-  | -- | brackets; broken, they stand apart from what they hold. The flag says that they are broken
-    -- in any case
+  | -- | an opening bracket, members and a closing bracket; broken, the members are on lines of
+    -- their own, indented by two. The flag forces the break
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
 
--- | Whether it has to begin a line, and what it is.
-data Member = Member {fresh :: Bool, content :: Document}
+-- | A document in a series. The flag tells if it must begin a line.
+data Member = Member {startsLine :: Bool, content :: Document}
   deriving stock (Eq, Show)
 
--- | A line of the output: its indentation and the text behind it.
+-- | A line of the output: its indentation in characters, and its text.
 data PrintedLine = PrintedLine {indent :: Int, text :: Text}
   deriving stock (Eq, Show)
 
--- | A line is not longer if it can be helped.
-widest :: Int
-widest = 100
+-- | The largest width of a line in characters; only an unbreakable text exceeds it.
+maxWidth :: Int
+maxWidth = 100
 
--- | The text with which a document begins.
+-- | The first non-empty text of a document.
 firstText :: Document -> Text
 firstText doc = case doc of
   Text t -> t
   Beside ds -> case filter (not . Text.null) (map firstText ds) of
     t : _ -> t
     [] -> ""
-  Series pieces -> firstText (Beside (map content pieces))
+  Series members -> firstText (Beside (map content members))
   Brackets _ open _ _ -> open
 
--- | The lines of a document whose first one is indented so far; there is at least one.
-lay :: Int -> Document -> [PrintedLine]
-lay from doc = map line (reverse (now pen : done pen))
+-- | Renders a document whose first line has the given indentation; gives at least one line.
+render :: Int -> Document -> [PrintedLine]
+render from doc = map line (reverse (now pen : done pen))
   where
     pen = write from 0 doc Pen {done = [], now = (from, []), column = from}
     line (indent, texts) = PrintedLine {indent, text = Text.concat (reverse texts)}
 
--- | The lines that are complete and the one that is not, both backwards, and where the next
--- character goes.
-data Pen = Pen {done :: [(Int, [Text])], now :: (Int, [Text]), column :: Int}
+-- | The output so far.
+data Pen = Pen
+  { -- | complete lines with their indentations, the last one first, and their texts likewise
+    done :: [(Int, [Text])],
+    -- | the line that is being written
+    now :: (Int, [Text]),
+    -- | the column of the next character, from 0
+    column :: Int
+  }
 
 put :: Text -> Pen -> Pen
 put t pen =
@@ -67,68 +74,72 @@ put t pen =
 newLine :: Int -> Pen -> Pen
 newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column = indent}
 
--- | Write a document. Lines that it begins are indented so far, and so many characters stand behind
--- its last one.
+-- | Writes a document. New lines are indented by @indent@. On its last line, @trailing@ characters
+-- must fit after the document.
 write :: Int -> Int -> Document -> Pen -> Pen
-write indent behind doc pen
-  | fits (widest - column pen - behind) doc = foldl (flip put) pen (flat doc)
+write indent trailing doc pen
+  | fits (maxWidth - column pen - trailing) doc = foldl (flip put) pen (unbroken doc)
   | otherwise = case doc of
     Text t -> put t pen
-    Beside ds -> foldl (\p (d, b) -> write indent b d p) pen (zip ds (followers behind ds))
-    Series pieces -> fill (indent + 4) behind pieces pen
-    Brackets _ open pieces close ->
-      put close (newLine indent (fill (indent + 2) 0 pieces (newLine (indent + 2) (put open pen))))
+    Beside ds -> foldl (\p (d, after) -> write indent after d p) pen (zip ds (widthsAfter trailing ds))
+    Series members -> fill (indent + 4) trailing members pen
+    Brackets _ open members close ->
+      let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
+       in put close (newLine indent inside)
 
--- | How many characters follow each document before the line can be broken.
-followers :: Int -> [Document] -> [Int]
-followers behind = drop 1 . scanr step behind
+-- | The number of characters after each document up to the next possible line break.
+widthsAfter :: Int -> [Document] -> [Int]
+widthsAfter trailing = drop 1 . scanr step trailing
   where
     step doc after = case doc of
       Text t -> Text.length t + after
       _ -> Text.length (firstText doc)
 
--- | As many pieces on each line as fit.
+-- | Writes members with as many on each line as fit.
 fill :: Int -> Int -> [Member] -> Pen -> Pen
-fill indent behind pieces = case pieces of
+fill indent trailing members = case members of
   [] -> id
-  first : rest -> go rest . write indent (if null rest then behind else 0) (content first)
+  first : rest -> go rest . write indent (if null rest then trailing else 0) (content first)
   where
-    go ps pen = case ps of
+    go ms pen = case ms of
       [] -> pen
-      Member {fresh, content} : rest ->
-        let after = if null rest then behind else 0
-            enough = not fresh && fits (widest - column pen - 1 - after) content
-         in go
-              rest
-              (write indent after content (if enough then put " " pen else newLine indent pen))
+      Member {startsLine, content} : rest ->
+        let after = if null rest then trailing else 0
+            isRoom = not startsLine && fits (maxWidth - column pen - 1 - after) content
+            separated = if isRoom then put " " pen else newLine indent pen
+         in go rest (write indent after content separated)
 
--- | Whether a document fits unbroken into so many characters.
+-- | Tells if a document fits unbroken into @room@ characters.
 fits :: Int -> Document -> Bool
-fits room doc = maybe False (>= 0) (spend doc room)
+fits room doc = maybe False (>= 0) (roomAfter doc room)
 
--- | What is left of a room. Looks no further than the room goes.
-spend :: Document -> Int -> Maybe Int
-spend doc room
+-- | The room that a document leaves, or 'Nothing' once it is exceeded. Reads no more of the document
+-- than fits.
+roomAfter :: Document -> Int -> Maybe Int
+roomAfter doc room
   | room < 0 = Nothing
   | otherwise = case doc of
     Text t -> Just (room - Text.length t)
-    Beside ds -> foldl (\r d -> r >>= spend d) (Just room) ds
-    Series pieces -> spendAll pieces room
-    Brackets broken open pieces close
-      | broken -> Nothing
-      | otherwise -> spendAll pieces (room - Text.length open - Text.length close)
+    Beside ds -> foldl (\r d -> r >>= roomAfter d) (Just room) ds
+    Series members -> roomAfterAll members room
+    Brackets isBroken open members close
+      | isBroken -> Nothing
+      | otherwise -> roomAfterAll members (room - Text.length open - Text.length close)
 
-spendAll :: [Member] -> Int -> Maybe Int
-spendAll pieces room = if null pieces then Just room else foldl next (Just (room + 1)) pieces
+roomAfterAll :: [Member] -> Int -> Maybe Int
+roomAfterAll members room =
+  if null members then Just room else foldl next (Just (room + 1)) members
   where
-    next left piece = if fresh piece then Nothing else left >>= \r -> spend (content piece) (r - 1)
+    next left member
+      | startsLine member = Nothing
+      | otherwise = left >>= \r -> roomAfter (content member) (r - 1)
 
 -- | The texts of a document on one line.
-flat :: Document -> [Text]
-flat doc = case doc of
+unbroken :: Document -> [Text]
+unbroken doc = case doc of
   Text t -> [t]
-  Beside ds -> concatMap flat ds
-  Series pieces -> spaced pieces
-  Brackets _ open pieces close -> open : spaced pieces <> [close]
+  Beside ds -> concatMap unbroken ds
+  Series members -> spaced members
+  Brackets _ open members close -> open : spaced members <> [close]
   where
-    spaced pieces = drop 1 (concatMap (\p -> " " : flat (content p)) pieces)
+    spaced members = drop 1 (concatMap (\m -> " " : unbroken (content m)) members)

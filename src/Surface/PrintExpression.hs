@@ -1,14 +1,13 @@
--- | Expressions as documents, with brackets only where the tree would be read differently without
--- them.
+-- | The printer of expressions, with parentheses only where the syntax tree needs them.
 module Surface.PrintExpression
-  ( Commented (..),
-    uncommented,
+  ( CommentPositions (..),
+    noComments,
     value,
     element,
     list,
-    group',
-    one,
-    words',
+    callDocument,
+    member,
+    spaced,
   )
 where
 
@@ -25,17 +24,17 @@ import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
--- | Where the text that is laid out has comments: whether there is any between two offsets, and
--- whether there is one beside a comma.
-data Commented = Commented {anywhere :: Int -> Int -> Bool, atComma :: Int -> Int -> Bool}
+-- | The positions of comments in the source: 'isBetween' tells if any comment lies between two
+-- offsets, 'isAtComma' if one of these is next to a comma.
+data CommentPositions = CommentPositions {isBetween :: Int -> Int -> Bool, isAtComma :: Int -> Int -> Bool}
 
--- | No comments.
-uncommented :: Commented
-uncommented = Commented {anywhere = \_ _ -> False, atComma = \_ _ -> False}
+-- | The positions in a text without comments.
+noComments :: CommentPositions
+noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
 
--- | How tightly an expression holds together. An operand is bracketed when it is looser than its
--- place asks.
-data Tightness
+-- | The precedence of an expression, lowest first. An operand is put in parentheses when its
+-- precedence is lower than its operator demands.
+data Precedence
   = Loose
   | Disjunction
   | Conjunction
@@ -48,54 +47,55 @@ data Tightness
   | Primary
   deriving stock (Eq, Ord)
 
--- | An expression where any may stand.
-value :: Commented -> Expr -> Document
-value commented = operand commented Loose
+-- | An expression without a demand on its precedence.
+value :: CommentPositions -> Expr -> Document
+value comments = operand comments Loose
 
--- | An element of a contour, which must not be taken for the rest of the one before it.
-element :: Commented -> Expr -> Document
-element commented e = if misleading (PrettyPrinter.firstText doc) then bracketed doc else doc
+-- | An element of a contour. Parentheses keep it apart from the element on the line before if it
+-- begins with a minus or with @by@.
+element :: CommentPositions -> Expr -> Document
+element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracketed doc else doc
   where
-    doc = value commented e
-    misleading text =
+    doc = value comments e
+    isContinuation text =
       "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
--- | Things with commas between them, each with its region; broken where a comment stands.
-list :: Commented -> NonEmpty (Region, Document) -> NonEmpty Member
-list commented things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
+-- | Documents with their regions, separated by commas; broken where a comment is.
+list :: CommentPositions -> NonEmpty (Region, Document) -> NonEmpty Member
+list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
   where
     before = Nothing :| map (Just . fst) (NonEmpty.toList things)
     commas = NonEmpty.fromList (replicate (length things - 1) "," <> [""])
     piece (previous, (region, doc)) comma =
       Member
-        { fresh = maybe False (\p -> atComma commented (end p) (start region)) previous,
+        { startsLine = maybe False (\p -> isAtComma comments (end p) (start region)) previous,
           content = Beside [doc, Text comma]
         }
 
--- | A piece that begins no line of itself.
-one :: Document -> Member
-one = Member False
+-- | A member that need not begin a line.
+member :: Document -> Member
+member = Member False
 
--- | Words and values with spaces between them.
-words' :: [Document] -> Document
-words' docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
+-- | Documents with spaces between them on one line.
+spaced :: [Document] -> Document
+spaced docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
 
 bracketed :: Document -> Document
 bracketed doc = Beside [Text "(", doc, Text ")"]
 
-operand :: Commented -> Tightness -> Expr -> Document
-operand commented asked e = if tightness (Region.value e) < asked then bracketed doc else doc
+operand :: CommentPositions -> Precedence -> Expr -> Document
+operand comments asked e = if precedence (Region.value e) < asked then bracketed doc else doc
   where
-    doc = bare commented e
+    doc = withoutParentheses comments e
 
-tightness :: Expr_ -> Tightness
-tightness e = case e of
+precedence :: Expr_ -> Precedence
+precedence e = case e of
   Literal _ _ -> Primary
   Variable _ -> Primary
   Call _ _ -> Primary
   Negate _ -> Factor
   Not _ -> Negation
-  Binary operator _ _ -> ofOperator operator
+  Binary operator _ _ -> operatorPrecedence operator
   Range {} -> Ranged
   If {} -> Loose
   Pair _ _ -> Primary
@@ -103,8 +103,8 @@ tightness e = case e of
   List _ -> Primary
   Each {} -> Primary
 
-ofOperator :: Operator -> Tightness
-ofOperator operator = case operator of
+operatorPrecedence :: Operator -> Precedence
+operatorPrecedence operator = case operator of
   Add -> Sum
   Subtract -> Sum
   Multiply -> Product
@@ -133,30 +133,30 @@ sign operator = case operator of
   And -> "and"
   Or -> "or"
 
--- | An expression without brackets of its own.
-bare :: Commented -> Expr -> Document
-bare commented (Located region e) = case e of
+-- | An expression without parentheses around it.
+withoutParentheses :: CommentPositions -> Expr -> Document
+withoutParentheses comments (Located region e) = case e of
   Literal number unit -> Text (digits number <> maybe "" ((" " <>) . unitName) unit)
   Variable (Name name) -> Text name
   Call (Located _ (Name name)) arguments ->
-    group (name <> "(") (NonEmpty.toList (list commented (fmap (argument commented) arguments))) ")"
+    group (name <> "(") (NonEmpty.toList (list comments (fmap (argument comments) arguments))) ")"
   Negate inner ->
-    let doc = operand commented Factor inner
+    let doc = operand comments Factor inner
      in Beside [Text (if "-" `Text.isPrefixOf` PrettyPrinter.firstText doc then "- " else "-"), doc]
-  Not inner -> words' [Text "not", operand commented Negation inner]
-  Binary operator left right -> case ofOperator operator of
+  Not inner -> spaced [Text "not", operand comments Negation inner]
+  Binary operator left right -> case operatorPrecedence operator of
     Comparison ->
-      Series [one (operand commented Ranged left), signed operator (operand commented Ranged right)]
-    looser -> Series (chain commented looser (Located region e))
+      Series [member (operand comments Ranged left), signed operator (operand comments Ranged right)]
+    rank -> Series (chain comments rank (Located region e))
   Range low high step ->
     Beside $
-      [operand commented Sum low, Text "..", operand commented Sum high]
-        <> maybe [] (\s -> [Text " by ", operand commented Sum s]) step
+      [operand comments Sum low, Text "..", operand comments Sum high]
+        <> maybe [] (\s -> [Text " by ", operand comments Sum s]) step
   If condition yes no ->
     Series
-      [ one (words' [Text "if", sub condition]),
-        one (words' [Text "then", sub yes]),
-        one (words' [Text "else", sub no])
+      [ member (spaced [Text "if", sub condition]),
+        member (spaced [Text "then", sub yes]),
+        member (spaced [Text "else", sub no])
       ]
   Pair x y -> group "(" (coordinates (x :| [y])) ")"
   Triple x y z -> group "(" (coordinates (x :| [y, z])) ")"
@@ -164,37 +164,38 @@ bare commented (Located region e) = case e of
     Nothing -> Text "[]"
     Just some -> group "[" (coordinates some) "]"
   Each item (Located _ (Name name)) from ->
-    group "[" [one (sub item), one (words' [Text ("for " <> name <> " in"), sub from])] "]"
+    group "[" [member (sub item), member (spaced [Text ("for " <> name <> " in"), sub from])] "]"
   where
-    sub = value commented
-    group = Brackets (anywhere commented (start region) (end region))
-    coordinates es = NonEmpty.toList (list commented (fmap (\x -> (Region.region x, sub x)) es))
+    sub = value comments
+    group = Brackets (isBetween comments (start region) (end region))
+    coordinates es = NonEmpty.toList (list comments (fmap (\x -> (Region.region x, sub x)) es))
 
--- | Values with commas between them behind an opening bracket, with the region of the whole.
-group' :: Commented -> Region -> Text -> NonEmpty Expr -> Document
-group' commented region open es =
+-- | Values separated by commas between an opening text and a parenthesis, with the region of the
+-- whole.
+callDocument :: CommentPositions -> Region -> Text -> NonEmpty Expr -> Document
+callDocument comments region open es =
   Brackets
-    (anywhere commented (start region) (end region))
+    (isBetween comments (start region) (end region))
     open
-    (NonEmpty.toList (list commented (fmap (\x -> (Region.region x, value commented x)) es)))
+    (NonEmpty.toList (list comments (fmap (\x -> (Region.region x, value comments x)) es)))
     ")"
 
--- | A chain of operators of one rank: @a@, @+ b@, @- c@.
-chain :: Commented -> Tightness -> Expr -> [Member]
-chain commented looser = reverse . go
+-- | A chain of operators of one precedence: @a@, @+ b@, @- c@.
+chain :: CommentPositions -> Precedence -> Expr -> [Member]
+chain comments rank = reverse . go
   where
     go (Located region e) = case e of
       Binary operator left right
-        | ofOperator operator == looser ->
-          signed operator (operand commented (tighter looser) right) : go left
-      _ -> [one (operand commented looser (Located region e))]
+        | operatorPrecedence operator == rank ->
+          signed operator (operand comments (rightDemand rank) right) : go left
+      _ -> [member (operand comments rank (Located region e))]
 
 signed :: Operator -> Document -> Member
-signed operator right = one (words' [Text (sign operator), right])
+signed operator right = member (spaced [Text (sign operator), right])
 
--- | What is asked of an operand to the right of an operator.
-tighter :: Tightness -> Tightness
-tighter looser = case looser of
+-- | The precedence that an operator demands of its right operand.
+rightDemand :: Precedence -> Precedence
+rightDemand rank = case rank of
   Loose -> Disjunction
   Disjunction -> Conjunction
   Conjunction -> Negation
@@ -206,12 +207,12 @@ tighter looser = case looser of
   Factor -> Primary
   Primary -> Primary
 
-argument :: Commented -> Argument -> (Region, Document)
-argument commented a = case a of
-  Given e -> (Region.region e, value commented e)
+argument :: CommentPositions -> Argument -> (Region, Document)
+argument comments a = case a of
+  Given e -> (Region.region e, value comments e)
   Chosen (Located region choice) e ->
     ( Region (start region) (end (Region.region e)),
-      words' [Text (choiceName choice), value commented e]
+      spaced [Text (choiceName choice), value comments e]
     )
   Ranked (Located region which) -> (region, Text (rankName which))
 

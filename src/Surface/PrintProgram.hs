@@ -1,6 +1,6 @@
--- | The syntax tree as text, in the canonical layout and without comments.
+-- | The printer of programs: the canonical layout of a syntax tree without comments.
 --
--- What could not be read ('Broken' and its kin) has no text.
+-- Broken nodes have no text.
 module Surface.PrintProgram
   ( program,
     rows,
@@ -18,81 +18,82 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineText (..))
+import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineCells (..))
 import Surface.Alignment qualified as Alignment
 import Surface.PrettyPrinter (Document (..), Member)
 import Surface.PrettyPrinter qualified as PrettyPrinter
-import Surface.PrintExpression (Commented, words')
+import Surface.PrintExpression (CommentPositions, spaced)
 import Surface.PrintExpression qualified as PrintExpression
 import Surface.Syntax
 import Surface.Token (unitName)
 
 -- | The text of a program.
 program :: Program -> Text
-program = Text.unlines . Alignment.aligned . rows PrintExpression.uncommented . statements
+program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
--- | The rows of statements. The first argument tells where comments stand: there
--- a list is broken, so that they can stay.
-rows :: Commented -> [Statement] -> [AlignedLine]
-rows commented = concatMap (statement commented 0)
+-- | The lines of statements. Lists that contain comments in the source are broken at them.
+rows :: CommentPositions -> [Statement] -> [AlignedLine]
+rows comments = concatMap (statement comments 0)
 
 -- Rows
 
--- | The rows of one document.
+-- | The lines of one document; all but the first are continuations.
 whole :: Int -> Document -> [AlignedLine]
-whole indent doc = case PrettyPrinter.lay indent doc of
+whole indent doc = case PrettyPrinter.render indent doc of
   [] -> []
   first : more ->
     AlignedLine
       { indent = PrettyPrinter.indent first,
-        cells = Whole (PrettyPrinter.text first),
-        continues = False
+        cells = WholeLine (PrettyPrinter.text first),
+        isContinuation = False
       } :
     map continued more
 
--- | Two cells, if the whole stands on one line.
+-- | A line of two cells if both fit on it, else the lines of the joined document.
 cells' :: AlignmentColumn -> Int -> Document -> Document -> [AlignedLine]
 cells' column indent first second =
-  case (PrettyPrinter.lay indent first, PrettyPrinter.lay indent second, alone) of
+  case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
     ([a], [b], [_]) ->
       [ AlignedLine
           { indent,
-            cells = LineText column (PrettyPrinter.text a) (PrettyPrinter.text b),
-            continues = False
+            cells = LineCells column (PrettyPrinter.text a) (PrettyPrinter.text b),
+            isContinuation = False
           }
       ]
     _ -> alone
   where
-    alone = whole indent (Beside [first, Text (Alignment.gap column), second])
+    alone = whole indent (Beside [first, Text (Alignment.separator column), second])
 
 continued :: PrettyPrinter.PrintedLine -> AlignedLine
 continued line =
   AlignedLine
     { indent = PrettyPrinter.indent line,
-      cells = Whole (PrettyPrinter.text line),
-      continues = True
+      cells = WholeLine (PrettyPrinter.text line),
+      isContinuation = True
     }
 
--- | What stands before a brace, the rows in it, and the closing brace.
+-- | A block: the text before its brace, the lines inside, and the closing brace.
 braces :: Int -> Document -> [AlignedLine] -> [AlignedLine]
 braces indent before inside
-  | null inside = whole indent (words' [before, Text "{ }"])
+  | null inside = whole indent (spaced [before, Text "{ }"])
   | otherwise = opened indent before <> inside <> whole indent (Text "}")
 
+-- | The text before a block and its opening brace.
 opened :: Int -> Document -> [AlignedLine]
-opened indent before = whole indent (words' [before, Text "{"])
+opened indent before = whole indent (spaced [before, Text "{"])
 
 -- Statements
 
-statement :: Commented -> Int -> Statement -> [AlignedLine]
-statement commented indent (Located _ s) = case s of
+-- | The lines of a statement at an indentation.
+statement :: CommentPositions -> Int -> Statement -> [AlignedLine]
+statement comments indent (Located _ s) = case s of
   Part (Located _ (Name name)) title ->
-    plain (words' (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
+    plain (spaced (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
   Machine (Located _ ref) -> worded "machine" (Text (machineRef ref))
   Import (Located _ file) -> worded "import" (Text (quoted file))
-  Tool c -> worded "tool" (cutter commented c)
+  Tool c -> worded "tool" (cutter comments c)
   Feed e -> worded "feed" (value e)
-  Tolerance a -> worded "tolerance" (accuracy commented a)
+  Tolerance a -> worded "tolerance" (accuracy comments a)
   Clearance e -> worded "clearance" (value e)
   From e -> worded "from" (value e)
   LetValue (Located _ (Name name)) e -> defined ("let " <> name) e
@@ -103,119 +104,128 @@ statement commented indent (Located _ s) = case s of
     braces
       indent
       (Text ("contour " <> name <> " " <> closureName closure))
-      (concatMap (item commented (indent + 2)) items)
+      (concatMap (item comments (indent + 2)) items)
   Table (Located _ (Name name)) (LinesOf (Located _ file)) ->
     plain (Text ("table " <> name <> " from " <> quoted file))
   Table (Located _ (Name name)) (WrittenLines ls) ->
-    braces indent (Text ("table " <> name)) (table commented (indent + 2) ls)
+    braces indent (Text ("table " <> name)) (table comments (indent + 2) ls)
   Curve (Located _ (Name name)) e -> defined ("curve " <> name) e
   Piece (Located _ (Name name)) e ciphers (Located _ side) joggles ->
     cells'
       Definitions
       indent
       (Text ("piece " <> name))
-      (words' [Text "=", piece commented e ciphers side joggles])
+      (spaced [Text "=", piece comments e ciphers side joggles])
   Assert e within ->
-    plain (words' ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
+    plain (spaced ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
   Mill e side settings -> machining "mill" e side settings
   Pocket e step settings ->
     braces
       indent
-      (words' [Text "pocket", value e, Text "step", value step])
-      (concatMap (setting commented (indent + 2)) settings)
+      (spaced [Text "pocket", value e, Text "step", value step])
+      (concatMap (setting comments (indent + 2)) settings)
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
-    let before = words' [Text "drill at", value at, Text "depth", value depth]
+    let before = spaced [Text "drill at", value at, Text "depth", value depth]
      in if null settings
           then plain before
-          else braces indent before (concatMap (setting commented (indent + 2)) settings)
-  Travel RapidMotion to -> worded "rapid" (stops commented to)
-  Travel FeedMotion to -> worded "move" (stops commented to)
-  Change place c -> worded "change" (words' [value place, cutter commented c])
+          else braces indent before (concatMap (setting comments (indent + 2)) settings)
+  Travel RapidMotion to -> worded "rapid" (stops comments to)
+  Travel FeedMotion to -> worded "move" (stops comments to)
+  Change place c -> worded "change" (spaced [value place, cutter comments c])
   Spindle spin -> worded "spindle" (spinning spin)
   Coolant SwitchOn -> worded "coolant" (Text "on")
   Coolant SwitchOff -> worded "coolant" (Text "off")
   Auxiliary e -> worded "aux" (value e)
   Repeat (Located _ (Name name)) from inside ->
-    braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
-  When condition yes no -> alternatives indent (Text "if") value block whenOnly condition yes no
-  With e inside -> braces indent (words' [Text "with", value e]) (block inside)
+    braces indent (spaced [Text ("for " <> name <> " in"), value from]) (block inside)
+  When condition yes no -> alternatives choices indent (Text "if") (Choice condition yes no)
+  With e inside -> braces indent (spaced [Text "with", value e]) (block inside)
   Broken _ _ -> []
   where
     plain = whole indent
-    value = PrintExpression.value commented
+    value = PrintExpression.value comments
     worded word = cells' Values indent (Text word)
-    defined what e = cells' Definitions indent (Text what) (words' [Text "=", value e])
-    block = concatMap (statement commented (indent + 2))
+    defined what e = cells' Definitions indent (Text what) (spaced [Text "=", value e])
+    block = concatMap (statement comments (indent + 2))
     machining word e (Located _ side) settings =
       braces
         indent
-        (words' [Text word, value e, Text (sideName side)])
-        (concatMap (setting commented (indent + 2)) settings)
+        (spaced [Text word, value e, Text (sideName side)])
+        (concatMap (setting comments (indent + 2)) settings)
     spinning spin = case spin of
       Still -> Text "off"
-      Spinning sense speed -> words' (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
-    whenOnly inside = case inside of
-      [Located _ (When c yes no)] -> Just (c, yes, no)
+      Spinning sense speed -> spaced (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
+    choices = ChoicePrinter {conditionOf = value, blockOf = block, onlyChoice = onlyWhen}
+    onlyWhen inside = case inside of
+      [Located _ (When c yes no)] -> Just (Choice c yes no)
       _ -> Nothing
 
--- | The lines of a table, their cells lined up.
-table :: Commented -> Int -> [TableLine] -> [AlignedLine]
-table commented indent ls = map row written
+-- | The lines of a table with aligned columns.
+table :: CommentPositions -> Int -> [TableLine] -> [AlignedLine]
+table comments indent ls = map row (alignColumns (concat [tableCells comments l | Located _ l <- ls]))
   where
-    written = concat [cellsOf l | Located _ l <- ls]
     row texts =
       AlignedLine
         { indent,
-          cells =
-            Whole (Text.stripEnd (Text.intercalate "  " (zipWith3 place fronts widths texts))),
-          continues = False
+          cells = WholeLine (Text.stripEnd (Text.intercalate "  " texts)),
+          isContinuation = False
         }
-    place front width text' = Text.justifyLeft width ' ' (pointed front text')
-    -- Decimal points stand below one another.
-    pointed front text' =
-      if isNumber text' then Text.replicate (front - frontOf text') " " <> text' else text'
-    frontOf = Text.length . Text.takeWhile (\c -> isDigit c || c == '-')
-    isNumber text' = Text.any (\c -> isDigit c || c == '-') (Text.take 1 text')
-    fronts = map (maximum . (0 :) . map frontOf . filter isNumber) (transpose written) <> repeat 0
-    widths =
-      zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose written)
-        <> repeat 0
-    cellsOf l = case l of
-      Header columns ->
-        [ [ name <> maybe "" ((" " <>) . unitName) unit
-            | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns
-          ]
-        ]
-      Entries es -> [map cell (NonEmpty.toList es)]
-      Numbers numbers ->
-        [ map Decimal.exact (NumberTable.cells numbers k)
-          | k <- [0 .. NumberTable.count numbers - 1]
-        ]
-      BrokenLine -> []
-    cell e = case Region.value e of
-      Literal _ _ -> text (PrintExpression.value commented e)
-      Negate (Located _ (Literal _ _)) -> text (PrintExpression.value commented e)
-      _ -> "(" <> text (PrintExpression.value commented e) <> ")"
-    text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.lay 0 doc))
 
-piece :: Commented -> Expr -> [Cipher] -> Side -> [Joggle] -> Document
-piece commented e ciphers side joggles =
+-- | Pads the cells of rows so that columns are aligned, and decimal points within them.
+alignColumns :: [[Text]] -> [[Text]]
+alignColumns rows' = map (zipWith3 pad fronts widths) rows'
+  where
+    pad front width text = Text.justifyLeft width ' ' (pointed front text)
+    pointed front text =
+      if isNumber text then Text.replicate (front - frontOf text) " " <> text else text
+    -- The number of characters before the decimal point.
+    frontOf = Text.length . Text.takeWhile (\c -> isDigit c || c == '-')
+    isNumber text = Text.any (\c -> isDigit c || c == '-') (Text.take 1 text)
+    fronts = map (maximum . (0 :) . map frontOf . filter isNumber) (transpose rows') <> repeat 0
+    widths =
+      zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose rows')
+        <> repeat 0
+
+-- | The cells of a line of a table. Other values than literals are put in parentheses.
+tableCells :: CommentPositions -> TableLine_ -> [[Text]]
+tableCells comments l = case l of
+  Header columns ->
+    [ [ name <> maybe "" ((" " <>) . unitName) unit
+        | Heading (Located _ (Name name)) unit <- NonEmpty.toList columns
+      ]
+    ]
+  Entries es -> [map cell (NonEmpty.toList es)]
+  Numbers numbers ->
+    [ map Decimal.exact (NumberTable.cells numbers k)
+      | k <- [0 .. NumberTable.count numbers - 1]
+    ]
+  BrokenLine -> []
+  where
+    cell e = case Region.value e of
+      Literal _ _ -> text (PrintExpression.value comments e)
+      Negate (Located _ (Literal _ _)) -> text (PrintExpression.value comments e)
+      _ -> "(" <> text (PrintExpression.value comments e) <> ")"
+    text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.render 0 doc))
+
+-- | The value of a piece: its curve, ciphers, side and joggles.
+piece :: CommentPositions -> Expr -> [Cipher] -> Side -> [Joggle] -> Document
+piece comments e ciphers side joggles =
   Series
     ( map
-        PrintExpression.one
+        PrintExpression.member
         ([value e] <> recalculations <> [Text (sideName side)] <> concatMap joggle joggles)
     )
   where
-    value = PrintExpression.value commented
+    value = PrintExpression.value comments
     recalculations = case zip ciphers (replicate (length ciphers - 1) "," <> [""]) of
       [] -> []
       (first, comma) : rest ->
-        words' [Text "cipher", cipher first comma] : map (uncurry cipher) rest
+        spaced [Text "cipher", cipher first comma] : map (uncurry cipher) rest
     cipher (Located region (Cipher (Located _ digit) es)) comma =
-      Beside [PrintExpression.group' commented region (digits digit <> "(") es, Text comma]
+      Beside [PrintExpression.callDocument comments region (digits digit <> "(") es, Text comma]
     joggle (Located _ (Joggle from to depth radius)) =
-      [ words'
+      [ spaced
           [ Text "joggle from",
             value from,
             Text "to",
@@ -227,27 +237,28 @@ piece commented e ciphers side joggles =
           ]
       ]
 
--- | @if c { … } else if d { … } else { … }@: what stands before the condition, how conditions and
--- blocks are laid out, and whether a block is nothing but another choice.
-alternatives ::
-  Int ->
-  Document ->
-  (Expr -> Document) ->
-  ([a] -> [AlignedLine]) ->
-  ([a] -> Maybe (Expr, [a], [a])) ->
-  Expr ->
-  [a] ->
-  [a] ->
-  [AlignedLine]
-alternatives indent before value block only condition yes no = case (no, only no) of
+-- | A choice between two blocks: the condition and the blocks.
+data Choice a = Choice Expr [a] [a]
+
+-- | The printers for the parts of a choice.
+data ChoicePrinter a = ChoicePrinter
+  { conditionOf :: Expr -> Document,
+    blockOf :: [a] -> [AlignedLine],
+    -- | the choice that a block consists of, if it has no other statement or item
+    onlyChoice :: [a] -> Maybe (Choice a)
+  }
+
+-- | The lines of a choice: @if c { … } else if d { … } else { … }@. The document is that before the
+-- condition.
+alternatives :: ChoicePrinter a -> Int -> Document -> Choice a -> [AlignedLine]
+alternatives printer indent before (Choice condition yes no) = case (no, onlyChoice printer no) of
   ([], _) -> braces indent begin (block yes)
-  (_, Just (c, yes', no')) ->
-    opened indent begin
-      <> block yes
-      <> alternatives indent (Text "} else if") value block only c yes' no'
+  (_, Just inner) ->
+    opened indent begin <> block yes <> alternatives printer indent (Text "} else if") inner
   (_, Nothing) -> opened indent begin <> block yes <> braces indent (Text "} else") (block no)
   where
-    begin = words' [before, value condition]
+    block = blockOf printer
+    begin = spaced [before, conditionOf printer condition]
 
 quoted :: Text -> Text
 quoted text = "\"" <> text <> "\""
@@ -260,8 +271,8 @@ machineRef ref = case ref of
   Named name -> name
   Described file -> quoted file
 
-cutter :: Commented -> Cutter -> Document
-cutter commented (Located _ c) = case c of
+cutter :: CommentPositions -> Cutter -> Document
+cutter comments (Located _ c) = case c of
   MillCutter e -> made "mill(diameter " e
   DrillCutter e -> made "drill(diameter " e
   TurningCutter e -> made "turn(nose " e
@@ -278,31 +289,31 @@ cutter commented (Located _ c) = case c of
   BladeCutter d g -> Beside [Text "blade(diameter ", value d, Text ", gear ", value g, Text ")"]
   where
     made before e = Beside [Text before, value e, Text ")"]
-    value = PrintExpression.value commented
+    value = PrintExpression.value comments
 
-accuracy :: Commented -> Accuracy -> Document
-accuracy commented a = case a of
-  Within e -> PrintExpression.value commented e
+accuracy :: CommentPositions -> Accuracy -> Document
+accuracy comments a = case a of
+  Within e -> PrintExpression.value comments e
   Between inside outside ->
-    words'
+    spaced
       [ Text "inside",
-        PrintExpression.value commented inside,
+        PrintExpression.value comments inside,
         Text "outside",
-        PrintExpression.value commented outside
+        PrintExpression.value comments outside
       ]
 
--- | Points with commas between them; the pace stays on the line of its point.
-stops :: Commented -> NonEmpty Stop -> Document
-stops commented = Series . NonEmpty.toList . PrintExpression.list commented . fmap stop
+-- | Points separated by commas; the pace stays on the line of its point.
+stops :: CommentPositions -> NonEmpty Stop -> Document
+stops comments = Series . NonEmpty.toList . PrintExpression.list comments . fmap stop
   where
     stop Stop {point, pace} = case pace of
       Cutting -> (Region.region point, value point)
-      Rapid -> (Region.region point, words' [value point, Text "rapid"])
+      Rapid -> (Region.region point, spaced [value point, Text "rapid"])
       AtFeed e ->
         ( Region.span (Region.region point) (Region.region e),
-          words' [value point, Text "feed", value e]
+          spaced [value point, Text "feed", value e]
         )
-    value = PrintExpression.value commented
+    value = PrintExpression.value comments
 
 closureName :: Closure -> Text
 closureName closure = case closure of
@@ -324,50 +335,52 @@ senseName sense = case sense of
 
 -- Items of a contour
 
-item :: Commented -> Int -> Item -> [AlignedLine]
-item commented indent (Located _ i) = case i of
+item :: CommentPositions -> Int -> Item -> [AlignedLine]
+item comments indent (Located _ i) = case i of
   Element sense e modifiers link ->
-    let walked = case sense of
-          Nothing -> PrintExpression.element commented e
-          Just (Located _ s) -> words' [Text (senseName s), value e]
-        first = words' (walked : map (modifier commented) modifiers)
-     in maybe (whole indent first) (cells' Links indent first . linked commented) link
+    let withSense = case sense of
+          Nothing -> PrintExpression.element comments e
+          Just (Located _ s) -> spaced [Text (senseName s), value e]
+        first = spaced (withSense : map (modifier comments) modifiers)
+
+     in maybe (whole indent first) (cells' Links indent first . linked comments) link
   For (Located _ (Name name)) from inside ->
-    braces indent (words' [Text ("for " <> name <> " in"), value from]) (block inside)
-  Choose condition yes no -> alternatives indent (Text "if") value block chooseOnly condition yes no
+    braces indent (spaced [Text ("for " <> name <> " in"), value from]) (block inside)
+  Choose condition yes no -> alternatives choices indent (Text "if") (Choice condition yes no)
   BrokenItem _ -> []
   where
-    value = PrintExpression.value commented
-    block = concatMap (item commented (indent + 2))
-    chooseOnly inside = case inside of
-      [Located _ (Choose c yes no)] -> Just (c, yes, no)
+    value = PrintExpression.value comments
+    block = concatMap (item comments (indent + 2))
+    choices = ChoicePrinter {conditionOf = value, blockOf = block, onlyChoice = onlyChoose}
+    onlyChoose inside = case inside of
+      [Located _ (Choose c yes no)] -> Just (Choice c yes no)
       _ -> Nothing
 
-modifier :: Commented -> Modifier -> Document
-modifier commented (Located _ m) = case m of
-  AtElementFeed e -> words' [Text "feed", PrintExpression.value commented e]
+modifier :: CommentPositions -> Modifier -> Document
+modifier comments (Located _ m) = case m of
+  AtElementFeed e -> spaced [Text "feed", PrintExpression.value comments e]
   Slow -> Text "slow"
-  ElementAllowance e -> words' [Text "allowance", PrintExpression.value commented e]
-  Bevel e -> words' [Text "bevel", PrintExpression.value commented e]
+  ElementAllowance e -> spaced [Text "allowance", PrintExpression.value comments e]
+  Bevel e -> spaced [Text "bevel", PrintExpression.value comments e]
 
-linked :: Commented -> Link -> Document
-linked commented (Located _ l) = case l of
-  Meet near -> words' (Text "meet" : maybe [] (\p -> [Text "near", value p]) near)
+linked :: CommentPositions -> Link -> Document
+linked comments (Located _ l) = case l of
+  Meet near -> spaced (Text "meet" : maybe [] (\p -> [Text "near", value p]) near)
   Smooth -> Text "smooth"
   Tangent -> Text "tangent"
-  Fillet e -> words' [Text "fillet", value e]
-  Chamfer e -> words' [Text "chamfer", value e]
+  Fillet e -> spaced [Text "fillet", value e]
+  Chamfer e -> spaced [Text "chamfer", value e]
   where
-    value = PrintExpression.value commented
+    value = PrintExpression.value comments
 
 -- Settings
 
-setting :: Commented -> Int -> Setting -> [AlignedLine]
-setting commented indent (Located _ s) = case s of
-  Approach to -> worded "approach" (stops commented to)
-  Retract to -> worded "retract" (stops commented to)
-  Depth e step -> worded "depth" (words' (value e : maybe [] (\x -> [Text "step", value x]) step))
-  LeadBy lead form e -> worded ("lead " <> leadName lead) (words' [Text (formName form), value e])
+setting :: CommentPositions -> Int -> Setting -> [AlignedLine]
+setting comments indent (Located _ s) = case s of
+  Approach to -> worded "approach" (stops comments to)
+  Retract to -> worded "retract" (stops comments to)
+  Depth e step -> worded "depth" (spaced (value e : maybe [] (\x -> [Text "step", value x]) step))
+  LeadBy lead form e -> worded ("lead " <> leadName lead) (spaced [Text (formName form), value e])
   Allowances es -> worded "allowance" (Series (pieces es))
   CornerStyle Round -> worded "corners" (Text "round")
   CornerStyle Sharp -> worded "corners" (Text "sharp")
@@ -382,11 +395,11 @@ setting commented indent (Located _ s) = case s of
   RestAllowed -> worded "rest" (Text "allowed")
   BrokenSetting -> []
   where
-    value = PrintExpression.value commented
+    value = PrintExpression.value comments
     worded word = cells' SettingValues indent (Text word)
     pieces :: NonEmpty Expr -> [Member]
     pieces =
-      NonEmpty.toList . PrintExpression.list commented . fmap (\e -> (Region.region e, value e))
+      NonEmpty.toList . PrintExpression.list comments . fmap (\e -> (Region.region e, value e))
 
 leadName :: Lead -> Text
 leadName lead = case lead of

@@ -1,13 +1,13 @@
--- | Where the rows of a printed program come from in the text that was read.
+-- | The tokens of the source text for every line of a printed program.
 --
--- The printed program has the tokens of the text but for brackets and words that may be there or
--- not, so its rows find their places by their tokens. Comments and blank lines follow by these
--- places.
+-- A printed program has the tokens of its source, except for brackets and words that are optional.
+-- Each printed token is matched with the next equal token of the source. The formatter places
+-- comments and blank lines by these matches.
 module Surface.SourceLine
-  ( Anchored (..),
-    anchored,
-    closes,
-    opens,
+  ( SourceLine (..),
+    withSources,
+    isClosing,
+    isOpening,
   )
 where
 
@@ -17,45 +17,52 @@ import Surface.Alignment qualified as Alignment
 import Surface.Lexer qualified as Lexer
 import Surface.Token (Token (..), Token_ (..))
 
--- | A row, and where its tokens stand in the text that was read; some may not stand there.
-data Anchored = Anchored {row :: AlignedLine, shapes :: [Token_], places :: [Maybe Token]}
+-- | A printed line, its tokens, and for each of them the token of the source, if there is one.
+data SourceLine = SourceLine {row :: AlignedLine, shapes :: [Token_], sources :: [Maybe Token]}
   deriving stock (Eq, Show)
 
--- | Rows with the tokens that they come from.
-anchored :: [Token] -> [AlignedLine] -> [Anchored]
-anchored source rows = dealt rows (zip printed (match source (map shape printed)))
+-- | Matches printed lines with the tokens of their source.
+withSources :: [Token] -> [AlignedLine] -> [SourceLine]
+withSources source rows = distribute rows (zip printed (match source (map shape printed)))
   where
-    printed = fst (Lexer.tokens 0 (Text.unlines (map Alignment.plain rows)))
+    printed = fst (Lexer.tokens 0 (Text.unlines (map Alignment.unaligned rows)))
 
--- | To each row its tokens.
-dealt :: [AlignedLine] -> [(Token, Maybe Token)] -> [Anchored]
-dealt rows tokens = case (rows, tokens) of
+-- | Distributes matched tokens to the lines that they are printed on.
+distribute :: [AlignedLine] -> [(Token, Maybe Token)] -> [SourceLine]
+distribute rows tokens = case (rows, tokens) of
   (row : more, first : rest) ->
     let (own, others) = break (newLine . fst) rest
-     in Anchored {row, shapes = map (shape . fst) (first : own), places = map snd (first : own)} :
-        dealt more others
+     in SourceLine
+          { row,
+            shapes = map (shape . fst) (first : own),
+            sources = map snd (first : own)
+          } :
+        distribute more others
   _ -> []
 
--- | For each printed token the one that it comes from.
+-- | Matches each printed token with a token of the source. The search ends at the first token that
+-- is not optional, so that one missing token does not displace the rest.
 match :: [Token] -> [Token_] -> [Maybe Token]
 match source printed = case printed of
   [] -> []
-  token : rest -> case break ((== token) . shape) reach of
+  token : rest -> case break ((== token) . shape) candidates of
     (before, found : _) -> Just found : match (drop (length before + 1) source) rest
     _ -> Nothing : match source rest
     where
-      reach
-        | optional token = takeWhile (optional . shape) source
-        | otherwise = let (loose, firm) = span (optional . shape) source in loose <> take 1 firm
+      candidates
+        | isOptional token = takeWhile (isOptional . shape) source
+        | otherwise =
+          let (optional, required) = span (isOptional . shape) source
+           in optional <> take 1 required
 
--- | Tokens that the printed program may have more or fewer of.
-optional :: Token_ -> Bool
-optional token = token `elem` Word "else" : map Symbol ["(", ")", "{", "}", "+"]
+-- | Tells if the printer may add or drop a token.
+isOptional :: Token_ -> Bool
+isOptional token = token `elem` Word "else" : map Symbol ["(", ")", "{", "}", "+"]
 
--- | Whether a row closes brackets that were opened above it.
-closes :: Anchored -> Bool
-closes anchor = take 1 (shapes anchor) `elem` map (pure . Symbol) [")", "]", "}"]
+-- | Tells if a line closes brackets that were opened above it.
+isClosing :: SourceLine -> Bool
+isClosing line = take 1 (shapes line) `elem` map (pure . Symbol) [")", "]", "}"]
 
--- | Whether a row opens a block.
-opens :: Anchored -> Bool
-opens anchor = drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol "{"]
+-- | Tells if a line opens a block.
+isOpening :: SourceLine -> Bool
+isOpening line = drop (length (shapes line) - 1) (shapes line) == [Symbol "{"]

@@ -1,4 +1,7 @@
--- | The program as it is written: names unresolved, units as given, every node with its place.
+-- | The syntax tree of a program as written: names unresolved, units as given, every node with its
+-- region.
+--
+-- Statements, items, settings and lines of tables that contain a mistake are kept as broken nodes.
 module Surface.Syntax
   ( Program (..),
     Statement,
@@ -53,12 +56,14 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
 import Surface.Token (Numeral (..), Unit)
 
--- | A whole text: its statements in order, and its comments.
+-- | A program: its statements and its comments, both in order.
 data Program = Program {statements :: [Statement], comments :: [Located Text]}
   deriving stock (Eq, Show)
 
+-- | A statement with its region.
 type Statement = Located Statement_
 
+-- | A statement by its keyword. Each constructor shows an example.
 data Statement_
   = -- | @part flange "title"@
     Part (Located Name) (Maybe (Located Text))
@@ -94,7 +99,7 @@ data Statement_
     Assert Expr (Maybe Expr)
   | -- | @mill outline outside { … }@
     Mill Expr (Located Side) [Setting]
-  | -- | @pocket window step 4 mm { … }@: what is to be cleared, how far the passes lie apart
+  | -- | @pocket window step 4 mm { … }@: the contour to clear, the stepover
     Pocket Expr Expr [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
@@ -116,17 +121,18 @@ data Statement_
     When Expr [Statement] [Statement]
   | -- | @with rotated(60 deg) { … }@
     With Expr [Statement]
-  | -- | A statement that could not be read: its first word, and the name that it would have
-    -- defined.
+  | -- | a statement with a mistake: its keyword, and the name that it was to define
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
 
--- | A machine by its name, or by the file that describes it.
+-- | A machine by its name, or by the file with its description.
 data MachineRef = Named Text | Described Text
   deriving stock (Eq, Show)
 
+-- | A cutter with its region.
 type Cutter = Located Cutter_
 
+-- | A cutter as written.
 data Cutter_
   = -- | @mill(diameter d)@
     MillCutter Expr
@@ -134,37 +140,41 @@ data Cutter_
     DrillCutter Expr
   | -- | @turn(nose r)@
     TurningCutter Expr
-  | -- | @cone(diameter d, bevel a, height h)@: a mill whose flank leans by an angle
+  | -- | @cone(diameter d, bevel a, height h)@: a conical mill with the bevel of its flank
     ConeCutter Expr Expr Expr
-  | -- | @blade(diameter d, gear e)@: a blade that swivels, by the wheel that swivels it
+  | -- | @blade(diameter d, gear e)@: a swivelling blade with its gear wheel
     BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
--- | How far chords may be off.
+-- | The tolerance of chords.
 data Accuracy
-  = -- | by so much to either side
+  = -- | to either side of the curve
     Within Expr
-  | -- | by so much into the material, and by so much out of it
+  | -- | inside and outside of the material
     Between Expr Expr
   deriving stock (Eq, Show)
 
--- | How the stops of a motion are reached that do not say it.
+-- | The pace of a motion to stops that name none: that of @rapid@ and of @move@.
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | What a spindle does: turn in a sense, at a speed if one is given.
+-- | The command to a spindle: a sense with an optional speed, or a stop.
 data Spin = Spinning Sense (Maybe Expr) | Still
   deriving stock (Eq, Show)
 
+-- | The state of the coolant.
 data Switch = SwitchOn | SwitchOff
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | An expression with its region.
 type Expr = Located Expr_
 
+-- | An expression.
 data Expr_
-  = Literal {-# UNPACK #-} Numeral (Maybe Unit)
+  = -- | a number with an optional unit
+    Literal {-# UNPACK #-} Numeral (Maybe Unit)
   | Variable Name
-  | -- | the name and its arguments
+  | -- | @f(a, near p)@
     Call {-# UNPACK #-} (Located Name) {-# UNPACK #-} (NonEmpty Argument)
   | Negate {-# UNPACK #-} Expr
   | Not Expr
@@ -175,13 +185,14 @@ data Expr_
     If Expr Expr Expr
   | -- | @(x, y)@: a point or a vector
     Pair {-# UNPACK #-} Expr {-# UNPACK #-} Expr
-  | -- | @(x, y, z)@: a point in space
+  | -- | @(x, y, z)@: a point with a height
     Triple Expr Expr Expr
   | List [Expr]
   | -- | @[e for x in list]@
     Each Expr (Located Name) Expr
   deriving stock (Eq, Show)
 
+-- | A binary operator.
 data Operator
   = Add
   | Subtract
@@ -197,7 +208,7 @@ data Operator
   | Or
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | An argument of a call. The words choose among the answers that geometry has.
+-- | An argument of a call. Words choose one of several geometric solutions.
 data Argument
   = Given {-# UNPACK #-} Expr
   | -- | @near p@, @left l@, @inside c@ …
@@ -206,6 +217,7 @@ data Argument
     Ranked (Located Rank)
   deriving stock (Eq, Show)
 
+-- | The word before an argument.
 data Selector
   = Near
   | ToLeft
@@ -224,98 +236,111 @@ data Lines
     LinesOf (Located Text)
   deriving stock (Eq, Show)
 
+-- | A line of a table with its region.
 type TableLine = Located TableLine_
 
+-- | A line of a table, or a run of lines from a file.
 data TableLine_
-  = -- | @x y mu deg H@: the columns, with the unit of their bare numbers
+  = -- | @x y mu deg H@: the headings
     Header (NonEmpty Heading)
-  | -- | a value for each column
+  | -- | one cell for each column
     Entries {-# UNPACK #-} (NonEmpty Expr)
-  | -- | lines one after the other with a bare number for each column, as a file has them
+  | -- | a run of lines from a file, with one number without a unit for each column
     Numbers {-# UNPACK #-} NumberTable
-  | -- | a line that could not be read
+  | -- | a line with a mistake
     BrokenLine
   deriving stock (Eq, Show)
 
+-- | The name of a column with the unit of its numbers.
 data Heading = Heading (Located Name) (Maybe Unit)
   deriving stock (Eq, Show)
 
+-- | A cipher with its region.
 type Cipher = Located Cipher_
 
--- | One recalculation of a curve: its digit, and what it is given.
+-- | A recalculation of a curve: its digit and its values.
 data Cipher_ = Cipher (Located Numeral) (NonEmpty Expr)
   deriving stock (Eq, Show)
 
+-- | A joggle with its region.
 type Joggle = Located Joggle_
 
 -- | @joggle from x1 to x2 depth d radius r@
 data Joggle_ = Joggle {from :: Expr, to :: Expr, depth :: Expr, radius :: Expr}
   deriving stock (Eq, Show)
 
+-- | The choice of one solution by its order along a line or a curve.
 data Rank = First | Last
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
+-- | Contours are open or closed.
 data Closure = Open | Closed
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | An item of a contour with its region.
 type Item = Located Item_
 
--- | What stands in the braces of a contour.
+-- | An item in the braces of a contour.
 data Item_
-  = -- | a walked element, what is asked on it, and the link to the one after it
+  = -- | an element with its sense, its modifiers, and the link to the next element
     Element (Maybe (Located Sense)) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | -- | @for a in list { … }@
     For (Located Name) Expr [Item]
   | -- | @if c { … } else { … }@
     Choose Expr [Item] [Item]
-  | -- | an item that could not be read, and the name that it would have defined
+  | -- | an item with a mistake, and the name that it was to define
     BrokenItem (Maybe (Located Name))
   deriving stock (Eq, Show)
 
--- | The sense in which a circle is walked, or a spindle turns.
+-- | The sense of a circle in a contour or of a spindle.
 data Sense = Clockwise | CounterClockwise
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | A modifier with its region.
 type Modifier = Located Modifier_
 
--- | What is asked on one element.
+-- | A property of one element.
 data Modifier_
-  = AtElementFeed Expr
-  | -- | slow down at its end
+  = -- | the feed along it
+    AtElementFeed Expr
+  | -- | a lower feed at its end
     Slow
-  | -- | what is left on it
+  | -- | the material left on it
     ElementAllowance Expr
-  | -- | how far its surface leans from the axis of the tool
+  | -- | the angle of its surface to the axis of the tool
     Bevel Expr
   deriving stock (Eq, Show)
 
+-- | A link with its region.
 type Link = Located Link_
 
+-- | The link between an element and the next one.
 data Link_
-  = -- | the intersection, chosen by the nearness of a point
+  = -- | their intersection, the one nearest to a point if that is given
     Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | -- | the radius; positive is walked clockwise, negative counter-clockwise
+  | -- | the radius, positive for a clockwise arc, negative for a counter-clockwise one
     Fillet {-# UNPACK #-} Expr
   | Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
--- | Where the cutter stands.
+-- | The side of a contour on which the cutter moves.
 data Side = Outside | Inside | LeftSide | RightSide | On
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | A setting with its region.
 type Setting = Located Setting_
 
--- | What stands in the braces of a machining statement.
+-- | A setting in the block of a machining statement.
 data Setting_
   = Approach (NonEmpty Stop)
   | Retract (NonEmpty Stop)
-  | -- | @depth 12 step 4@: how deep, and how much of it in one pass at most
+  | -- | @depth 12 step 4@: the depth and the largest stepdown
     Depth Expr (Maybe Expr)
   | -- | @lead in arc 5@
     LeadBy Lead LeadForm Expr
-  | -- | @allowance 1, 0.3, 0@: what each pass leaves standing
+  | -- | @allowance 1, 0.3, 0@: the material that each pass leaves
     Allowances (NonEmpty Expr)
   | -- | @corners sharp@
     CornerStyle Corners
@@ -327,42 +352,44 @@ data Setting_
     StartNear Expr
   | -- | @plunge 20 mm/min@: the feed downwards
     Plunge Expr
-  | -- | @peck 3 mm@: how deep a drill goes before it is drawn out
+  | -- | @peck 3 mm@: the depth that is drilled between two retracts
     Peck Expr
-  | -- | @islands a, b@: contours in a pocket that stay standing
+  | -- | @islands a, b@: contours in a pocket that are left uncut
     Islands (NonEmpty Expr)
-  | -- | @rest allowed@: what the cutter cannot reach may stay
+  | -- | @rest allowed@: rest material is accepted
     RestAllowed
-  | -- | a setting that could not be read
+  | -- | a setting with a mistake
     BrokenSetting
   deriving stock (Eq, Show)
 
--- | Onto the contour or away from it.
+-- | The linking move onto the contour or away from it.
 data Lead = LeadIn | LeadOut
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | The form of a lead-in or lead-out.
 data LeadForm = LeadLine | LeadArc
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | How the path goes round an outer corner.
+-- | The toolpath around an outer corner.
 data Corners = Round | Sharp
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | How the teeth of a mill meet the material.
+-- | The milling direction.
 data CutSense = Climb | Conventional
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | Who works out the path of the cutter beside the contour.
+-- | The side that computes the offset of the toolpath: the compiler, or the control by cutter
+-- compensation.
 data Compensation = ByCompiler | ByController
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | A point to go to, and how fast.
+-- | The end of a motion and its pace.
 data Stop = Stop {point :: Expr, pace :: Pace}
   deriving stock (Eq, Show)
 
--- | The feed of a move.
+-- | The pace of a motion.
 data Pace
-  = -- | as the motion or the feed in force say
+  = -- | that of the statement, which is the present feed or rapid
     Cutting
   | Rapid
   | AtFeed Expr

@@ -1,4 +1,4 @@
--- | The words of a program text.
+-- | The tokens of a program text.
 module Surface.Token
   ( Token (..),
     Token_ (..),
@@ -14,26 +14,28 @@ import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | A token, where it stands, and what stands before it.
+-- | A token with its region and its separation from the token before it.
 data Token = Token
   { place :: Region,
     shape :: Token_,
-    -- | it is the first on its line
+    -- | it is the first token of its line
     newLine :: Bool,
-    -- | it touches the token before it
+    -- | nothing separates it from the token before it
     attached :: Bool
   }
   deriving stock (Eq, Ord, Show)
 
--- | The shapes of tokens.
+-- | The kind and the content of a token.
 data Token_
-  = -- | a name or a keyword; which of them is for the parser to say
+  = -- | a name or a keyword; the parser tells them apart
     Word Text
-  | -- | a number as written, and the unit behind it
+  | -- | a number as written, with its unit if it has one
     Number {-# UNPACK #-} Numeral (Maybe Unit)
-  | Text Text
-  | Symbol Text
-  | -- | a number that is none: @1.2.3@, or one too large to hold
+  | -- | a text without its quotation marks
+    Text Text
+  | -- | punctuation or an operator
+    Symbol Text
+  | -- | a malformed number such as @1.2.3@, or one too large for a double
     BadNumber Text
   | -- | a text without its closing quotation mark
     OpenText
@@ -41,7 +43,7 @@ data Token_
     Stray Char
   deriving stock (Eq, Ord, Show)
 
--- | A number: its digits as they are written, and how much they are.
+-- | A number: its digits as written, and its value.
 data Numeral = Numeral {digits :: {-# UNPACK #-} Text, amount :: Double}
   deriving stock (Eq, Ord, Show)
 
@@ -59,7 +61,7 @@ data Unit
   | Rpm
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | A unit as it is written.
+-- | The name of a unit in programs.
 unitName :: Unit -> Text
 unitName unit = case unit of
   Millimetre -> "mm"
@@ -73,11 +75,11 @@ unitName unit = case unit of
   InPerMin -> "in/min"
   Rpm -> "rpm"
 
--- | The units that a column of a table can have: of lengths and angles.
+-- | The units that a column of a table can have: those of lengths and angles.
 columnUnits :: [Unit]
 columnUnits = [Millimetre, Centimetre, Metre, Inch, Degree, Radian]
 
--- | A token in the words of a report.
+-- | Describes a token in the words of a report; long ones are shortened to 60 characters.
 describe :: Token_ -> Text
 describe token = case token of
   Word text -> "‘" <> short text <> "’"

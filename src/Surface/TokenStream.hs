@@ -1,6 +1,6 @@
 {-# LANGUAGE TypeFamilies #-}
 
--- | A list of tokens as an input of megaparsec.
+-- | A list of tokens as an input stream of megaparsec.
 module Surface.TokenStream
   ( Input (..),
   )
@@ -9,7 +9,7 @@ where
 import Surface.Token (Token)
 import Text.Megaparsec qualified as Parsec
 
--- | What is left to read.
+-- | The tokens that remain to be parsed.
 newtype Input = Input [Token]
 
 instance Parsec.Stream Input where

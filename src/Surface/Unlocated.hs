@@ -1,4 +1,4 @@
--- | Trees without places, for those who ask whether two texts mean the same.
+-- | Syntax trees without regions, for the comparison of two texts.
 module Surface.Unlocated
   ( statements,
   )
@@ -10,26 +10,27 @@ import Base.Region (Located (Located), Region (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax hiding (statements)
 
--- | Statements, all at one place.
+-- | Replaces all regions in statements by one. Rows of numbers from files become rows of literals.
 statements :: [Statement] -> [Statement]
-statements = map (moved statement)
+statements = map (unlocated statement)
 
--- | An expression, all of it at one place.
 expr :: Expr -> Expr
-expr = moved expression
+expr = unlocated expression
 
-moved :: (a -> a) -> Located a -> Located a
-moved inside (Located _ a) = Located nowhere (inside a)
+-- | Replaces the region of a node and applies a function to its content.
+unlocated :: (a -> a) -> Located a -> Located a
+unlocated inside (Located _ a) = Located nowhere (inside a)
 
+-- | Replaces the region of a node without regions inside.
 here :: Located a -> Located a
-here = moved id
+here = unlocated id
 
 statement :: Statement_ -> Statement_
 statement s = case s of
   Part name title -> Part (here name) (fmap here title)
   Machine ref -> Machine (here ref)
   Import file -> Import (here file)
-  Tool c -> Tool (moved cutter c)
+  Tool c -> Tool (unlocated cutter c)
   Feed e -> Feed (expr e)
   Tolerance (Within e) -> Tolerance (Within (expr e))
   Tolerance (Between a b) -> Tolerance (Between (expr a) (expr b))
@@ -38,19 +39,19 @@ statement s = case s of
   LetValue name e -> LetValue (here name) (expr e)
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
-  Contour name closure items -> Contour (here name) closure (map (moved item) items)
+  Contour name closure items -> Contour (here name) closure (map (unlocated item) items)
   Table name (LinesOf file) -> Table (here name) (LinesOf (here file))
   Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
   Curve name e -> Curve (here name) (expr e)
   Piece name e ciphers side joggles ->
-    Piece (here name) (expr e) (map (moved cipher) ciphers) (here side) (map (moved joggle) joggles)
+    Piece (here name) (expr e) (map (unlocated cipher) ciphers) (here side) (map (unlocated joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
-  Mill e side settings -> Mill (expr e) (here side) (map (moved setting) settings)
-  Pocket e step settings -> Pocket (expr e) (expr step) (map (moved setting) settings)
-  Turn e side settings -> Turn (expr e) (here side) (map (moved setting) settings)
-  Drill at depth settings -> Drill (expr at) (expr depth) (map (moved setting) settings)
+  Mill e side settings -> Mill (expr e) (here side) (map (unlocated setting) settings)
+  Pocket e step settings -> Pocket (expr e) (expr step) (map (unlocated setting) settings)
+  Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
+  Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
   Travel motion stops -> Travel motion (fmap stop stops)
-  Change place c -> Change (expr place) (moved cutter c)
+  Change place c -> Change (expr place) (unlocated cutter c)
   Spindle (Spinning sense speed) -> Spindle (Spinning sense (fmap expr speed))
   Spindle Still -> Spindle Still
   Coolant switch -> Coolant switch
@@ -65,18 +66,20 @@ line (Located _ l) = map (Located nowhere) $ case l of
   Header columns -> [Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)]
   Entries es -> [Entries (fmap expr es)]
   Numbers rows ->
-    [ maybe BrokenLine Entries (NonEmpty.nonEmpty (map bare (NumberTable.cells rows k)))
+    [ maybe BrokenLine Entries (NonEmpty.nonEmpty (map literal (NumberTable.cells rows k)))
       | k <- [0 .. NumberTable.count rows - 1]
     ]
   BrokenLine -> [BrokenLine]
 
--- | A number as it is written in a program.
-bare :: Double -> Expr
-bare x
-  | x < 0 = Located nowhere (Negate (bare (negate x)))
+-- | The literal of a number; a negative one is a negated literal.
+literal :: Double -> Expr
+literal x
+  | x < 0 = Located nowhere (Negate (literal (negate x)))
   | otherwise = Located nowhere (Literal (Numeral (Decimal.exact x) x) Nothing)
 
+-- | The region that replaces all others.
 nowhere :: Region
+
 nowhere = Region 0 0
 
 cipher :: Cipher_ -> Cipher_
@@ -117,9 +120,9 @@ argument a = case a of
 item :: Item_ -> Item_
 item i = case i of
   Element sense e modifiers link ->
-    Element (fmap here sense) (expr e) (map (moved modifier) modifiers) (fmap (moved linked) link)
-  For name from inside -> For (here name) (expr from) (map (moved item) inside)
-  Choose condition yes no -> Choose (expr condition) (map (moved item) yes) (map (moved item) no)
+    Element (fmap here sense) (expr e) (map (unlocated modifier) modifiers) (fmap (unlocated linked) link)
+  For name from inside -> For (here name) (expr from) (map (unlocated item) inside)
+  Choose condition yes no -> Choose (expr condition) (map (unlocated item) yes) (map (unlocated item) no)
   BrokenItem name -> BrokenItem (fmap here name)
 
 modifier :: Modifier_ -> Modifier_

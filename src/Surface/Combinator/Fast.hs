@@ -3,118 +3,139 @@
 {-# LANGUAGE RankNTypes #-}
 {-# LANGUAGE TypeFamilies #-}
 
--- | The reader for programs without a mistake: it goes straight through the tokens and gives up at
--- the first mistake, of which it says nothing. It gives what the one that explains would give
--- without errors.
+-- | The fast twin of the explaining parser, for programs without a mistake.
+--
+-- It runs through the tokens in continuation-passing style and stops at the first mistake without a
+-- report. For correct programs it gives the same output as the parser of "Surface.Combinator".
 module Surface.Combinator.Fast
-  ( Quick,
+  ( FastParser,
     run,
+    plainPair,
   )
 where
 
+import Base.Region (Located (..))
 import Base.Region qualified as Region
 import Control.Applicative (Alternative (..))
 import Control.Monad (MonadPlus)
-import Surface.Combinator (Grammar (..), Memory (..), Problem, Taken (..), deepest)
+import Surface.Combinator
+  ( Consumed (..),
+    Grammar (..),
+    ParserState (..),
+    Problem,
+    isSymbol,
+    maxNesting,
+  )
+import Surface.Syntax (Expr, Expr_ (..))
 import Surface.Token (Token)
 import Surface.Token qualified as Token
 import Surface.TokenStream (Input (..))
 import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
--- | What is left to read, how many tokens may still be read, where the last one ended, how many
--- brackets are open, and how many blocks of statements.
-data Ahead = Ahead {left :: [Token], room :: Int, ended :: Int, open :: Int, blocks :: Int}
+-- | The state of the parser.
+data Ahead = Ahead
+  { -- | the remaining tokens
+    left :: [Token],
+    -- | the number of tokens that may still be read
+    room :: Int,
+    -- | the offset after the last token
+    ended :: Int,
+    -- | the number of open brackets
+    open :: Int,
+    -- | the number of statement blocks around the present statement
+    blocks :: Int
+  }
 
--- | How to go on with what was read; how to go on when it could not be read, by the room that was
--- left at the mistake: another way may be tried only where this one began.
-newtype Quick a = Quick (forall r. Ahead -> (a -> Ahead -> r) -> (Int -> r) -> r)
+-- | A parser with continuations for success and failure. The failure continuation gets the room at
+-- the mistake. An alternative is tried only if the mistake is where the first one began.
+newtype FastParser a = FastParser (forall r. Ahead -> (a -> Ahead -> r) -> (Int -> r) -> r)
 
--- | Run a parser over so many tokens at most; nothing when there are more, or a mistake.
-run :: Int -> Quick a -> [Token] -> Maybe a
-run most (Quick p) ts =
-  p Ahead {left = ts, room = most, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
+-- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more, or if it fails.
+run :: Int -> FastParser a -> [Token] -> Maybe a
+run limit (FastParser p) ts =
+  p Ahead {left = ts, room = limit, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
 
--- | A mistake for which no other way may be tried.
+-- | The room of a failure after which no alternative is tried.
 final :: Int
 final = minBound
 
--- What is read is computed at once: put off it would hold the tokens that it was read from.
-instance Functor Quick where
-  fmap f (Quick p) = Quick (\s ok no -> p s (\a s' -> let !b = f a in ok b s') no)
+-- Results are evaluated at once. Thunks would keep the tokens alive.
+instance Functor FastParser where
+  fmap f (FastParser p) = FastParser (\s ok no -> p s (\a s' -> let !b = f a in ok b s') no)
   {-# INLINE fmap #-}
 
-instance Applicative Quick where
-  pure !a = Quick (\s ok _ -> ok a s)
+instance Applicative FastParser where
+  pure !a = FastParser (\s ok _ -> ok a s)
   {-# INLINE pure #-}
-  Quick p <*> Quick q =
-    Quick (\s ok no -> p s (\f s' -> q s' (\a s'' -> let !b = f a in ok b s'') no) no)
+  FastParser p <*> FastParser q =
+    FastParser (\s ok no -> p s (\f s' -> q s' (\a s'' -> let !b = f a in ok b s'') no) no)
   {-# INLINE (<*>) #-}
-  Quick p *> Quick q = Quick (\s ok no -> p s (\_ s' -> q s' ok no) no)
+  FastParser p *> FastParser q = FastParser (\s ok no -> p s (\_ s' -> q s' ok no) no)
   {-# INLINE (*>) #-}
-  Quick p <* Quick q = Quick (\s ok no -> p s (\a s' -> q s' (\_ -> ok a) no) no)
+  FastParser p <* FastParser q = FastParser (\s ok no -> p s (\a s' -> q s' (\_ -> ok a) no) no)
   {-# INLINE (<*) #-}
 
-instance Monad Quick where
-  Quick p >>= f = Quick (\s ok no -> p s (\a s' -> let Quick q = f a in q s' ok no) no)
+instance Monad FastParser where
+  FastParser p >>= f = FastParser (\s ok no -> p s (\a s' -> let FastParser q = f a in q s' ok no) no)
   {-# INLINE (>>=) #-}
 
-instance Alternative Quick where
-  empty = Quick (\s _ no -> no (room s))
+instance Alternative FastParser where
+  empty = FastParser (\s _ no -> no (room s))
   {-# INLINE empty #-}
-  Quick p <|> Quick q =
-    Quick (\s ok no -> p s ok (\at -> if at == room s then q s ok no else no at))
+  FastParser p <|> FastParser q =
+    FastParser (\s ok no -> p s ok (\at -> if at == room s then q s ok no else no at))
   {-# INLINE (<|>) #-}
 
-instance MonadPlus Quick
+instance MonadPlus FastParser
 
-instance MonadParsec Problem Input Quick where
+instance MonadParsec Problem Input FastParser where
   parseError _ = empty
   {-# INLINE parseError #-}
   label _ p = p
   {-# INLINE label #-}
   hidden p = p
   {-# INLINE hidden #-}
-  try (Quick p) = Quick (\s ok no -> p s ok (\at -> no (if at == final then final else room s)))
-  lookAhead (Quick p) = Quick (\s ok no -> p s (\a _ -> ok a s) no)
+  try (FastParser p) = FastParser (\s ok no -> p s ok (\at -> no (if at == final then final else room s)))
+  lookAhead (FastParser p) = FastParser (\s ok no -> p s (\a _ -> ok a s) no)
   {-# INLINE lookAhead #-}
-  notFollowedBy (Quick p) =
-    Quick (\s ok no -> p s (\_ _ -> no (room s)) (\at -> if at == final then no final else ok () s))
-  withRecovery _ (Quick p) = Quick (\s ok no -> p s ok (\_ -> no final))
+  notFollowedBy (FastParser p) =
+    FastParser (\s ok no -> p s (\_ _ -> no (room s)) (\at -> if at == final then no final else ok () s))
+  withRecovery _ (FastParser p) = FastParser (\s ok no -> p s ok (\_ -> no final))
   {-# INLINE withRecovery #-}
   observing p = Right <$> p
   {-# INLINE observing #-}
-  eof = Quick (\s ok no -> if null (left s) then ok () s else no (room s))
+  eof = FastParser (\s ok no -> if null (left s) then ok () s else no (room s))
   {-# INLINE eof #-}
-  token accept _ = Quick $ \s ok no -> case left s of
+  token accept _ = FastParser $ \s ok no -> case left s of
     t : rest | Just a <- accept t -> ok a s {left = rest, room = room s - 1}
     _ -> no (room s)
   {-# INLINE token #-}
-  tokens fits wanted = Quick $ \s ok no ->
+  tokens fits wanted = FastParser $ \s ok no ->
     let (taken, rest) = splitAt (length wanted) (left s)
      in if fits wanted taken
           then ok taken s {left = rest, room = room s - length taken}
           else no (room s)
   takeWhileP _ holds =
-    Quick $ \s ok _ ->
+    FastParser $ \s ok _ ->
       let (taken, rest) =
             span holds (left s)
        in ok taken s {left = rest, room = room s - length taken}
   takeWhile1P what holds =
     takeWhileP what holds >>= \taken -> if null taken then empty else pure taken
-  takeP _ n = Quick $ \s ok no ->
+  takeP _ n = FastParser $ \s ok no ->
     let (taken, rest) = splitAt n (left s)
      in if length taken == max 0 n
           then ok taken s {left = rest, room = room s - length taken}
           else no (room s)
-  getParserState = Quick (\s ok _ -> ok (stateOf s) s)
+  getParserState = FastParser (\s ok _ -> ok (stateOf s) s)
   {-# INLINE getParserState #-}
-  updateParserState f = Quick $ \s ok _ ->
+  updateParserState f = FastParser $ \s ok _ ->
     let Parsec.State {Parsec.stateInput = Input ts, Parsec.stateOffset} =
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
--- | The state as megaparsec has it.
+-- | The state in megaparsec's form.
 stateOf :: Ahead -> Parsec.State Input Problem
 stateOf s =
   Parsec.State
@@ -125,16 +146,16 @@ stateOf s =
     }
 {-# INLINE stateOf #-}
 
-instance Grammar Quick where
-  token _ accept = Quick $ \s ok no -> case left s of
+instance Grammar FastParser where
+  token _ accept = FastParser $ \s ok no -> case left s of
     t : rest
       | room s <= 0 -> no final
       | Just a <- accept t ->
         ok a s {left = rest, room = room s - 1, ended = Region.end (Token.place t)}
     _ -> no (room s)
   {-# INLINE token #-}
-  several (Quick p) =
-    Quick
+  zeroOrMore (FastParser p) =
+    FastParser
       ( \s ok no ->
           let more as s' =
                 p
@@ -143,40 +164,41 @@ instance Grammar Quick where
                   (\at -> if at == room s' then let !all' = reverse as in ok all' s' else no at)
            in more [] s
       )
-  {-# INLINE several #-}
-  blaming _ p = p
-  {-# INLINE blaming #-}
-  upcoming = Quick (\s ok _ -> ok (left s) s)
-  {-# INLINE upcoming #-}
-  atOnce whole (Quick p) = Quick $ \s ok no -> case whole (left s) of
-    Just (Taken a count rest)
-      | count <= room s && open s < deepest - 2 ->
+  {-# INLINE zeroOrMore #-}
+  onFailure _ p = p
+  {-# INLINE onFailure #-}
+  remaining = FastParser (\s ok _ -> ok (left s) s)
+  {-# INLINE remaining #-}
+  fastPath whole (FastParser p) = FastParser $ \s ok no -> case whole (left s) of
+    Just (Consumed a count rest)
+      | count <= room s && open s < maxNesting - 2 ->
         ok a s {left = rest, room = room s - count, ended = Region.end (Region.region a)}
     _ -> p s ok no
-  {-# INLINE atOnce #-}
-  wordAhead =
-    Quick
+  {-# INLINE fastPath #-}
+  isWordNext =
+    FastParser
       ( \s ok _ ->
           ok (case left s of Token.Token {Token.shape = Token.Word _} : _ -> True; _ -> False) s
       )
-  {-# INLINE wordAhead #-}
-  memory = Quick (\s ok _ -> ok (memoryOf s) s)
-  {-# INLINE memory #-}
-  remember f =
-    Quick
+  {-# INLINE isWordNext #-}
+  parserState = FastParser (\s ok _ -> ok (grammarStateOf s) s)
+  {-# INLINE parserState #-}
+  modifyState f =
+    FastParser
       ( \s ok _ ->
           let m =
-                f (memoryOf s)
-           in ok () s {ended = lastEnd m, open = depth m, blocks = within m}
+                f (grammarStateOf s)
+           in ok () s {ended = lastEnd m, open = bracketDepth m, blocks = blockDepth m}
       )
-  {-# INLINE remember #-}
+  {-# INLINE modifyState #-}
 
-memoryOf :: Ahead -> Memory
-memoryOf s =
-  Memory {failures = [], lastEnd = ended s, depth = open s, within = blocks s, gaveUp = False}
-{-# INLINE memoryOf #-}
+-- | The state in the form of the grammar, which this parser needs only in part.
+grammarStateOf :: Ahead -> ParserState
+grammarStateOf s =
+  ParserState {failures = [], lastEnd = ended s, bracketDepth = open s, blockDepth = blocks s, hasGivenUp = False}
+{-# INLINE grammarStateOf #-}
 
--- | Lines and columns, which are not counted here.
+-- | A constant position: lines and columns are not counted.
 nowhere :: [Token] -> Parsec.PosState Input
 nowhere ts =
   Parsec.PosState
@@ -186,3 +208,29 @@ nowhere ts =
       Parsec.pstateTabWidth = Parsec.defaultTabWidth,
       Parsec.pstateLinePrefix = ""
     }
+
+-- Points
+
+-- | Parses a pair of numbers in parentheses, the form of most points, without the combinators.
+plainPair :: [Token] -> Maybe (Consumed Expr)
+plainPair ts = case ts of
+  opening : inside
+    | isSymbol "(" opening,
+      Just (Consumed x n (comma : afterComma)) <- plainNumber inside,
+      isSymbol "," comma,
+      Just (Consumed y m (closing : rest)) <- plainNumber afterComma,
+      isSymbol ")" closing ->
+      let region = Region.span (Token.place opening) (Token.place closing)
+       in Just (Consumed (Located region (Pair x y)) (n + m + 3) rest)
+  _ -> Nothing
+
+-- | Parses a number with an optional minus.
+plainNumber :: [Token] -> Maybe (Consumed Expr)
+plainNumber ts = case ts of
+  Token.Token {Token.shape = Token.Number x unit, Token.place} : rest ->
+    Just (Consumed (Located place (Literal x unit)) 1 rest)
+  minus : Token.Token {Token.shape = Token.Number x unit, Token.place} : rest
+    | isSymbol "-" minus ->
+      let negated = Negate (Located place (Literal x unit))
+       in Just (Consumed (Located (Region.span (Token.place minus) place) negated) 2 rest)
+  _ -> Nothing

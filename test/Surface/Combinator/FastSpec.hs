@@ -24,7 +24,7 @@ spec = describe "one grammar, two readers" . modifyMaxSuccess (const 500) $ do
   prop "a program with a few mistakes has the same ones by both" $
     forAllShow (Generate.program >>= damaged 3 . PrintProgram.program) Text.unpack both
   where
-    both text = parse text === Parser.explained 0 text
+    both text = parse text === Parser.parseExplained 0 text
     parse text = Parser.parse 0 text :: Result () Error Program
 
 -- | A text with so many pieces replaced by signs and words.

@@ -1,0 +1,499 @@
+-- | The checking of expressions: names resolved, types inferred, units normalised.
+--
+-- Every function gives a type and a 'Deferred' term. The term is complete once inference knows
+-- all dimensions of the program.
+module Checked.Expression
+  ( Environment (..),
+    expect,
+    infer,
+    operation,
+    repetition,
+    isBuiltin,
+    spatialPoint,
+    pointOrPoints,
+    contourElement,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Region (Located (..), Region (..))
+import Checked.Builtin (ArgumentLabel, Form (..))
+import Checked.Builtin qualified as Builtin
+import Checked.Deferred (Deferred, resolveAll)
+import Checked.Dimension qualified as Dimension
+import Checked.Error (Error (..))
+import Checked.Inference (Infer)
+import Checked.Inference qualified as Inference
+import Checked.Inference.Fast qualified as FastInference
+import Checked.Scheme
+  ( Arithmetic (..),
+    Binding (..),
+    DeferredConstraint (..),
+    OverloadedCall (OverloadedCall),
+    Scheme,
+  )
+import Checked.Scheme qualified as Scheme
+import Checked.Syntax qualified as Checked
+import Checked.Type (Type)
+import Checked.Type qualified as Type
+import Control.Monad (unless, void, when, zipWithM)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (isJust)
+import Data.Text (Text)
+import Surface.Keyword qualified as Keyword
+import Surface.Syntax qualified as Surface
+import Surface.Token (Numeral (..), Unit)
+
+-- | The surroundings of an expression.
+data Environment = Environment
+  { -- | all names that the program or the surrounding blocks define anywhere, with their regions
+    definitions :: Map Name Region,
+    -- | literals are checked by "Checked.Inference.Fast", otherwise by full inference
+    isFast :: Bool
+  }
+
+-- | A type with the term that has it.
+type Typed = (Type, Deferred Checked.Expr)
+
+-- Wanted types
+
+-- | Checks an expression that must have a type.
+expect :: Environment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
+expect env wanted e = case (value e, wanted) of
+  _ | isFast env, Just e' <- FastInference.literal wanted e -> pure (const e')
+  (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> pair env (region e) x y
+  _ -> do
+    (t, e') <- infer env e
+    equal (region e) wanted t
+    pure e'
+
+-- | Demands that the type found at a region is the wanted one.
+equal :: Region -> Type -> Type -> Infer ()
+equal at wanted t = void (isEqual at wanted t)
+
+-- | 'equal' that also tells if the types agree.
+isEqual :: Region -> Type -> Type -> Infer Bool
+isEqual at wanted t = do
+  found <- Inference.resolved t
+  wanted' <- Inference.resolved wanted
+  elsewhere <- Inference.decidedElsewhere [(at, t, found), (at, wanted, wanted')]
+  same <- Inference.unify at wanted t
+  unless same (Inference.mistakeOnce (map fst elsewhere) (Mismatch at wanted' found elsewhere))
+  pure same
+
+-- | Checks a point of the plane or a point with a height.
+spatialPoint :: Environment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+spatialPoint env e = do
+  (t, e') <- infer env e
+  t' <- Inference.resolved t
+  unless (t' == Type.SpacePoint) (equal (region e) Type.aPoint t)
+  pure e'
+
+-- | Checks a list of points or a single point.
+pointOrPoints :: Environment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+pointOrPoints env e = do
+  (t, e') <- infer env e
+  t' <- Inference.resolved t
+  case t' of
+    Type.Spatial _ -> equal (region e) Type.aPoint t
+    _ -> equal (region e) (Type.ListOf Type.aPoint) t
+  pure e'
+
+-- | Checks an element of a contour: a circle with a sense, or a line, a point, a curve or a contour
+-- without one.
+contourElement ::
+  Environment ->
+  Maybe (Located Surface.Sense) ->
+  Surface.Expr ->
+  Infer Typed
+contourElement env sense e = case (sense, value e) of
+  (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect env Type.aPoint e
+  _ -> do
+    found <- fastCall env e
+    (t, e') <- case found of
+      Just c -> pure (FastInference.resultType c, FastInference.checkedCall c)
+      Nothing -> infer env e
+    t' <- Inference.resolved t
+    case (t', sense) of
+      (Type.Circle, Nothing) -> Inference.mistake (SenseMissing (region e))
+      (Type.Circle, Just _) -> pure ()
+      (Type.Line, Nothing) -> pure ()
+      (Type.Contour, Nothing) -> pure ()
+      (Type.Curve _, Nothing) -> pure ()
+      (Type.Curve _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
+      (Type.Spatial _, Nothing) -> equal (region e) Type.aPoint t
+      (Type.Line, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
+      (Type.Contour, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
+      (Type.Spatial _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
+      (Type.Variable _, Just _) -> equal (region e) Type.Circle t
+      (Type.Wrong, _) -> pure ()
+      _ -> Inference.mistake (NotAnElement (region e) t')
+    pure (t, e')
+
+-- | The fast check of a call, if the environment allows it.
+fastCall :: Environment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
+fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
+
+-- Inferred types
+
+-- | Checks an expression and infers its type.
+infer :: Environment -> Surface.Expr -> Infer Typed
+infer env located@(Located at e) = case e of
+  Surface.Literal (Numeral _ x) unit -> literal at x unit
+  Surface.Variable name -> variable env at name
+  Surface.Call name arguments -> do
+    found <- fastCall env located
+    case found of
+      Nothing -> call env at name arguments
+      Just c -> (,FastInference.checkedCall c) <$> fastCallType at c
+  Surface.Negate inner -> do
+    (t, inner') <- infer env inner
+    result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
+    pure (result, \sol -> Located at (Checked.Negate (inner' sol)))
+  Surface.Not inner -> do
+    inner' <- expect env Type.Boolean inner
+    pure (Type.Boolean, \sol -> Located at (Checked.Not (inner' sol)))
+  Surface.Binary op l r -> binary env at op l r
+  Surface.Range low high step -> range env at low high step
+  Surface.If c a b -> do
+    c' <- expect env Type.Boolean c
+    (t, a') <- infer env a
+    b' <- expect env t b
+    pure (t, \sol -> Located at (Checked.If (c' sol) (a' sol) (b' sol)))
+  Surface.Pair x y -> do
+    xy <- pair' env x y
+    d <- Inference.freshDimension
+    pure (Type.Spatial d, Located at . xy)
+  Surface.Triple x y z -> do
+    x' <- expect env Type.len x
+    y' <- expect env Type.len y
+    z' <- expect env Type.len z
+    pure (Type.SpacePoint, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
+  Surface.List es -> do
+    t <- Inference.freshType
+    es' <- mapM (expect env t) es
+    pure (Type.ListOf t, \sol -> Located at (Checked.List (resolveAll sol es')))
+  Surface.Each inner counter list -> do
+    (t, list') <- repetition env counter list
+    (result, inner') <- Inference.withLocals [(counter, t)] (infer env inner)
+    pure
+      ( Type.ListOf result,
+        \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
+      )
+
+-- | A number as written. Without a unit its dimension follows from its use, and the number has the
+-- default unit of that dimension.
+literal :: Region -> Double -> Maybe Unit -> Infer Typed
+literal at x unit = case unit of
+  Just u ->
+    let (t, factor) = Type.ofUnit u in pure (t, const (Located at (Checked.Number (x * factor))))
+  Nothing -> do
+    d <- Inference.freshDimension
+    -- A literal has one unit in all uses of a function. Zero is the same in every unit.
+    unless (x == 0) (Inference.monomorphic d)
+    pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
+
+-- | A pair of lengths at a region.
+pair :: Environment -> Region -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr)
+pair env at x y = (Located at .) <$> pair' env x y
+
+pair' :: Environment -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr_)
+pair' env x y = do
+  x' <- expect env Type.len x
+  y' <- expect env Type.len y
+  pure (\sol -> Checked.Pair (x' sol) (y' sol))
+
+-- | A term with an operator.
+binary ::
+  Environment ->
+  Region ->
+  Surface.Operator ->
+  Surface.Expr ->
+  Surface.Expr ->
+  Infer Typed
+binary env at op l r
+  | op `elem` [Surface.And, Surface.Or] = do
+    l' <- expect env Type.Boolean l
+    r' <- expect env Type.Boolean r
+    pure (Type.Boolean, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
+  | otherwise = do
+    (lt, l') <- infer env l
+    (rt, r') <- infer env r
+    when (op `elem` [Surface.Multiply, Surface.Divide]) (plainFactor op (l, lt) (r, rt))
+    result <- operation at op (region l, lt) (region r, rt)
+    pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
+
+-- | Makes a literal factor without a unit a plain number if the other factor has a known dimension:
+-- twice an angle is an angle. A literal divisor is always a plain number. Beside a plain number a
+-- literal may be anything: @20 * k@ can be a length, @4 * 4@ an area.
+plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
+plainFactor op (l, lt) (r, rt) = do
+  lt' <- Inference.resolved lt
+  rt' <- Inference.resolved rt
+  when
+    (hasNoUnit l && not (hasNoUnit r) && hasDimension rt')
+    (void (Inference.unify (region l) Type.number lt))
+  when
+    (hasNoUnit r && not (hasNoUnit l) && (op == Surface.Divide || hasDimension lt'))
+    (void (Inference.unify (region r) Type.number rt))
+  where
+    hasDimension t = case t of
+      Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
+      _ -> False
+
+-- | Tells if an expression consists of literals without units.
+hasNoUnit :: Surface.Expr -> Bool
+hasNoUnit (Located _ e) = case e of
+  Surface.Literal _ Nothing -> True
+  Surface.Negate inner -> hasNoUnit inner
+  Surface.Binary _ l r -> hasNoUnit l && hasNoUnit r
+  _ -> False
+
+-- | Requires that an operation has a result; gives the type of the result.
+operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
+operation arithmeticRegion operator left right = do
+  outcome <- Inference.freshType
+  Inference.require (Operation Arithmetic {arithmeticRegion, operator, left, right, outcome})
+  pure outcome
+
+-- | A range: of plain numbers, or with a step of quantities of one dimension.
+range ::
+  Environment ->
+  Region ->
+  Surface.Expr ->
+  Surface.Expr ->
+  Maybe Surface.Expr ->
+  Infer Typed
+range env at low high step = do
+  t <- maybe (pure Type.number) (const (Type.Quantity <$> Inference.freshDimension)) step
+  low' <- expect env t low
+  high' <- expect env t high
+  step' <- traverse (expect env t) step
+  pure
+    ( Type.ListOf t,
+      \sol -> Located at (Checked.Range (low' sol) (high' sol) (($ sol) <$> step'))
+    )
+
+-- | Checks the variable and the list of a repetition; gives the type of the variable.
+repetition :: Environment -> Located Name -> Surface.Expr -> Infer Typed
+repetition env counter@(Located _ (Name text)) list = do
+  when (isBuiltin text) (Inference.mistake (NameTaken (region counter) (value counter)))
+  t <- Inference.freshType
+  (found, list') <- infer env list
+  isList <- isEqual (region list) (Type.ListOf t) found
+  pure (if isList then t else Type.Wrong, list')
+
+-- | Tells if a name belongs to the language itself.
+isBuiltin :: Text -> Bool
+isBuiltin = isJust . Builtin.lookup
+
+-- Names
+
+-- | A name used as a value.
+variable :: Environment -> Region -> Name -> Infer Typed
+variable env at name@(Name text) = do
+  binding <- Inference.find name
+  case binding of
+    Just (Value definedAt t) -> local definedAt t
+    Just (Local definedAt t) -> local definedAt t
+    Just (Function definedAt parameters scheme) -> do
+      Inference.mention at (Just definedAt) text (Inference.Callable parameters scheme)
+      wrongTerm at (FunctionAsValue at name [Builtin.callText text parameters])
+    Just (Poisoned _) -> wrong at <$ Inference.taint
+    Nothing -> case Builtin.lookup text of
+      Just builtin -> do
+        Inference.mention at Nothing text (Inference.Described (Builtin.description builtin))
+        unknowns <- freshUnknowns
+        case Builtin.forms unknowns builtin of
+          [Form [] t] -> pure (t, const (Located at (Checked.Builtin builtin [])))
+          _ -> wrongTerm at (FunctionAsValue at name (Builtin.formTexts builtin))
+      Nothing -> unknownName env at name >>= wrongTerm at
+  where
+    local definedAt t = do
+      Inference.mention at (Just definedAt) text (Inference.Valued t)
+      pure (t, const (Located at (Checked.Variable name)))
+
+-- | The error for a name without a meaning here: it is defined below, it is being defined, or it is
+-- misspelt.
+unknownName :: Environment -> Region -> Name -> Infer Error
+unknownName env at name = do
+  names <- Inference.namesInScope
+  pure $ case Map.lookup name (definitions env) of
+    Just definedAt
+      | start definedAt > start at -> UsedBeforeDefinition at name definedAt
+      | otherwise -> Recursive at name
+    Nothing ->
+      UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
+
+-- | A substitute for a term that is reported as wrong.
+wrong :: Region -> Typed
+wrong at = (Type.Wrong, const (Located at (Checked.Number 0)))
+
+-- | Reports a mistake and gives the substitute for its term.
+wrongTerm :: Region -> Error -> Infer Typed
+wrongTerm at e = wrong at <$ Inference.mistake e
+
+-- | Unknowns for the forms of one call of a built-in function.
+freshUnknowns :: Infer Builtin.Fresh
+freshUnknowns = do
+  d <- Inference.freshDimension
+  t <- Inference.freshType
+  pure Builtin.Fresh {Builtin.dimension = d, Builtin.anything = t}
+
+-- Calls
+
+-- | A call as it is written.
+data Call = Call
+  { callRegion :: Region,
+    callee :: Located Name,
+    written :: [Surface.Argument]
+  }
+
+-- | A call of a function of the program or of the language.
+call :: Environment -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer Typed
+call env at callee@(Located nameRegion name@(Name text)) arguments = do
+  binding <- Inference.find name
+  case binding of
+    Just (Function definedAt parameters scheme) -> do
+      Inference.mention nameRegion (Just definedAt) text (Inference.Callable parameters scheme)
+      functionCall env this parameters scheme
+    Just (Value before _) -> wrongCall env this (NotAFunction nameRegion name (Just before))
+    Just (Local before _) -> wrongCall env this (NotAFunction nameRegion name (Just before))
+    Just (Poisoned _) -> wrong at <$ (checkArguments env this *> Inference.taint)
+    Nothing -> case Builtin.lookup text of
+      Just builtin
+        | Builtin.isConstant builtin -> wrongCall env this (NotAFunction nameRegion name Nothing)
+        | otherwise -> do
+          Inference.mention
+            nameRegion
+            Nothing
+            text
+            (Inference.Described (Builtin.description builtin))
+          builtinCall env this builtin
+      Nothing -> unknownName env nameRegion name >>= wrongCall env this
+  where
+    this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
+
+-- | Reports a call and looks for further mistakes in its arguments.
+wrongCall :: Environment -> Call -> Error -> Infer Typed
+wrongCall env c e = wrong (callRegion c) <$ (checkArguments env c *> Inference.mistake e)
+
+-- | Checks the arguments of a call without its function.
+checkArguments :: Environment -> Call -> Infer ()
+checkArguments env c = mapM_ (infer env) (argumentValues c)
+
+-- | A call of a function that the program defines.
+functionCall :: Environment -> Call -> [Text] -> Scheme -> Infer Typed
+functionCall env c parameters scheme = do
+  (types, t, constraints) <- Inference.instantiate at scheme
+  case unlabelled c of
+    Just es
+      | length es == length types -> do
+        checked <- zipWithM (argument env) types es
+        constraints
+        pure
+          ( if all fst checked then t else Type.Wrong,
+            \sol -> Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked)))
+          )
+    _ -> wrongCall env c (ArgumentCount at name parameters (length (written c)))
+  where
+    at = callRegion c
+    name = value (callee c)
+
+-- | A call of a function of the language. A function with one form, or a form that its labels
+-- single out, is checked at once; other calls become constraints.
+builtinCall :: Environment -> Call -> Checked.Builtin -> Infer Typed
+builtinCall env c builtin = do
+  unknowns <- freshUnknowns
+  let forms = Builtin.forms unknowns builtin
+      isOnlyForm = null (drop 1 forms)
+  case (Builtin.labelled unknowns builtin labels, forms, unlabelled c) of
+    ([], [form], Just es) ->
+      wrongCall
+        env
+        c
+        (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
+    ([], _, _) -> wrongCall env c (NoSuchCall at text (Builtin.formTexts builtin))
+    ([form], _, _) | isOnlyForm || any (/= Builtin.NoLabel) labels -> do
+      checked <- zipWithM (argument env) (valueTypes form) (argumentValues c)
+      pure
+        ( if all fst checked then Builtin.result form else Type.Wrong,
+          term (map snd checked)
+        )
+    _ -> do
+      checked <- mapM (infer env) (argumentValues c)
+      t <- overloadedCall c builtin labels (map fst checked)
+      pure (t, term (map snd checked))
+  where
+    at = callRegion c
+    Located _ name@(Name text) = callee c
+    labels = map labelOf (written c)
+    valueTypes form =
+      [Builtin.type' p | p <- Builtin.parameters form, Builtin.label p /= Builtin.Rank]
+    term values sol =
+      Located at (Checked.Builtin builtin (withLabels (written c) (map ($ sol) values)))
+
+-- | Requires that a call has a form; gives the type of its result.
+overloadedCall :: Call -> Checked.Builtin -> [ArgumentLabel] -> [Type] -> Infer Type
+overloadedCall c builtin labels types = do
+  callType <- Inference.freshType
+  Inference.require
+    ( Overloaded
+        OverloadedCall
+          { Scheme.callRegion = callRegion c,
+            Scheme.builtin,
+            Scheme.labels,
+            Scheme.arguments = zip (map region (argumentValues c)) types,
+            Scheme.callType
+          }
+    )
+  pure callType
+
+-- | The type of a call that the fast check has accepted. The type of an overloaded call was decided
+-- by the call, which a later error can point at.
+fastCallType :: Region -> FastInference.FastCall -> Infer Type
+fastCallType at c
+  | FastInference.isOverloaded c = Inference.freshDecided at (FastInference.resultType c)
+  | otherwise = pure (FastInference.resultType c)
+
+-- | Checks an argument against the type of its parameter; tells if they agree.
+argument :: Environment -> Type -> Surface.Expr -> Infer (Bool, Deferred Checked.Expr)
+argument env wanted e = do
+  (t, e') <- infer env e
+  agrees <- isEqual (region e) wanted t
+  pure (agrees, e')
+
+-- | The arguments of a call if none of them has a label.
+unlabelled :: Call -> Maybe [Surface.Expr]
+unlabelled c = traverse given (written c)
+  where
+    given a = case a of
+      Surface.Given e -> Just e
+      Surface.Chosen _ _ -> Nothing
+      Surface.Ranked _ -> Nothing
+
+labelOf :: Surface.Argument -> ArgumentLabel
+labelOf a = case a of
+  Surface.Given _ -> Builtin.NoLabel
+  Surface.Chosen word _ -> Builtin.Word (value word)
+  Surface.Ranked _ -> Builtin.Rank
+
+-- | The values of the arguments; @first@ and @last@ have none.
+argumentValues :: Call -> [Surface.Expr]
+argumentValues c = concatMap valueOf (written c)
+  where
+    valueOf a = case a of
+      Surface.Given e -> [e]
+      Surface.Chosen _ e -> [e]
+      Surface.Ranked _ -> []
+
+-- | Puts the labels of arguments before their checked values.
+withLabels :: [Surface.Argument] -> [Checked.Expr] -> [Checked.Argument]
+withLabels as vs = case (as, vs) of
+  (Surface.Given _ : more, v : rest) -> Checked.Given v : withLabels more rest
+  (Surface.Chosen word _ : more, v : rest) -> Checked.Chosen (value word) v : withLabels more rest
+  (Surface.Ranked rank : more, _) -> Checked.Ranked (value rank) : withLabels more vs
+  _ -> []

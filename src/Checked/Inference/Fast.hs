@@ -1,0 +1,141 @@
+-- | The fast twin of type inference for literals and for calls on literals.
+--
+-- Most terms of a large program are numbers, points and calls on them, with types that are known
+-- at sight. This module checks them without unknowns. It gives the terms, types and errors that
+-- "Checked.Expression" gives by full inference, and declines every term of which it is not sure.
+module Checked.Inference.Fast
+  ( literal,
+    FastCall (..),
+    call,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Region (Located (..))
+import Checked.Builtin (Form (..))
+import Checked.Builtin qualified as Builtin
+import Checked.Deferred (Deferred, resolveAll)
+import Checked.Dimension (Dimension)
+import Checked.Dimension qualified as Dimension
+import Checked.Inference (Infer)
+import Checked.Inference qualified as Inference
+import Checked.Syntax qualified as Checked
+import Checked.Type (Type)
+import Checked.Type qualified as Type
+import Control.Monad (zipWithM)
+import Data.List.NonEmpty qualified as NonEmpty
+import Surface.Syntax qualified as Surface
+import Surface.Token (Numeral (..))
+
+-- | Checks a literal, or a pair of literals, against a wanted type. A literal without a unit gets
+-- the default unit of the wanted dimension. 'Nothing' unless the dimension is known, a unit given
+-- measures it, and the term is made of literals only.
+literal :: Type -> Surface.Expr -> Maybe Checked.Expr
+literal wanted (Located at e) = case (e, wanted) of
+  (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d)
+    | Dimension.isKnown d ->
+      here (Checked.Number (x * Dimension.defaultUnit d))
+  (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d)
+    | (Type.Quantity ofUnit, factor) <- Type.ofUnit unit,
+      ofUnit == d ->
+      here (Checked.Number (x * factor))
+  (Surface.Negate inner, Type.Quantity _)
+    | Just inner' <- literal wanted inner ->
+      here (Checked.Negate inner')
+  (Surface.Pair x y, Type.Spatial d)
+    | Dimension.isKnown d,
+      Just x' <- literal Type.len x,
+      Just y' <- literal Type.len y ->
+      here (Checked.Pair x' y')
+  _ -> Nothing
+  where
+    -- Evaluated at once: a thunk would keep the syntax tree alive.
+    here found = Just $! Located at found
+
+-- | A call with a type that is known at sight.
+data FastCall = FastCall
+  { resultType :: Type,
+    -- | the function has other forms
+    isOverloaded :: Bool,
+    checkedCall :: Deferred Checked.Expr
+  }
+
+-- | Checks a call of a built-in function on literals and pairs, if they fit exactly one form
+-- without labels, and all types of that form are known. Pairs that contain other terms are
+-- checked by the given function.
+call ::
+  (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
+  Surface.Expr ->
+  Infer (Maybe FastCall)
+call expect (Located at e) = case e of
+  Surface.Call (Located nameRegion name@(Name text)) arguments
+    | Just es <- traverse given (NonEmpty.toList arguments),
+      Just shapes <- traverse shapeOf es,
+      Just builtin <- Builtin.lookup text,
+      [(form, True)] <-
+        filter
+          (and . zipWith fits shapes . map Builtin.type' . parameters . fst)
+          (Builtin.unlabelled builtin (length es)) ->
+      do
+        -- The program may have defined the name itself.
+        binding <- Inference.find name
+        case binding of
+          Just _ -> pure Nothing
+          Nothing -> do
+            Inference.mention
+              nameRegion
+              Nothing
+              text
+              (Inference.Described (Builtin.description builtin))
+            checkedCall <- onForm expect (Located at . Checked.Builtin builtin) form es
+            pure
+              ( Just
+                  FastCall
+                    { resultType = Builtin.result form,
+                      isOverloaded = Builtin.isOverloaded builtin,
+                      checkedCall
+                    }
+              )
+  _ -> pure Nothing
+  where
+    given a = case a of
+      Surface.Given x -> Just x
+      Surface.Chosen _ _ -> Nothing
+      Surface.Ranked _ -> Nothing
+
+-- | Checks arguments against a form and builds the call from them, at once if all are literals.
+onForm ::
+  (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
+  ([Checked.Argument] -> Checked.Expr) ->
+  Form ->
+  [Surface.Expr] ->
+  Infer (Deferred Checked.Expr)
+onForm expect build form es = case zipWithM literalArgument types es of
+  Just literals -> let found = build literals in found `seq` pure (const found)
+  Nothing ->
+    (\es' sol -> build (resolveAll sol (map (Checked.Given .) es'))) <$> zipWithM expect types es
+  where
+    types = map Builtin.type' (parameters form)
+    literalArgument wanted x = case literal wanted x of
+      Just x' -> Just $! Checked.Given x'
+      Nothing -> Nothing
+
+-- | The type of a literal as far as its syntax shows it: a quantity, with its dimension if a unit
+-- is given, or a pair.
+data Shape = Quantity (Maybe Dimension) | Pair
+
+shapeOf :: Surface.Expr -> Maybe Shape
+shapeOf (Located _ e) = case e of
+  Surface.Literal _ unit -> Just (Quantity (Type.dimensionOf . fst . Type.ofUnit <$> unit))
+  Surface.Negate inner | Just (Quantity d) <- shapeOf inner -> Just (Quantity d)
+  Surface.Pair _ _ -> Just Pair
+  _ -> Nothing
+
+-- | Tells if a term of a shape may have a type.
+fits :: Shape -> Type -> Bool
+fits shape t = case (shape, t) of
+  (_, Type.Variable _) -> True
+  (Quantity (Just own), Type.Quantity d) -> own == d || not (Dimension.isKnown d)
+  (Quantity Nothing, Type.Quantity _) -> True
+  (Pair, Type.Spatial _) -> True
+  _ -> False

@@ -1,0 +1,350 @@
+-- | The state of type inference: unknowns and decisions about them, names in scope, errors.
+--
+-- Types are unified as in Hindley–Milner inference. Dimensions are unified as elements of a
+-- commutative group ("Checked.Dimension"). This module solves equations only. Constraints that
+-- wait for more information belong to "Checked.Inference".
+module Checked.Inference.State
+  ( Infer,
+    Solution,
+    InferenceState (..),
+    run,
+
+    -- * Mistakes
+    mistake,
+    mistakeOnce,
+    taint,
+
+    -- * Names
+    find,
+    define,
+    scoped,
+    withLocals,
+    namesInScope,
+    mention,
+
+    -- * Unknowns
+    freshNumber,
+    freshType,
+    freshDimension,
+    freshDecided,
+    monomorphic,
+    resolved,
+    resolve,
+    resolveDimension,
+    decidedElsewhere,
+
+    -- * Equations
+    unify,
+    unifyDimensions,
+    equate,
+    isCompatible,
+  )
+where
+
+import Base.Name (Name)
+import Base.Name qualified as Name
+import Base.Region (Located (..), Region)
+import Checked.Dimension (Dimension)
+import Checked.Dimension qualified as Dimension
+import Checked.Error (Error (..))
+import Checked.Scheme (Binding (..), DeferredConstraint, Meaning (..), Scheme (..))
+import Checked.Syntax (Mention (Mention))
+import Checked.Type (Type (..))
+import Checked.Type qualified as Type
+import Control.Monad (unless, when, zipWithM)
+import Control.Monad.State.Strict (State, get, gets, modify', put, runState)
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
+import Data.IntSet (IntSet)
+import Data.IntSet qualified as IntSet
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (listToMaybe)
+import Data.Set (Set)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+
+-- | A computation of type inference.
+type Infer = State InferenceState
+
+-- | The final values of the unknown dimensions.
+type Solution = Dimension -> Dimension
+
+-- | Everything that inference knows at one moment.
+data InferenceState = InferenceState
+  { nextUnknown :: Int,
+    decisions :: IntMap Decision,
+    -- | unknowns with smaller numbers belong to definitions outside the present function
+    firstOwn :: Int,
+    -- | unknowns of the present function that must not be generalised
+    shared :: IntSet,
+    -- | constraints that wait, the newest first
+    pending :: [DeferredConstraint],
+    -- | the mentions of names: where, where defined, the word, its meaning
+    mentioned :: [(Region, Maybe Region, Text, Meaning)],
+    -- | the newest first
+    errors :: [Error],
+    -- | the present statement contains a mistake or depends on one
+    isTainted :: Bool,
+    -- | regions that decided an unknown which does not fit elsewhere; each is reported once
+    blamed :: Set Region,
+    scope :: Map Name Binding
+  }
+
+-- | The value of an unknown and the region that decided it.
+data Decision = TypeAt Region Type | DimensionAt Region Dimension
+
+-- | Runs an inference from the empty state. Gives the errors in order, the solution, the result
+-- and the mentions of names.
+run :: Infer a -> ([Error], Solution, a, [Mention])
+run infer = case runState infer start of
+  (a, final) ->
+    ( reverse (errors final),
+      resolveDimension (decisions final),
+      a,
+      map (described final) (mentioned final)
+    )
+  where
+    described final (region, definition, word, meaning) =
+      Mention region definition word (describe final meaning)
+    start =
+      InferenceState
+        { nextUnknown = 0,
+          decisions = IntMap.empty,
+          firstOwn = 0,
+          shared = IntSet.empty,
+          pending = [],
+          mentioned = [],
+          errors = [],
+          isTainted = False,
+          blamed = Set.empty,
+          scope = Map.empty
+        }
+
+-- | Describes a meaning in the words that an editor shows.
+describe :: InferenceState -> Meaning -> Text
+describe state meaning = case meaning of
+  Valued t -> typeWords t
+  Callable names scheme ->
+    "a function of ("
+      <> Text.intercalate ", " (zipWith parameter names (parameters scheme))
+      <> ") giving "
+      <> typeWords (result scheme)
+  Described text -> text
+  where
+    typeWords t = Type.describe (resolve state t)
+    parameter name t = name <> ": " <> typeWords t
+
+-- Mistakes
+
+-- | Records a mistake and taints the present statement.
+mistake :: Error -> Infer ()
+mistake e = modify' (\s -> s {errors = e : errors s, isTainted = True})
+
+-- | Records a mistake that the given regions caused. If one of them is already blamed, the mistake
+-- is a consequence of the earlier one and only taints the statement.
+mistakeOnce :: [Region] -> Error -> Infer ()
+mistakeOnce regions e = do
+  before <- gets blamed
+  if any (`Set.member` before) regions then taint else mistake e
+  modify' (\s -> s {blamed = foldr Set.insert (blamed s) regions})
+
+-- | Marks the present statement as dependent on a mistake that is already reported.
+taint :: Infer ()
+taint = modify' (\s -> s {isTainted = True})
+
+-- Names
+
+-- | Looks a name up in the present scope.
+find :: Name -> Infer (Maybe Binding)
+find name = gets (Map.lookup name . scope)
+
+-- | Lists all names of the present scope.
+namesInScope :: Infer [Name]
+namesInScope = gets (Map.keys . scope)
+
+-- | Binds a name in the present scope; an earlier binding is hidden.
+define :: Name -> Binding -> Infer ()
+define name binding = modify' (\s -> s {scope = Map.insert name binding (scope s)})
+
+-- | Restores the scope after an inference, so that its definitions are known only inside.
+scoped :: Infer a -> Infer a
+scoped infer = do
+  before <- gets scope
+  a <- infer
+  modify' (\s -> s {scope = before})
+  pure a
+
+-- | Runs an inference with local names, which hide others of the same spelling.
+withLocals :: [(Located Name, Type)] -> Infer a -> Infer a
+withLocals locals infer = scoped (mapM_ defineLocal locals *> infer)
+  where
+    defineLocal (Located at name, t) =
+      define name (Local at t) *> mention at (Just at) (Name.text name) (Valued t)
+
+-- | Records a mention: its region, the region of the definition, the word and its meaning.
+mention :: Region -> Maybe Region -> Text -> Meaning -> Infer ()
+mention region definition word meaning =
+  modify' (\s -> s {mentioned = (region, definition, word, meaning) : mentioned s})
+
+-- Unknowns
+
+-- | A number that no unknown has yet.
+freshNumber :: Infer Int
+freshNumber = do
+  s <- get
+  put s {nextUnknown = nextUnknown s + 1}
+  pure (nextUnknown s)
+
+-- | A new unknown type.
+freshType :: Infer Type
+freshType = Variable <$> freshNumber
+
+-- | A new unknown dimension.
+freshDimension :: Infer Dimension
+freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
+
+-- | A new unknown type that the given region has already decided.
+freshDecided :: Region -> Type -> Infer Type
+freshDecided region t = do
+  n <- freshNumber
+  decideAs n (TypeAt region t)
+  pure (Variable n)
+
+decideAs :: Int -> Decision -> Infer ()
+decideAs n decision = modify' (\s -> s {decisions = IntMap.insert n decision (decisions s)})
+
+-- | Forbids generalisation over the unknowns of a dimension: they have one value in all uses of
+-- the present function.
+monomorphic :: Dimension -> Infer ()
+monomorphic d =
+  modify' (\s -> s {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared s)})
+
+-- | A type with all unknowns replaced that are decided so far.
+resolved :: Type -> Infer Type
+resolved t = gets (`resolve` t)
+
+-- | 'resolved' in a given state.
+resolve :: InferenceState -> Type -> Type
+resolve state t = Type.substitute (resolveDimension (decisions state)) unknown t
+  where
+    unknown n = case IntMap.lookup n (decisions state) of
+      Just (TypeAt _ t') -> resolve state t'
+      Just (DimensionAt _ _) -> Variable n
+      Nothing -> Variable n
+
+-- | A dimension with all unknowns replaced that are decided.
+resolveDimension :: IntMap Decision -> Dimension -> Dimension
+resolveDimension decided d =
+  case [(n, b) | n <- Dimension.unknowns d, Just (DimensionAt _ b) <- [IntMap.lookup n decided]] of
+    [] -> d
+    replacements ->
+      resolveDimension decided (foldl (\d' (n, b) -> Dimension.substitute n b d') d replacements)
+
+-- | The first region that decided an unknown of a type, in the type's written form.
+decidedAt :: Type -> Infer (Maybe Region)
+decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
+  where
+    ofType decided t' = case t' of
+      Variable n -> case IntMap.lookup n decided of
+        Just (TypeAt region t'') -> region : ofType decided t''
+        Just (DimensionAt region _) -> [region]
+        Nothing -> []
+      Quantity d -> ofDimension decided d
+      Spatial d -> ofDimension decided d
+      _ -> []
+    ofDimension decided d =
+      concat
+        [ case IntMap.lookup n decided of
+            Just (DimensionAt region d') -> region : ofDimension decided d'
+            Just (TypeAt region _) -> [region]
+            Nothing -> []
+          | n <- Dimension.unknowns d
+        ]
+
+-- | Regions outside the given terms that decided their types. A term is its region, its type as
+-- written, and its type as resolved.
+decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
+decidedElsewhere terms = concat <$> traverse ofTerm terms
+  where
+    ofTerm (at, written, found) = do
+      region <- decidedAt written
+      pure [(r, found) | Just r <- [region], r /= at]
+
+-- Equations
+
+-- | Makes two types equal at a region; 'False' when they differ.
+unify :: Region -> Type -> Type -> Infer Bool
+unify region a b = do
+  a' <- resolved a
+  b' <- resolved b
+  case (a', b') of
+    (Wrong, _) -> pure True
+    (_, Wrong) -> pure True
+    (Variable n, Variable k) | n == k -> pure True
+    (Variable n, _) -> bind n b'
+    (_, Variable k) -> bind k a'
+    (Quantity d, Quantity e) -> unifyDimensions region d e
+    (Spatial d, Spatial e) -> unifyDimensions region d e
+    (ListOf c, ListOf d) -> unify region c d
+    (Table c, Table d) -> unify region c d
+    (Curve c, Curve d) -> unify region c d
+    (Fields cs, Fields ds)
+      | map fst cs == map fst ds -> and <$> zipWithM (\(_, c) (_, d) -> unify region c d) cs ds
+    _ -> pure (a' == b')
+  where
+    -- An unknown inside its own value would be an infinite type.
+    bind n t
+      | n `elem` Type.variables t = pure False
+      | otherwise = do
+        decideAs n (TypeAt region t)
+        share n (Type.variables t <> Type.dimensions t)
+        pure True
+
+-- | Makes two dimensions equal at a region; 'False' when they differ.
+unifyDimensions :: Region -> Dimension -> Dimension -> Infer Bool
+unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
+  where
+    go quotient = do
+      quotient' <- gets (\s -> resolveDimension (decisions s) quotient)
+      fresh <- freshNumber
+      case Dimension.solve fresh quotient' of
+        Dimension.Solved -> pure True
+        Dimension.Impossible -> pure False
+        Dimension.Replace n e -> do
+          decideAs n (DimensionAt region e)
+          share n (Dimension.unknowns e)
+          go quotient'
+
+-- | Extends 'shared' to the unknowns in the value of a shared or outer unknown.
+share :: Int -> [Int] -> Infer ()
+share n others = do
+  s <- get
+  when (n < firstOwn s || IntSet.member n (shared s)) $
+    put s {shared = IntSet.union (IntSet.fromList others) (shared s)}
+
+-- | Unifies the type that a term is used as with the type that it turned out to have; reports a
+-- mistake when they differ.
+equate :: Region -> Type -> Type -> Infer ()
+equate region wanted found = do
+  wanted' <- resolved wanted
+  found' <- resolved found
+  elsewhere <- decidedElsewhere [(region, wanted, wanted'), (region, found, found')]
+  same <- unify region wanted found
+  unless same (mistakeOnce (region : map fst elsewhere) (Mismatch region wanted' found' elsewhere))
+
+-- | Tells if two types may turn out equal, without deciding anything.
+isCompatible :: Type -> Type -> Bool
+isCompatible found wanted = case (found, wanted) of
+  _ | found `elem` [Wrong, wanted] || wanted == Wrong -> True
+  (Variable _, _) -> True
+  (_, Variable _) -> True
+  (Quantity d, Quantity e) -> isCompatibleDimension d e
+  (Spatial d, Spatial e) -> isCompatibleDimension d e
+  (ListOf a, ListOf b) -> isCompatible a b
+  (Table a, Table b) -> isCompatible a b
+  (Curve a, Curve b) -> isCompatible a b
+  _ -> False
+  where
+    isCompatibleDimension d e = d == e || not (Dimension.isKnown d) || not (Dimension.isKnown e)

@@ -1,0 +1,150 @@
+-- | The statements that a program needs, and their order.
+--
+-- A program begins with @part@. Settings of the whole program occur once and outside of blocks.
+-- A machining statement or a motion needs certain settings above it.
+module Checked.RequiredSetting
+  ( check,
+  )
+where
+
+import Base.Region (Located (..), Region (..))
+import Checked.Error (Error (..), RequiredSetting (..))
+import Control.Applicative ((<|>))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Surface.Syntax (Statement)
+import Surface.Syntax qualified as Surface
+
+-- | Gives the mistakes in the order of a program's statements, in the order of the text.
+check :: [Statement] -> [Error]
+check statements = partFirst statements <> go Map.empty (concatMap (flatten False) statements)
+  where
+    go seen ss = case ss of
+      s : rest | (seen', errors) <- step seen s -> seen' `seq` (errors <> go seen' rest)
+      [] -> []
+
+-- | Reports a program that does not begin with @part@.
+partFirst :: [Statement] -> [Error]
+partFirst statements = case statements of
+  Located _ (Surface.Part _ _) : _ -> []
+  Located _ (Surface.Broken (Just "part") _) : _ -> []
+  Located at _ : _ -> [NoPart at {end = start at}]
+  [] -> [NoPart (Region 0 0)]
+
+-- | A statement with those in its blocks. The flag tells if a statement is in a block.
+flatten :: Bool -> Statement -> [(Bool, Statement)]
+flatten isInBlock s = case s of
+  Located _ (Surface.Repeat _ _ body) -> concatMap (flatten True) body
+  Located _ (Surface.When _ body others) -> concatMap (flatten True) (body <> others)
+  Located _ (Surface.With _ body) -> concatMap (flatten True) body
+  _ -> [(isInBlock, s)]
+
+-- | The settings seen so far with their first regions. A setting that was already reported as
+-- missing has no region.
+type Seen = Map RequiredSetting (Maybe Region)
+
+-- | Checks one statement after those seen.
+step :: Seen -> (Bool, Statement) -> (Seen, [Error])
+step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
+  where
+    Requirement {keywordLength, given, needed, isGlobal} = requirement s
+    keyword = at {end = start at + keywordLength}
+    misplaced = [NotInBlock keyword (globalKeyword s) | isInBlock && isGlobal]
+    missing = case NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed) of
+      Just settings -> [SettingsMissing keyword settings]
+      Nothing -> []
+    repeated =
+      [ SettingTwice at setting before
+        | Just setting <- [given],
+          setting `notElem` [FeedSetting, ClearanceSetting],
+          not (isChange s),
+          null misplaced,
+          Just (Just before) <- [Map.lookup setting seen]
+      ]
+    now = [(setting, Nothing) | setting <- needed] <> [(setting, Just at) | Just setting <- [given]]
+    seen' = Map.unionWith (<|>) seen (Map.fromList now)
+
+-- | Tells if a statement changes the tool, which it may do often.
+isChange :: Surface.Statement_ -> Bool
+isChange s = case s of
+  Surface.Change _ _ -> True
+  Surface.Broken (Just "change") _ -> True
+  _ -> False
+
+-- | The relation of a statement to the settings.
+data Requirement = Requirement
+  { -- | characters of the keyword, which reports point at
+    keywordLength :: Int,
+    -- | the setting that the statement makes
+    given :: Maybe RequiredSetting,
+    -- | the settings that must be made above it
+    needed :: [RequiredSetting],
+    -- | it holds for the whole program and is not allowed in a block
+    isGlobal :: Bool
+  }
+
+requirement :: Surface.Statement_ -> Requirement
+requirement s = case s of
+  Surface.Part _ _ -> global PartSetting
+  Surface.Machine _ -> global MachineSetting
+  Surface.Tool _ -> global ToolSetting
+  Surface.Tolerance _ -> global ToleranceSetting
+  Surface.From _ -> global FromSetting
+  Surface.Import _ -> none {keywordLength = 6, isGlobal = True}
+  Surface.Param _ _ -> none {keywordLength = 5, isGlobal = True}
+  Surface.Feed _ -> none {given = Just FeedSetting}
+  Surface.Clearance _ -> none {given = Just ClearanceSetting}
+  Surface.Change _ _ -> none {given = Just ToolSetting}
+  Surface.Mill _ _ options -> none {needed = milling <> forDepth options}
+  Surface.Pocket _ _ options -> none {keywordLength = 6, needed = milling <> forDepth options}
+  Surface.Turn {} -> none {needed = milling}
+  Surface.Drill {} ->
+    none {keywordLength = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}
+  Surface.Travel Surface.RapidMotion _ -> none {keywordLength = 5, needed = [FromSetting]}
+  Surface.Travel Surface.FeedMotion stops ->
+    none
+      { needed =
+          FromSetting :
+            [FeedSetting | any ((== Surface.Cutting) . Surface.pace) (NonEmpty.toList stops)]
+      }
+  Surface.Broken keyword _ -> none {given = keyword >>= (`lookup` settingByKeyword)}
+  _ -> none
+  where
+    none = Requirement {keywordLength = 4, given = Nothing, needed = [], isGlobal = False}
+    global setting =
+      Requirement
+        { keywordLength = Text.length (globalKeyword s),
+          given = Just setting,
+          needed = [],
+          isGlobal = True
+        }
+    milling = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
+    forDepth options = [ClearanceSetting | or [True | Located _ (Surface.Depth _ _) <- options]]
+
+-- | The settings by the keywords of their statements.
+settingByKeyword :: [(Text, RequiredSetting)]
+settingByKeyword =
+  [ ("part", PartSetting),
+    ("machine", MachineSetting),
+    ("tool", ToolSetting),
+    ("change", ToolSetting),
+    ("feed", FeedSetting),
+    ("tolerance", ToleranceSetting),
+    ("clearance", ClearanceSetting),
+    ("from", FromSetting)
+  ]
+
+-- | The keyword of a statement that holds for the whole program.
+globalKeyword :: Surface.Statement_ -> Text
+globalKeyword s = case s of
+  Surface.Part _ _ -> "part"
+  Surface.Machine _ -> "machine"
+  Surface.Tool _ -> "tool"
+  Surface.Tolerance _ -> "tolerance"
+  Surface.From _ -> "from"
+  Surface.Import _ -> "import"
+  Surface.Param _ _ -> "param"
+  _ -> "this"
