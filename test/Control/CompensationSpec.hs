@@ -7,7 +7,7 @@ import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus)
 import Base.Region (Located (..))
 import Base.Result qualified as Result
 import Command (inFolder)
-import Control.Compensation (Moved (..), Unkept (..))
+import Control.Compensation (CompensationError (..), Moved (..))
 import Control.Compensation qualified as Compensation
 import Control.Motion qualified as Motion
 import Data.ByteString qualified as ByteString
@@ -92,7 +92,7 @@ compared close change =
               let found =
                     differences
                       close
-                      (concatMap (NonEmpty.toList . legs) moved)
+                      (concatMap (NonEmpty.toList . centrePath) moved)
                       (map LinuxCnc.segment walked)
                in counterexample (unlines found <> show fs) (null found)
   where
@@ -191,7 +191,7 @@ exchanged f = f {orders = [(other o, v) | (o, v) <- orders f]}
       | otherwise = o
 
 -- | Frames, and why they are refused.
-refusals :: [(String, [Unkept], [Frame])]
+refusals :: [(String, [CompensationError], [Frame])]
 refusals =
   [ ("a good one", [], good),
     ("a short way in", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
@@ -200,11 +200,11 @@ refusals =
       (begun 0) {increment = Pulses3 0 0 1000} : drop 1 good
     ),
     ( "an arc to begin with",
-      [RoundEntry 1],
+      [ArcEntry 1],
       (begun 40) {motion = Round CounterClockwise, centre = Pulses2 20000 0} : drop 1 good
     ),
     ( "an arc to end with",
-      [RoundExit 4],
+      [ArcExit 4],
       take 3 good
         <> [ (straight (-40) 0)
                { motion = Round Clockwise,
@@ -224,21 +224,21 @@ refusals =
       take 2 good <> [onArc 400] <> drop 3 good
     ),
     ( "by more than a control puts up with",
-      [Unreached 3],
+      [CornerNotReached 3],
       take 2 good <> [onArc 600] <> drop 3 good
     ),
     ( "a tip at which the way turns back by 176 degrees",
       [],
       take 2 good <> [straight (0.07 * 40) (-40)] <> drop 3 good
     ),
-    ("by 178 degrees", [Unreached 2], take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good),
-    ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
+    ("by 178 degrees", [CornerNotReached 2], take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good),
+    ("a corner that is not reached", [CornerNotReached 2], [begun 40, straight 0 9, straight 50 0, off]),
     ( "on twice",
-      [OnTwice 2],
+      [SwitchedOnTwice 2],
       [begun 40, (straight 0 50) {orders = [(CommandName "left", 20000)]}] <> drop 2 good
     ),
     ( "on twice at once",
-      [OnTwice 1],
+      [SwitchedOnTwice 1],
       (begun 40) {orders = [(CommandName "left", 20000), (CommandName "right", 20000)]} :
       map (\f -> f {orders = []}) (drop 1 good)
     ),
@@ -250,7 +250,7 @@ refusals =
       [],
       [begun 40, Frame.still [(CommandName "M", 8)]] <> drop 1 good
     ),
-    ("never off", [NeverReleased 3], take 3 good)
+    ("never off", [NotSwitchedOff 3], take 3 good)
   ]
   where
     good = [begun 40, straight 0 50, straight 50 0, off]

@@ -295,7 +295,7 @@ refusals machine f =
       ByRule (Frame.BadCentre _) -> "centre"
       ByRule (Frame.NoSuchMotion _) -> "motion"
       ByRule other -> show other
-      NotKept _ -> "compensation"
+      NotCompensated _ -> "compensation"
 
 -- | What is found of an arc of radius 25 from one axis to the other with a cutter of radius 5,
 -- beside the middle of an arc of radius 20: its beginning or its end is so many pulses further out

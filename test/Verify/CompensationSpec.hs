@@ -7,7 +7,7 @@ import Base.Region (Located (..))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
 import Compile qualified
-import Control.Compensation (Unkept (..))
+import Control.Compensation (CompensationError (..))
 import Control.Compensation qualified as Compensation
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
@@ -64,7 +64,7 @@ spec = do
           Just (path, program) -> forAll (Arcs.change (own program)) $ \(what, fs) ->
             let centre =
                   concatMap
-                    (NonEmpty.toList . Compensation.legs)
+                    (NonEmpty.toList . Compensation.centrePath)
                     (fst (Compensation.run iso6983 (const (Mm 0)) (Frame.start program) fs))
                 (deepest, most) = deviation centre job
                 found = findings path program fs
@@ -101,7 +101,7 @@ spec = do
       ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
   it "a lost release is refused by the control" $ do
     (path, program) <- compiled "flange"
-    [n | Refused (NotKept (NeverReleased n)) <- findings path program [f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- own program]]
+    [n | Refused (NotCompensated (NotSwitchedOff n)) <- findings path program [f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- own program]]
       `shouldBe` [length (own program)]
   where
     program' name = it (name <> " is proven") $ do
