@@ -1,8 +1,8 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Model of cutter compensation (G41, G42) in the control: the path of the cutter's centre while
--- the frames describe the edge of the part. The model follows LinuxCNC, whose results were measured.
--- Without compensation, the centre goes as the frames say.
+-- the frames describe the edge of the part. The model follows LinuxCNC, whose results were
+-- measured. Without compensation, the centre goes as the frames say.
 --
 -- * Entry: the first motion goes straight from the present position of the centre to the end of
 --   the programmed motion, shifted sideways by the cutter's radius.

@@ -129,9 +129,9 @@ improveBound job bounds before View {motion, bounding} e = do
   where
     enough = let Mm r = reach job in r - 2 * FastDistance.unsure
 
--- | Upper bound of the distance of an element from a motion. If the motion alone gives none and none
--- is known, the element is divided where the motion starts: its first part is compared with the
--- motion before.
+-- | Upper bound of the distance of an element from a motion. If the motion alone gives none and
+-- none is known, the element is divided where the motion starts: its first part is compared with
+-- the motion before.
 boundFrom :: MillingJob -> Double -> [Segment] -> CutterMotion -> [Segment] -> Edge -> Double
 boundFrom job known before motion bounding e
   | alone < 1 / 0

@@ -110,7 +110,7 @@ isCovered cover distance segment
     together = null (uncovered distance near segment)
     from t = case nearestAt t of
       Nothing -> False
-      Just other -> case [g | g@(_, b) <- uncovered distance [pathsOf cover other] segment, b > t] of
+      Just other -> case filter ((> t) . snd) (uncovered distance [pathsOf cover other] segment) of
         [] -> True
         (a, _) : _
           | a > t + Tolerance.hair -> from a

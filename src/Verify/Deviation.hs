@@ -105,10 +105,11 @@ examine set isFirst pass = (contourProof, if null findings then orderFindings pa
 -- one then.
 allowedOf :: MotionSet -> MillingJob -> Allowed
 allowedOf set job
-  | isNothing (side job) = Allowed (plus (max inside outside) pulse) (plus (max inside outside) pulse)
+  | isNothing (side job) = Allowed (plus larger pulse) (plus larger pulse)
   | otherwise = Allowed (plus inside pulse) (plus outside pulse)
   where
     (inside, outside) = allowedDeviation (Edge.isCurved (edges job)) (milling job)
+    larger = max inside outside
     pulse = Machine.pulse (MotionSet.machine set)
 
 -- | Allowed chord errors of a tape, into the material and out of it. A curve is replaced by arcs
@@ -142,10 +143,10 @@ allowsRest job = Part.rest (milling job) == Part.Allowed
 motionsKeepingOut :: MotionSet -> Bool -> MillingJob -> [CutterMotion] -> [CutterMotion]
 motionsKeepingOut set isFirst job along
   | isNothing (side job) = []
-  | isFirst = filter MotionSet.isBelowTop (MotionSet.nearby set (BoundingBox.inflate (maxReach job) box))
+  | isFirst = filter MotionSet.isBelowTop (MotionSet.nearby set box)
   | otherwise = filter MotionSet.isBelowTop along
   where
-    box = boxOf (milling job)
+    box = BoundingBox.inflate (maxReach job) (boxOf (milling job))
 
 -- | Bounding box of the contour of a milling.
 boxOf :: Milling -> BoundingBox
@@ -202,11 +203,12 @@ missedOn set isFirst MillingPass {job, level, found} allowed bounds
   | otherwise =
     concat
       [ Excess.excesses
-          job {reach = plus (reach job) own, allowance = allowed}
+          job {reach = distance, allowance = allowed}
           bounds
           index
-          (if allowsRest job then concatMap (touchableParts job kept (plus (reach job) own)) es else es)
-        | (own, es) <- groups
+          (if allowsRest job then concatMap (touchableParts job kept distance) es else es)
+        | (own, es) <- groups,
+          let distance = plus (reach job) own
       ]
   where
     groups = byAllowance (BoxTree.toList (edges job))

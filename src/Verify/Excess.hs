@@ -45,7 +45,7 @@ excesses job bounds index = go (Mm 0)
       [] -> []
       e : rest
         | isSurelyCovered job bounds index least e -> go least rest
-        | otherwise -> case Coverage.largestGap (coverOf e) (Just (boundsOf e)) least (segmentOf e) of
+        | otherwise -> case gapIn e least of
           Nothing -> go least rest
           Just gap ->
             let next = if size gap > allowance job then least else size gap
@@ -58,7 +58,12 @@ excesses job bounds index = go (Mm 0)
           Proof.element = Part.origin (element e),
           Proof.location
         }
-    boundsOf = distanceBounds job index
+    gapIn e least =
+      Coverage.largestGap
+        (coverOf e)
+        (Just (distanceBounds job index e))
+        least
+        (segmentOf e)
     segmentOf = Part.segment . element
     coverOf e =
       Coverage.Cover

@@ -153,12 +153,12 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
 -- Braking -----------------------------------------------------------------------------------------
 
 -- | Findings for frames at whose end the cutter is too fast. The speed may nowhere exceed
--- @√(v² + 2·a·s)@, with @a@ the deceleration of the machine and @s@ the distance to any later, lower
--- speed @v@ (Kolsanova; the law is reconstructed). The model of the speeds:
+-- @√(v² + 2·a·s)@, with @a@ the deceleration of the machine and @s@ the distance to any later,
+-- lower speed @v@ (Kolsanova; the law is reconstructed). The model of the speeds:
 --
 -- * a frame without braking has its speed from its start to its end;
--- * a braking frame slows down to its speed; successive braking frames with one speed have it at the
---   end of the last of them;
+-- * a braking frame slows down to its speed; successive braking frames with one speed have it at
+--   the end of the last of them;
 -- * at the end of the tape the cutter has the final braking feed.
 tooFast :: Machine -> Pulses3 -> [Frame] -> [Finding]
 tooFast machine start frames = case Machine.brakingForm (Machine.braking machine) of
@@ -190,7 +190,8 @@ tooFastIn machine ((begin, end), m, next) (least, found)
   | brakes m && maybe False isSameBraking next = (least, found)
   | otherwise =
     ( min least (v * v + 2 * a * (if brakes m then end else begin)),
-      [TooFast (number m) (Feed (60 * v)) (Feed (60 * sqrt most)) | v * v > most + rounding] <> found
+      [TooFast (number m) (Feed (60 * v)) (Feed (60 * sqrt most)) | v * v > most + rounding]
+        <> found
     )
   where
     isSameBraking n = brakes n && Frame.speed (frame n) == Frame.speed (frame m)

@@ -3,8 +3,8 @@
 -- | Proof of a tape: its frames are run on the controller model, and the motions of the cutter are
 -- compared with the part.
 --
--- Three comparisons decide about a contour. Each is exact over whole motions and whole elements, and
--- none of them computes an offset of the contour:
+-- Three comparisons decide about a contour. Each is exact over whole motions and whole elements,
+-- and none of them computes an offset of the contour:
 --
 -- * gouge: no motion comes nearer to a milled element than the cutter's radius;
 -- * excess: each point of a milled element has a motion within the cutter's radius;
@@ -92,8 +92,8 @@ data Subject = Subject
     passFrames :: ~(IntMap FrameRange)
   }
 
--- | Compare the frames of a tape with the part of a toolpath. The program's own frames tell the start
--- position, the cutters, the demanded feeds and commands.
+-- | Compare the frames of a tape with the part of a toolpath. The program's own frames tell the
+-- start position, the cutters, the demanded feeds and commands.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames =
   Proof
@@ -122,8 +122,8 @@ prove machine path program frames =
     deviations = concat contourFindings <> concat pocketFindings
     closure = closureOf subject
 
--- | Subject of a proof. The list of frames is run lazily, so that the motions of the controller model
--- are never held; those of the cutter are much smaller.
+-- | Subject of a proof. The list of frames is run lazily, so that the motions of the controller
+-- model are never held; those of the cutter are much smaller.
 subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
 subjectOf machine path program frames =
   Subject
@@ -152,7 +152,8 @@ subjectOf machine path program frames =
         (SpindleTool.toolInFrame tools)
         (Frame.start program)
 
--- | Test that the tape has as many frames as the program. Then frames are compared by their numbers.
+-- | Test that the tape has as many frames as the program. Then frames are compared by their
+-- numbers.
 hasSameCount :: Subject -> Bool
 hasSameCount subject =
   SpindleTool.toolCount (tools subject) == TapeSummary.count (summary subject)
@@ -200,8 +201,8 @@ isInPass subject pass m =
       (`PassFrames.includes` number m)
       (IntMap.lookup (Pocket.passIndex pass) (passFrames subject))
 
--- | Motions as the comparisons ask for them. A bounding-box tree pays if several contours or pockets
--- ask.
+-- | Motions as the comparisons ask for them. A bounding-box tree pays if several contours or
+-- pockets ask.
 motionSetOf :: Subject -> [MillingPass] -> MotionSet
 motionSetOf subject passes =
   MotionSet
@@ -356,8 +357,8 @@ isAlong machine s move =
     (\p -> Distance.toPoint p move <= times 2 (Machine.pulse machine))
     [Segment.start s, Segment.end s]
 
--- | Programmed motions of the frames of some motions. The frames are run once more, because few tapes
--- need it.
+-- | Programmed motions of the frames of some motions. The frames are run once more, because few
+-- tapes need it.
 programmed :: Subject -> [CutterMotion] -> [Control.Motion]
 programmed subject ms =
   filter
@@ -374,8 +375,8 @@ closureOf subject =
   where
     end = Toolpath.end (path subject)
 
--- | Finding for a wrong last position. It is none of its own if the cutter left a contour or a pocket
--- before.
+-- | Finding for a wrong last position. It is none of its own if the cutter left a contour or a
+-- pocket before.
 notClosed :: Pulses3 -> [Finding] -> [Finding]
 notClosed closure deviations =
   [NotClosed closure | closure /= 0, not (any Proof.isOffContour deviations)]

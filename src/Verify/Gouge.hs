@@ -72,7 +72,9 @@ mayGougeDeeper keepOut best m bounding =
         FastDistance.apartAtLeast (segment m) (shape e) < least + difference
           && FastDistance.apart (segment m) (shape e) < least + difference
           && ( difference <= 0
-                 || any (\path -> FastDistance.apart path (shape e) < least) (bounding <> connectors m)
+                 || any
+                   (\path -> FastDistance.apart path (shape e) < least)
+                   (bounding <> connectors m)
              )
     )
   where
@@ -81,9 +83,9 @@ mayGougeDeeper keepOut best m bounding =
       let Mm d = largest keepOut
        in d - maybe 0 (\w -> let Mm a = Proof.amount w in a) best + FastDistance.unsure
 
--- | Allowance on an element at the point nearest to a given one. Within a pulse of a joint it is the
--- smallest of those that meet there, because a step between two allowances ends on whole pulses. It
--- is zero if another element is nearer to the point.
+-- | Allowance on an element at the point nearest to a given one. Within a pulse of a joint it is
+-- the smallest of those that meet there, because a step between two allowances ends on whole
+-- pulses. It is zero if another element is nearer to the point.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

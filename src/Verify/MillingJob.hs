@@ -105,8 +105,8 @@ edgesInBox job m =
 contacts :: MillingJob -> [Edge] -> Point -> [(Int, Double)]
 contacts job near p = reverse (foldContacts job near p (\found n s -> (n, s) : found) [])
 
--- | Fold over the contact points, without a list of them. The contact with an arc beyond its ends is
--- the nearer end.
+-- | Fold over the contact points, without a list of them. The contact with an arc beyond its ends
+-- is the nearer end.
 foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
 foldContacts job near p with = go near
   where

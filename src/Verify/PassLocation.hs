@@ -54,7 +54,8 @@ data Guide = Guide
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
--- | State of the search: the position and height of the centre, the motions after it, the last pass.
+-- | State of the search: the position and height of the centre, the motions after it, the last
+-- pass.
 data Reading = Reading
   { at :: (Point, Mm),
     rest :: [CutterMotion],
@@ -165,8 +166,8 @@ jobOf machine statement milling cut edges =
         (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
         (Machine.pulse machine)
 
--- | Tests for each block whether it is one of several cuts of its pass. A pass is only divided where
--- rest material is allowed.
+-- | Tests for each block whether it is one of several cuts of its pass. A pass is only divided
+-- where rest material is allowed.
 arePartial :: [Block] -> [Bool]
 arePartial blocks =
   zipWith3
@@ -192,15 +193,18 @@ exitByControl milling side (Mm reach) = case (Part.byControl milling, side) of
   (Just _, Just s) ->
     Just
       ( Vec.shift
-          (Vec.scale (if s == LeftOf then reach else -reach) (Vec.left (Segment.endDirection final)))
+          (Vec.scale (sign s * reach) (Vec.left (Segment.endDirection final)))
           (Segment.end final)
       )
   _ -> Nothing
   where
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
+    sign s = case s of
+      LeftOf -> 1
+      RightOf -> -1
 
--- | Uncertainty of that position. Rounding to pulses changes the direction of the last move, most if
--- it has the smallest length that a control is sent.
+-- | Uncertainty of that position. Rounding to pulses changes the direction of the last move, most
+-- if it has the smallest length that a control is sent.
 exitUncertainty :: Machine -> Milling -> Mm -> Mm
 exitUncertainty machine milling reach = case Part.byControl milling of
   Just _ -> times (2 * pulse / shortest) reach

@@ -1,13 +1,13 @@
--- | Deviation of one pass of a pocket, by distances alone: no motion cuts into the walls, and nothing
--- that the cutter can reach is left.
+-- | Deviation of one pass of a pocket, by distances alone: no motion cuts into the walls, and
+-- nothing that the cutter can reach is left.
 --
 -- Let A be the set of all positions of the cutter's centre that keep the cutter's radius and the
 -- allowance from the walls. The cutter can reach all points within its radius of A. Two things are
 -- shown at each depth:
 --
--- * Rim: each point of the border of A has a motion close by. So the walls are cut wherever a cutter
---   touches them. A reachable point outside of A is within the radius of the border, so it is
---   cleared as well; this includes the corners.
+-- * Rim: each point of the border of A has a motion close by. So the walls are cut wherever a
+--   cutter touches them. A reachable point outside of A is within the radius of the border, so it
+--   is cleared as well; this includes the corners.
 -- * Floor: each point of A is within the radius of a motion; see "Verify.PocketFloor".
 module Verify.PocketDeviation
   ( examine,
@@ -100,8 +100,8 @@ examine set isOwn pocket isFirst pass = (contourProof, findings)
                    )
            ]
 
--- | Allowed gouge and excess: the tolerance and one pulse; for the excess also the spare room of the
--- rim.
+-- | Allowed gouge and excess: the tolerance and one pulse; for the excess also the spare room of
+-- the rim.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
@@ -110,9 +110,9 @@ allowedIn set pocket =
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
--- | Motions at the height of a pass with a cutter that is large enough. If one of them starts in the
--- bounding box of the pocket, only those around the box are taken: none further away is the nearest
--- one of any point of the pocket.
+-- | Motions at the height of a pass with a cutter that is large enough. If one of them starts in
+-- the bounding box of the pocket, only those around the box are taken: none further away is the
+-- nearest one of any point of the pocket.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around

@@ -57,8 +57,8 @@ deeper best w = case best of
 deepest :: [Witness] -> Maybe Witness
 deepest = foldl' (\best w -> Just (deeper best w)) Nothing
 
--- | Deviations of one contour in one pass. Without a witness, nothing is cut too deep, or nothing is
--- left.
+-- | Deviations of one contour in one pass. Without a witness, nothing is cut too deep, or nothing
+-- is left.
 data ContourProof = ContourProof
   { contour :: Located Name,
     -- | deepest gouge
@@ -108,8 +108,8 @@ data Finding
     OffPlane Int
   | -- | A hole is not drilled to its depth: the region of the hole, its centre.
     HoleMissing Region Point
-  | -- | A frame cuts below the top of the part where the program does not, or deeper: the frame, the
-    -- position of the cutter's centre.
+  | -- | A frame cuts below the top of the part where the program does not, or deeper: the frame,
+    -- the position of the cutter's centre.
     CutsElsewhere Int Point
   | -- | Wrong feed: the frame, its speed, the demanded speed, the region that demands it.
     WrongFeed Int Speed Speed Region
@@ -118,8 +118,8 @@ data Finding
     WrongCommand Int CommandName (Maybe Int) (Maybe Int)
   | -- | The control refuses a frame.
     Refused Refusal
-  | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: its speed,
-    -- the largest possible one.
+  | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: its
+    -- speed, the largest possible one.
     TooFast Int Feed Feed
   | -- | The tape does not end where it has to: the difference.
     NotClosed Pulses3

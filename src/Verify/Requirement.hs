@@ -15,6 +15,7 @@ where
 
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..))
+import Control.Applicative ((<|>))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isNothing)
 import Data.Vector (Vector)
@@ -42,11 +43,15 @@ cutterSide milling = case value (Part.side milling) of
   where
     contour = Part.contour milling
     interior = case (Part.ends contour, Part.work milling) of
-      (Part.Closed, _) -> Just (if isCounterClockwise contour then Carrier.LeftOf else Carrier.RightOf)
-      (Part.Open, Part.Turned) -> Just (if advance >= 0 then Carrier.RightOf else Carrier.LeftOf)
+      (Part.Closed, _)
+        | isCounterClockwise contour -> Just Carrier.LeftOf
+        | otherwise -> Just Carrier.RightOf
+      (Part.Open, Part.Turned)
+        | Vec.x end >= Vec.x start -> Just Carrier.RightOf
+        | otherwise -> Just Carrier.LeftOf
       (Part.Open, Part.Milled) -> Nothing
-    advance = Vec.x (Segment.end (segmentOf NonEmpty.last)) - Vec.x (Segment.start (segmentOf NonEmpty.head))
-    segmentOf pick = Part.segment (pick (Part.elements contour))
+    start = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))
+    end = Segment.end (Part.segment (NonEmpty.last (Part.elements contour)))
 
 opposite :: Carrier.Side -> Carrier.Side
 opposite side = case side of
@@ -66,8 +71,8 @@ centreDistance milling allowance
   | isOnContour milling = allowance
   | otherwise = plus (Part.radius milling) allowance
 
--- | Outline and islands of a pocket, all with the free room on the side on which the outline has it:
--- an island goes in the sense opposite to that of the outline.
+-- | Outline and islands of a pocket, all with the free room on the side on which the outline has
+-- it: an island goes in the sense opposite to that of the outline.
 facingTheRoom :: Contour -> [Contour] -> [Contour]
 facingTheRoom outline islands = outline : map facing islands
   where
@@ -99,13 +104,13 @@ bevels contour
     starts = Vector.imap (\i e -> Known (marks Vector.! i) . fst <$> Part.bevel e) elements
     ends = Vector.imap (\i e -> Known (marks Vector.! (i + 1)) . snd <$> Part.bevel e) elements
     -- Last bevel at or before each element, first one at or after it.
-    earlier = Vector.postscanl' (\known own -> maybe known Just own) (overStart (-1) lastOf ends) ends
-    later = Vector.postscanr' (\own known -> maybe known Just own) (overStart 1 firstOf starts) starts
+    earlier = Vector.postscanl' (flip (<|>)) (overStart (-1) lastOf ends) ends
+    later = Vector.postscanr' (<|>) (overStart 1 firstOf starts) starts
     overStart sense pick known = case Part.ends contour of
       Part.Open -> Nothing
       Part.Closed -> (\(Known x b) -> Known (x + sense * Vector.last marks) b) <$> pick known
-    lastOf = Vector.foldl' (\known own -> maybe known Just own) Nothing
-    firstOf = Vector.foldr (\own known -> maybe known Just own) Nothing
+    lastOf = Vector.foldl' (flip (<|>)) Nothing
+    firstOf = Vector.foldr (<|>) Nothing
 
 -- | Linear interpolation between two known bevels; constant where only one is known.
 interpolated :: Maybe Known -> Maybe Known -> Double -> Double

@@ -34,8 +34,8 @@ toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 data Use = Use Int Int Mm
 
 -- | Radius in a frame of a tape with other frames than the program: that of the pass that contains
--- the frame, or the smaller one of the passes before and after it. If no pass was found on the tape,
--- it is the given radius.
+-- the frame, or the smaller one of the passes before and after it. If no pass was found on the
+-- tape, it is the given radius.
 supposedTool :: [Use] -> Mm -> Int -> Mm
 supposedTool uses otherwiseRadius n =
   case ( [r | Use _ end r <- reverse uses, end < n],

@@ -1,8 +1,8 @@
 -- | Motions of a swivelling blade, brought to the height of their pass.
 --
 -- The controlled axis of a blade does not lift the tool: its height says how far the blade is
--- swivelled. Where this height agrees to a pulse with the bevel of the contour, the motion counts as
--- one at the height of the pass. Elsewhere it keeps its height, and so it is no motion along the
+-- swivelled. Where this height agrees to a pulse with the bevel of the contour, the motion counts
+-- as one at the height of the pass. Elsewhere it keeps its height, and so it is no motion along the
 -- contour.
 module Verify.Swivel
   ( levelled,

@@ -43,8 +43,8 @@ summarize begin@(Pulses3 _ _ startHeight) = go (TapeSummary 0 begin 0 Nothing No
       p : _ -> Frame.frame p == f
       [] -> False
 
--- | Summary with one more frame; the height at the start of the tape is given, and whether the frame
--- is the program's own.
+-- | Summary with one more frame; the height at the start of the tape is given, and whether the
+-- frame is the program's own.
 withFrame :: Pulses -> Bool -> Frame -> TapeSummary -> TapeSummary
 withFrame startHeight isOwn f summary =
   TapeSummary

@@ -34,10 +34,7 @@ wrongSide :: MillingJob -> CutterMotion -> [Edge] -> Maybe Finding
 wrongSide job m close = do
   demanded <- side job
   listToMaybe
-    ( mapMaybe
-        (\p -> if mayBeWrong job demanded close around p then wrongAt job demanded m around p else Nothing)
-        sampled
-    )
+    (mapMaybe (wrongAt job demanded m around) (filter (mayBeWrong job demanded close around) sampled))
   where
     around = MillingJob.edgesInBox job m
     sampled = map (\k -> Segment.at k (segment m)) fractions
@@ -70,7 +67,7 @@ mayBeWrong job demanded close around p =
 
 -- | Exact test at one point, against the nearest element.
 wrongAt :: MillingJob -> Side -> CutterMotion -> [Edge] -> Point -> Maybe Finding
-wrongAt job demanded m around p = case [(Distance.toPoint p s, e) | e <- around, let s = segmentOf e] of
+wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | e <- around] of
   [] -> Nothing
   distances
     | d > allowance job

@@ -45,8 +45,8 @@ spec =
                         (show (size, sampled, excess location))
                         (size >= sampled - 3e-6 && abs (excess location - size) <= 1e-5)
 
--- | Line that starts beside the start of an arc, at a distance to its left, and leaves the direction
--- of the arc by a slope; its length in mm.
+-- | Line that starts beside the start of an arc, at a distance to its left, and leaves the
+-- direction of the arc by a slope; its length in mm.
 besideStart :: Segment -> Double -> Double -> Double -> Segment
 besideStart arc r slope long = Straight begin (Vec.shift (Vec.scale long direction) begin)
   where
