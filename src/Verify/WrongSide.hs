@@ -33,8 +33,8 @@ import Verify.Proof (Finding (WrongSide))
 wrongSide :: MillingJob -> CutterMotion -> [Edge] -> Maybe Finding
 wrongSide job m close = do
   demanded <- side job
-  listToMaybe
-    (mapMaybe (wrongAt job demanded m around) (filter (mayBeWrong job demanded close around) sampled))
+  let suspicious = filter (mayBeWrong job demanded close around) sampled
+  listToMaybe (mapMaybe (wrongAt job demanded m around) suspicious)
   where
     around = MillingJob.edgesInBox job m
     sampled = map (\k -> Segment.at k (segment m)) fractions

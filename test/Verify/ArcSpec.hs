@@ -300,8 +300,8 @@ refusals machine f =
       ByRule other -> show other
       NotCompensated _ -> "compensation"
 
--- | Findings for a cutter of radius 5 on an arc of radius 25, from one axis to the other, beside the
--- middle of an arc of radius 20. The start or the end of the arc is @d@ pulses too far out.
+-- | Findings for a cutter of radius 5 on an arc of radius 25, from one axis to the other, beside
+-- the middle of an arc of radius 20. The start or the end of the arc is @d@ pulses too far out.
 findingsBeside :: Sense -> Bool -> Int -> [Finding]
 findingsBeside sense atStart d = findings machine path (Arcs.quantise machine path) [f]
   where

@@ -1,4 +1,5 @@
--- | Proof of tapes with cutter compensation in the control: tapes of the compiler, and damaged ones.
+-- | Proof of tapes with cutter compensation in the control: tapes of the compiler, and damaged
+-- ones.
 module Verify.CompensationSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -134,8 +135,8 @@ own program = map Frame.frame (Frame.planned program)
 cutting :: [Planned] -> [Int]
 cutting ps = [n | (n, p) <- zip [0 ..] ps, Cutting _ <- [Frame.role p]]
 
--- | Depth of the deepest gouge and largest excess of a path of the cutter's centre, by dense samples
--- of the path and of the contour.
+-- | Depth of the deepest gouge and largest excess of a path of the cutter's centre, by dense
+-- samples of the path and of the contour.
 deviation :: [Segment] -> Milling -> (Double, Double)
 deviation centre job =
   (r - minimum [nearest edge p | p <- path], maximum [nearest path q | q <- edge] - r)
@@ -188,8 +189,9 @@ findings path program fs = Proof.findings (Verify.prove iso6983 path program fs)
 tolerant :: (Generate.Case, Milling) -> Gen Milling
 tolerant (_, job) = pure job {Part.tolerance = Part.OnPath (Mm 0.02)}
 
--- | Toolpath and frames of a milling with compensation, if those without compensation are proven to a
--- slightly smaller tolerance. Linking moves that cut or graze the part are no matter of the control.
+-- | Toolpath and frames of a milling with compensation, if those without compensation are proven to
+-- a slightly smaller tolerance. Linking moves that cut or graze the part are no matter of the
+-- control.
 made :: Milling -> Maybe (Toolpath, FrameProgram)
 made job = do
   (plainly, frames) <- laid job {Part.byControl = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
