@@ -15,7 +15,7 @@ module Verify.PocketDeviation
 where
 
 import Base.Quantity (Mm (..), plus)
-import Data.List (foldl', minimumBy, sortOn)
+import Data.List (find, foldl', minimumBy, sortOn)
 import Data.Maybe (fromMaybe, mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Geometry.Distance.Fast qualified as FastDistance
@@ -68,6 +68,7 @@ examine set isOwn pocket isFirst pass = (contourProof, findings)
       | isFinal pass = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim pocket)
       | otherwise = []
     worst = Proof.deepest missed
+    tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
     contourProof =
       ContourProof
         { Proof.contour = Part.contourName (Part.contour (milling pocket)),
@@ -76,29 +77,28 @@ examine set isOwn pocket isFirst pass = (contourProof, findings)
           Proof.allowedGouge,
           Proof.allowedExcess
         }
-    tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
-    tooDeep =
-      filter
-        ((> allowedGouge) . Proof.amount)
-        (mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined)
     findings =
       [ Gouge first w allowedGouge
         | Just w <- [deepest],
           Proof.amount w > allowedGouge,
-          first : _ <- [tooDeep]
+          Just first <- [firstGouge keepOut pocket allowedGouge examined]
       ]
         <> [Excess first (fromMaybe first worst) allowedExcess | first : _ <- [tooMuch]]
-        <> [ NotCleared (statement pocket) (level pass) p
-             | isFinal pass,
-               null tooMuch,
-               p <-
-                 maybeToList
-                   ( PocketFloor.unclearedPoint
-                       pocket
-                       (plus (Part.radius (milling pocket)) allowedExcess)
-                       (BoxTree.byPlace Motion.box clearing)
-                   )
-           ]
+        <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
+
+-- | Finding for a position in the final pass that is not cleared.
+floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
+floorFindings pocket pass allowedExcess clearing =
+  [ NotCleared (statement pocket) (level pass) p
+    | isFinal pass,
+      p <-
+        maybeToList
+          ( PocketFloor.unclearedPoint
+              pocket
+              (plus (Part.radius (milling pocket)) allowedExcess)
+              (BoxTree.byPlace Motion.box clearing)
+          )
+  ]
 
 -- | Allowed gouge and excess: the tolerance and one pulse; for the excess also the spare room of
 -- the rim.
@@ -142,6 +142,13 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
       BoxTree.within
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
+
+-- | First gouge into the walls of a pocket that is deeper than allowed.
+firstGouge :: (CutterMotion -> KeepOut) -> Pocket -> Mm -> [CutterMotion] -> Maybe Witness
+firstGouge keepOut pocket allowed motions =
+  find
+    ((> allowed) . Proof.amount)
+    (mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) motions)
 
 -- | Distances of the rim from the motions. A distance within the allowance is only given if it is
 -- larger than all before it.
