@@ -1,20 +1,24 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What the cutter's centre does under a control that keeps the cutter beside the contour by
--- itself, after LinuxCNC as it was measured. On machines without that, and where it is switched
--- off, it goes as the frames say.
+-- | Model of cutter compensation (G41, G42) in the control: the path of the cutter's centre while
+-- the frames describe the edge of the part. The model follows LinuxCNC, whose results were
+-- measured. Without compensation, the centre goes as the frames say.
 --
--- The first stroke goes straight from where the centre stands to the end of that stroke, moved
--- aside by the radius. From there on each stroke runs beside what the frame says, an arc about its
--- own centre. Where the next one turns away from the cutter, the centre goes round the corner on an
--- arc; where it turns towards it, both end where they meet; where it hardly turns, the next one
--- sets out from where the one before has ended. The first stroke behind the release goes straight
--- from there to where its frame says.
+-- * Entry: the first motion goes straight from the present position of the centre to the end of
+--   the programmed motion, shifted sideways by the cutter's radius.
+-- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
+--   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
+--   that turns towards the cutter, both offsets end at their intersection. At a corner of less than
+--   'Tolerance.controlBend', the next motion starts at the end of the one before.
+-- * Exit: the first motion after the release goes straight from the present position to the
+--   programmed end.
+--
+-- The model reports what a control refuses; it does not repair it.
 module Control.Compensation
   ( Moved (..),
     run,
     runWith,
-    Unkept (..),
+    CompensationError (..),
   )
 where
 
@@ -39,78 +43,97 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | A stroke and what the cutter's centre does in it, in the plane: round the corner before it and
--- then along; without length where it goes straight up or down.
-data Moved = Moved {stroke :: Motion, legs :: NonEmpty Segment}
+-- | Programmed motion and the path of the cutter's centre in it, in the plane: the arc round the
+-- corner before it, if there is one, then the offset. A vertical motion has a path without length.
+data Moved = Moved {programmed :: Motion, centrePath :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
--- | Why a control does not go on; the number of the frame.
-data Unkept
-  = -- | the first move is no longer than the radius: its length, the radius
+-- | Reason why a control stops, with the number of the frame.
+data CompensationError
+  = -- | The first motion is no longer than the cutter's radius: its length, the radius.
     ShortEntry Int Mm Mm
-  | -- | the first move is an arc
-    RoundEntry Int
-  | -- | the first move behind the release is an arc
-    RoundExit Int
-  | -- | an arc about whose inside the cutter has no room to roll: its radius, that of the cutter
+  | -- | The first motion is an arc.
+    ArcEntry Int
+  | -- | The first motion after the release is an arc.
+    ArcExit Int
+  | -- | The cutter does not fit inside an arc: the radius of the arc, that of the cutter.
     TightArc Int Mm Mm
-  | -- | a corner that the cutter does not reach without cutting into the move before or this one
-    Unreached Int
-  | -- | switched on while it is on
-    OnTwice Int
-  | -- | a tool changed while it is on
+  | -- | The cutter cannot reach a corner without a gouge of this motion or the one before.
+    CornerNotReached Int
+  | -- | Compensation is switched on while it is on.
+    SwitchedOnTwice Int
+  | -- | The tool is changed while compensation is on.
     ToolChanged Int
-  | -- | on until the end
-    NeverReleased Int
+  | -- | Compensation is on at the end of the tape.
+    NotSwitchedOff Int
   deriving stock (Eq, Show)
 
--- | A cutter of a radius in mm, on the left (1) or on the right (-1).
-data Keep = Keep {leftward :: Double, radius :: Double}
+-- | Active compensation: 1 for a cutter on the left, -1 for one on the right; its radius in mm.
+data Offset = Offset {leftward :: Double, radius :: Double}
 
--- | What holds between two frames.
+-- | State of the control between two frames.
 data Mode
   = Off
-  | Entering Keep
-  | Keeping
+  | Entering Offset
+  | Active
   | Leaving
 
--- | What a stroke is.
-data Tag = Plain | First Keep | Later | Exit
+-- | Role of a motion: without compensation, the entry, along the contour, the exit.
+data Role = Uncompensated | Entry Offset | Contour | Exit
 
--- | Run frames from a position. Where the tape does not say the cutter's diameter, its radius by
--- the number of the frame is asked.
-run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [Unkept])
+-- Frames in order ---------------------------------------------------------------------------------
+
+-- | Run frames from a position. The function gives the cutter's radius in a frame, by its number;
+-- it is used if the tape does not say the diameter.
+run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | The same, with what is made of each stroke before what is made of those behind it.
-runWith :: (Moved -> [a] -> [a]) -> Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([a], [Unkept])
-runWith before machine toolAt begin frames = case Machine.compensation (Machine.orders machine) of
-  Just c
-    | any (switchesOn c) frames ->
-      let ((final, _), told) = mapAccumL (told' c) (Off, strokes) (zip [1 ..] frames)
-          (moved, problems) =
-            unzip (walked machine (Frame.position machine begin) [t | (Just t, _) <- told])
-       in ( foldr before [] moved,
-            concatMap snd told <> concat problems <> [NeverReleased (length frames) | isOn final]
-          )
-  _ -> (Motion.runWith (\s -> before (Moved s (Motion.segment machine s :| []))) begin frames, [])
+-- | Fold the motions of 'run' from the right. Without compensation the list of motions is never
+-- held.
+runWith ::
+  (Moved -> [a] -> [a]) ->
+  Machine ->
+  (Int -> Mm) ->
+  Pulses3 ->
+  [Frame] ->
+  ([a], [CompensationError])
+runWith onto machine toolAt begin frames =
+  case Machine.compensation (Machine.orders machine) of
+    Just commands
+      | any (switchesOn commands) frames ->
+        let (final, tagged) = withRoles machine commands toolAt begin frames
+            start = Frame.position machine begin
+            (moved, errors) = unzip (pathsFrom machine start [m | (Just m, _) <- tagged])
+         in ( foldr onto [] moved,
+              concatMap snd tagged <> concat errors <> [NotSwitchedOff (length frames) | isOn final]
+            )
+    _ -> (Motion.runWith (onto . uncompensated machine) begin frames, [])
   where
     switchesOn c f =
       any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
-    strokes = Motion.run begin frames
-    told' c (mode, left) (n, f) =
-      let (mode', problems) = switched machine c toolAt mode n f
-       in case left of
-            s : rest
-              | number s == n ->
-                let (after, tag) =
-                      taken mode'
-                 in ((after, rest), (Just (tag, s), problems))
-            _ -> ((mode', left), (Nothing, problems))
+
+-- | Role of each motion and errors of each frame, and the mode at the end of the tape.
+withRoles ::
+  Machine ->
+  CompensationCommands ->
+  (Int -> Mm) ->
+  Pulses3 ->
+  [Frame] ->
+  (Mode, [(Maybe (Role, Motion), [CompensationError])])
+withRoles machine commands toolAt begin frames = (final, tagged)
+  where
+    ((final, _), tagged) = mapAccumL inFrame (Off, Motion.run begin frames) (zip [1 ..] frames)
+    inFrame (mode, motions) (n, f) =
+      let (mode', errors) = switched machine commands toolAt mode n f
+       in case motions of
+            m : rest
+              | number m == n ->
+                let (after, role) = taken mode' in ((after, rest), (Just (role, m), errors))
+            _ -> ((mode', motions), (Nothing, errors))
     taken mode = case mode of
-      Off -> (Off, Plain)
-      Entering k -> (Keeping, First k)
-      Keeping -> (Keeping, Later)
+      Off -> (Off, Uncompensated)
+      Entering k -> (Active, Entry k)
+      Active -> (Active, Contour)
       Leaving -> (Off, Exit)
 
 isOn :: Mode -> Bool
@@ -118,9 +141,9 @@ isOn mode = case mode of
   Off -> False
   Leaving -> False
   Entering _ -> True
-  Keeping -> True
+  Active -> True
 
--- | What the commands of a frame switch, before it moves.
+-- | Mode after the commands of a frame, before its motion, and the errors of these commands.
 switched ::
   Machine ->
   CompensationCommands ->
@@ -128,173 +151,187 @@ switched ::
   Mode ->
   Int ->
   Frame ->
-  (Mode, [Unkept])
-switched machine c toolAt mode n f =
+  (Mode, [CompensationError])
+switched machine commands toolAt mode n f =
   ( mode',
-    [OnTwice n | tooOften] <> [ToolChanged n | isOn mode, not (null change), all given change]
+    [SwitchedOnTwice n | isTwice]
+      <> [ToolChanged n | isOn mode, not (null change), all isGiven change]
   )
   where
     change = Machine.toolChange (Machine.orders machine)
     on =
-      [ Keep s r
-        | (s, o) <- [(1, keepLeft c), (-1, keepRight c)],
-          given o,
-          let r = radiusFor o,
-          let _ = s :: Double
+      [ Offset side (radiusFor o)
+        | (side, o) <- [(1, keepLeft commands), (-1, keepRight commands)],
+          isGiven o
       ]
-    off = given (release c)
-    (mode', tooOften) = case (mode, on) of
+    isReleased = isGiven (release commands)
+    (mode', isTwice) = case (mode, on) of
       (_, _ : _ : _) -> (mode, True)
-      (Off, k : _) -> (Entering (facing k), off)
+      (Off, k : _) -> (Entering (facing k), isReleased)
       (_, _ : _) -> (mode, True)
-      (Keeping, []) | off -> (Leaving, False)
-      (Entering _, []) | off -> (Off, False)
+      (Active, []) | isReleased -> (Leaving, False)
+      (Entering _, []) | isReleased -> (Off, False)
       (_, []) -> (mode, False)
-    facing k = if Machine.isMirrored machine then k {leftward = -(leftward k)} else k
-    given o = case (value o, lookup (order o) (Frame.orders f)) of
+    facing k = if Machine.isMirrored machine then k {leftward = negate (leftward k)} else k
+    isGiven o = case (value o, lookup (order o) (Frame.orders f)) of
       (Fixed v, Just w) -> v == w
       (_, found) -> isJust found
     radiusFor o = case (value o, lookup (order o) (Frame.orders f)) of
       (Diameter, Just w) -> fromIntegral w / 10 ^ Machine.orderDecimals machine (order o) / 2
       _ -> let Mm r = toolAt n in r
 
--- | Strokes from where the centre stands.
-walked :: Machine -> Point -> [(Tag, Motion)] -> [(Moved, [Unkept])]
-walked machine at strokes = case strokes of
+-- Paths of the centre -----------------------------------------------------------------------------
+
+-- | Motion without compensation.
+uncompensated :: Machine -> Motion -> Moved
+uncompensated machine m = Moved m (Motion.segment machine m :| [])
+
+-- | Paths of motions from the present position of the centre.
+pathsFrom :: Machine -> Point -> [(Role, Motion)] -> [(Moved, [CompensationError])]
+pathsFrom machine at motions = case motions of
   [] -> []
-  (Plain, s) : rest ->
-    (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
-  (Later, s) : rest ->
-    (Moved s (Motion.segment machine s :| []), []) : walked machine (programmed s) rest
-  (Exit, s) : rest ->
-    ( Moved s (Straight at (programmed s) :| []),
-      [RoundExit (number s) | isArc (Motion.segment machine s)]
+  (Uncompensated, m) : rest -> (uncompensated machine m, []) : pathsFrom machine (endpoint m) rest
+  (Contour, m) : rest -> (uncompensated machine m, []) : pathsFrom machine (endpoint m) rest
+  (Exit, m) : rest ->
+    ( Moved m (Straight at (endpoint m) :| []),
+      [ArcExit (number m) | isArc (Motion.segment machine m)]
     ) :
-    walked machine (programmed s) rest
-  (First k, s) : rest ->
-    let (kept, others) = span (isLater . fst) rest
-        entry = Motion.segment machine s
-        length' = Vec.distance (Segment.start entry) (Segment.end entry)
-        wrong =
-          [RoundEntry (number s) | isArc entry]
-            <> [ShortEntry (number s) length' (Mm (radius k)) | length' <= Mm (radius k)]
-        -- The centre stands where the frames say.
-        section = beside k at Nothing [(t, Motion.segment machine t) | t <- s : map snd kept]
-        left' = case reverse section of
-          (m, _) : _ -> endOf m
-          [] -> at
-     in addedFirst wrong section <> walked machine left' others
+    pathsFrom machine (endpoint m) rest
+  (Entry k, m) : rest ->
+    let (contour, others) = span (isContour . fst) rest
+        section = compensatedSection machine k at (m :| map snd contour)
+        final = maybe at (endOf . fst) (listToMaybe (reverse section))
+     in section <> pathsFrom machine final others
   where
-    programmed s = Frame.position machine (to s)
-    isLater tag = case tag of
-      Later -> True
-      Plain -> False
-      First _ -> False
+    endpoint m = Frame.position machine (to m)
+    isContour role = case role of
+      Contour -> True
+      Uncompensated -> False
+      Entry _ -> False
       Exit -> False
-    addedFirst wrong section = case section of
-      (m, problems) : more -> (m, wrong <> problems) : more
-      [] -> []
+
+-- | Paths of the entry motion and of all motions up to the release.
+compensatedSection ::
+  Machine ->
+  Offset ->
+  Point ->
+  NonEmpty Motion ->
+  [(Moved, [CompensationError])]
+compensatedSection machine k at (entry :| contour) =
+  case offsetPaths k at Nothing [(m, Motion.segment machine m) | m <- entry : contour] of
+    (moved, errors) : more -> (moved, entryErrors <> errors) : more
+    [] -> []
+  where
+    edge = Motion.segment machine entry
+    long = Vec.distance (Segment.start edge) (Segment.end edge)
+    entryErrors =
+      [ArcEntry (number entry) | isArc edge]
+        <> [ShortEntry (number entry) long (Mm (radius k)) | long <= Mm (radius k)]
 
 endOf :: Moved -> Point
-endOf m = let l :| ls = legs m in Segment.end (foldl (\_ x -> x) l ls)
+endOf m = let first :| others = centrePath m in Segment.end (foldl (\_ s -> s) first others)
 
 isArc :: Segment -> Bool
 isArc s = case s of
   Straight _ _ -> False
   Arc {} -> True
 
--- | How a stroke goes over into the next one.
+-- | Offset paths of programmed edges, from the present position of the centre. An arc round the
+-- corner before the first edge is given if it is still to be traversed.
+offsetPaths ::
+  Offset ->
+  Point ->
+  Maybe Segment ->
+  [(Motion, Segment)] ->
+  [(Moved, [CompensationError])]
+offsetPaths k at corner motions = case motions of
+  [] -> []
+  (m, edge) : rest
+    | isVertical edge -> (Moved m (Straight at at :| []), []) : offsetPaths k at corner rest
+    | otherwise ->
+      let joint = jointOf k edge <$> listToMaybe [e | (_, e) <- rest, not (isVertical e)]
+          (finish, corner') = case joint of
+            Just (Around arc) -> (Segment.start arc, Just arc)
+            Just (Intersection p) -> (p, Nothing)
+            _ -> (offsetEnd k edge, Nothing)
+          path = along (maybe at Segment.end corner) finish edge
+       in (Moved m (maybe (path :| []) (:| [path]) corner), offsetErrors k m edge path joint) :
+          offsetPaths k finish corner' rest
+
+-- | Errors of one offset: an arc in which the cutter does not fit; a path that goes back, winds
+-- round or does not meet the next one.
+offsetErrors :: Offset -> Motion -> Segment -> Segment -> Maybe Joint -> [CompensationError]
+offsetErrors k m edge path joint =
+  tight <> [CornerNotReached (number m) | isBackwards || winds path edge || isApart]
+  where
+    isBackwards = case joint of
+      Just Smooth -> False
+      _ -> goesBack path edge
+    isApart = case joint of
+      Just NoMeeting -> True
+      _ -> False
+    tight = case edge of
+      Arc {start, centre, sweep = Rad a}
+        | Mm r <- Segment.radius centre start,
+          signum a == leftward k,
+          r <= radius k ->
+          [TightArc (number m) (Mm r) (Mm (radius k))]
+      _ -> []
+
+-- | Test that a motion has no length in the plane.
+isVertical :: Segment -> Bool
+isVertical s = case s of
+  Straight a b -> a == b
+  Arc {} -> False
+
+-- | Path from one point to another with the shape of an edge; an arc keeps its centre.
+along :: Point -> Point -> Segment -> Segment
+along a b edge = case edge of
+  Straight _ _ -> Straight a b
+  Arc {centre, sweep = whole@(Rad angle)}
+    | Vec.near (Segment.start edge) (Segment.end edge) ->
+      Arc {start = a, end = b, centre, sweep = whole}
+    | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
+
+-- | Test that a straight path goes against its edge, by more than rounding.
+goesBack :: Segment -> Segment -> Bool
+goesBack path edge = case edge of
+  Straight _ _ ->
+    Mm (Vec.dot (Segment.startDirection edge) (Vec.to (Segment.start path) (Segment.end path)))
+      < Mm (-slack)
+  Arc {} -> False
+  where
+    Mm slack = Tolerance.coincident
+
+-- | Test that an arc has a larger sweep than its edge. An arc that was shortened to less than
+-- nothing goes almost all the way round.
+winds :: Segment -> Segment -> Bool
+winds path edge = case (path, edge) of
+  (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
+  _ -> False
+
+-- Corners -----------------------------------------------------------------------------------------
+
+-- | Transition from one offset to the next.
 data Joint
   = Smooth
   | Around Segment
   | Intersection Point
   | NoMeeting
 
--- | Strokes beside what their frames say, from where the centre stands; a corner that is to be gone
--- round first.
-beside :: Keep -> Point -> Maybe Segment -> [(Motion, Segment)] -> [(Moved, [Unkept])]
-beside k at corner strokes = case strokes of
-  [] -> []
-  (s, way) : rest
-    | isStill way -> (Moved s (Straight at at :| []), []) : beside k at corner rest
-    | otherwise ->
-      let next = listToMaybe [w | (_, w) <- rest, not (isStill w)]
-          joint = fmap (jointOf k way) next
-          from' = maybe at Segment.end corner
-          (finish, corner') = case joint of
-            Just (Around arc) -> (Segment.start arc, Just arc)
-            Just (Intersection p) -> (p, Nothing)
-            _ -> (asideAtEnd k way, Nothing)
-          leg = along from' finish way
-          back = case joint of
-            Just Smooth -> False
-            _ -> goesBack leg way
-          problems =
-            tight s way <> [Unreached (number s) | back || wraps leg way || noMeeting joint]
-       in (Moved s (maybe (leg :| []) (:| [leg]) corner), problems) : beside k finish corner' rest
-  where
-    noMeeting joint = case joint of
-      Just NoMeeting -> True
-      _ -> False
-    tight s way = case way of
-      Arc {start, centre, sweep = Rad a}
-        | Mm r <- Segment.radius centre start,
-          signum a == leftward k,
-          r <= radius k ->
-          [TightArc (number s) (Mm r) (Mm (radius k))]
-      _ -> []
-
-isStill :: Segment -> Bool
-isStill s = case s of
-  Straight a b -> a == b
-  Arc {} -> False
-
--- | From one point to another as a stroke goes, an arc about its centre.
-along :: Point -> Point -> Segment -> Segment
-along a b way = case way of
-  Straight _ _ -> Straight a b
-  Arc {centre, sweep = whole@(Rad angle)}
-    | Vec.near (Segment.start way) (Segment.end way) ->
-      Arc {start = a, end = b, centre, sweep = whole}
-    | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
-
--- | Whether a straight way goes back, by more than rounding.
-goesBack :: Segment -> Segment -> Bool
-goesBack leg way = case way of
-  Straight _ _ ->
-    Mm (Vec.dot (Segment.startDirection way) (Vec.to (Segment.start leg) (Segment.end leg)))
-      < Mm (-slack)
-  Arc {} -> False
-  where
-    Mm slack = Tolerance.coincident
-
--- | Whether an arc turns further than it was programmed. One that was shortened to less than
--- nothing does, almost all the way round.
-wraps :: Segment -> Segment -> Bool
-wraps leg way = case (leg, way) of
-  (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
-  _ -> False
-
-asideAtEnd, asideAtStart :: Keep -> Segment -> Point
-asideAtEnd k s =
-  Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
-asideAtStart k s =
-  Vec.shift
-    (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s)))
-    (Segment.start s)
-
-jointOf :: Keep -> Segment -> Segment -> Joint
+-- | Transition between two edges that follow each other.
+jointOf :: Offset -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
-  -- What almost turns back is taken for a corner towards the cutter, whichever way it turns.
+  -- A sharp tip counts as a corner towards the cutter on both sides.
   | abs turned > pi - least = NoMeeting
   | turned * leftward k < 0 =
     Around
       ( Segment.arc
           (if leftward k > 0 then Clockwise else CounterClockwise)
           corner
-          (asideAtEnd k a)
-          (asideAtStart k b)
+          (offsetEnd k a)
+          (offsetStart k b)
       )
   | otherwise = case meetings k a b of
     [] -> NoMeeting
@@ -304,30 +341,34 @@ jointOf k a b
     Rad least = Tolerance.controlBend
     corner = Segment.end a
 
--- | Where the lines and circles beside two strokes meet.
-meetings :: Keep -> Segment -> Segment -> [Point]
-meetings k a b =
-  case Intersection.lines
-    <$> line a asideAtEnd Segment.endDirection <*> line b asideAtStart Segment.startDirection of
-    Just m -> points m
-    Nothing ->
-      points
-        ( other
-            (line a asideAtEnd Segment.endDirection)
-            (line b asideAtStart Segment.startDirection)
-        )
+-- | End and start of an edge, shifted sideways by the cutter's radius.
+offsetEnd, offsetStart :: Offset -> Segment -> Point
+offsetEnd k s =
+  Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
+offsetStart k s =
+  Vec.shift
+    (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s)))
+    (Segment.start s)
+
+-- | Intersections of the offset carriers of two edges.
+meetings :: Offset -> Segment -> Segment -> [Point]
+meetings k a b = points $ case (lineA, lineB) of
+  (Just l, Just m) -> Intersection.lines l m
+  (Just l, Nothing) -> Intersection.lineCircle l circleB
+  (Nothing, Just m) -> Intersection.lineCircle m circleA
+  (Nothing, Nothing) -> Intersection.circles circleA circleB
   where
-    line s p d = case s of
-      Straight _ _ -> let q = p k s in Just (Line q (Vec.shift (d s) q))
+    lineA = offsetLine a (offsetEnd k a) (Segment.endDirection a)
+    lineB = offsetLine b (offsetStart k b) (Segment.startDirection b)
+    circleA = offsetCircle a (offsetEnd k a)
+    circleB = offsetCircle b (offsetStart k b)
+    offsetLine s p direction = case s of
+      Straight _ _ -> Just (Line p (Vec.shift direction p))
       Arc {} -> Nothing
-    other la lb = case (la, lb) of
-      (Just l, _) -> Intersection.lineCircle l (circle b (asideAtStart k b))
-      (_, Just l) -> Intersection.lineCircle l (circle a (asideAtEnd k a))
-      _ -> Intersection.circles (circle a (asideAtEnd k a)) (circle b (asideAtStart k b))
-    circle s p = case s of
+    offsetCircle s p = case s of
       Arc {centre} -> Circle centre (Vec.distance centre p)
       Straight _ _ -> Circle p (Mm 0)
-    points m = case m of
+    points intersection = case intersection of
       Apart _ -> []
       Touching p -> [p]
       CrossingOnce p -> [p]

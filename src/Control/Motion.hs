@@ -1,25 +1,25 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | A virtual controller without time: every frame that moves is one stroke, straight or on an arc.
+-- | Model of a controller without time: each frame that moves is one motion of the cutter's centre,
+-- on a line or on an arc. Speed, acceleration and pulses in time are not modelled.
 --
--- The centre of an arc is a whole number of pulses from its beginning, and so is its end: the two
--- lie at distances from the centre that may differ. What a control makes of that is its own affair:
--- it goes about the centre of the frame, in its sense, no nearer than the one and no further than
--- the other. So such a stroke has two ways, the arc with the radius of its beginning and the one
--- with that of its end, each between the directions of both, and the ways across from one to the
--- other; whatever is compared with a stroke has to hold for all of them.
+-- The end points of an arc and its centre are whole pulses, so its start radius and its end radius
+-- may differ. Controllers resolve this difference in different manners, but all of them go about
+-- the programmed centre, in the programmed sense, between the two radii. The model therefore gives
+-- two bounding paths for such a motion, one arc on each radius, and the lines that connect their
+-- ends. A statement about the motion is true if it is true of all of these.
 module Control.Motion
   ( Motion (..),
     run,
     runWith,
     isRound,
-    endsAbreast,
+    endsInStartDirection,
     segment,
     between,
-    across,
+    connectors,
     radii,
     height,
-    lengthOf,
+    travel,
   )
 where
 
@@ -35,31 +35,30 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 
--- | What one frame does: its number from 1, from where to where in pulses, the frame.
+-- | Motion of one frame: the number of the frame, counted from 1; both end positions in pulses; the
+-- frame itself.
 data Motion = Motion {number :: Int, from :: Pulses3, to :: Pulses3, frame :: Frame}
   deriving stock (Eq, Show)
 
--- | Run frames from a position. A frame that only commands makes no stroke; a full circle makes
--- one.
+-- | List the motions of frames from a start position. A frame that only commands has no motion; a
+-- full circle has one, although its increment is zero.
 run :: Pulses3 -> [Frame] -> [Motion]
 run = runWith (:)
 
--- | The same, with what is made of each stroke before what is made of those behind it. There is no
--- list of the strokes themselves.
+-- | Fold the motions of frames from the right, without holding the list of motions.
 runWith :: (Motion -> [a] -> [a]) -> Pulses3 -> [Frame] -> [a]
-runWith before = go 1
+runWith onto = go 1
   where
     go n at frames = case frames of
       [] -> []
       f : more
         | increment f /= 0 || isRound f ->
-          let next =
-                at + increment f
-              s = Motion {number = n, from = at, to = next, frame = f}
-           in s `seq` before s (go (n + 1) next more)
+          let next = at + increment f
+              m = Motion {number = n, from = at, to = next, frame = f}
+           in m `seq` onto m (go (n + 1) next more)
         | otherwise -> go (n + 1) at more
 
--- | Whether a frame goes about a centre. About its own beginning or its own end there is no arc.
+-- | Test that a frame goes about a centre. An arc about its own start or end point is none.
 isRound :: Frame -> Bool
 isRound f = case motion f of
   Round _ -> Frame.centre f /= 0 && Frame.centre f /= Pulses2 x y
@@ -69,43 +68,43 @@ isRound f = case motion f of
   where
     Pulses3 x y _ = increment f
 
--- | Whether an arc ends in the direction from its centre in which it begins, by whole pulses.
-endsAbreast :: Frame -> Bool
-endsAbreast f = a * d == b * c && a * c + b * d > 0
+-- | Test, exactly in pulses, that the start and the end of an arc lie in one direction from its
+-- centre.
+endsInStartDirection :: Frame -> Bool
+endsInStartDirection f = a * d == b * c && a * c + b * d > 0
   where
     Pulses2 i j = Frame.centre f
     Pulses3 x y _ = increment f
     (a, b, c, d) = (-i, -j, x - i, y - j)
 
--- | The stroke in the plane, in mm, exactly from its beginning to its end; an arc has the radius of
--- its beginning. An arc whose ends lie in one direction from the centre is a full turn, as it is
--- for a control that compares angles.
+-- | Motion in the plane, in mm, with exact end points. An arc has the radius of its start. An arc
+-- whose ends lie in one direction from the centre is a full turn, because controls compare angles.
 segment :: Machine -> Motion -> Segment
-segment machine s = case (Frame.segment machine (from s) (frame s), motion (frame s)) of
-  (a@Arc {}, Round turn)
-    | not (isRound (frame s)) -> Straight (Segment.start a) (Segment.end a)
-    | endsAbreast (frame s) -> a {sweep = Rad (Carrier.sense turn * 2 * pi)}
+segment machine m = case (Frame.segment machine (from m) (frame m), motion (frame m)) of
+  (a@Arc {}, Round sense)
+    | not (isRound (frame m)) -> Straight (Segment.start a) (Segment.end a)
+    | endsInStartDirection (frame m) -> a {sweep = Rad (Carrier.sense sense * 2 * pi)}
   (other, _) -> other
 
--- | The ways between which the control goes along a segment, of which an arc may end on another
--- radius than that on which it begins: each of them whole, with its ends on its circle.
+-- | Bounding paths of a motion. A line, or an arc whose radii agree to 'Tolerance.coincident', has
+-- one. Another arc has two: one on its start radius, one on its end radius.
 between :: Segment -> NonEmpty Segment
 between s = case s of
   Straight a b -> Straight a b :| []
   Arc {start, end, centre = c, sweep}
-    | abs (outer - inner) <= same -> Arc {start, end, centre = c, sweep} :| []
+    | abs (endRadius - startRadius) <= same -> Arc {start, end, centre = c, sweep} :| []
     | otherwise ->
-      Arc {start, end = at inner end, centre = c, sweep}
-        :| [Arc {start = at outer start, end, centre = c, sweep}]
+      Arc {start, end = onRadius startRadius end, centre = c, sweep}
+        :| [Arc {start = onRadius endRadius start, end, centre = c, sweep}]
     where
-      Mm inner = Vec.distance c start
-      Mm outer = Vec.distance c end
+      Mm startRadius = Vec.distance c start
+      Mm endRadius = Vec.distance c end
       Mm same = Tolerance.coincident
-      at r p = Vec.shift (Vec.scale r (Vec.unit (Vec.to c p))) c
+      onRadius r p = Vec.shift (Vec.scale r (Vec.unit (Vec.to c p))) c
 
--- | The ways across from one of two ways to the other, at their beginnings and at their ends.
-across :: NonEmpty Segment -> [Segment]
-across (one :| others) =
+-- | Lines from the first bounding path to each other one, at their starts and at their ends.
+connectors :: NonEmpty Segment -> [Segment]
+connectors (one :| others) =
   concat
     [ [ Straight (Segment.start one) (Segment.start other),
         Straight (Segment.end one) (Segment.end other)
@@ -113,21 +112,21 @@ across (one :| others) =
       | other <- others
     ]
 
--- | The radii of an arc at its beginning and at its end.
+-- | Start radius and end radius of an arc; nothing for a line.
 radii :: Machine -> Motion -> Maybe (Mm, Mm)
-radii machine s = if isRound (frame s) then ends else Nothing
+radii machine m = if isRound (frame m) then ends else Nothing
   where
-    ends = case segment machine s of
+    ends = case segment machine m of
       Straight _ _ -> Nothing
       Arc {start, end, centre = c} -> Just (Vec.distance c start, Vec.distance c end)
 
--- | The heights at the beginning and at the end, in mm.
+-- | Heights at the start and at the end of a motion, in mm.
 height :: Machine -> Motion -> (Mm, Mm)
-height machine s = (Frame.height machine (from s), Frame.height machine (to s))
+height machine m = (Frame.height machine (from m), Frame.height machine (to m))
 
--- | The way that the cutter goes, in space.
-lengthOf :: Machine -> Motion -> Mm
-lengthOf machine s = Mm (Vec.norm (Vec.vec l (b - a)))
+-- | Length of the path in space, in mm; a helix is measured along its slope.
+travel :: Machine -> Motion -> Mm
+travel machine m = Mm (Vec.norm (Vec.vec l (b - a)))
   where
-    Mm l = Segment.length (segment machine s)
-    (Mm a, Mm b) = height machine s
+    Mm l = Segment.length (segment machine m)
+    (Mm a, Mm b) = height machine m

@@ -1,13 +1,16 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | How far a segment lies beyond the reach of others: an element beyond that of the strokes, or a
--- stroke beyond that of the elements. Exact over the whole segment, and fast where there are many
--- others, short ones.
+-- | Directed Hausdorff distance from one segment to a set of others: of an element to the motions,
+-- or of a motion to the elements. The distance is exact over the whole segment, to
+-- 'Tolerance.resolution', and fast if the set has many short members.
+--
+-- A segment is covered at a distance if each of its points has a member within that distance. The
+-- Hausdorff distance is the smallest distance at which it is covered; bisection finds it.
 module Verify.Coverage
-  ( Others (..),
+  ( Cover (..),
     DistanceBounds (..),
-    Beyond (..),
-    furthest,
+    Gap (..),
+    largestGap,
     distanceTo,
   )
 where
@@ -25,138 +28,136 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
-import Prelude hiding (lines)
 
--- | What may lie within reach, by an index of it.
-data Others a = Others
+-- | Set of members that may cover a segment.
+data Cover a = Cover
   { index :: BoxTree a,
-    -- | what has to be within reach of it: all of these
-    lines :: a -> NonEmpty Segment,
-    -- | whether it counts at all
-    counts :: a -> Bool,
+    -- | paths of a member: a point is covered if all of them are within the distance
+    pathsOf :: a -> NonEmpty Segment,
+    -- | members that do not count
+    isEligible :: a -> Bool,
+    -- | distance at which a point is covered
     reach :: Mm,
-    -- | how much beyond its reach a point may lie
+    -- | allowed excess over the reach
     allowance :: Mm
   }
 
--- | What is known of a segment without comparing exactly: one of its points is further from all the
--- others than the one, and none is further from all of them than the other.
+-- | Bounds of the directed Hausdorff distance that are known without an exact comparison.
 data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 
--- | How far beyond the reach a point lies, the point, and the others around it.
-data Beyond a = Beyond {most :: Mm, place :: Point, around :: [a]}
+-- | Largest excess over the reach, the point of the segment that has it, and the members near the
+-- segment.
+data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | The most by which a point of a segment lies beyond the reach of all the others, if it is more
--- than a bound. An excess beyond 'lost' is given as that.
-furthest :: Others a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Beyond a)
-furthest others known least segment
-  | covered least = Nothing
-  | otherwise = case dropWhile (not . covered) widths of
-    [] -> witness lost
+-- | Largest gap of a segment, if it is larger than a given size. A gap larger than 'unlimited' has
+-- that size.
+largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
+largestGap cover known least segment
+  | isClosedBy least = Nothing
+  | otherwise = case dropWhile (not . isClosedBy) sizes of
+    [] -> gapOf cover segment unlimited
     enough : _ ->
-      witness (snd (BinarySearch.turningPoint Tolerance.resolution (not . covered) least enough))
+      gapOf
+        cover
+        segment
+        (snd (BinarySearch.turningPoint Tolerance.resolution (not . isClosedBy) least enough))
   where
-    covered m = case known of
-      Just DistanceBounds {atMost} | plus (reach others) m > plus atMost touching -> True
-      Just DistanceBounds {atLeast} | plus (reach others) m < minus atLeast touching -> False
-      _ -> isCovered others (plus (reach others) m) segment
-    widths = takeWhile (< lost) (iterate (times 2) (max (times 2 least) (allowance others)))
-    witness m = case near others (plus (reach others) m) segment of
-      [] -> Nothing
-      around ->
-        let place =
-              case uncovered
-                (minus (plus (reach others) m) (times 2 Tolerance.resolution))
-                (map (lines others) around)
-                segment of
-                (a, b) : _ -> Segment.at ((a + b) / 2) segment
-                [] -> Segment.start segment
-         in Just Beyond {most = m, place, around}
+    isClosedBy m = case known of
+      Just DistanceBounds {atMost} | plus (reach cover) m > plus atMost touching -> True
+      Just DistanceBounds {atLeast} | plus (reach cover) m < minus atLeast touching -> False
+      _ -> isCovered cover (plus (reach cover) m) segment
+    sizes = takeWhile (< unlimited) (iterate (times 2) (max (times 2 least) (allowance cover)))
 
--- | An excess that is as good as infinite: the part is not cut there at all.
-lost :: Mm
-lost = Mm 1e7
+-- | Gap of a known size, with a point of it; nothing without members near the segment.
+gapOf :: Cover a -> Segment -> Mm -> Maybe (Gap a)
+gapOf cover segment size = case membersNear cover (plus (reach cover) size) segment of
+  [] -> Nothing
+  members -> Just Gap {size, location = locationIn members, members}
+  where
+    justBelow = minus (plus (reach cover) size) (times 2 Tolerance.resolution)
+    locationIn members = case uncovered justBelow (map (pathsOf cover) members) segment of
+      (a, b) : _ -> Segment.at ((a + b) / 2) segment
+      [] -> Segment.start segment
 
--- | What two circles miss one another by may be so much and pass for a touch.
+-- | Size of a gap that counts as infinite: nothing is cut there at all.
+unlimited :: Mm
+unlimited = Mm 1e7
+
+-- | Two circles that miss one another by no more than this may count as touching.
 touching :: Mm
 touching = times 3 Tolerance.coincident
 
--- | The others that have a point of a segment within a distance.
-near :: Others a -> Mm -> Segment -> [a]
-near others distance segment =
-  filter
-    (counts others)
-    ( filter
-        reaches
-        ( BoxTree.within
-            (BoundingBox.inflate distance (BoundingBox.ofSegment segment))
-            (index others)
-        )
-    )
+-- | Eligible members that have a point of a segment within a distance.
+membersNear :: Cover a -> Mm -> Segment -> [a]
+membersNear cover distance segment =
+  filter (isEligible cover) (filter mayReach (BoxTree.within around (index cover)))
   where
+    around = BoundingBox.inflate distance (BoundingBox.ofSegment segment)
     -- No point of a segment is further from its middle than half of its length.
-    reaches a =
-      distanceTo (Segment.at 0.5 segment) (lines others a)
+    mayReach a =
+      distanceTo (Segment.at 0.5 segment) (pathsOf cover a)
         <= plus distance (times 0.5 (Segment.length segment))
 
--- | Whether every point of a segment has one of the others within a distance. Many others are
--- walked past one by one: from where the last one ends to cover the segment, the one that is
--- nearest there covers the next stretch of it.
-isCovered :: Others a -> Mm -> Segment -> Bool
-isCovered others distance segment
-  | null (drop fewAtMost all') = together
+-- | Test that each point of a segment has a member within a distance. Many members are taken one
+-- after the other: the member that is nearest to the end of the covered stretch covers the next
+-- one.
+isCovered :: Cover a -> Mm -> Segment -> Bool
+isCovered cover distance segment
+  | null (drop fewAtMost near) = together
   | otherwise = from 0
   where
-    all' = map (lines others) (near others distance segment)
-    together = null (uncovered distance all' segment)
+    near = map (pathsOf cover) (membersNear cover distance segment)
+    together = null (uncovered distance near segment)
     from t = case nearestAt t of
       Nothing -> False
-      Just other -> case [g | g@(_, b) <- uncovered distance [lines others other] segment, b > t] of
+      Just other -> case filter ((> t) . snd) (uncovered distance [pathsOf cover other] segment) of
         [] -> True
         (a, _) : _
           | a > t + Tolerance.hair -> from a
-          -- It ends right here, and what is nearest a hair further on does not begin before.
+          -- The member ends right here, and the nearest one a hair further on does not begin
+          -- before.
           | otherwise -> maybe False (const together) (nearestAt (min 1 (t + Tolerance.hair)))
     nearestAt t =
       let p = Segment.at t segment
-       in case BoxTree.closest (away p) p (index others) of
+       in case BoxTree.closest (distanceFrom p) p (index cover) of
             Just (d, other) | d <= distance -> Just other
             _ -> Nothing
-    away p other =
-      let d = distanceTo p (lines others other)
-       in if d > distance || counts others other then d else Mm (1 / 0)
+    distanceFrom p other =
+      let d = distanceTo p (pathsOf cover other)
+       in if d > distance || isEligible cover other then d else Mm (1 / 0)
 
--- | How far a point is from that of some lines from which it is furthest.
+-- | Distance from a point to the furthest of some paths.
 distanceTo :: Point -> NonEmpty Segment -> Mm
 distanceTo p = maximum . fmap (Distance.toPoint p)
 
--- | The stretches of a segment, as fractions of its length, for which none of the others has all of
--- its lines within a distance.
+-- | Stretches of a segment, as fractions of its length, at which no member has all of its paths
+-- within a distance.
 uncovered :: Mm -> [NonEmpty Segment] -> Segment -> [(Double, Double)]
-uncovered distance others segment =
+uncovered distance members segment =
   foldl
-    inBoth
-    (Distance.uncovered distance [s | s :| [] <- others] segment)
-    [gaps ss | ss@(_ :| _ : _) <- others]
+    intersection
+    (Distance.uncovered distance [s | s :| [] <- members] segment)
+    [gaps paths | paths@(_ :| _ : _) <- members]
   where
-    gaps ss =
-      inEither
-        (sort (concatMap (\s -> Distance.uncovered distance [s] segment) (NonEmpty.toList ss)))
+    gaps paths =
+      union
+        (sort (concatMap (\s -> Distance.uncovered distance [s] segment) (NonEmpty.toList paths)))
 
--- | What two lists of stretches have in common; each is in order and does not overlap itself.
-inBoth :: [(Double, Double)] -> [(Double, Double)] -> [(Double, Double)]
-inBoth as bs = case (as, bs) of
+-- | Intersection of two sets of intervals, each sorted and without overlaps.
+intersection :: [(Double, Double)] -> [(Double, Double)] -> [(Double, Double)]
+intersection as bs = case (as, bs) of
   ((a, b) : as', (c, d) : bs') ->
-    [(max a c, min b d) | max a c < min b d] <> if b <= d then inBoth as' bs else inBoth as bs'
+    [(max a c, min b d) | max a c < min b d]
+      <> if b <= d then intersection as' bs else intersection as bs'
   _ -> []
 
--- | Stretches in the order of their beginnings, those that overlap as one.
-inEither :: [(Double, Double)] -> [(Double, Double)]
-inEither stretches = case stretches of
-  (a, b) : (c, d) : rest | c <= b -> inEither ((a, max b d) : rest)
-  s : rest -> s : inEither rest
+-- | Union of intervals that are sorted by their beginnings.
+union :: [(Double, Double)] -> [(Double, Double)]
+union intervals = case intervals of
+  (a, b) : (c, d) : rest | c <= b -> union ((a, max b d) : rest)
+  s : rest -> s : union rest
   [] -> []
 
--- | So many others are taken together.
+-- | Number of members up to which all of them are taken together.
 fewAtMost :: Int
 fewAtMost = 30

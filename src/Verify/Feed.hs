@@ -1,11 +1,11 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | The feeds of a tape: those of the program frame by frame, those that a statement asks along its
--- contour, and whether the machine can brake from one to the next.
+-- | Feeds of a tape: equal to those of the program frame by frame, or, on a tape with other frames,
+-- equal to those that the statements demand; and never too high to slow down in time.
 module Verify.Feed
   ( asPlanned,
-    asAsked,
-    alongAt,
+    alongContour,
+    atFeed,
     downwards,
     tooFast,
   )
@@ -24,128 +24,142 @@ import Frame.Frame qualified as Frame
 import Machine.Machine (BrakingForm (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
-import Verify.PassSearch (MillingJob (..), elementsOf)
+import Verify.MillingJob (MillingJob (..), elementsOf)
 import Verify.Proof (Finding (..), Speed (..))
 
+-- | Speed that a frame asks for.
 speedOf :: Frame -> Speed
 speedOf f =
   Speed {rapidly = Frame.motion f == Rapid, code = Frame.speed f, braking = Frame.braking f}
 
--- | Frames whose feed is not that of the program's own frame in the same place.
+-- Demanded feeds ----------------------------------------------------------------------------------
+
+-- | Findings for frames whose speed differs from that of the program's own frame with that number.
 asPlanned :: FrameProgram -> [Frame] -> [Finding]
 asPlanned program frames =
   [ WrongFeed n (speedOf f) (speedOf (Frame.frame planned)) (Frame.origin planned)
     | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames,
-      isSlowerOrFaster f (Frame.frame planned)
+      isOtherSpeed f (Frame.frame planned)
   ]
   where
-    isSlowerOrFaster a b =
+    isOtherSpeed a b =
       Frame.speed a /= Frame.speed b
         || Frame.braking a /= Frame.braking b
         || (Frame.motion a == Rapid) /= (Frame.motion b == Rapid)
 
--- | Strokes along a contour that run at another feed than its statement asks. Elements may have
--- feeds of their own, or slow down; a frame that brakes may be slower.
-asAsked :: Machine -> MillingJob -> [Motion] -> [Finding]
-asAsked machine job = alongAt machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
+-- | Findings for motions along a contour with another feed than its statement or its elements
+-- demand.
+alongContour :: Machine -> MillingJob -> [Motion] -> [Finding]
+alongContour machine job =
+  atFeed machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
 
--- | The same of strokes by the feed that is asked, and what single elements ask.
-alongAt :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
-alongAt machine asked finishes strokes =
+-- | Findings for motions with a feed that is neither the demanded one nor one of single elements. A
+-- braking frame may be slower.
+atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
+atFeed machine demanded finishes motions =
   [ WrongFeed
-      (number s)
+      (number m)
       found
       Speed {rapidly = False, code = wanted, braking = False}
-      (region asked)
-    | s <- strokes,
-      let found = speedOf (frame s),
-      Just wanted <- [codeFor machine s (value asked)],
-      let allowed = wanted : mapMaybe (codeFor machine s) own <> slowed,
-      rapidly found
-        || code found `notElem` allowed
-          && not
-            ( braking found
-                && maybe
-                  False
-                  (<= maximum (map worth allowed))
-                  (Machine.valueOf machine (code found))
-            )
+      (region demanded)
+    | m <- motions,
+      let found = speedOf (frame m),
+      Just wanted <- [codeFor machine m (value demanded)],
+      let allowed = wanted : mapMaybe (codeFor machine m) ofElements <> slowed,
+      rapidly found || code found `notElem` allowed && not (isBrakingBelow allowed found)
   ]
   where
-    own = [f | finish <- finishes, Just (Located _ f) <- [Part.ownFeed finish]]
+    ofElements = [f | finish <- finishes, Just (Located _ f) <- [Part.ownFeed finish]]
     slowed = [fst (Machine.slowest machine) | any Part.slow finishes]
-    worth = fromMaybe 0 . Machine.valueOf machine
+    isBrakingBelow allowed found =
+      braking found
+        && maybe
+          False
+          (<= maximum (map feedOf allowed))
+          (Machine.valueOf machine (code found))
+    feedOf = fromMaybe 0 . Machine.valueOf machine
 
--- | Strokes straight down into the material, deeper than the tape has been at their places, at a
--- speed at which no such stroke of the program's own goes.
+-- | Findings for vertical motions into solid material at a speed that no such motion of the program
+-- has.
 downwards :: FrameProgram -> [Frame] -> [Finding]
 downwards program frames = case plunges (map Frame.frame (Frame.planned program)) of
   [] -> []
-  own@(s : _) ->
+  own@(m : _) ->
     [ WrongFeed
-        (number f)
-        (speedOf (frame f))
-        (speedOf (frame s))
-        (Frame.origin (Frame.planned program !! (number s - 1)))
-      | f <- plunges frames,
-        speedOf (frame f) `notElem` asked
+        (number p)
+        (speedOf (frame p))
+        (speedOf (frame m))
+        (Frame.origin (Frame.planned program !! (number m - 1)))
+      | p <- plunges frames,
+        speedOf (frame p) `notElem` allowed
     ]
     where
-      asked = nub (map (speedOf . frame) own)
+      allowed = nub (map (speedOf . frame) own)
   where
-    plunges = deeper Map.empty . Control.run (Frame.start program)
-    deeper known strokes = case strokes of
-      [] -> []
-      s : more
-        | x == x',
-          y == y',
-          z' < min 0 (min z (Map.findWithDefault 0 (x, y) known)) ->
-          s : deeper reached more
-        | otherwise -> deeper reached more
-        where
-          (Pulses3 x y z, Pulses3 x' y' z') = (from s, to s)
-          reached = Map.insertWith min (x', y') z' known
+    plunges = intoSolid Map.empty . Control.run (Frame.start program)
 
--- | The code for a feed along the path in a stroke, if the machine has one: the feed itself, or the
--- pulses a second
--- @v/60·n/L@ of the axis that goes n of them on the way L, the most of all axes.
+-- | Vertical motions below the top of the part that go deeper than all motions before them at their
+-- position. The map has the lowest heights so far.
+intoSolid :: Map.Map (Pulses, Pulses) Pulses -> [Motion] -> [Motion]
+intoSolid lowest motions = case motions of
+  [] -> []
+  m : more
+    | x == x',
+      y == y',
+      z' < min 0 (min z (Map.findWithDefault 0 (x, y) lowest)) ->
+      m : intoSolid reached more
+    | otherwise -> intoSolid reached more
+    where
+      (Pulses3 x y z, Pulses3 x' y' z') = (from m, to m)
+      reached = Map.insertWith min (x', y') z' lowest
+
+-- Codes and speeds --------------------------------------------------------------------------------
+
+-- | Code of a feed along the path, in mm/min, in a motion, if the machine has one. Machines whose
+-- codes mean the pulse frequency of the leading axis get @v/60·n/L@ pulses per second, for @n@
+-- pulses of this axis on a path of length @L@.
 codeFor :: Machine -> Motion -> Feed -> Maybe FeedCode
-codeFor machine s (Feed v) = case Machine.choose machine inMeasure of
+codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
   Machine.Given c _ -> Just c
   Machine.NoSuchFeed _ _ -> Nothing
   where
     inMeasure = case Machine.feedMeasure (Machine.feeds machine) of
       AlongPath -> v
-      LeadingAxis -> v / 60 * leading s / wayOf machine s
+      LeadingAxis -> v / 60 * leading m / travelOf machine m
 
--- | The pulses of the axis that goes most of them.
+-- | Pulses of the leading axis in a motion.
 leading :: Motion -> Double
-leading s = let Pulses3 x y z = abs (to s - from s); Pulses n = maximum [x, y, z] in fromIntegral n
-
--- | The way of a stroke in mm.
-wayOf :: Machine -> Motion -> Double
-wayOf machine s = let Mm l = Control.lengthOf machine s in l
-
--- | The speed of a stroke along its way in mm/s. One whose code means nothing counts as the
--- fastest.
-obtained :: Machine -> Motion -> Double
-obtained machine s = case Machine.feedMeasure (Machine.feeds machine) of
-  AlongPath -> told / 60
-  LeadingAxis -> told * wayOf machine s / max 1 (leading s)
+leading m = fromIntegral n
   where
-    told =
-      if Frame.motion (frame s) == Rapid
-        then fromMaybe highest (Machine.valueOf machine (Machine.rapidCode machine))
-        else fromMaybe highest (Machine.valueOf machine (Frame.speed (frame s)))
+    Pulses3 x y z = abs (to m - from m)
+    Pulses n = maximum [x, y, z]
+
+-- | Length of the path of a motion, in mm.
+travelOf :: Machine -> Motion -> Double
+travelOf machine m = let Mm l = Control.travel machine m in l
+
+-- | Speed along the path in a motion, in mm/s. A code without a meaning counts as the highest feed.
+speedAlong :: Machine -> Motion -> Double
+speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
+  AlongPath -> ofCode / 60
+  LeadingAxis -> ofCode * travelOf machine m / max 1 (leading m)
+  where
+    ofCode
+      | Frame.motion (frame m) == Rapid =
+        fromMaybe highest (Machine.valueOf machine (Machine.rapidCode machine))
+      | otherwise = fromMaybe highest (Machine.valueOf machine (Frame.speed (frame m)))
     highest = snd (Machine.feedRange machine)
 
--- | Frames at the end of which the cutter is faster than it may be: at no place of the way may its
--- speed exceed
--- @√(v² + 2·a·s)@, s the way on to any lower speed v behind it (Kolsanova; the law is
---  reconstructed). Frames that brake slow down to
--- their speed; those one after the other with one speed have it at the end of the last of them. At
--- the end of the tape the cutter has come down to the braking feed. Everywhere else the cutter is
--- as fast as its frame says.
+-- Braking -----------------------------------------------------------------------------------------
+
+-- | Findings for frames at whose end the cutter is too fast. The speed may nowhere exceed
+-- @√(v² + 2·a·s)@, with @a@ the deceleration of the machine and @s@ the distance to any later,
+-- lower speed @v@ (Kolsanova; the law is reconstructed). The model of the speeds:
+--
+-- * a frame without braking has its speed from its start to its end;
+-- * a braking frame slows down to its speed; successive braking frames with one speed have it at
+--   the end of the last of them;
+-- * at the end of the tape the cutter has the final braking feed.
 tooFast :: Machine -> Pulses3 -> [Frame] -> [Finding]
 tooFast machine start frames = case Machine.brakingForm (Machine.braking machine) of
   ByControl -> []
@@ -153,34 +167,41 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
   BrakedFrames (Feed final) ->
     snd
       ( foldr
-          judge
-          ((final / 60) ^ (2 :: Int) + 2 * a * sum ways, [])
-          (zip3 (zip starts (drop 1 starts)) strokes (drop 1 (map Just strokes) <> [Nothing]))
+          (tooFastIn machine)
+          ((final / 60) ^ (2 :: Int) + 2 * a * sum lengths, [])
+          (zip3 (zip starts (drop 1 starts)) motions (drop 1 (map Just motions) <> [Nothing]))
       )
   where
-    strokes = Control.run start frames
+    motions = Control.run start frames
     a = Machine.deceleration (Machine.braking machine)
-    ways = map (wayOf machine) strokes
-    starts = scanl (+) 0 ways
-    Mm pulse = Machine.pulse machine
-    -- Of all speeds behind: the least square of one, with what is gained by braking from the
-    -- beginning of the tape to it.
-    judge ((begin, end), s, next) (least, found)
-      | brakes s
-          && maybe False (\n -> brakes n && Frame.speed (frame n) == Frame.speed (frame s)) next =
-        (least, found)
-      | otherwise =
-        ( min least (v * v + 2 * a * (if brakes s then end else begin)),
-          [TooFast (number s) (Feed (60 * v)) (Feed (60 * sqrt most)) | v * v > most + sameSquare]
-            <> found
-        )
-      where
-        v = obtained machine s
-        most = max 0 (least - 2 * a * (end - roundedBy * pulse))
-        sameSquare = 1e-9 * max 1 (v * v)
-    brakes = Frame.braking . frame
+    lengths = map (travelOf machine) motions
+    -- Path lengths from the start of the tape to the start of each motion, and to the end.
+    starts = scanl (+) 0 lengths
 
--- | The way between two places may have become longer or shorter by so many pulses: each is rounded
--- by up to one.
-roundedBy :: Double
-roundedBy = 2
+-- | Step of 'tooFast' from the end of the tape to its start. The path lengths at the start and at
+-- the end of a motion are given, the motion, and the next one. The number is the least of
+-- @v² + 2·a·s@ over all later speeds, with @s@ measured from the start of the tape.
+tooFastIn ::
+  Machine ->
+  ((Double, Double), Motion, Maybe Motion) ->
+  (Double, [Finding]) ->
+  (Double, [Finding])
+tooFastIn machine ((begin, end), m, next) (least, found)
+  | brakes m && maybe False isSameBraking next = (least, found)
+  | otherwise =
+    ( min least (v * v + 2 * a * (if brakes m then end else begin)),
+      [TooFast (number m) (Feed (60 * v)) (Feed (60 * sqrt most)) | v * v > most + rounding]
+        <> found
+    )
+  where
+    isSameBraking n = brakes n && Frame.speed (frame n) == Frame.speed (frame m)
+    brakes = Frame.braking . frame
+    v = speedAlong machine m
+    a = Machine.deceleration (Machine.braking machine)
+    most = max 0 (least - 2 * a * (end - pulsesRounded * pulse))
+    rounding = 1e-9 * max 1 (v * v)
+    Mm pulse = Machine.pulse machine
+
+-- | Number of pulses by which rounding may change the distance of two positions: one for each.
+pulsesRounded :: Double
+pulsesRounded = 2

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | What holds for frames whatever the part: the control takes them, and they command what the
--- program does.
+-- | Rules that the frames of a tape have to keep whatever the part is: the control accepts them,
+-- and their commands are those of the program.
 module Verify.FrameRule
   ( refused,
     wrongCommands,
@@ -21,75 +21,99 @@ import Machine.Machine (CommandName, Machine)
 import Machine.Machine qualified as Machine
 import Verify.Proof (Finding (..), Refusal (..))
 
--- | Frames that the control would refuse: those that break a rule of the frames, and arcs that are
--- none. The radii of an arc may differ by 2 pulses.
+-- Frames that a control refuses -------------------------------------------------------------------
+
+-- | Findings for frames that break a rule of the machine or are impossible arcs, from a start
+-- position.
 refused :: Machine -> Pulses3 -> [Frame] -> [Finding]
 refused machine = go 1
   where
     go :: Int -> Pulses3 -> [Frame] -> [Finding]
     go !n !at frames = case frames of
       [] -> []
-      f : more -> case inFrame n at f of
+      f : more -> case refusals machine n at f of
         [] -> go (n + 1) (at + Frame.increment f) more
-        why -> map Refused why <> go (n + 1) (at + Frame.increment f) more
-    inFrame n at f =
-      map ByRule (Frame.broken machine n f) <> case Frame.motion f of
-        Round _ -> aboutCentre n at f
-        Still -> []
-        Rapid -> []
-        Straightway -> []
-    -- What can be wrong with an arc alone.
-    aboutCentre n at f =
-      [ UnequalRadii n (minus b a)
-        | Just (a, b) <-
-            [ Control.radii
-                machine
-                (Motion {number = n, from = at, to = at + Frame.increment f, frame = f})
-            ],
-          max (minus a b) (minus b a) > plus mostApart Tolerance.coincident
-      ]
-        <> [ NoSweep n
-             | Frame.centre f /= 0,
-               not (Control.isRound f) || Frame.increment f /= 0 && Control.endsAbreast f
-           ]
-    mostApart = times 2 (Machine.pulse machine)
+        reasons -> map Refused reasons <> go (n + 1) (at + Frame.increment f) more
 
--- | Frames with other commands than the program's own frame in the same place. On a tape with
--- another number of frames commands are compared one after the other, each where the cutter stands
--- then.
+-- | Reasons to refuse one frame, by its number and its start position.
+refusals :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
+refusals machine n at f =
+  map ByRule (Frame.broken machine n f) <> case Frame.motion f of
+    Round _ -> impossibleArc machine n at f
+    Still -> []
+    Rapid -> []
+    Straightway -> []
+
+-- | Faults of an arc. Its radii may differ by two pulses.
+impossibleArc :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
+impossibleArc machine n at f =
+  [ UnequalRadii n (minus b a)
+    | Just (a, b) <- [Control.radii machine motion],
+      max (minus a b) (minus b a) > plus largestDifference Tolerance.coincident
+  ]
+    <> [ NoSweep n
+         | Frame.centre f /= 0,
+           not (Control.isRound f) || Frame.increment f /= 0 && Control.endsInStartDirection f
+       ]
+  where
+    motion = Motion {number = n, from = at, to = at + Frame.increment f, frame = f}
+    largestDifference = times 2 (Machine.pulse machine)
+
+-- Commands ----------------------------------------------------------------------------------------
+
+-- | Commands of a frame by their names and numbers.
+type Commands = [(CommandName, Int)]
+
+-- | Findings for frames whose commands differ from those of the program's own frame. If the numbers
+-- of frames differ, frames with commands are compared in order; the positions of the cutter have to
+-- agree to two pulses.
 wrongCommands :: FrameProgram -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
-    | (n, wanted, found) <-
-        if length frames == length commanded
-          then differing 1 commanded told
-          else inOrder (standing (map Frame.frame (Frame.planned program))) (standing frames),
+    | (n, wanted, found) <- differences,
       name <- nub (map fst (wanted <> found)),
       lookup name wanted /= lookup name found
   ]
   where
-    commanded = map (Frame.orders . Frame.frame) (Frame.planned program)
-    told = map Frame.orders frames
-    inOrder own found = case (own, found) of
+    ownFrames = map Frame.frame (Frame.planned program)
+    commanded = map Frame.orders ownFrames
+    differences
+      | length frames == length commanded = frameByFrame 1 commanded (map Frame.orders frames)
+      | otherwise = inOrder (length frames) (positioned ownFrames) (positioned frames)
+
+-- | Frames with different commands: the number, the program's commands, the tape's.
+frameByFrame :: Int -> [Commands] -> [Commands] -> [(Int, Commands, Commands)]
+frameByFrame n own found = case (own, found) of
+  (a : as, b : bs) | a == b -> frameByFrame (n + 1) as bs
+  (a : as, b : bs) -> (n, a, b) : frameByFrame (n + 1) as bs
+  (_, []) -> zipWith (\k a -> (k, a, [])) [n ..] own
+  ([], _) -> zipWith (\k b -> (k, [], b)) [n ..] found
+
+-- | Frames with commands: the number, the position where the frame starts, the commands.
+positioned :: [Frame] -> [(Int, Pulses3, Commands)]
+positioned fs =
+  [ (n, at, Frame.orders f)
+    | (n, at, f) <- zip3 [1 ..] (scanl (+) 0 (map Frame.increment fs)) fs,
+      not (null (Frame.orders f))
+  ]
+
+-- | Differences between frames with commands, taken in pairs. Commands that are missing at the end
+-- of the tape are reported at its last frame or later.
+inOrder ::
+  Int ->
+  [(Int, Pulses3, Commands)] ->
+  [(Int, Pulses3, Commands)] ->
+  [(Int, Commands, Commands)]
+inOrder frameCount = go
+  where
+    go own found = case (own, found) of
       ((_, p, a) : as, (n, q, b) : bs) ->
-        [(n, if isNear p q then a else [], b) | a /= b || not (isNear p q)] <> inOrder as bs
-      -- Nothing is left in which it might stand.
-      (_, []) -> [(max k (length frames), a, []) | (k, _, a) <- own]
+        [(n, if isNear p q then a else [], b) | a /= b || not (isNear p q)] <> go as bs
+      (_, []) -> [(max k frameCount, a, []) | (k, _, a) <- own]
       ([], _) -> [(n, [], b) | (n, _, b) <- found]
-    -- Frames that command something, by their numbers, and where they begin.
-    standing fs =
-      [ (n, at, Frame.orders f)
-        | (n, at, f) <- zip3 [1 ..] (scanl (+) 0 (map Frame.increment fs)) fs,
-          not (null (Frame.orders f))
-      ]
-    isNear p q = let Pulses3 x y z = abs (p - q) in maximum [x, y, z] <= Pulses 2
-    differing ::
-      Int ->
-      [[(CommandName, Int)]] ->
-      [[(CommandName, Int)]] ->
-      [(Int, [(CommandName, Int)], [(CommandName, Int)])]
-    differing n own read' = case (own, read') of
-      (a : as, b : bs) | a == b -> differing (n + 1) as bs
-      (a : as, b : bs) -> (n, a, b) : differing (n + 1) as bs
-      (_, []) -> zipWith (\k a -> (k, a, [])) [n ..] own
-      ([], _) -> zipWith (\k b -> (k, [], b)) [n ..] read'
+
+-- | Test that two positions differ by no more than two pulses on any axis.
+isNear :: Pulses3 -> Pulses3 -> Bool
+isNear p q = maximum [x, y, z] <= Pulses 2
+  where
+    Pulses3 x y z = abs (p - q)

@@ -1,20 +1,20 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What the cutter's centre does in a stroke, or in one of several parts of it, as a few bare
--- numbers: there are as many as frames on the tape. All else is made from them where it is looked
--- at.
+-- | Path of the cutter's centre in one motion, or in one of its parts, as a few numbers. A tape has
+-- as many motions as frames, so everything else is computed from these numbers where it is needed.
 module Verify.Motion
   ( CutterMotion (..),
-    tracesOf,
+    motionsOf,
     heights,
-    ways,
-    courses,
-    bridges,
+    endPosition,
+    paths,
+    pathList,
+    connectors,
     box,
     isSame,
-    isUpright,
-    places,
-    pieces,
+    isVertical,
+    samples,
+    sampleCount,
   )
 where
 
@@ -28,84 +28,90 @@ import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 
--- | In the plane a trace is without length when it goes straight up or down.
+-- | Part of a motion. The segment of a vertical one has no length.
 data CutterMotion = CutterMotion
-  { -- | of the stroke's frame
+  { -- | number of the frame, from 1
     number :: Int,
-    -- | which part of the stroke, from 0
+    -- | number of the part in the motion, from 0
     part :: Int,
-    line :: Segment,
-    -- | the heights at its beginning and at its end
+    -- | path in the plane, in mm; an arc has the radius of its start
+    segment :: Segment,
+    -- | heights at the start and at the end
     fromHeight :: Mm,
     toHeight :: Mm
   }
 
--- | What the cutter's centre does in a stroke on a machine, before what it does in those behind it.
--- If there are several parts, it rises in the last one.
-tracesOf :: Machine -> Moved -> [CutterMotion] -> [CutterMotion]
-tracesOf machine m behind = go 0 (Compensation.legs m)
+-- | Prepend the parts of one motion to those of the motions after it. If there are several parts,
+-- the height changes in the last one.
+motionsOf :: Machine -> Moved -> [CutterMotion] -> [CutterMotion]
+motionsOf machine moved later = go 0 (Compensation.centrePath moved)
   where
-    s = Compensation.stroke m
-    (from, to) = Control.height machine s
-    go n (leg :| legs) = case legs of
-      [] -> let t = trace n leg to in t `seq` (t : behind)
-      next : more -> let t = trace n leg from in t `seq` (t : go (n + 1) (next :| more))
-    trace n leg end =
+    programmed = Compensation.programmed moved
+    (from, to) = Control.height machine programmed
+    go n (path :| others) = case others of
+      [] -> let m = partOf n path to in m `seq` (m : later)
+      next : more -> let m = partOf n path from in m `seq` (m : go (n + 1) (next :| more))
+    partOf n path end =
       CutterMotion
-        { number = Control.number s,
+        { number = Control.number programmed,
           part = n,
-          line = leg,
+          segment = path,
           fromHeight = from,
           toHeight = end
         }
 
--- | At its beginning and at its end.
+-- | Heights at the start and at the end.
 heights :: CutterMotion -> (Mm, Mm)
-heights t = (fromHeight t, toHeight t)
+heights m = (fromHeight m, toHeight m)
 
--- | The ways between which the control goes there.
-ways :: CutterMotion -> NonEmpty Segment
-ways = Control.between . line
+-- | Position and height at the end.
+endPosition :: CutterMotion -> (Point, Mm)
+endPosition m = (Segment.end (segment m), toHeight m)
 
--- | The same as bare numbers …
-courses :: CutterMotion -> [Segment]
-courses t
-  | FastDistance.isLine (line t) = [line t]
-  | otherwise = NonEmpty.toList (ways t)
+-- | Bounding paths of the motion; see "Control.Motion".
+paths :: CutterMotion -> NonEmpty Segment
+paths = Control.between . segment
 
--- | … and the ways across from one to another.
-bridges :: CutterMotion -> [Segment]
-bridges t
-  | FastDistance.isLine (line t) = []
-  | otherwise = Control.across (ways t)
+-- | Bounding paths as a list; cheap for a line, which is most motions.
+pathList :: CutterMotion -> [Segment]
+pathList m
+  | FastDistance.isLine (segment m) = [segment m]
+  | otherwise = NonEmpty.toList (paths m)
 
--- | All of the ways lie in it.
+-- | Lines that connect the ends of the bounding paths.
+connectors :: CutterMotion -> [Segment]
+connectors m
+  | FastDistance.isLine (segment m) = []
+  | otherwise = Control.connectors (paths m)
+
+-- | Bounding box of all bounding paths.
 box :: CutterMotion -> BoundingBox
-box t = case FastDistance.uneven (line t) of
-  0 -> FastDistance.box (line t)
-  -- The ends of a way lie beside those of the stroke, and its bow is higher by no more.
-  off -> BoundingBox.inflate (Mm (2 * off)) (FastDistance.box (line t))
+box m = case FastDistance.uneven (segment m) of
+  0 -> FastDistance.box (segment m)
+  -- The ends and the sagitta of the two arcs differ by no more than their radii.
+  difference -> BoundingBox.inflate (Mm (2 * difference)) (FastDistance.box (segment m))
 
--- | Whether two are the same part of the same stroke.
+-- | Test that two motions are one part of one frame.
 isSame :: CutterMotion -> CutterMotion -> Bool
 isSame a b = number a == number b && part a == part b
 
--- | Whether a stroke goes straight up or down. A full circle ends where it begins, too.
-isUpright :: CutterMotion -> Bool
-isUpright t = case line t of
+-- | Test that a motion has no length in the plane. A full circle has one.
+isVertical :: CutterMotion -> Bool
+isVertical m = case segment m of
   Straight a b -> a == b
   Arc {} -> False
 
--- | The places of a stroke at which it is looked at, as shares of its length, the last one its end.
-places :: CutterMotion -> [Double]
-places t = let n = pieces t in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
+-- | Sample points of a motion, as fractions of its length from above 0 to 1.
+samples :: CutterMotion -> [Double]
+samples m = let n = sampleCount m in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
 
--- | How many these are: two of a straight one, and so many of an arc that a contour that is
--- followed does not turn by more than an eighth of a half turn from one to the next, nor is a
--- quarter of a closed one passed.
-pieces :: CutterMotion -> Int
-pieces t = case line t of
+-- | Number of sample points: two on a line. An arc has so many that its direction changes by no
+-- more than π\/8 between two of them, and a full circle at least four.
+sampleCount :: CutterMotion -> Int
+sampleCount m = case segment m of
   Straight _ _ -> 2
   Arc {sweep = Rad s} -> max 4 (ceiling (abs s / (pi / 8)))

@@ -1,10 +1,10 @@
--- | How deep a tool without a radius goes into the material.
+-- | Gouges of a turning tool without nose radius.
 --
--- A nose of radius 0 lies on the contour itself. No distance tells on which side of it: a stroke is
--- cut where it crosses the contour, and each of its stretches lies on one side, that of the tool or
--- that of the material. On that of the material its distance from the contour is the depth of a
--- gouge, exactly as long as the stretch is. Beyond the ends of an open contour there is no side:
--- the stretches are cut at the normals there.
+-- The tip of such a tool lies on the contour itself, so its distance does not tell on which side of
+-- the contour it is. A motion is therefore divided where it crosses the contour; each part lies on
+-- one side, that of the tool or that of the material. On the side of the material, the largest
+-- distance of the part from the contour is the depth of the gouge. Beyond the ends of an open
+-- contour there is no side: the motion is also divided at the normals there.
 module Verify.PointedTool
   ( gougeOf,
   )
@@ -14,7 +14,7 @@ import Base.Quantity (Mm (..))
 import Data.List (minimumBy, sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (maybeToList)
 import Data.Ord (comparing)
 import Geometry.Carrier (Side (..))
 import Geometry.Distance qualified as Distance
@@ -24,72 +24,68 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point, Vec)
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour)
 import Part.Part qualified as Part
-import Verify.Coverage (Beyond (Beyond, around, most), Others (..))
+import Verify.Coverage (Cover (Cover), Gap (..))
 import Verify.Coverage qualified as Coverage
-import Verify.Motion (CutterMotion (number), ways)
-import Verify.PassSearch (Edge (element))
-import Verify.Proof (Witness (Witness, amount, frame, place))
-import Verify.Proof qualified
-import Prelude hiding (lines)
+import Verify.Edge (Edge (element, shape))
+import Verify.Edge qualified as Edge
+import Verify.Motion (CutterMotion (number))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Witness (Witness))
+import Verify.Proof qualified as Proof
 
--- | The deepest that a stroke goes into the material beside a contour, if it does; the tool has to
--- stay on a side of it.
+-- | Deepest gouge of a motion beside a contour, if there is one; the tool has to stay on the given
+-- side. The allowance is the first depth that is tried.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
-gougeOf side contour elements allowance t = case concatMap deep (NonEmpty.toList (ways t)) of
-  [] -> Nothing
-  ws -> Just (minimumBy (comparing (\w -> let Mm a = amount w in -a)) ws)
+gougeOf side contour edges allowance m =
+  Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))
   where
-    deep way = mapMaybe depth (concatMap (judged contour elements) (stretches (marks way) way))
-    marks way =
+    onPath path =
+      [ gap
+        | (s, part) <- concatMap (sided contour edges) (divided (marksOn path) path),
+          s /= side,
+          gap <- gouges part
+      ]
+    marksOn path =
       concatMap
-        (Distance.crossings way . Part.segment . element)
+        (Distance.crossings path . shape)
         ( BoxTree.within
-            (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment way))
-            elements
+            (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment path))
+            edges
         )
-        <> beside way
-    beside way = [p | n <- normals contour, p <- Distance.crossings way n]
-    depth (s, stretch) =
-      if s == side then Nothing else witness <$> Coverage.furthest others Nothing (Mm 0) stretch
-    others =
-      Others
-        { index = elements,
-          lines = (:| []) . Part.segment . element,
-          counts = const True,
-          reach = Mm 0,
-          allowance
+        <> concatMap (Distance.crossings path) (normals contour)
+    gouges part = map witness (maybeToList (Coverage.largestGap cover Nothing (Mm 0) part))
+    cover =
+      Cover
+        { Coverage.index = edges,
+          Coverage.pathsOf = (:| []) . shape,
+          Coverage.isEligible = const True,
+          Coverage.reach = Mm 0,
+          Coverage.allowance = allowance
         }
-    witness Beyond {most, Coverage.place = p, around} =
+    witness Gap {size, location, members} =
       Witness
-        { amount = most,
-          frame = number t,
-          Verify.Proof.element =
+        { Proof.amount = size,
+          Proof.frame = number m,
+          Proof.element =
             Part.origin
-              ( element
-                  (minimumBy (comparing (Distance.toPoint p . Part.segment . element)) around)
-              ),
-          place = p
+              (element (minimumBy (comparing (Distance.toPoint location . shape)) members)),
+          Proof.location
         }
 
--- | The stretches of a segment between some of its points.
-stretches :: [Point] -> Segment -> [Segment]
-stretches points s = [part a b | (a, b) <- zip marks (drop 1 marks), b - a > hair]
+-- | Parts of a segment between some of its points.
+divided :: [Point] -> Segment -> [Segment]
+divided points s = [part a b | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.hair]
   where
     marks = 0 : sort (filter (\t -> t > 0 && t < 1) (map (Segment.fraction s) points)) <> [1]
     part a b =
-      let upTo =
-            if b < 1 then fst (Segment.cutAt b s) else s
+      let upTo = if b < 1 then fst (Segment.cutAt b s) else s
        in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
--- | A share of a stroke too short to matter.
-hair :: Double
-hair = 1e-9
-
--- | Lines across the ends of an open contour, so far as a part reaches.
+-- | Lines across the ends of an open contour, as long as the largest part.
 normals :: Contour -> [Segment]
 normals contour = case Part.ends contour of
   Part.Closed -> []
@@ -101,60 +97,39 @@ normals contour = case Part.ends contour of
     first = Part.segment (NonEmpty.head (Part.elements contour))
     final = Part.segment (NonEmpty.last (Part.elements contour))
     across p d =
-      let Mm far =
-            Tolerance.reach
+      let Mm far = Tolerance.reach
           n = Vec.scale far (Vec.left d)
        in Straight (Vec.shift (Vec.negate n) p) (Vec.shift n p)
 
--- | A stretch that does not cross the contour with its side; a stretch whose middle lies beyond an
--- end of the contour in parts, of which those are left out that do so, too.
-judged :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
-judged contour elements s = case sideOf contour elements (Segment.at 0.5 s) of
+-- | Part of a motion that does not cross the contour, with its side. If its middle lies beyond an
+-- end of the contour, it is divided further, and only the divisions with a side are kept.
+sided :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
+sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
   Just side -> [(side, s)]
   Nothing ->
     [ (side, part)
-      | part <- stretches [Segment.at (fromIntegral k / parts) s | k <- [1 .. parts - 1 :: Int]] s,
-        Just side <- [sideOf contour elements (Segment.at 0.5 part)]
+      | part <- divided [Segment.at (fromIntegral k / parts) s | k <- [1 .. parts - 1 :: Int]] s,
+        Just side <- [sideOf contour edges (Segment.at 0.5 part)]
     ]
   where
     parts :: Num a => a
     parts = 8
 
--- | The side of a contour on which a point lies, by where it is nearest; none beyond its ends, nor
--- on it.
+-- | Side of the contour on which a point lies, at the nearest point of the contour; nothing on the
+-- contour and beyond its ends.
 sideOf :: Contour -> BoxTree Edge -> Point -> Maybe Side
-sideOf contour elements p =
-  case BoxTree.closest (Distance.toPoint p . Part.segment . element) p elements of
+sideOf contour edges p =
+  case BoxTree.closest (Distance.toPoint p . shape) p edges of
     Just (d, nearest)
       | d <= Tolerance.coincident -> Nothing
       | Part.ends contour == Part.Open
           && (Vec.near foot begin || Vec.near foot finish)
-          && not (Segment.spans (Part.segment (element nearest)) p) ->
+          && not (Segment.spans (shape nearest) p) ->
         Nothing
-      | otherwise -> Just (if leftward > 0 then LeftOf else RightOf)
+      | otherwise -> Just (if Edge.leftwardness edges foot p > 0 then LeftOf else RightOf)
       where
-        foot = snd (Distance.nearest p (Part.segment (element nearest)))
-        -- In a corner the elements before and behind it count together.
-        touching =
-          filter
-            (\e -> Distance.toPoint foot (Part.segment (element e)) <= Tolerance.coincident)
-            ( BoxTree.within
-                (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofPoints foot []))
-                elements
-            )
-        leftward =
-          sum
-            [ Vec.cross (directionBeside foot (Part.segment (element e))) (Vec.to foot p)
-              | e <- touching
-            ]
+        foot = snd (Distance.nearest p (shape nearest))
     Nothing -> Nothing
   where
     begin = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))
     finish = Segment.end (Part.segment (NonEmpty.last (Part.elements contour)))
-
--- | The direction of a segment at one of its points.
-directionBeside :: Point -> Segment -> Vec
-directionBeside p s
-  | Vec.near p (Segment.start s) = Segment.startDirection s
-  | Vec.near p (Segment.end s) = Segment.endDirection s
-  | otherwise = Segment.directionAt (Segment.fraction s p) s

@@ -1,12 +1,16 @@
--- | What the comparison of a tape with the part has shown.
+-- | Result of the comparison of a tape with the part: the findings, the largest deviations of each
+-- contour, and the reports for a user. A tape without findings is proven.
 module Verify.Proof
   ( Proof (..),
     ContourProof (..),
     Witness (..),
+    deepest,
+    deeper,
     Finding (..),
+    tapeOrder,
+    isOffContour,
     Speed (..),
     Refusal (..),
-    refusedFrame,
     isProven,
     toReports,
   )
@@ -17,7 +21,8 @@ import Base.Name (Name)
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
-import Control.Compensation (Unkept (..))
+import Control.Compensation (CompensationError (..))
+import Data.List (foldl')
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame (Broken)
@@ -29,99 +34,159 @@ import Machine.Machine qualified as Machine
 import Report.Report (Report (label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | A deviation of so much, in a frame, at an element of the part; where the point of the part or
--- the cutter's centre is.
-data Witness = Witness {amount :: Mm, frame :: Int, element :: Region, place :: Point}
+-- | Deviation from the part.
+data Witness = Witness
+  { -- | size of the deviation, in mm
+    amount :: Mm,
+    -- | number of the frame
+    frame :: Int,
+    -- | region of the element in the part program
+    element :: Region,
+    -- | point of the part, or position of the cutter's centre
+    location :: Point
+  }
   deriving stock (Eq, Show)
 
--- | How one milled contour came out. A gouge or excess of less than nothing has no witness.
+-- | Larger one of two deviations; the first one if they are equal.
+deeper :: Maybe Witness -> Witness -> Witness
+deeper best w = case best of
+  Just b | amount b >= amount w -> b
+  _ -> w
+
+-- | Largest deviation; the first one of those that are equal.
+deepest :: [Witness] -> Maybe Witness
+deepest = foldl' (\best w -> Just (deeper best w)) Nothing
+
+-- | Deviations of one contour in one pass. Without a witness, nothing is cut too deep, or nothing
+-- is left.
 data ContourProof = ContourProof
   { contour :: Located Name,
-    -- | the deepest cut into the part
+    -- | deepest gouge
     gouge :: Maybe Witness,
-    -- | the most material left standing
+    -- | largest excess
     excess :: Maybe Witness,
-    -- | tolerance and one pulse, into the material and out of it
+    -- | allowed deviations into the material and out of it: the tolerance and one pulse
     allowedGouge :: Mm,
     allowedExcess :: Mm
   }
   deriving stock (Eq, Show)
 
+-- | Proof of a tape.
 data Proof = Proof
-  { frames :: Int,
+  { -- | number of frames on the tape
+    frames :: Int,
     passages :: [ContourProof],
-    -- | the last position less the one where the tape should end
+    -- | difference of the last position and the position where the tape has to end
     closure :: Pulses3,
-    -- | the largest increment of each axis, whatever its sign
+    -- | largest increment of each axis, without its sign
     largest :: Pulses3,
-    -- | the first frame that is not as the program's own
+    -- | number of the first frame that differs from the program's own frame
     firstDifference :: Maybe Int,
-    -- | in the order of the tape; none when the tape is proven
+    -- | in the order of the tape; none if the tape is proven
     findings :: [Finding]
   }
   deriving stock (Eq, Show)
 
--- | Why a tape is wrong.
+-- | Fault of a tape.
 data Finding
-  = -- | the first frame that cuts too deep, the worst one, what is allowed
+  = -- | Gouge: the first frame that cuts too deep, the worst one, the allowed depth.
     Gouge Witness Witness Mm
-  | -- | the first frame that leaves too much, the worst one, what is allowed
+  | -- | Excess: the first frame that leaves too much, the worst one, the allowed excess.
     Excess Witness Witness Mm
-  | -- | the cutter runs along an element on its wrong side
+  | -- | The cutter runs along an element on its wrong side: the frame, the element.
     WrongSide Int Region
-  | -- | the beginning of the contour is never reached
+  | -- | The tape never reaches the start of a contour: the statement.
     NeverBegun Region
-  | -- | the contour is not followed in order from its beginning to its end
+  | -- | The tape does not follow a contour from its start to its end: the statement.
     NotFollowed Region
-  | -- centre of the cutter that would
-
-    -- | a place of the floor of a pocket that the cutter can reach is not cleared at a height: the
-    -- pocket, the height, the
+  | -- | The tape leaves material on the floor of a pocket: the statement, the height, a position
+    -- that the cutter's centre can reach but that is not cleared.
     NotCleared Region Mm Point
-  | -- | the depths of a pocket are not cut one after the other as the program does
+  | -- | The tape does not clear the depths of a pocket in the order of the program: the statement.
     NotInOrder Region
-  | -- | a frame that leaves the plane of the part
+  | -- | A frame leaves the plane of a flat part.
     OffPlane Int
-  | -- | a hole that the tape does not drill to its depth
+  | -- | A hole is not drilled to its depth: the region of the hole, its centre.
     HoleMissing Region Point
-  | -- | a frame that goes below the top of the part where, or deeper than, the program does not:
-    -- where
+  | -- | A frame cuts below the top of the part where the program does not, or deeper: the frame,
+    -- the position of the cutter's centre.
     CutsElsewhere Int Point
-  | -- | the frame, its speed on the tape, the one that belongs there, what asks for it
+  | -- | Wrong feed: the frame, its speed, the demanded speed, the region that demands it.
     WrongFeed Int Speed Speed Region
-  | -- | the frame, the command, its number on the tape and the one that belongs there, as far as
-    -- there are any
+  | -- | Wrong command: the frame, the command, its number on the tape, the number in the program;
+    -- nothing if the command is not given.
     WrongCommand Int CommandName (Maybe Int) (Maybe Int)
-  | -- | a frame that the control would not take
+  | -- | The control refuses a frame.
     Refused Refusal
-  | -- may be
-
-    -- | the frame at the end of which the cutter is too fast to come down to what follows: how fast
-    -- it is, how fast it
+  | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: its
+    -- speed, the largest possible one.
     TooFast Int Feed Feed
-  | NotClosed Pulses3
+  | -- | The tape does not end where it has to: the difference.
+    NotClosed Pulses3
   deriving stock (Eq, Show)
 
--- | How fast a frame goes: in a rapid motion, or by its code; whether it slows down to that.
+-- | Sort key of findings: the frame, and an order of importance within a frame. Findings without a
+-- frame come first, a wrong end last.
+tapeOrder :: Finding -> (Int, Int)
+tapeOrder finding = case finding of
+  Gouge w _ _ -> (frame w, 0)
+  Excess w _ _ -> (frame w, 1)
+  WrongSide n _ -> (n, 2)
+  NeverBegun _ -> (0, 3)
+  NotFollowed _ -> (0, 3)
+  NotCleared {} -> (0, 3)
+  NotInOrder _ -> (0, 3)
+  OffPlane n -> (n, 4)
+  HoleMissing _ _ -> (0, 4)
+  CutsElsewhere n _ -> (n, 4)
+  WrongFeed n _ _ _ -> (n, 5)
+  TooFast n _ _ -> (n, 6)
+  WrongCommand n _ _ _ -> (n, 7)
+  Refused refusal -> (refusedFrame refusal, 8)
+  NotClosed _ -> (maxBound, 9)
+
+-- | Test that a finding means that the cutter leaves the band around a contour or a pocket. Then a
+-- wrong end follows and is no finding of its own.
+isOffContour :: Finding -> Bool
+isOffContour finding = case finding of
+  Gouge {} -> True
+  Excess {} -> True
+  WrongSide {} -> True
+  NeverBegun {} -> True
+  NotFollowed {} -> True
+  NotCleared {} -> True
+  NotInOrder {} -> False
+  OffPlane {} -> False
+  HoleMissing {} -> False
+  CutsElsewhere {} -> False
+  WrongFeed {} -> False
+  WrongCommand {} -> False
+  TooFast {} -> False
+  Refused _ -> False
+  NotClosed {} -> False
+
+-- | Speed of a frame: a rapid motion or a feed code; with braking, the speed at its end.
 data Speed = Speed {rapidly :: Bool, code :: FeedCode, braking :: Bool}
   deriving stock (Eq, Show)
 
--- | Why a control would refuse a frame.
+-- | Reason why a control refuses a frame.
 data Refusal
-  = -- | a rule of the frames
+  = -- | A rule of the frames is broken.
     ByRule Broken
-  | -- | the end of an arc is so much further from its centre than its beginning
+  | -- | The radii of an arc differ: the frame, the end radius less the start radius.
     UnequalRadii Int Mm
-  | -- | an arc whose end lies in the direction of its beginning from the centre, or at the centre
+  | -- | The end of an arc lies at its centre, or in the direction of its start from the centre but
+    -- at another distance.
     NoSweep Int
-  | -- | the cutter cannot be kept beside the contour
-    NotKept Unkept
+  | -- | Cutter compensation fails.
+    NotCompensated CompensationError
   deriving stock (Eq, Show)
 
+-- | Test that a tape has no findings.
 isProven :: Proof -> Bool
 isProven = null . findings
 
--- | The words for all findings.
+-- | Reports of all findings. Each names the first frame that differs from the program's own.
 toReports :: Machine -> Proof -> [Report]
 toReports machine proof = map (withDifference . toReport machine) (findings proof)
   where
@@ -142,7 +207,7 @@ toReport machine finding = case finding of
       { label = "into this element",
         message =
           [ "The cutter's centre is then at "
-              <> Vec.written 3 (place first)
+              <> Vec.written 3 (location first)
               <> ". Allowed is a gouge of "
               <> micro allowed
               <> ", the tolerance and one pulse."
@@ -164,7 +229,7 @@ toReport machine finding = case finding of
       { label = "at this element",
         message =
           [ "It is worst at "
-              <> Vec.written 3 (place w)
+              <> Vec.written 3 (location w)
               <> ". Allowed is an excess of "
               <> micro allowed
               <> ", the tolerance and one pulse."
@@ -271,11 +336,11 @@ toReport machine finding = case finding of
     frameWord n = "frame " <> Decimal.whole n
     micro (Mm x) = Decimal.fixed 4 x <> " mm"
 
--- | The frame that is refused.
+-- | Number of the refused frame.
 refusedFrame :: Refusal -> Int
 refusedFrame refusal = let (n, _, _) = refusalWords refusal in n
 
--- | The number of a frame, why a control refuses it, and what there is to say besides.
+-- | Number of a frame, the reason why a control refuses it, and further sentences.
 refusalWords :: Refusal -> (Int, Text, [Text])
 refusalWords refusal = case refusal of
   ByRule broken -> case broken of
@@ -304,7 +369,7 @@ refusalWords refusal = case refusal of
         <> " its centre than it begins",
       ["The two may differ by 2 pulses."]
     )
-  NotKept unkept -> unkeptWords unkept
+  NotCompensated err -> compensationWords err
   NoSweep n ->
     ( n,
       "is an arc without a sweep",
@@ -316,9 +381,9 @@ refusalWords refusal = case refusal of
       Machine.Y -> "y"
       Machine.Z -> "z"
 
--- | The same of a control that keeps the cutter beside the contour.
-unkeptWords :: Unkept -> (Int, Text, [Text])
-unkeptWords unkept = case unkept of
+-- | Words of 'refusalWords' for cutter compensation.
+compensationWords :: CompensationError -> (Int, Text, [Text])
+compensationWords err = case err of
   ShortEntry n l r ->
     ( n,
       "switches compensation on in a move that is too short",
@@ -329,8 +394,8 @@ unkeptWords unkept = case unkept of
           <> "."
       ]
     )
-  RoundEntry n -> (n, "switches compensation on in an arc", ["That takes a straight move."])
-  RoundExit n -> (n, "leaves compensation in an arc", ["That takes a straight move."])
+  ArcEntry n -> (n, "switches compensation on in an arc", ["That takes a straight move."])
+  ArcExit n -> (n, "leaves compensation in an arc", ["That takes a straight move."])
   TightArc n old r ->
     ( n,
       "is an arc of radius "
@@ -338,22 +403,22 @@ unkeptWords unkept = case unkept of
         <> " about whose inside the cutter has no room to roll",
       ["Its radius is " <> lengthOf r <> "."]
     )
-  Unreached n ->
+  CornerNotReached n ->
     ( n,
       "is too short for a corner into which the cutter does not fit",
       ["The cutter would cut into the move beside it."]
     )
-  OnTwice n -> (n, "switches compensation on while it is on", [])
+  SwitchedOnTwice n -> (n, "switches compensation on while it is on", [])
   ToolChanged n -> (n, "changes the tool while compensation is on", [])
-  NeverReleased n -> (n, "ends the tape while compensation is on", [])
+  NotSwitchedOff n -> (n, "ends the tape while compensation is on", [])
   where
     lengthOf (Mm x) = Decimal.fixed 3 x <> " mm"
 
--- | A speed as a person writes it.
+-- | Speed in words.
 speed :: Machine -> Speed -> Text
-speed machine s = (if rapidly s then "rapid" else told) <> (if braking s then ", braking" else "")
+speed machine s = (if rapidly s then "rapid" else feed) <> (if braking s then ", braking" else "")
   where
-    told =
+    feed =
       "speed "
         <> Decimal.whole number
         <> maybe

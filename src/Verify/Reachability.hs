@@ -1,11 +1,11 @@
--- | The parts of a contour that a cutter can touch at all, for a program that lets stay what it
--- cannot.
+-- | Parts of a contour that a cutter can touch at all, for a program that allows rest material.
 --
--- A cutter that touches an element at a place has its centre square above it, at its radius. It can
--- stand there when no other element is nearer to that centre. This looks at one element and its
--- neighbourhood at a time, by distances; it knows nothing of how the path was found.
+-- A cutter touches a point of an element if its centre is at its radius from the element, on the
+-- normal there, and no other element is nearer to the centre. The test looks at one element and its
+-- surroundings at a time, by distances. It uses nothing of the trimming that made the toolpath.
 module Verify.Reachability
-  ( parts,
+  ( KeptDistance (..),
+    parts,
     rim,
   )
 where
@@ -22,136 +22,147 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | The parts of a segment that a cutter touches with its centre at a distance on a side, among all
--- segments of the contour by the distances that the centre keeps from them. Where more is kept from
--- another one than from this one, that counts square above it: beside its ends the way steps back.
-parts :: Side -> Mm -> [(Mm, BoxTree Segment)] -> Segment -> [Segment]
-parts side distance others segment = case beside side distance segment of
+-- | Distance that the centre keeps from some segments of a contour: the cutter's radius and the
+-- allowances.
+data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
+
+-- | Interval of a segment, as fractions of its length.
+type Interval = (Double, Double)
+
+-- Elements ----------------------------------------------------------------------------------------
+
+-- | Parts of an element that a cutter touches with its centre at a distance on a side. All segments
+-- of the contour are given by the distances kept from them. A segment with a larger distance only
+-- counts on its normals: beside its ends the toolpath steps back to the smaller distance.
+parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
+parts side distance others element = case beside side distance element of
   Nothing -> []
   Just centres ->
-    [piece segment a b | (a, b) <- foldl' (without centres) [(0, 1)] others, b - a > Tolerance.hair]
-  where
-    without centres free (kept, all') =
-      let near = BoxTree.within (BoundingBox.inflate kept (BoundingBox.ofSegment centres)) all'
-          open = common free (Distance.uncovered (less (min kept distance)) near centres)
-       in case compare kept distance of
-            GT -> concatMap (outside centres kept near) open
-            EQ -> open
-            LT ->
-              concatMap
-                ( onThisSide
-                    centres
-                    ( BoxTree.within
-                        ( BoundingBox.union
-                            (BoundingBox.ofSegment segment)
-                            (BoundingBox.ofSegment centres)
-                        )
-                        all'
-                    )
-                )
-                open
-    -- Over an element from which less is kept a centre might be far enough from it on its other
-    -- side.
-    onThisSide centres near (a, b) =
-      let marks =
-            sort
-              [ t
-                | s <- near,
-                  t <-
-                    [ Segment.fraction segment p
-                      | p <- [Segment.start s, Segment.end s] <> Distance.crossings segment s
-                    ]
-                      <> [Segment.fraction centres p | p <- Distance.crossings centres s],
-                  t > a,
-                  t < b
-              ]
-          isBehind t s =
-            let foot =
-                  Segment.at t segment
-             in any
-                  (\p -> Vec.distance foot p > Tolerance.clearance)
-                  (Distance.crossings (Straight foot (Segment.at t centres)) s)
-       in [ (from, to)
-            | (from, to) <- zip (a : marks) (marks <> [b]),
-              not (any (isBehind ((from + to) / 2)) near)
-          ]
-    common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
-    -- Half of what the path takes for room in which the cutter just fits.
-    less d = minus d (times 0.5 Tolerance.clearance)
-    outside centres kept near (a, b) =
-      let borders =
-            [ c
-              | s <- near,
-                c <-
-                  maybe
-                    []
-                    ( \c ->
-                        [ c,
-                          Straight (Segment.start s) (Segment.start c),
-                          Straight (Segment.end s) (Segment.end c)
-                        ]
-                    )
-                    (beside side kept s)
-            ]
-          marks =
-            sort
-              [ t
-                | c <- borders,
-                  p <- Distance.crossings centres c,
-                  let t = Segment.fraction centres p,
-                  t > a,
-                  t < b
-              ]
-          isAbove p s = Segment.spans s p && Distance.toPoint p s < less kept
-       in [ (from, to)
-            | (from, to) <- zip (a : marks) (marks <> [b]),
-              not (any (isAbove (Segment.at ((from + to) / 2) centres)) near)
-          ]
+    [ part element a b
+      | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] others,
+        b - a > Tolerance.hair
+    ]
 
--- | Where the centre can be at a distance to the left of closed walks, or to the right: beside
--- their segments and round their outer corners, with the place of the segment in all of them; none
--- of these is nearer.
-rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
-rim side distance all' walks =
-  concatMap free (concat (zipWith around (scanl (+) 0 (map length walks)) walks))
+-- | Intervals in which no other segment is too near to the centres of the cutter.
+freeOf :: Side -> Mm -> Segment -> Segment -> [Interval] -> KeptDistance -> [Interval]
+freeOf side distance element centres free (KeptDistance kept others) =
+  case compare kept distance of
+    GT -> concatMap (withoutNormals side kept near centres) open
+    EQ -> open
+    LT -> concatMap (onThisSide element centres (BoxTree.within aroundBoth others)) open
   where
-    around first walk =
+    near = BoxTree.within (BoundingBox.inflate kept (BoundingBox.ofSegment centres)) others
+    open = common free (Distance.uncovered (roomy (min kept distance)) near centres)
+    aroundBoth =
+      BoundingBox.union (BoundingBox.ofSegment element) (BoundingBox.ofSegment centres)
+    common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
+
+-- | Distance with half of the clearance that the toolpath allows where the cutter just fits.
+roomy :: Mm -> Mm
+roomy d = minus d (times 0.5 Tolerance.clearance)
+
+-- | Parts of an interval whose centres are on this side of all other segments. A segment with a
+-- smaller distance might lie between the element and the centre.
+onThisSide :: Segment -> Segment -> [Segment] -> Interval -> [Interval]
+onThisSide element centres near (a, b) =
+  [ (from, to)
+    | (from, to) <- dividedAt marks (a, b),
+      not (any (isBetween ((from + to) / 2)) near)
+  ]
+  where
+    marks =
+      concat
+        [ [ Segment.fraction element p
+            | p <- [Segment.start s, Segment.end s] <> Distance.crossings element s
+          ]
+            <> [Segment.fraction centres p | p <- Distance.crossings centres s]
+          | s <- near
+        ]
+    isBetween t s =
+      let foot = Segment.at t element
+       in any
+            (\p -> Vec.distance foot p > Tolerance.clearance)
+            (Distance.crossings (Straight foot (Segment.at t centres)) s)
+
+-- | Parts of an interval of centres that are on no normal of a segment with a larger distance, or
+-- far enough from it.
+withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
+withoutNormals side kept near centres (a, b) =
+  [ (from, to)
+    | (from, to) <- dividedAt marks (a, b),
+      not (any (isAbove (Segment.at ((from + to) / 2) centres)) near)
+  ]
+  where
+    marks =
+      [ Segment.fraction centres p
+        | s <- near,
+          border <- bordersOf s,
+          p <- Distance.crossings centres border
+      ]
+    -- Border of the region of too near centres: the offset, and the normals at both ends.
+    bordersOf s = case beside side kept s of
+      Nothing -> []
+      Just offset ->
+        [ offset,
+          Straight (Segment.start s) (Segment.start offset),
+          Straight (Segment.end s) (Segment.end offset)
+        ]
+    isAbove p s = Segment.spans s p && Distance.toPoint p s < roomy kept
+
+-- | Interval, divided at the marks inside it.
+dividedAt :: [Double] -> Interval -> [Interval]
+dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
+  where
+    inside = sort [t | t <- marks, t > a, t < b]
+
+-- Pockets -----------------------------------------------------------------------------------------
+
+-- | Border of all positions of the centre at a distance or more from closed contours, on a side of
+-- them: offsets of the segments and arcs round outer corners, without the parts that are too near
+-- to a segment. Each comes with the number of its segment among all.
+rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
+rim side distance segments contours =
+  concatMap free (concat (zipWith around (scanl (+) 0 (map length contours)) contours))
+  where
+    around first contour =
       concat
         ( zipWith3
             ( \i s next ->
                 [(i, c) | Just c <- [beside side distance s] <> [outerCorner side distance s next]]
             )
             [first ..]
-            walk
-            (drop 1 walk <> take 1 walk)
+            contour
+            (drop 1 contour <> take 1 contour)
         )
     free (i, s) =
-      [ (i, piece s a b)
+      [ (i, part s a b)
         | (a, b) <-
             Distance.uncovered
               (minus distance Tolerance.clearance)
-              (BoxTree.within (BoundingBox.inflate distance (BoundingBox.ofSegment s)) all')
+              (BoxTree.within (BoundingBox.inflate distance (BoundingBox.ofSegment s)) segments)
               s,
           b - a > Tolerance.hair
       ]
 
--- | A part of a segment, between shares of its length.
-piece :: Segment -> Double -> Double -> Segment
-piece s a b
+-- Offsets -----------------------------------------------------------------------------------------
+
+-- | Part of a segment between two fractions of its length.
+part :: Segment -> Double -> Double -> Segment
+part s a b
   | a <= 0 && b >= 1 = s
   | a <= 0 = fst (Segment.cutAt b s)
   | b >= 1 = snd (Segment.cutAt a s)
   | otherwise = snd (Segment.cutAt (a / b) (fst (Segment.cutAt b s)))
 
--- | A corner that turns by less than this, in radians, has no way round it worth a look.
-turnsAtAll :: Double
-turnsAtAll = 1e-9
+-- | Smallest angle of a corner that gets an arc round it, in radians.
+smallestTurn :: Double
+smallestTurn = 1e-9
 
--- | Where the centre is while the cutter rolls round the corner behind a segment, if that turns
--- away from it.
+-- | Arc of the centre round the corner at the end of a segment, if the corner turns away from the
+-- cutter.
 outerCorner :: Side -> Mm -> Segment -> Segment -> Maybe Segment
 outerCorner side (Mm d) s next
-  | leftward * t < negate turnsAtAll =
+  | leftward side * t < negate smallestTurn =
     Just
       Arc
         { start = off (Segment.endDirection s),
@@ -163,29 +174,29 @@ outerCorner side (Mm d) s next
   where
     turned@(Rad t) = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
     centre = Segment.end s
-    off direction = Vec.shift (Vec.scale (leftward * d) (Vec.left (Vec.unit direction))) centre
-    leftward = case side of
-      LeftOf -> 1
-      RightOf -> -1
+    off direction =
+      Vec.shift (Vec.scale (leftward side * d) (Vec.left (Vec.unit direction))) centre
 
--- | Where the centre is while the cutter rolls along a segment alone, if it can.
+-- | Offset of one segment; nothing if the segment has no length, or if the cutter does not fit
+-- inside an arc.
 beside :: Side -> Mm -> Segment -> Maybe Segment
 beside side (Mm d) segment = case segment of
   Straight a b
     | a == b -> Nothing
     | otherwise ->
-      let n =
-            Vec.scale (leftward * d) (Vec.left (Vec.unit (Vec.to a b)))
+      let n = Vec.scale (leftward side * d) (Vec.left (Vec.unit (Vec.to a b)))
        in Just (Straight (Vec.shift n a) (Vec.shift n b))
   Arc {start, end, centre, sweep = sweep@(Rad s)}
-    | r <= 0 || grown <= 0 -> Nothing
+    | r <= 0 || offsetRadius <= 0 -> Nothing
     | otherwise -> Just Arc {start = moved start, end = moved end, centre, sweep}
     where
       Mm r = Segment.radius centre start
-      -- The centre of an arc lies on the left when it is walked counter-clockwise.
-      grown = if signum s == leftward then r - d else r + d
-      moved p = Vec.shift (Vec.scale (grown / r) (Vec.to centre p)) centre
-  where
-    leftward = case side of
-      LeftOf -> 1
-      RightOf -> -1
+      -- The centre of a counter-clockwise arc is on its left.
+      offsetRadius = if signum s == leftward side then r - d else r + d
+      moved p = Vec.shift (Vec.scale (offsetRadius / r) (Vec.to centre p)) centre
+
+-- | Sign of an offset: 1 to the left, -1 to the right.
+leftward :: Side -> Double
+leftward side = case side of
+  LeftOf -> 1
+  RightOf -> -1

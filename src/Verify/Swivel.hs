@@ -1,8 +1,9 @@
--- | Strokes of a swivelling blade as if its axis stood in its middle position.
+-- | Motions of a swivelling blade, brought to the height of their pass.
 --
--- The height of the axis says how far the blade is turned. Where that is what the contour asks for
--- at the place of the stroke, to a pulse, the stroke counts as one at the height of the pass;
--- elsewhere it stays as it is, and is not taken for a stroke along the contour.
+-- The controlled axis of a blade does not lift the tool: its height says how far the blade is
+-- swivelled. Where this height agrees to a pulse with the bevel of the contour, the motion counts
+-- as one at the height of the pass. Elsewhere it keeps its height, and so it is no motion along the
+-- contour.
 module Verify.Swivel
   ( levelled,
   )
@@ -25,122 +26,136 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)
 import Part.Part qualified as Part
-import Toolpath.FromPart qualified as Toolpath (leadingSide)
-import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
-import Verify.Motion (CutterMotion (..), heights, line)
+import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
+import Verify.Requirement qualified as Requirement
 
--- | The strokes of a tape, those along the contours of a blade at the heights of their passes.
+-- | Bring the motions along the contours of blades to the heights of their passes.
 levelled :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion]
-levelled machine path = foldr (\p next -> map (onLevel machine p) . next) id blades
+levelled machine path = foldr (\pass next -> map (levelledIn machine pass) . next) id passes
   where
-    blades =
-      [ blade milling pass
+    passes =
+      [ bladePass milling pass
         | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.pass} <-
             Toolpath.blocks path,
           Just _ <- [Part.gear milling]
       ]
 
--- | A pass along a contour with a blade: how far the tool's centre stands from it at most, its
--- elements with their numbers, the heights of the axis at their ends.
-data Blade = Blade
-  { level :: Mm,
-    furthest :: Mm,
-    allowed :: Mm,
+-- | Pass along a contour with a blade.
+data BladePass = BladePass
+  { -- | height of the pass
+    level :: Mm,
+    -- | largest distance of the tool's centre from the contour
+    maxReach :: Mm,
+    -- | allowed chord error
+    tolerance :: Mm,
+    -- | elements of the contour with their numbers from 0
     elements :: BoundingBox.Index (Int, Segment),
-    axes :: Vector (Mm, Mm)
+    -- | heights of the axis at the start and at the end of each element
+    axisHeights :: Vector (Mm, Mm)
   }
 
-blade :: Milling -> Toolpath.Pass -> Blade
-blade milling Toolpath.Pass {Toolpath.reach, Toolpath.atHeight} =
-  Blade
+-- | Pass of a blade. The axis turns the blade by a wheel of diameter @D2@: for a bevel of @μ°@ its
+-- height is @z = ∓π·μ°·D2/360@, minus on the right of the contour, plus on the left (Kolsanova,
+-- section 3).
+bladePass :: Milling -> Toolpath.Pass -> BladePass
+bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
+  BladePass
     { level = atHeight,
-      furthest =
+      maxReach =
         (if Part.corners milling == Part.Sharp then times 2 else id)
           ( plus
-              reach
-              (maximum (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling))))
+              (Requirement.centreDistance milling left)
+              (maximum (fmap (Part.allowance . Part.finish) (Part.elements contour)))
           ),
-      allowed = uncurry max (Part.deepest (Part.tolerance milling)),
+      tolerance = uncurry max (Part.deepest (Part.tolerance milling)),
       elements =
         BoundingBox.index
           (BoundingBox.ofSegment . snd)
-          (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
-      axes =
-        maybe
-          Vector.empty
-          (fmap (\(a, b) -> (height a, height b)))
-          (Swivel.bevels (Part.contour milling))
+          (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements contour)))),
+      axisHeights =
+        maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Requirement.bevels contour)
     }
   where
-    height angle = plus atHeight (times (sign * angle / 2) (fromMaybe (Mm 0) (Part.gear milling)))
-    sign = case Toolpath.leadingSide milling of
-      Right (Just RightOf) -> -1
-      Right (Just LeftOf) -> 1
-      Right Nothing -> 1
-      Left _ -> 1
+    contour = Part.contour milling
+    height bevel = plus atHeight (times (sign * bevel / 2) (fromMaybe (Mm 0) (Part.gear milling)))
+    sign = case Requirement.cutterSide milling of
+      Just RightOf -> -1
+      Just LeftOf -> 1
+      Nothing -> 1
 
-onLevel :: Machine -> Blade -> CutterMotion -> CutterMotion
-onLevel machine b t
-  | and [fits (Segment.at k (line t)) (plus low (times k (minus high low))) | k <- 0 : looked] =
-    t {fromHeight = level b, toHeight = level b}
-  | otherwise = t
+-- | Motion at the height of a pass, if its axis has the right height at all samples.
+levelledIn :: Machine -> BladePass -> CutterMotion -> CutterMotion
+levelledIn machine pass m
+  | all hasRightHeight (0 : sampled) = m {fromHeight = level pass, toHeight = level pass}
+  | otherwise = m
   where
-    (low, high) = heights t
-    -- An arc stays at its height, whatever the contour asks for between its ends.
-    looked = case line t of
-      -- Between corners that are gone round, at which it may stand anywhere between, in the middle
-      -- as well.
+    hasRightHeight k =
+      isRightHeight machine pass (Segment.at k (segment m)) (plus low (times k (minus high low)))
+    (low, high) = Motion.heights m
+    sampled = case segment m of
+      -- At an outer corner the blade may have any bevel between those of the two elements. So the
+      -- middle of the line is sampled as well.
       Straight _ _ -> [0.5, 1]
-      Arc {} -> Motion.places t
-    -- What the tool touches is nearest to it.
-    fits p z =
-      case [ (minus h blur, plus h blur)
-             | (d, i, s) <- beside p,
-               d <= plus (nearest p) (times 2 off),
-               let blur = blurAt i s p,
-               Just h <- [axisAt b i s p]
-           ] of
-        [] -> False
-        hs -> minus z (maximum (map snd hs)) <= slack && minus (minimum (map fst hs)) z <= slack
-    beside p =
+      -- The axis keeps its height on an arc, whatever the contour demands between its ends.
+      Arc {} -> Motion.samples m
+
+-- | Test that the axis has the height that the elements nearest to a position of the centre demand.
+-- Between several elements, any height between theirs is right.
+isRightHeight :: Machine -> BladePass -> Point -> Mm -> Bool
+isRightHeight machine pass p z = case demanded of
+  [] -> False
+  _ ->
+    minus z (maximum (map snd demanded)) <= slack && minus (minimum (map fst demanded)) z <= slack
+  where
+    demanded =
+      [ (minus h uncertainty, plus h uncertainty)
+        | (d, i, s) <- near,
+          d <= plus nearest (times 2 deviation),
+          let uncertainty = heightUncertainty machine pass i s p,
+          Just h <- [axisAt pass i s p]
+      ]
+    near =
       [ (d, i, s)
         | (i, s) <-
             BoundingBox.within
-              (BoundingBox.inflate around (BoundingBox.ofPoints p []))
-              (elements b),
+              (BoundingBox.inflate limit (BoundingBox.ofPoints p []))
+              (elements pass),
           let d = Distance.toPoint p s,
-          d <= around
+          d <= limit
       ]
-    nearest p = minimum (around : [d | (d, _, _) <- beside p])
-    off = plus (allowed b) (Machine.pulse machine)
-    around = plus (furthest b) off
-    -- The place is off by a pulse as well, about the inside of an arc by as much more as its radius
-    -- is larger than that on which the centre goes.
-    blurAt i s p = case axes b Vector.!? i of
-      Just (from, to)
-        | Mm l <- Segment.length s,
-          l > 0 ->
-          times
-            (1.5 * lever s p / l * abs (let Mm rise = minus to from in rise))
-            (Machine.pulse machine)
-      _ -> Mm 0
-    lever s p = case s of
+    nearest = minimum (limit : [d | (d, _, _) <- near])
+    deviation = plus (tolerance pass) (Machine.pulse machine)
+    limit = plus (maxReach pass) deviation
+    slack = times 1.5 (max (Machine.pulse machine) (Machine.pulseOf machine Machine.Z))
+
+-- | Uncertainty of the axis height beside an element, because the position is rounded to pulses.
+-- Inside an arc the contact point moves further than the centre, in proportion to the radii.
+heightUncertainty :: Machine -> BladePass -> Int -> Segment -> Point -> Mm
+heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
+  Just (from, to)
+    | Mm l <- Segment.length s,
+      Mm rise <- minus to from,
+      l > 0 ->
+      times (1.5 * magnification * abs rise / l) (Machine.pulse machine)
+  _ -> Mm 0
+  where
+    magnification = case s of
       Arc {centre}
         | Mm r <- Segment.radius centre (Segment.start s),
           Mm own <- Vec.distance centre p,
           own > 0 ->
           max 1 (r / own)
       _ -> 1
-    slack = times 1.5 (max (Machine.pulse machine) (Machine.pulseOf machine Machine.Z))
 
--- | The height of the axis beside a place of an element.
-axisAt :: Blade -> Int -> Segment -> Point -> Maybe Mm
-axisAt b i s p = (\(from, to) -> plus from (times share (minus to from))) <$> axes b Vector.!? i
+-- | Height of the axis beside an element, linear in arc length.
+axisAt :: BladePass -> Int -> Segment -> Point -> Maybe Mm
+axisAt pass i s p =
+  (\(from, to) -> plus from (times fraction (minus to from))) <$> axisHeights pass Vector.!? i
   where
-    share
+    fraction
       | Segment.spans s p = max 0 (min 1 (Segment.fraction s p))
       | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
       | otherwise = 1

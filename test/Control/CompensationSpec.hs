@@ -1,5 +1,5 @@
--- | The law of the model of a control that keeps the cutter beside the contour: LinuxCNC makes the
--- same of the same tape, be it the compiler's own or a damaged one.
+-- | Law of the model of cutter compensation: LinuxCNC makes the same path of the same tape, for
+-- tapes of the compiler and for damaged ones.
 module Control.CompensationSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -7,7 +7,7 @@ import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus)
 import Base.Region (Located (..))
 import Base.Result qualified as Result
 import Command (inFolder)
-import Control.Compensation (Moved (..), Unkept (..))
+import Control.Compensation (CompensationError (..), Moved (..))
 import Control.Compensation qualified as Compensation
 import Control.Motion qualified as Motion
 import Data.ByteString qualified as ByteString
@@ -40,12 +40,12 @@ spec = do
     if present
       then do
         it
-          "does what LinuxCNC does, with tapes of its own (catches a corner, a way in or a way out \
-          \that goes otherwise)"
+          "does what LinuxCNC does, with tapes of the compiler (catches another path at a corner, \
+          \at the entry or at the exit)"
           $ compared (Mm 0.001) pure
         it
           "does what LinuxCNC does, with damaged tapes, and refuses whatever LinuxCNC refuses \
-          \(catches a damage that is judged by what was meant)"
+          \(catches a model that repairs a tape)"
           $ compared (Mm 0.03) damaged
       else
         it
@@ -58,8 +58,8 @@ spec = do
       ]
         `shouldBe` []
 
--- | So near to what LinuxCNC does; where shortened ways meet at a small angle, the radii of an arc,
--- which rounding makes differ at its ends, tell a little more or less.
+-- | Law: the model and LinuxCNC differ by less than @close@. The radii of an arc differ by
+-- rounding, and where shortened paths meet at a small angle, this moves their intersection.
 compared :: Mm -> ([Frame] -> Gen [Frame]) -> Property
 compared close change =
   withMaxSuccess 150 $
@@ -81,8 +81,8 @@ compared close change =
                       || Text.isInfixOf "Radius to end of arc" why
                   )
               )
-          -- The model may be more narrow.
-          Right walked
+          -- The model may refuse more than LinuxCNC.
+          Right traversed
             | not (null unkept)
                 || not (null broken)
                 || any flat fs
@@ -92,19 +92,19 @@ compared close change =
               let found =
                     differences
                       close
-                      (concatMap (NonEmpty.toList . legs) moved)
-                      (map LinuxCnc.segment walked)
+                      (concatMap (NonEmpty.toList . centrePath) moved)
+                      (map LinuxCnc.segment traversed)
                in counterexample (unlines found <> show fs) (null found)
   where
     flat f = case motion f of
       Round _ -> not (Motion.isRound f)
       _ -> False
-    -- LinuxCNC takes now this radius of an arc and now that one; the proof refuses such an arc as
-    -- it stands. No tape of the compiler's own has one.
+    -- LinuxCNC uses either radius of such an arc; the proof refuses it. No tape of the compiler has
+    -- one.
     spirals s =
       maybe False (\(a, b) -> max (minus a b) (minus b a) >= Mm 0.03) (Motion.radii iso6983 s)
 
--- | The frames of a milling, from where.
+-- | Start position and frames of a milling.
 programOf :: Part.Milling -> Maybe (Pulses3, [Frame])
 programOf job = do
   from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach job]
@@ -112,8 +112,8 @@ programOf job = do
   program <- Result.output (FromToolpath.quantise iso6983 path)
   Just (Frame.start program, map Frame.frame (Frame.planned program))
 
--- | What LinuxCNC makes of frames. It stands at the zero of the part, and is moved to their
--- beginning.
+-- | Path that LinuxCNC makes of frames. It starts at the zero of the part and is moved to the start
+-- position first.
 interpreted :: Pulses3 -> [Frame] -> IO (Either Text [LinuxCnc.Way])
 interpreted begin fs = inFolder $ \folder -> do
   let file = folder </> "a.ngc"
@@ -122,8 +122,8 @@ interpreted begin fs = inFolder $ \folder -> do
   ByteString.writeFile file rows
   fmap (drop (length onto) . LinuxCnc.ways (LinuxCnc.Place 0 0 0)) <$> LinuxCnc.canonical file
 
--- | Where the moves are not the same, one by one. Those that are no longer than the rounding of
--- what is printed may be left out.
+-- | First difference between two paths. Moves that are no longer than the rounding of printed
+-- numbers may be missing.
 differences :: Mm -> [Segment] -> [Segment] -> [String]
 differences close model real = case (model, real) of
   ([], []) -> []
@@ -143,7 +143,7 @@ differences close model real = case (model, real) of
             near c d && signum x == signum y
           _ -> False
 
--- | One number changed.
+-- | Frames with one number changed; the next frame may make up for it.
 damaged :: [Frame] -> Gen [Frame]
 damaged own = do
   n <- elements [k | (k, f) <- zip [0 ..] own, Frame.isMoving f]
@@ -190,21 +190,21 @@ exchanged f = f {orders = [(other o, v) | (o, v) <- orders f]}
       | o == CommandName "right" = CommandName "left"
       | otherwise = o
 
--- | Frames, and why they are refused.
-refusals :: [(String, [Unkept], [Frame])]
+-- | Frames with a name and the errors of the model.
+refusals :: [(String, [CompensationError], [Frame])]
 refusals =
   [ ("a good one", [], good),
-    ("a short way in", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
-    ( "a way in straight up",
+    ("a short entry", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
+    ( "a vertical entry",
       [ShortEntry 1 (Mm 0) (Mm 10)],
       (begun 0) {increment = Pulses3 0 0 1000} : drop 1 good
     ),
     ( "an arc to begin with",
-      [RoundEntry 1],
+      [ArcEntry 1],
       (begun 40) {motion = Round CounterClockwise, centre = Pulses2 20000 0} : drop 1 good
     ),
     ( "an arc to end with",
-      [RoundExit 4],
+      [ArcExit 4],
       take 3 good
         <> [ (straight (-40) 0)
                { motion = Round Clockwise,
@@ -219,43 +219,49 @@ refusals =
         <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = Pulses2 (-10000) 0}]
         <> drop 3 good
     ),
-    ( "an arc behind a corner of 0.02 that is taken for none, which makes it longer by as much",
+    ( "an arc after a corner of 0.02 mm that counts as none, which makes the arc longer",
       [],
       take 2 good <> [onArc 400] <> drop 3 good
     ),
-    ( "by more than a control puts up with",
-      [Unreached 3],
+    ( "an arc that becomes longer than a control allows",
+      [CornerNotReached 3],
       take 2 good <> [onArc 600] <> drop 3 good
     ),
-    ( "a tip at which the way turns back by 176 degrees",
+    ( "a tip at which the path turns by 176 degrees",
       [],
       take 2 good <> [straight (0.07 * 40) (-40)] <> drop 3 good
     ),
-    ("by 178 degrees", [Unreached 2], take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good),
-    ("a corner that is not reached", [Unreached 2], [begun 40, straight 0 9, straight 50 0, off]),
-    ( "on twice",
-      [OnTwice 2],
+    ( "a tip at which the path turns by 178 degrees",
+      [CornerNotReached 2],
+      take 2 good <> [straight (0.035 * 40) (-40)] <> drop 3 good
+    ),
+    ( "a corner that is not reached",
+      [CornerNotReached 2],
+      [begun 40, straight 0 9, straight 50 0, off]
+    ),
+    ( "switched on twice",
+      [SwitchedOnTwice 2],
       [begun 40, (straight 0 50) {orders = [(CommandName "left", 20000)]}] <> drop 2 good
     ),
-    ( "on twice at once",
-      [OnTwice 1],
+    ( "switched on twice in one frame",
+      [SwitchedOnTwice 1],
       (begun 40) {orders = [(CommandName "left", 20000), (CommandName "right", 20000)]} :
       map (\f -> f {orders = []}) (drop 1 good)
     ),
-    ( "a tool changed meanwhile",
+    ( "a tool changed while compensation is on",
       [ToolChanged 2],
       [begun 40, Frame.still [(CommandName "T", 2), (CommandName "M", 6)]] <> drop 1 good
     ),
-    ( "another command meanwhile",
+    ( "another command while compensation is on",
       [],
       [begun 40, Frame.still [(CommandName "M", 8)]] <> drop 1 good
     ),
-    ("never off", [NeverReleased 3], take 3 good)
+    ("never switched off", [NotSwitchedOff 3], take 3 good)
   ]
   where
     good = [begun 40, straight 0 50, straight 50 0, off]
     begun x = (straight x 0) {orders = [(CommandName "left", 20000)]}
-    -- A quarter of a circle behind a corner to the right.
+    -- Quarter of a circle after a corner to the right; @aside@ pulses set the corner.
     onArc aside =
       (straight 0 0)
         { motion = Round CounterClockwise,

@@ -1,5 +1,5 @@
--- | The proof of tapes with arcs: the flange and random contours on machines that walk arcs, and
--- every change of theirs.
+-- | Proof of tapes with arcs: the flange and random contours on machines with circular
+-- interpolation, and damaged tapes of both.
 module Verify.ArcSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -44,7 +44,7 @@ spec = do
     mapM_ flange ["lki-u", "lki-fm", "lki-un", "n55", "iso6983"]
   it
     "random contours of lines and arcs are proven in frames with arcs (catches an arc that is \
-    \looked at by its chord)"
+    \measured by its chord)"
     $ property $
       forAll
         ( (,)
@@ -60,7 +60,7 @@ spec = do
                in findings (quick name) path program (own program) === []
   it
     "of random contours no change that cuts too deep or leaves too much is proven (catches a \
-    \stroke whose middle alone is measured)"
+    \motion that is measured at its middle alone)"
     $ property $
       withMaxSuccess 300 $
         forAll
@@ -85,16 +85,16 @@ spec = do
       [s | (s, (path, program)) <- rounds, findings uncut path program (own program) /= []]
         `shouldBe` []
     it
-      "lost, it leaves the circle standing; so it does the other way round (catches a circle \
-      \dropped as a frame without a way)"
+      "lost, it leaves the circle standing; so it does in the opposite sense (catches a circle \
+      \that is dropped because its increment is zero)"
       $ do
-        [s | (s, (path, program)) <- rounds, not (any isExcess (findings uncut path program (filter (not . isCircle) (own program))))]
+        [s | (s, found) <- changedBy (filter (not . isCircle)), not (any isExcess found)]
           `shouldBe` []
-        [s | (s, (path, program)) <- rounds, not (any isNotFollowed (findings uncut path program (map mirrored (own program))))]
+        [s | (s, found) <- changedBy (map mirrored), not (any isNotFollowed found)]
           `shouldBe` []
     it
-      "with another centre it gouges or leaves material, also where its ends do not tell (catches \
-      \a circle taken for a point)"
+      "with another centre it gouges or leaves material, although its ends do not \
+      \change (catches a circle taken for a point)"
       $ [ (s, d)
           | (s, (path, program)) <- rounds,
             d <- [Pulses2 5 0, Pulses2 (-5) 0, Pulses2 0 5, Pulses2 0 (-5)],
@@ -111,8 +111,8 @@ spec = do
         ]
         `shouldBe` []
     it
-      "on the way in or out it is a gouge where it meets the part (catches ways that are looked at \
-      \between their ends)"
+      "in the approach it is a gouge where it meets the part (catches linking moves that are \
+      \measured at their ends alone)"
       $ [ s
           | (s, (path, program)) <- rounds,
             f : fs <- [own program],
@@ -140,12 +140,12 @@ spec = do
           `shouldBe` [[], ["motion"], ["motion"]]
         refusals (quick "lkp-01f") quarter `shouldBe` ["motion"]
   it
-    "a gouge is found on either way between which a control goes when the radii of an arc differ \
-    \(catches a proof for one of them)"
+    "a gouge is found on either bounding path of an arc whose radii differ (catches a proof for \
+    \one of them)"
     $ property $
-      forAll (elements [Clockwise, CounterClockwise]) $ \turn ->
+      forAll (elements [Clockwise, CounterClockwise]) $ \sense ->
         forAll ((,) <$> arbitrary <*> elements [-2, -1, 1, 2]) $ \(atStart, d) ->
-          let found = findingsBeside turn atStart d
+          let found = findingsBeside sense atStart d
            in (any isGouge found, any isExcess found) === (d == -2, d == 2)
   where
     uncut = quick "lki-u"
@@ -168,11 +168,14 @@ spec = do
               )
        in (path, Arcs.quantise uncut path)
     isCircle f = increment f == 0
+    -- Findings after a change of all frames, for both sides.
+    changedBy change =
+      [(s, findings uncut path program (change (own program))) | (s, (path, program)) <- rounds]
     mirrored f = case motion f of
       Round t -> f {motion = Round (if t == Clockwise then CounterClockwise else Clockwise)}
       _ -> f
 
--- | A machine of that name that brakes so well that no frame has to.
+-- | Machine by its name, with a deceleration so large that no frame has to brake.
 quick :: Text -> Machine
 quick name = m {Machine.braking = (Machine.braking m) {deceleration = 1e12}}
   where
@@ -181,7 +184,7 @@ quick name = m {Machine.braking = (Machine.braking m) {deceleration = 1e12}}
 findings :: Machine -> Toolpath -> FrameProgram -> [Frame] -> [Finding]
 findings machine path program fs = Proof.findings (Verify.prove machine path program fs)
 
--- | A contour milled with a cutter of radius 5, from a point straight to its beginning.
+-- | Toolpath around a contour with a cutter of radius 5, from a point straight to its start.
 laid :: Point -> Mm -> Side -> Polyarc -> Toolpath
 laid from tolerance side walked = case Equidistant.equidistant side (Mm 5) walked of
   Right pieces
@@ -204,7 +207,7 @@ laid from tolerance side walked = case Equidistant.equidistant side (Mm 5) walke
       path
   _ -> error "no path"
 
--- | The flange: its own frames are proven, and its changes are found.
+-- | Laws of the flange on a machine: its own frames are proven, and damage is found.
 flange :: Text -> Spec
 flange name = describe (Text.unpack name) $ do
   it "its own frames are proven" $
@@ -223,7 +226,8 @@ flange name = describe (Text.unpack name) $ do
           | Toolpath.Cutting {Toolpath.job = Located _ m} <- Toolpath.blocks path'
         ]
 
--- | A change that sampling shows to cut too deep is a gouge, one that leaves too much an excess.
+-- | Law of a damaged tape: if samples show that it cuts too deep, there is a gouge; if they show
+-- that it leaves too much, there is an excess.
 changed :: Machine -> Toolpath -> FrameProgram -> [Segment] -> Double -> Property
 changed machine path program contour radius =
   forAll (Arcs.change (map Frame.frame (Frame.planned program))) $ \(what, fs) ->
@@ -239,8 +243,7 @@ changed machine path program contour radius =
   where
     allowed = 0.02 + (let Mm pulse = Machine.pulse machine in pulse)
 
--- | An arc without sweep or radius of its own, an arc of a quarter, of a half, of three quarters,
--- and what is wrong with each.
+-- | Arcs with a name and the reasons why a control refuses them.
 arcs :: [(String, [String], Frame)]
 arcs =
   [ ("a quarter", [], quarter),
@@ -250,7 +253,7 @@ arcs =
     ("radii that differ by 2 pulses", [], quarter {increment = Pulses3 (-1000) 1002 0}),
     ("radii that differ by 3 pulses", ["radii"], quarter {increment = Pulses3 (-1000) 1003 0}),
     ("no centre", ["centre"], quarter {centre = 0}),
-    ("no centre and no way", ["centre"], quarter {centre = 0, increment = 0}),
+    ("no centre and no increment", ["centre"], quarter {centre = 0, increment = 0}),
     ("the end at the centre", ["sweep"], quarter {increment = Pulses3 (-1000) 0 0}),
     ("the end beyond the beginning", ["sweep"], quarter {increment = Pulses3 1 0 0}),
     ("an arc that rises", ["motion"], quarter {increment = Pulses3 (-1000) 1000 1}),
@@ -273,7 +276,7 @@ quarter =
 half = quarter {increment = Pulses3 (-2000) 0 0}
 long = quarter {increment = Pulses3 (-1000) (-1000) 0}
 
--- | Why a frame is refused.
+-- | Reasons why a control refuses a frame, in one word each.
 refusals :: Machine -> Frame -> [String]
 refusals machine f =
   [ why r
@@ -295,13 +298,12 @@ refusals machine f =
       ByRule (Frame.BadCentre _) -> "centre"
       ByRule (Frame.NoSuchMotion _) -> "motion"
       ByRule other -> show other
-      NotKept _ -> "compensation"
+      NotCompensated _ -> "compensation"
 
--- | What is found of an arc of radius 25 from one axis to the other with a cutter of radius 5,
--- beside the middle of an arc of radius 20: its beginning or its end is so many pulses further out
--- than it should be.
+-- | Findings for a cutter of radius 5 on an arc of radius 25, from one axis to the other, beside
+-- the middle of an arc of radius 20. The start or the end of the arc is @d@ pulses too far out.
 findingsBeside :: Sense -> Bool -> Int -> [Finding]
-findingsBeside turn atStart d = findings machine path (Arcs.quantise machine path) [f]
+findingsBeside sense atStart d = findings machine path (Arcs.quantise machine path) [f]
   where
     machine = quick "lki-u"
     path =
@@ -313,12 +315,12 @@ findingsBeside turn atStart d = findings machine path (Arcs.quantise machine pat
     middle = Segment.arc CounterClockwise (Vec.point 0 0) (on (pi / 6)) (on (pi / 3))
     on a = Vec.shift (Vec.polar (Mm 20) (Rad a)) (Vec.point 0 0)
     off here = Pulses (1250 + if here then d else 0)
-    ((sx, sy), (ex, ey)) = case turn of
+    ((sx, sy), (ex, ey)) = case sense of
       CounterClockwise -> ((off atStart, 0), (0, off (not atStart)))
       Clockwise -> ((0, off atStart), (off (not atStart), 0))
     f =
       Frame
-        { motion = Round turn,
+        { motion = Round sense,
           increment = Pulses3 (ex - sx) (ey - sy) 0,
           centre = Pulses2 (-sx) (-sy),
           speed = FeedCode 1,

@@ -1,5 +1,5 @@
--- | The proof of tapes under which the control keeps the cutter beside the contour: the compiler's
--- own, and changed ones.
+-- | Proof of tapes with cutter compensation in the control: tapes of the compiler, and damaged
+-- ones.
 module Verify.CompensationSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -7,7 +7,7 @@ import Base.Region (Located (..))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
 import Compile qualified
-import Control.Compensation (Unkept (..))
+import Control.Compensation (CompensationError (..))
 import Control.Compensation qualified as Compensation
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
@@ -37,8 +37,8 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = do
   it
-    "random contours with leads are proven in what the control makes of the edge (catches a proof \
-    \of the frames alone, an edge that begins in a wrong place)"
+    "random contours with leads are proven by the path that the control makes of the edge \
+    \(catches a proof of the frames alone, an edge that starts at a wrong point)"
     $ property $
       forAll (tolerant =<< ByControl.cases) $ \job -> case made job of
         Nothing -> property Discard
@@ -49,15 +49,15 @@ spec = do
       [ [f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]} | f <- fs]
         | d <- [1, -1]
       ]
-    changes "a lost order to keep the cutter beside the contour" $ \_ fs ->
+    changes "a lost command that switches compensation on" $ \_ fs ->
       [[f {orders = filter (not . isKeep . fst) (orders f)} | f <- fs]]
     changes "a lost release" $ \_ fs ->
-      [[f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- fs]]
+      [map (without "release") fs]
     changes "a lost frame along the edge" $ \ps fs ->
       [take n fs <> drop (n + 1) fs | n <- cutting ps]
   it
-    "of random contours every change is found by which the control cuts too deep or leaves too \
-    \much (catches a proof of what the frames say, a corner that is not looked at)"
+    "of random contours every change is found with which the control cuts too deep or leaves too \
+    \much (catches a proof of the programmed frames, a corner that is not compared)"
     $ property $
       withMaxSuccess 150 $
         forAll (tolerant =<< ByControl.cases) $ \job -> case made job of
@@ -65,7 +65,7 @@ spec = do
           Just (path, program) -> forAll (Arcs.change (own program)) $ \(what, fs) ->
             let centre =
                   concatMap
-                    (NonEmpty.toList . Compensation.legs)
+                    (NonEmpty.toList . Compensation.centrePath)
                     (fst (Compensation.run iso6983 (const (Mm 0)) (Frame.start program) fs))
                 (deepest, most) = deviation centre job
                 found = findings path program fs
@@ -79,8 +79,8 @@ spec = do
                           && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
                       )
   it
-    "a wrong diameter is found by what it does, too, to the tolerance (catches a proof with the \
-    \diameter that was meant)"
+    "a wrong diameter on the tape is found by its effect, to the tolerance (catches a proof with \
+    \the diameter of the program)"
     $ property $
       forAll (tolerant =<< ByControl.cases) $ \job ->
         forAll (elements [60, -60]) $ \d -> case made job of
@@ -98,18 +98,20 @@ spec = do
                   (any (\f -> if d > 0 then isExcessOrRefused f else isGouge f || isLost f) found)
   describe "programs" $
     mapM_
-      program'
+      programs
       ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
   it "a lost release is refused by the control" $ do
     (path, program) <- compiled "flange"
-    [n | Refused (NotKept (NeverReleased n)) <- findings path program [f {orders = filter ((/= CommandName "release") . fst) (orders f)} | f <- own program]]
+    let unreleased = map (without "release") (own program)
+        found = findings path program unreleased
+    [n | Refused (NotCompensated (NotSwitchedOff n)) <- found]
       `shouldBe` [length (own program)]
   where
-    program' name = it (name <> " is proven") $ do
+    programs name = it (name <> " is proven") $ do
       (path, program) <- compiled name
       findings path program (own program) `shouldBe` []
 
--- | None of the changed tapes is proven.
+-- | Law: none of the changed tapes is proven.
 changes :: String -> ([Planned] -> [Frame] -> [[Frame]]) -> Spec
 changes what change =
   it ("is found: " <> what) $
@@ -123,27 +125,31 @@ changes what change =
                 fs /= own program
             ]
 
+-- | Frame without a command.
+without :: Text -> Frame -> Frame
+without name f = f {orders = filter ((/= CommandName name) . fst) (orders f)}
+
 own :: FrameProgram -> [Frame]
 own program = map Frame.frame (Frame.planned program)
 
--- | The numbers of the frames along the edge, from 0.
+-- | Numbers of the frames along the edge, from 0.
 cutting :: [Planned] -> [Int]
 cutting ps = [n | (n, p) <- zip [0 ..] ps, Cutting _ <- [Frame.role p]]
 
--- | The deepest cut of the cutter's centre into a contour and the most that it leaves standing, by
--- points close to one another on both.
+-- | Depth of the deepest gouge and largest excess of a path of the cutter's centre, by dense
+-- samples of the path and of the contour.
 deviation :: [Segment] -> Milling -> (Double, Double)
 deviation centre job =
-  (r - minimum [nearest on p | p <- walked], maximum [nearest walked q | q <- on] - r)
+  (r - minimum [nearest edge p | p <- path], maximum [nearest path q | q <- edge] - r)
   where
     Mm r = Part.radius job
-    on = concatMap (dense 0.4 . Part.segment) (NonEmpty.toList (Part.elements (Part.contour job)))
-    walked = concatMap (dense 0.2) centre
-    -- Short arcs may turn by much.
-    dense apart s =
+    edge = concatMap (dense 0.4 . Part.segment) (NonEmpty.toList (Part.elements (Part.contour job)))
+    path = concatMap (dense 0.2) centre
+    -- A short arc may have a large sweep.
+    dense step s =
       let Mm l =
             Segment.length s
-          n = max 16 (ceiling (l / apart)) :: Int
+          n = max 16 (ceiling (l / step)) :: Int
        in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
     nearest ps q =
       sqrt
@@ -173,7 +179,7 @@ isExcessOrRefused f = case f of
 isLost f = case f of
   NotFollowed _ -> True
   _ -> isNeverBegun f
--- Of a contour that is never begun nothing is told to be left.
+-- A contour that is never begun has no excess.
 isNeverBegun f = case f of
   NeverBegun _ -> True
   _ -> False
@@ -184,8 +190,9 @@ findings path program fs = Proof.findings (Verify.prove iso6983 path program fs)
 tolerant :: (Generate.Case, Milling) -> Gen Milling
 tolerant (_, job) = pure job {Part.tolerance = Part.OnPath (Mm 0.02)}
 
--- | A milling by a control, where the one without is proven, to a little less: a way in or out that
--- goes through the part, or grazes it, is no matter of the control's.
+-- | Toolpath and frames of a milling with compensation, if those without compensation are proven to
+-- a slightly smaller tolerance. Linking moves that cut or graze the part are no matter of the
+-- control.
 made :: Milling -> Maybe (Toolpath, FrameProgram)
 made job = do
   (plainly, frames) <- laid job {Part.byControl = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}

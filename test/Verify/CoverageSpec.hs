@@ -1,4 +1,4 @@
--- | The law of what lies beyond the reach of others.
+-- | Law of 'Verify.Coverage': the largest gap of a motion beside a curve, compared with samples.
 module Verify.CoverageSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -11,49 +11,45 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Test.Hspec
-import Test.QuickCheck
-import Verify.Coverage (Beyond (..), Others (..))
+import Test.QuickCheck hiding (cover)
+import Verify.Coverage (Cover (..), Gap (..))
 import Verify.Coverage qualified as Coverage
-import Prelude hiding (lines)
 
 spec :: Spec
 spec =
   it
-    "what lies beyond the reach of a curve is found, and how far (catches a gap between the arcs \
-    \that are walked past)"
+    "the largest gap beyond the reach of a curve is found, and its size (catches a gap between two \
+    \arcs that is passed over)"
     $ property $
       forAll
         ((,,,) <$> Curve.closed <*> choose (0, 1) <*> choose (-0.5, 0.5) <*> choose (0.5, 30))
-        $ \(arcs, from, turned, l) ->
+        $ \(arcs, fraction, slope, long) ->
           forAll (choose (0.05, 10)) $ \r ->
-            let arc = arcs !! floor (from * fromIntegral (length arcs - 1) :: Double)
-                -- A stroke beside the curve that runs along it at first.
-                out = Vec.scale r (Vec.left (Segment.startDirection arc))
-                begin = Vec.shift out (Segment.start arc)
-                stroke =
-                  Straight
-                    begin
-                    ( Vec.shift
-                        ( Vec.scale
-                            l
-                            (Vec.add (Segment.startDirection arc) (Vec.scale turned (Vec.unit out)))
-                        )
-                        begin
-                    )
-                others =
-                  Others
+            let arc = arcs !! floor (fraction * fromIntegral (length arcs - 1) :: Double)
+                motion = besideStart arc r slope long
+                cover =
+                  Cover
                     { index = BoxTree.index BoundingBox.ofSegment arcs,
-                      lines = (:| []),
-                      counts = const True,
+                      pathsOf = (:| []),
+                      isEligible = const True,
                       reach = Mm r,
                       allowance = Mm 0.03
                     }
-                beyond p = minimum [d | a <- arcs, let { Mm d = Distance.toPoint p a }] - r
-                sampled = maximum [beyond (Segment.at (k / 400) stroke) | k <- [0 .. 400]]
+                excess p = minimum [d | a <- arcs, let { Mm d = Distance.toPoint p a }] - r
+                sampled = maximum [excess (Segment.at (k / 400) motion) | k <- [0 .. 400]]
              in classify (sampled > 0.01) "beyond" $
-                  case Coverage.furthest others Nothing (Mm 0.01) stroke of
+                  case Coverage.largestGap cover Nothing (Mm 0.01) motion of
                     Nothing -> counterexample (show sampled) (sampled <= 0.01 + 3e-6)
-                    Just Beyond {most = Mm most, place} ->
+                    Just Gap {size = Mm size, location} ->
                       counterexample
-                        (show (most, sampled, beyond place))
-                        (most >= sampled - 3e-6 && abs (beyond place - most) <= 1e-5)
+                        (show (size, sampled, excess location))
+                        (size >= sampled - 3e-6 && abs (excess location - size) <= 1e-5)
+
+-- | Line that starts beside the start of an arc, at a distance to its left, and leaves the
+-- direction of the arc by a slope; its length in mm.
+besideStart :: Segment -> Double -> Double -> Double -> Segment
+besideStart arc r slope long = Straight begin (Vec.shift (Vec.scale long direction) begin)
+  where
+    out = Vec.scale r (Vec.left (Segment.startDirection arc))
+    begin = Vec.shift out (Segment.start arc)
+    direction = Vec.add (Segment.startDirection arc) (Vec.scale slope (Vec.unit out))

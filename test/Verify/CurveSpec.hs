@@ -1,4 +1,4 @@
--- | The proof on contours with curves: chains of short arcs that continue one another.
+-- | Proof of tapes along curves: sequences of short arcs that continue one another.
 module Verify.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -35,8 +35,8 @@ spec = do
           \path program ->
             proven path program
   it
-    "curves between lines and arcs are proven, and have about the frames of the arcs that they \
-    \stand for (catches a run that takes in its neighbours)"
+    "curves between lines and arcs are proven, and have about as many frames as the arcs that they \
+    \replace (catches a run that includes its neighbours)"
     $ property $
       forAll (Generate.smoothCase >>= \c -> (c,) <$> vectorOf 60 (choose (1, 40))) $ \(c, counts) ->
         let job = (Generate.job c) {Part.tolerance = Part.OnPath (Mm 0.02)}
@@ -47,8 +47,7 @@ spec = do
                     .&&. abs (frameCount plain - frameCount program)
                       <= length (Part.elements (Part.contour job))
   it
-    "backwards, a curve is not the one of the program (catches a curve that is not measured as a \
-    \whole)"
+    "backwards, a curve is not followed (catches a curve that is not measured as a whole)"
     $ property $
       forAll Curve.curveCase $ \c ->
         punched (Generate.begin c) (Curve.jobAlong c) $ \path program ->
@@ -66,8 +65,9 @@ spec = do
     $ property $
       forAll ((,,) <$> Curve.curveCase <*> choose (0, 1) <*> choose (2, 400)) $ \(c, from, count) ->
         punched (Generate.begin c) (Curve.jobAlong c) $ \path program ->
-          let (across, off) = shortened program from count
-           in off > 0.07 ==> counterexample (show off) (not (null (findings path program across)))
+          let (across, distance) = shortened program from count
+           in distance > 0.07
+                ==> counterexample (show distance) (not (null (findings path program across)))
   it
     "a tape that leaves a curve out, or ends on it, is refused (catches a slack as long as the \
     \curve)"
@@ -93,7 +93,7 @@ spec = do
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
 
--- | What holds for the path and the frames of a milling from a point.
+-- | Law of the toolpath and the frames of a milling, from a start point.
 punched :: Testable p => Point -> Milling -> (Toolpath -> FrameProgram -> p) -> Property
 punched begin job holds =
   case Toolpath.lay (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
@@ -102,7 +102,7 @@ punched begin job holds =
       Nothing -> counterexample "no frames" False
     r -> counterexample (show (Result.errors r)) False
 
--- | With every arc cut into so many that continue one another.
+-- | Milling with each arc divided into as many arcs as the list of counts says.
 inParts :: [Int] -> Milling -> Milling
 inParts counts job =
   job
@@ -120,21 +120,22 @@ inParts counts job =
       Straight _ _ -> [Part.segment e]
       Arc {} -> Curve.parts n (Part.segment e)
 
--- | The frames with so many of them, from a share of all on, made one; and how far it is from where
--- they went.
+-- | Frames of a program with some of them replaced by one: their first one is given as a fraction
+-- of all, and their count. The number is the largest distance of the new chord from the old
+-- positions.
 shortened :: FrameProgram -> Double -> Int -> ([Frame], Double)
 shortened program from count =
-  ( earlier <> [f {increment = sum (map increment (f : more))} | f : more <- [away]] <> behind,
-    maximum (0 : map off positions)
+  ( earlier <> [f {increment = sum (map increment (f : more))} | f : more <- [replaced]] <> later,
+    maximum (0 : map distance positions)
   )
   where
     frames = map Frame.frame (Frame.planned program)
     (earlier, others) = splitAt (floor (from * fromIntegral (length frames - 1))) frames
-    (away, behind) = splitAt count others
+    (replaced, later) = splitAt count others
     start = Frame.start program + sum (map increment earlier)
-    positions = map (Frame.position lkp01f) (scanl (+) start (map increment away))
+    positions = map (Frame.position lkp01f) (scanl (+) start (map increment replaced))
     chord =
       Straight
         (Frame.position lkp01f start)
-        (Frame.position lkp01f (start + sum (map increment away)))
-    off p = let Mm d = Distance.toPoint p chord in d
+        (Frame.position lkp01f (start + sum (map increment replaced)))
+    distance p = let Mm d = Distance.toPoint p chord in d

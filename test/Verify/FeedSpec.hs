@@ -1,5 +1,4 @@
--- | The proof of feeds: frame by frame, along contours on foreign tapes, and whether the machine
--- can brake in time.
+-- | Proof of feeds: frame by frame, along contours on foreign tapes, and before slower frames.
 module Verify.FeedSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -40,25 +39,24 @@ spec = do
   describe "braking" $ do
     -- 1000 mm/min are 16.667 mm/s, 10 are 0.167: 27.775 mm to come down at 5 mm/s².
     it
-      "has to come before the end of the tape, early enough (catches a law that looks at frames \
-      \only)"
+      "has to come before the end of the tape, early enough (catches a law of single frames)"
       $ [tooFast [go 40 100, slower 0 mm] | mm <- [27.84, 27.7, 27]] `shouldBe` [[], [1], [1]]
     it
-      "has to come before a slower frame, over frames between as well (catches a law that looks at \
-      \the next frame only)"
+      "has to come before a slower frame, also several frames later (catches a law of two \
+      \successive frames)"
       $ do
         tooFast [go 40 100, go 20 5, slower 0 60] `shouldBe` [1]
         tooFast [go 40 100, slower 20 28, go 20 5, slower 0 60] `shouldBe` []
         tooFast [go 40 100, slower 20 5, slower 20 23, go 20 5, slower 0 60] `shouldBe` []
         tooFast [go 40 100, slower 20 5, go 20 23, slower 0 60] `shouldBe` [1]
     it
-      "is not needed to become faster, nor on machines that brake by themselves (catches the law \
-      \the wrong way round)"
+      "is not needed to become faster, nor on machines that brake by themselves (catches a law \
+      \with its sign exchanged)"
       $ do
         tooFast [go 0 10, go 20 10, go 40 100, slower 0 28] `shouldBe` []
         [n | TooFast n _ _ <- prove (Machines.named "n55") resting [] [go 900 10, go 10 10]]
           `shouldBe` []
-    it "says how fast the cutter is and may be" $
+    it "is reported with the speed of the cutter and the largest possible one" $
       [ (round v, round most)
         | TooFast _ (Feed v) (Feed most) <- prove lki resting [] [go 40 100, slower 0 10]
       ]
@@ -76,24 +74,24 @@ spec = do
         `shouldBe` [[], [1], [1], [1]]
   describe "a foreign tape" $ do
     it
-      "has along a contour the code of the feed asked, or brakes (catches a tape that cuts in \
+      "has the code of the demanded feed along a contour, or brakes (catches a tape that cuts in \
       \rapid)"
       $ [ [n | WrongFeed n _ _ _ <- prove lki along [] [f]]
           | f <- [cut 15, cut 14, cut 40, (cut 14) {braking = True}, (cut 16) {braking = True}]
         ]
         `shouldBe` [[], [1], [1], [], [1]]
     it
-      "has the frequency of the leading axis where the machine counts that: v/60·n/L (catches the \
-      \feed along the path taken for it)"
+      "has the frequency of the leading axis if the machine has such codes: v/60·n/L (catches the \
+      \feed along the path in its place)"
       $ do
         -- 60 mm/min along (3, 4) mm of 5 mm: 80 Hz of 0.01 mm; straight along x 100 Hz.
-        [[n | WrongFeed n _ _ _ <- prove kontur slanted [] [f]] | f <- [aslant 42, aslant 43, aslant 41]]
+        map (wrongFeeds slanted) [aslant 42, aslant 43, aslant 41]
           `shouldBe` [[], [1], [1]]
-        [[n | WrongFeed n _ _ _ <- prove kontur along [] [f]] | f <- [ahead 43, ahead 42]]
+        map (wrongFeeds along) [ahead 43, ahead 42]
           `shouldBe` [[], [1]]
     it
-      "goes down into the material as the program does (catches a plunge in rapid on a tape with \
-      \another number of frames)"
+      "goes down into the material at the feed of the program (catches a plunge in rapid on a tape \
+      \with another number of frames)"
       $ [ [n | WrongFeed n _ _ _ <- prove lki resting [over, down 15, up] fs]
           | fs <-
               [ [over, down 15, up],
@@ -105,8 +103,8 @@ spec = do
         `shouldBe` [[], [], [3], []]
   describe "commands" $ do
     it
-      "are compared one after the other on a tape with another number of frames (catches places \
-      \that are counted in frames)"
+      "are compared one after the other on a tape with another number of frames (catches a \
+      \comparison by the numbers of frames)"
       $ [ [ (n, o, a, b)
             | WrongCommand n (CommandName o) a b <-
                 prove
@@ -155,8 +153,9 @@ spec = do
   where
     lki = Machines.named "lki-u"
     kontur = Machines.named "kontur-3p"
+    wrongFeeds path f = [n | WrongFeed n _ _ _ <- prove kontur path [] [f]]
     tooFast fs = [n | TooFast n _ _ <- prove lki resting [] fs]
-    -- So many mm of pulses of 0.02.
+    -- Frame along x by a length in mm, with pulses of 0.02 mm.
     go code mm =
       Frame
         { motion = Straightway,
@@ -177,7 +176,7 @@ spec = do
     ahead code = (go code 30) {increment = Pulses3 3000 0 0}
     aslant code = (go code 0) {increment = Pulses3 3000 4000 0}
 
--- | What is found of a tape on a path, with a program of some frames.
+-- | Findings for a tape, with the toolpath and the program's own frames.
 prove :: Machine -> Toolpath -> [Frame] -> [Frame] -> [Finding]
 prove machine path own fs =
   Proof.findings
@@ -192,12 +191,12 @@ prove machine path own fs =
     Mm pulse = Machine.pulse machine
     begin = Pulses3 (Pulses (round (Vec.x p / pulse))) (Pulses (round (Vec.y p / pulse))) 0
 
--- | A path without moves.
+-- | Toolpath without moves.
 resting :: Toolpath
 resting = Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [] False
 
--- | An edge from (0, 0) to a point with a cutter of radius 5 on its left, from where the cut
--- begins.
+-- | Toolpath along a line from (0, 0) to a point, with a cutter of radius 5 on its left; the cutter
+-- is at the start of the cut.
 edge :: Point -> Toolpath
 edge end = case Equidistant.equidistant LeftOf (Mm 5) contour of
   Right pieces

@@ -1,4 +1,4 @@
--- | The proof finds every change of the flange's tape that moves the path or changes a feed.
+-- | Proof of tapes along contours: the flange, random contours, and damaged tapes of both.
 module Verify.FromTapeSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -34,8 +34,8 @@ spec = do
   it "the flange's own frames are proven" $
     findings (proofOf Flange.frames) `shouldBe` []
   it
-    "every change of a legal digit that moves the path is found, its frame named, and said to \
-    \leave the band where it does"
+    "every change of a legal digit that moves the path is found, with the number of its frame; if \
+    \the path leaves the band, a deviation is found as well"
     $ [(n, f, findings p) | (n, f, fs) <- changes, let p = proofOf fs, not (isFound n f p)]
       `shouldBe` []
   it "every change of a speed code is a wrong feed in its frame" $
@@ -56,8 +56,8 @@ spec = do
     ]
       `shouldBe` []
   it
-    "a program whose own frames end elsewhere than its path is refused, frame by frame as its tape \
-    \is (catches an end that is compared with the frames)"
+    "a program whose own frames end elsewhere than its path is refused, also on a tape with \
+    \these frames (catches an end that is compared with the frames)"
     $ let (analysis, own) =
             punched "contour l open { line((-10, 0), (10, 0)) }\nmill l on { depth 1 }"
           further =
@@ -73,7 +73,7 @@ spec = do
     findings (proofOf shortcut) `shouldSatisfy` any isExcess
   it
     "half of a circle that is never cut is an excess, also where the cutter runs on the circle \
-    \itself (catches a way taken for all of the circle on which it lies)"
+    \itself (catches an arc taken for the full circle on which it lies)"
     $ case Compile.analyse
       []
       ( LoadedProgram.fromText
@@ -93,7 +93,7 @@ spec = do
               ]
                 `shouldBe` [True, True]
         | otherwise -> expectationFailure (show (Result.errors r))
-  it "the contour walked backwards is not the one of the program" $
+  it "a contour in the opposite direction is not followed" $
     findings (proofOf backwards) `shouldSatisfy` any isNotFollowed
   it
     "a command that the program does not give is found, also when the frames cannot be compared \
@@ -101,7 +101,7 @@ spec = do
     $ findings (proofOf (commanded (doubledFirst Flange.frames))) `shouldSatisfy` any isCommand
   it
     "random contours with random cutters are proven; for a tolerance that their chords exceed they \
-    \are not (catches a proof that looks at nodes only)"
+    \are not (catches a proof of the nodes alone)"
     $ property $
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
         case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
@@ -133,7 +133,7 @@ spec = do
       ]
       `shouldBe` []
   it
-    "leads, corners, several passes and depths are proven (catches a pass that is looked for at \
+    "leads, corners, several passes and depths are proven (catches a search for a pass at \
     \another height or distance)"
     $ property $
       forAll
@@ -153,7 +153,7 @@ spec = do
               pieces =
                 maybe
                   []
-                  ways
+                  entries
                   ( Result.output
                       ( Toolpath.lay
                           (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))
@@ -218,7 +218,7 @@ spec = do
                           | Just w <- map Proof.gouge (Proof.passages p)
                         ]
   where
-    -- The tape of one program held against another.
+    -- Proof of the tape of one program for another program.
     against tape program' =
       let (tapeAnalysis, tapeProgram) = punched tape
           (analysis, own) = punched program'
@@ -238,8 +238,8 @@ spec = do
     deepHead =
       "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\n\
       \from (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
-    -- Where the first way in of some length ends: at the beginning of the lead or of the contour.
-    ways laid =
+    -- End of the first linking move with a length: the start of the lead-in or of the contour.
+    entries laid =
       [ Segment.end (Toolpath.segment m)
         | b <- take 1 (Toolpath.blocks laid),
           m <- Toolpath.moves b,
@@ -255,7 +255,7 @@ iso6983 = Machines.named "iso6983"
 proofOf :: [Frame] -> Proof
 proofOf = Verify.prove lkp01f (path Flange.analysis) Flange.program
 
--- | The error of the chords that an arc is given for a tolerance of 0.3 mm.
+-- | Chord error of an arc that is divided for a tolerance of 0.3 mm.
 chordError :: Segment -> Double
 chordError s = case s of
   Straight _ _ -> 0
@@ -270,8 +270,8 @@ cutSegments p =
       m <- NonEmpty.toList cut
   ]
 
--- | Tapes that differ in one digit or one sign and are legal: the frame's number, the changed
--- frame, all frames.
+-- | Legal tapes that differ in one digit or one sign: the number of the frame, the changed frame,
+-- all frames.
 changes :: [(Int, Frame, [Frame])]
 changes =
   [ (n, f', replaceFrame n f')
@@ -285,7 +285,7 @@ changes =
       let f' = f {increment = d}
   ]
 
--- | One digit changed to any other, or the sign.
+-- | Increments with one of @count@ digits changed, or with the opposite sign.
 digitChanges :: Int -> Pulses -> [Pulses]
 digitChanges count (Pulses v) =
   [ Pulses (signum' v * changed)
@@ -312,23 +312,23 @@ swapped n =
     <> [Flange.frames !! n, Flange.frames !! (n - 1)]
     <> drop (n + 1) Flange.frames
 
--- | The path with all but its beginning and end replaced by one straight frame.
+-- | Flange with one straight frame in place of all frames between its first and its last ones.
 shortcut :: [Frame]
 shortcut =
   take 10 Flange.frames
     <> [(Flange.frames !! 10) {increment = sum (map increment (take 120 (drop 10 Flange.frames)))}]
     <> drop 130 Flange.frames
 
--- | The same ways in and out, and between them the contour the other way round.
+-- | Flange with the contour in the opposite direction, between the same linking moves.
 backwards :: [Frame]
-backwards = wayIn <> reverse [f {increment = negate (increment f)} | f <- along] <> wayOut
+backwards = approach <> reverse [f {increment = negate (increment f)} | f <- along] <> retract
   where
     numbered = zip (map Frame.role (Frame.planned Flange.program)) Flange.frames
-    wayIn = take 2 Flange.frames
+    approach = take 2 Flange.frames
     along = [f | (Frame.Cutting _, f) <- numbered]
-    wayOut = drop (2 + length along) Flange.frames
+    retract = drop (2 + length along) Flange.frames
 
--- | The first frame in two halves.
+-- | Frames with the first one divided in two halves.
 doubledFirst :: [Frame] -> [Frame]
 doubledFirst fs = case fs of
   f : rest ->
@@ -337,7 +337,7 @@ doubledFirst fs = case fs of
   where
     half (Pulses3 x y z) = Pulses3 (x `div` 2) (y `div` 2) (z `div` 2)
 
--- | With an auxiliary command in the last frame.
+-- | Frames with an auxiliary command in the last one.
 commanded :: [Frame] -> [Frame]
 commanded fs = case reverse fs of
   f : rest -> reverse (f {orders = [(CommandName "aux", 7)]} : rest)
@@ -353,9 +353,9 @@ isCommand finding = case finding of
   WrongCommand {} -> True
   _ -> False
 
--- | The frame is named as the first that differs. A change within the contour of more than the
--- allowance lets the path leave the band in this frame or later; a path that stays in it misses its
--- end.
+-- | Test that a changed frame is found: it is the first one that differs, and the tape misses its
+-- end or leaves the band. A change along the contour by more than the allowance leaves the band in
+-- this frame or later.
 isFound :: Int -> Frame -> Proof -> Bool
 isFound n f p =
   firstDifference p == Just n
@@ -371,7 +371,7 @@ isFound n f p =
       Frame.role (Frame.planned Flange.program !! (n - 1)) == Frame.Cutting 0
         && n < length Flange.frames - 12
 
--- | A gouge or an excess in a frame from this one on.
+-- | Test for a gouge or an excess in a frame or in a later one.
 leavesBandFrom :: Int -> Finding -> Bool
 leavesBandFrom n finding = case finding of
   Gouge w _ _ -> Proof.frame w >= n
@@ -389,6 +389,6 @@ isOpen finding = case finding of
   NotClosed _ -> True
   _ -> False
 
--- | The frames that are blamed for their feed.
+-- | Numbers of the frames with a wrong feed.
 wrongFeeds :: Proof -> [Int]
 wrongFeeds p = [n | WrongFeed n _ _ _ <- findings p]

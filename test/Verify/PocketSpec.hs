@@ -1,4 +1,4 @@
--- | The proof of a pocket.
+-- | Proof of pockets.
 module Verify.PocketSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -42,26 +42,26 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
   prop
-    "random pockets are proven, on arcs and on chords (catches a rim or a floor that is asked \
+    "random pockets are proven, on arcs and on chords (catches a rim or a floor that is demanded \
     \where no cutter fits)"
     $ forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $
       \(p, first, m) ->
         forAllPath (Generate.pocketing first p) $ \path ->
           Proof.toReports m (proofOf m path) === []
   prop
-    "places that the cutter can reach lie within its radius of the frames (catches a proof of \
+    "points that the cutter can reach lie within its radius of the motions (catches a proof of \
     \nothing)"
     $ forAll ((,) <$> Generate.pocket <*> Test.QuickCheck.elements machines) $ \(p, m) ->
       forAllPath (Generate.pocketing [] p) $ \path ->
         forAllBlind (vectorOf 200 (anywhere p)) $ \ps -> conjoin (map (swept p (cuts m path)) ps)
   prop
-    "passes further apart than the cutter is wide are found (catches a floor that is not looked at)"
+    "passes further apart than the cutter is wide are found (catches a floor that is not compared)"
     $ forAll (Generate.rectangle `suchThat` \p -> roomy (cutter p) p) $ \p ->
       forAllPath (Generate.pocketing [] p {step = times 3.5 (cutter p)}) $ \path ->
         map kind (findings (proofOf iso path)) === ["floor"]
   prop
-    "a loop that is left out is found, on the floor or at the walls (catches strokes that count \
-    \where they do not run)"
+    "a loop that is left out is found, on the floor or at the walls (catches motions that count \
+    \where there are none)"
     $ forAll (Generate.rectangle `suchThat` \p -> roomy (times 1.6 (cutter p)) p) $ \p ->
       forAll (Test.QuickCheck.elements [0, 1]) $ \k ->
         let asked = Generate.pocketing [] p {step = times 1.6 (cutter p)}
@@ -94,11 +94,11 @@ spec = modifyMaxSuccess (const 60) $ do
            in forAll (choose (0, length fs - 2)) $ \n ->
                 let (done, rest) = splitAt n fs
                     spoilt = case rest of
-                      f : next : behind ->
-                        [ ("left out", done <> (next : behind)),
-                          ("doubled", done <> (f : f : next : behind))
+                      f : next : later ->
+                        [ ("left out", done <> (next : later)),
+                          ("doubled", done <> (f : f : next : later))
                         ]
-                          <> [ ("shifted", done <> (moved 300 f : moved (-300) next : behind))
+                          <> [ ("shifted", done <> (moved 300 f : moved (-300) next : later))
                                | isAside
                                    path
                                    ( Frame.start program
@@ -113,8 +113,8 @@ spec = modifyMaxSuccess (const 60) $ do
                         | (what, fs') <- spoilt
                       ]
   prop
-    "the depths of a pocket in another order are found (catches a proof that only looks at what is \
-    \left)"
+    "the depths of a pocket in another order are found (catches a proof of the material that is \
+    \left at the end)"
     $ forAll Generate.rectangle $ \p ->
       let asked = Generate.pocketing [] p
           at zs = Generate.laid asked {Part.wall = (Part.wall asked) {Part.levels = map Mm zs}}
@@ -146,7 +146,7 @@ spec = modifyMaxSuccess (const 60) $ do
           _ -> property False
         _ -> discard
   it
-    "of several pockets each is looked at by itself (catches strokes that are taken for those of \
+    "of several pockets each is compared by itself (catches motions that are taken for those of \
     \another one)"
     $ do
       let asked = three (replicate 3 right)
@@ -157,7 +157,8 @@ spec = modifyMaxSuccess (const 60) $ do
             _ -> ["no frames"]
           foundIn text = [found (wrong k text) | k <- [0 .. 2]]
       found asked `shouldBe` []
-      map (filter (== "order")) (foundIn "pocket c step 3 { depth 2 }\n pocket c step 3 { depth 1 }")
+      let exchanged = "pocket c step 3 { depth 2 }\n pocket c step 3 { depth 1 }"
+      map (filter (== "order")) (foundIn exchanged)
         `shouldBe` replicate 3 ["order"]
       map
         (take 1 . filter (`elem` ["floor", "excess"]))
@@ -172,20 +173,20 @@ spec = modifyMaxSuccess (const 60) $ do
       let BoundingBox l b r t =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
        in Vec.point <$> choose (l, r) <*> choose (b, t)
-    -- There is more in it than a loop at the walls and what it sweeps.
+    -- Test that one loop at the walls does not clear the whole pocket.
     roomy d p =
       let BoundingBox l b r t =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
        in Mm (min (r - l) (t - b))
             > plus (times 4 (cutter p)) (plus (times 2 (left p)) (times 2 (plus d (Mm 2))))
-    -- Below the top of the part and beside all that is to be cut: a frame shifted along its
-    -- neighbour does no harm.
+    -- Test that a position is below the top of the part and off all cuts. A frame that is shifted
+    -- along its neighbour does no harm.
     isAside path at =
       Frame.height iso at < Mm 0
         && all (\s -> Distance.toPoint (Frame.position iso at) s > Mm 0.1) (cuts iso path)
     moved k f = f {increment = increment f + Pulses3 k k 0}
 
--- | Three pockets beside one another, by what is asked in each.
+-- | Toolpath of three pockets side by side, each with its own statement.
 three :: [Text] -> Toolpath
 three pockets =
   maybe
@@ -240,7 +241,7 @@ kind f = case f of
   NotInOrder _ -> "order"
   other -> show other
 
--- | What the centre cuts along at the depth of the pocket, by the frames.
+-- | Paths of the centre in all level frames below the top of the part.
 cuts :: Machine -> Toolpath -> [Segment]
 cuts m path = case framesOf m path of
   Nothing -> []
@@ -253,11 +254,12 @@ cuts m path = case framesOf m path of
         Frame.height m at < Mm 0
     ]
 
+-- | Law: a point that the cutter can reach is within its radius of a path of the centre.
 swept :: Pocket -> [Segment] -> Point -> Property
-swept p way q =
+swept p path' q =
   counterexample
     (show q)
-    (not reachable || minimum (map (Distance.toPoint q) way) <= plus (cutter p) (Mm 0.06))
+    (not reachable || minimum (map (Distance.toPoint q) path') <= plus (cutter p) (Mm 0.06))
   where
     room = Generate.roomOf p
     borders = concatMap NonEmpty.toList (offsetBy room (plus (cutter p) (left p)))
@@ -265,7 +267,7 @@ swept p way q =
       WindingNumber.about q borders > 0
         || any (\s -> Distance.toPoint q s <= minus (cutter p) (Mm 1e-4)) borders
 
--- | A path without the loop at a distance from the walls.
+-- | Toolpath without the loop at a distance from the walls.
 without :: Mm -> Pocket -> Toolpath -> Toolpath
 without away p path = path {Toolpath.blocks = map emptied (Toolpath.blocks path)}
   where

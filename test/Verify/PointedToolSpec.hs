@@ -1,4 +1,4 @@
--- | The proof of profiles that are turned with a nose without radius: the tool lies on the contour.
+-- | Proof of profiles that are turned with a nose without radius: its tip lies on the contour.
 module Verify.PointedToolSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -32,7 +32,7 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = describe "a nose without radius" $ do
   it
-    "lies on the contour, outside and inside, walked either way (catches strokes on the contour \
+    "lies on the contour, outside and inside, in both directions (catches motions on the contour \
     \that do not count as beside it)"
     $ [ (side, back)
         | side <- [Part.Outside, Part.Inside],
@@ -42,8 +42,8 @@ spec = describe "a nose without radius" $ do
       ]
       `shouldBe` []
   it
-    "so far on the side of the material gouges, so far on the other side leaves material (catches \
-    \a contour taken for one that is milled on)"
+    "shifted into the material it gouges, shifted out of it it leaves material (catches a cutter \
+    \that is taken for one on the contour)"
     $ [ (side, back, d, map kind fs)
         | side <- [Part.Outside, Part.Inside],
           back <- [False, True],
@@ -63,7 +63,7 @@ spec = describe "a nose without radius" $ do
         Gouge _ worst _ <- found path program (shifted (-10) (own program))
     ]
       `shouldBe` [10 :: Int]
-  it "does not cross the profile on its way (catches a way that is no nearer than nothing)" $
+  it "does not cross the profile in a linking move (catches a proof by the distance 0)" $
     [ map kind fs
       | let path = turned Part.Outside False
             program = Arcs.quantise machine path
@@ -78,7 +78,7 @@ spec = describe "a nose without radius" $ do
   where
     own program = map Frame.frame (Frame.planned program)
     found path program fs = Proof.findings (Verify.prove machine path program fs)
-    -- The profile between its first and its last frame so many pulses further out.
+    -- Frames between the first and the last one, @d@ pulses further from the axis.
     shifted d fs = case fs of
       f : rest
         | final : _ <- reverse rest ->
@@ -109,8 +109,8 @@ machine = m {Machine.braking = (Machine.braking m) {deceleration = 1e12}}
   where
     m = Machines.named "lki-u"
 
--- | A shaft with a cone, a shoulder and a round of radius 12 beside the axis y = 0, turned by a
--- tool without radius.
+-- | Shaft with a cone, a shoulder and a round of radius 12 beside the axis y = 0, turned by a tool
+-- without radius on a side, forwards or backwards.
 turned :: Part.Side -> Bool -> Toolpath
 turned side back =
   case Result.output
@@ -131,15 +131,16 @@ turned side back =
              Straight (p (-42) 42) (p (-60) 42)
            ]
     p = Vec.point
-    walk = if back then NonEmpty.reverse (fmap Segment.reverse profile) else profile
-    begin' = Segment.start (NonEmpty.head walk)
+    contour' = if back then NonEmpty.reverse (fmap Segment.reverse profile) else profile
+    begin' = Segment.start (NonEmpty.head contour')
     job =
       ( Generate.job
           Case
-            { contour = Polyarc Open walk,
+            { contour = Polyarc Open contour',
               side = LeftOf,
               radius = Mm 0,
-              pieces = Equidistant.OffsetSegment (Equidistant.Along 0) (NonEmpty.head walk) :| []
+              pieces =
+                Equidistant.OffsetSegment (Equidistant.Along 0) (NonEmpty.head contour') :| []
             }
       )
         { Part.work = Part.Turned,

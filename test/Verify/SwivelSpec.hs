@@ -1,4 +1,4 @@
--- | The proof of a blade: how far it is turned along an element.
+-- | Proof of a swivelling blade: its bevel along an element.
 module Verify.SwivelSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -17,22 +17,23 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec =
   it
-    "an element between two outer corners has its own bevel (catches a proof that looks at its \
-    \ends, where the blade may stand anywhere between two bevels)"
+    "an element between two outer corners has its own bevel (catches a proof of its ends \
+    \alone, where the blade may have any bevel between two)"
     $ do
       text <- readText "test/programs/tool/good/blade-upright-ends.part"
-      (way, program) <-
+      (toolpath, program) <-
         maybe (fail "the program has errors") pure . Result.settled $
           Compile.analyse [] (LoadedProgram.fromText "blade.part" text) `Result.thenSound` \a ->
             Compile.punch iso6983 (path a) `Result.thenSound` \p -> pure (path a, program p)
       let frames = map Frame.frame (Frame.planned program)
           (onto, along) = break rises frames
           rises f = let Pulses3 _ _ z = increment f in z > 0
-          -- Not as far down before the element, and not as far up behind it.
+          -- Frames with a smaller descent before the element and a smaller rise after it.
           risen d = case (reverse onto, along) of
             (element : final : earlier, first : behind) ->
               reverse earlier <> [final `by` d, element, first `by` negate d] <> behind
             _ -> frames
           by f d = let Pulses3 x y z = increment f in f {increment = Pulses3 x y (z + d)}
-      [d | d <- [0, 500, 1000, 2000], Proof.isProven (Verify.prove iso6983 way program (risen d))]
+          isProven d = Proof.isProven (Verify.prove iso6983 toolpath program (risen d))
+      filter isProven [0, 500, 1000, 2000]
         `shouldBe` [0]

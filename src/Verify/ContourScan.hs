@@ -1,0 +1,152 @@
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Scan of the motions beside a contour, in the order of the tape. Each motion asks once for the
+-- elements within reach, and all comparisons of single motions are made with them: the gouge, the
+-- distance of a motion along the contour, its side. The scan also collects for each element a fast
+-- upper bound of its distance from the motions along the contour.
+module Verify.ContourScan
+  ( Scan (..),
+    scan,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Control.Applicative ((<|>))
+import Control.Monad (foldM, when)
+import Control.Monad.ST (ST, runST)
+import Data.Primitive.PrimArray (MutablePrimArray, PrimArray)
+import Data.Primitive.PrimArray qualified as PrimArray
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
+import Verify.Edge (Edge (long, rank, shape))
+import Verify.Excess qualified as Excess
+import Verify.Gouge (KeepOut (..))
+import Verify.Gouge qualified as Gouge
+import Verify.MillingJob (MillingJob (..))
+import Verify.MillingJob qualified as MillingJob
+import Verify.Motion (CutterMotion (number, part, segment))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Finding, Witness)
+import Verify.Proof qualified as Proof
+import Verify.WrongSide qualified as WrongSide
+
+-- | Result of a scan.
+data Scan = Scan
+  { -- | the deepest gouge
+    gouge :: Maybe Witness,
+    -- | motions too far from the contour, the last one first
+    strays :: [Witness],
+    -- | the first motion on the wrong side
+    wrongSide :: Maybe Finding,
+    -- | bounding paths of the last motion along the contour; none after a vertical one
+    latest :: [Segment]
+  }
+
+-- | Motion, the elements that the cutter may touch in it, its bounding paths.
+data View = View {motion :: CutterMotion, close :: [Edge], bounding :: [Segment]}
+
+-- | Scan the motions that have to keep out of the part, and the motions that have to follow the
+-- contour, both in the order of the tape; a motion may be in both lists. With the result comes for
+-- each element, by its number, an upper bound of the distance in mm: each point of the element has,
+-- on the right side, a motion along the contour that is no further away. The bound is ∞ if none was
+-- found. A bound may count one motion or two that follow one another.
+scan ::
+  MillingJob ->
+  (CutterMotion -> KeepOut) ->
+  Mm ->
+  [CutterMotion] ->
+  [CutterMotion] ->
+  (Scan, PrimArray Double)
+scan job keepOutOf allowedExcess keepingOut along = runST $ do
+  bounds <- PrimArray.newPrimArray (BoxTree.size (edges job))
+  PrimArray.setPrimArray bounds 0 (PrimArray.sizeofMutablePrimArray bounds) (1 / 0)
+  let go result outside within = case (outside, within) of
+        (v : vs, m : ms) -> case inOrder (motion v) m of
+          EQ -> following (keptOut result v) v >>= \result' -> go result' vs ms
+          LT -> go (keptOut result v) vs within
+          GT -> following result (viewOf m) >>= \result' -> go result' outside ms
+        (v : vs, []) -> go (keptOut result v) vs []
+        ([], ms) -> foldM following result (views ms)
+      following result v = do
+        mapM_ (improveBound job bounds (latest result) v) (close v)
+        pure $! followed job allowedExcess v result
+  result <- go (Scan Nothing [] Nothing []) (views keepingOut) along
+  frozen <- PrimArray.unsafeFreezePrimArray bounds
+  pure (result, frozen)
+  where
+    views ms = zipWith view (MillingJob.edgesNearEach job ms) ms
+    view es m = View {motion = m, close = es, bounding = Motion.pathList m}
+    viewOf m = view (MillingJob.edgesNear job m) m
+    inOrder a b = compare (number a) (number b) <> compare (part a) (part b)
+    keptOut result v =
+      result {gouge = deeperGouge job (keepOutOf (motion v)) v (gouge result)}
+
+-- | Deepest gouge so far, or that of a motion if it is deeper.
+deeperGouge :: MillingJob -> KeepOut -> View -> Maybe Witness -> Maybe Witness
+deeperGouge job keepOut View {motion, close, bounding} best
+  | Gouge.mayGougeDeeper keepOut best motion bounding near =
+    maybe best (Just . Proof.deeper best) (Gouge.gougeOf keepOut (edges job) motion)
+  | otherwise = best
+  where
+    near
+      | searchRadius keepOut <= MillingJob.contactLimit job = close
+      | otherwise =
+        BoxTree.within
+          (BoundingBox.inflate (searchRadius keepOut) (Motion.box motion))
+          (edges job)
+
+-- | Result after a motion along the contour.
+followed :: MillingJob -> Mm -> View -> Scan -> Scan
+followed job allowedExcess View {motion, close, bounding} result
+  | Motion.isVertical motion = result {latest = []}
+  | otherwise =
+    result
+      { latest = bounding,
+        strays = maybe (strays result) (: strays result) stray,
+        wrongSide = wrongSide result <|> WrongSide.wrongSide job motion close
+      }
+  where
+    stray =
+      Excess.strayOf
+        job {reach = maxReach job, allowance = allowedExcess}
+        motion
+        close
+        bounding
+
+-- | Lower the bound of an element to its distance from a motion, if the motion is surely on the
+-- right side of it. The paths of the motion before are given.
+improveBound :: MillingJob -> MutablePrimArray s Double -> [Segment] -> View -> Edge -> ST s ()
+improveBound job bounds before View {motion, bounding} e = do
+  known <- PrimArray.readPrimArray bounds (rank e)
+  -- A bound below the reach is good enough.
+  when (known > enough) $ do
+    let far = boundFrom job known before motion bounding e
+    when
+      (far < known && all (Excess.isSurelyOnSide job (shape e)) bounding)
+      (PrimArray.writePrimArray bounds (rank e) far)
+  where
+    enough = let Mm r = reach job in r - 2 * FastDistance.unsure
+
+-- | Upper bound of the distance of an element from a motion. If the motion alone gives none and
+-- none is known, the element is divided where the motion starts: its first part is compared with
+-- the motion before.
+boundFrom :: MillingJob -> Double -> [Segment] -> CutterMotion -> [Segment] -> Edge -> Double
+boundFrom job known before motion bounding e
+  | alone < 1 / 0
+      || known <= limit
+      || null before
+      || not (FastDistance.mayLieWithin limit (long e) (shape e) x y) =
+    alone
+  | otherwise = case FastDistance.divided x y (shape e) of
+    Just (first, second)
+      | all (Excess.isSurelyOnSide job (shape e)) before ->
+        max
+          (FastDistance.furthestFrom limit first before)
+          (FastDistance.furthestFrom limit second bounding)
+    _ -> alone
+  where
+    alone = FastDistance.furthestFrom limit (shape e) bounding
+    Mm limit = MillingJob.contactLimit job
+    (x, y) = FastDistance.begin (segment motion)

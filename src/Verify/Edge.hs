@@ -1,0 +1,122 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Elements of the contours that a tape is compared with, in a bounding-box tree, together with
+-- the numbers that every comparison needs.
+module Verify.Edge
+  ( Edge (..),
+    edgesOf,
+    isCurved,
+    largestAllowance,
+    leastDistance,
+    leastExcess,
+    leftwardness,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Distance qualified as Distance
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Part.Part (Contour, Element)
+import Part.Part qualified as Part
+
+-- | Element of a contour. Its numbers are stored and not computed again for each motion.
+data Edge = Edge
+  { element :: Element,
+    -- | number of the element in the contour, from 0
+    rank :: Int,
+    -- | arc length from the start of the contour to the start of the element, in mm
+    startsAt :: Double,
+    -- | length of the element, in mm
+    long :: Double,
+    -- | allowance of the element itself, besides that of the pass
+    ownAllowance :: Mm,
+    -- | the element continues the curve of the element before it
+    continues :: Bool,
+    -- | segment of the element
+    shape :: Segment
+  }
+
+-- | Bounding-box tree of the elements of a contour.
+edgesOf :: Contour -> BoxTree Edge
+edgesOf contour =
+  BoxTree.indexOf
+    (NonEmpty.length elements)
+    (FastDistance.box . shape)
+    (go 0 0 (NonEmpty.toList elements))
+  where
+    elements = Part.elements contour
+    -- Strict in the sum of lengths, so that no thunk holds the elements before.
+    go :: Int -> Double -> [Element] -> [Edge]
+    go rank startsAt rest = case rest of
+      [] -> []
+      element : more ->
+        let Mm long = Segment.length (Part.segment element)
+            endsAt = startsAt + long
+            edge =
+              Edge
+                { element,
+                  rank,
+                  startsAt,
+                  long,
+                  ownAllowance = Part.allowance (Part.finish element),
+                  continues = Part.continues element,
+                  shape = Part.segment element
+                }
+         in edge `seq` endsAt `seq` (edge : go (rank + 1) endsAt more)
+
+-- | Test that an element continues the curve of another one.
+isCurved :: BoxTree Edge -> Bool
+isCurved = BoxTree.foldl' (\is e -> is || continues e) False
+
+-- | Largest allowance of a single element; -∞ without elements.
+largestAllowance :: BoxTree Edge -> Mm
+largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
+
+-- | Distance from a point to the nearest of some elements, no larger than the given limit.
+leastDistance :: Double -> [Edge] -> Double -> Double -> Double
+leastDistance = leastExcess (const (Mm 0))
+
+-- | Least difference of distance and allowance over some elements, no larger than the given limit.
+leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
+leastExcess allowanceOf limit near !x !y = go limit near
+  where
+    go !d es = case es of
+      [] -> d
+      e : more
+        | Mm a <- allowanceOf e,
+          far <- min limit (d + a),
+          FastDistance.mayLieWithin far (long e) (shape e) x y ->
+          go (min d (FastDistance.distance (shape e) x y - a)) more
+        | otherwise -> go d more
+{-# INLINE leastExcess #-}
+
+-- | Signed offset of a point from the contour at its nearest point: positive if the point is on the
+-- left of the direction of travel. At a corner, both elements there are added up.
+leftwardness :: BoxTree Edge -> Point -> Point -> Double
+leftwardness edges foot p = sum (map crossProduct touching)
+  where
+    crossProduct e = Vec.cross (directionAt foot (shape e)) (Vec.to foot p)
+    touching =
+      filter
+        (\e -> Distance.toPoint foot (shape e) <= Tolerance.coincident)
+        ( BoxTree.within
+            (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofPoints foot []))
+            edges
+        )
+
+-- | Direction of a segment at one of its points.
+directionAt :: Point -> Segment -> Vec
+directionAt p s
+  | Vec.near p (Segment.start s) = Segment.startDirection s
+  | Vec.near p (Segment.end s) = Segment.endDirection s
+  | otherwise = Segment.directionAt (Segment.fraction s p) s

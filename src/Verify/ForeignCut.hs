@@ -1,0 +1,76 @@
+-- | Cuts below the top of the part where the program's own tape does not cut, or deeper.
+module Verify.ForeignCut
+  ( foreignCuts,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Region (Located (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Milling)
+import Part.Part qualified as Part
+import Toolpath.Toolpath (Block, Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Motion (CutterMotion (number, segment))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Finding (CutsElsewhere))
+
+-- | Findings for motions of a tape with a sample below the top of the part that none of the
+-- program's own motions comes near at that depth or deeper. Two tapes with different chords may
+-- differ by both tolerances.
+foreignCuts :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion] -> [Finding]
+foreignCuts machine path own motions =
+  [ CutsElsewhere (number m) p
+    | m <- motions,
+      isDeep (lowest m),
+      p : _ <- [[p | (p, z) <- samplesOf m, isDeep z, not (isKnown p z)]]
+  ]
+  where
+    pulse = Machine.pulse machine
+    isDeep z = z < minus (Mm 0) pulse
+    index =
+      BoundingBox.index
+        (BoundingBox.ofSegment . segment)
+        (filter ((< Mm 0) . lowest) own)
+    slack = plus (times 2 pulse) (times 2 (largestTolerance path))
+    isKnown p z =
+      or
+        [ Distance.toPoint p (segment o) <= slack && lowest o <= plus z pulse
+          | o <- BoundingBox.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
+        ]
+
+-- | Lower one of the heights of a motion.
+lowest :: CutterMotion -> Mm
+lowest = uncurry min . Motion.heights
+
+-- | Start and samples of a motion with their heights.
+samplesOf :: CutterMotion -> [(Point, Mm)]
+samplesOf m =
+  [ (Segment.at k (segment m), plus from (times k (minus to from)))
+    | k <- 0 : Motion.samples m
+  ]
+  where
+    (from, to) = Motion.heights m
+
+-- | Largest chord error that a statement allows.
+largestTolerance :: Toolpath -> Mm
+largestTolerance path =
+  maximum
+    ( Mm 0 :
+        [ uncurry max (Part.deepest (Part.tolerance m))
+          | m <- concatMap millingOf (Toolpath.blocks path)
+        ]
+    )
+
+millingOf :: Block -> [Milling]
+millingOf block = case block of
+  Toolpath.Cutting {Toolpath.job = Located _ m} -> [m]
+  Toolpath.Clearing {Toolpath.pocket = Located _ p} -> [Part.wall p]
+  Toolpath.Travelling _ _ -> []
+  Toolpath.Holing _ _ -> []
+  Toolpath.Commanding _ -> []

@@ -1,0 +1,45 @@
+-- | Holes of the part that the tape does not drill.
+module Verify.HoleCheck
+  ( missingHoles,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, times)
+import Base.Region (Located (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part qualified as Part
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Motion (CutterMotion (segment))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Finding (HoleMissing))
+
+-- | Findings for holes without a vertical motion to their bottom: to a pulse in the plane, to 0.6
+-- pulses in depth.
+missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
+missingHoles machine path motions =
+  [ HoleMissing at p
+    | Toolpath.Holing (Located _ drilling) _ <- Toolpath.blocks path,
+      Located at p <- NonEmpty.toList (Part.holes drilling),
+      not (any (isDrilled machine (Part.bottom drilling) p) (near p))
+  ]
+  where
+    near p =
+      BoxTree.within
+        (BoundingBox.inflate (times 2 (Machine.pulse machine)) (BoundingBox.ofPoints p []))
+        index
+    index = BoxTree.index Motion.box (filter Motion.isVertical motions)
+
+-- | Test that a vertical motion drills a hole to its bottom.
+isDrilled :: Machine -> Mm -> Point -> CutterMotion -> Bool
+isDrilled machine bottom p m =
+  Vec.distance (Segment.start (segment m)) p <= Machine.pulse machine
+    && minus (uncurry min (Motion.heights m)) bottom
+      <= times 0.6 (Machine.pulseOf machine Machine.Z)

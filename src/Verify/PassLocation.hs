@@ -1,0 +1,229 @@
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Location of all passes along contours on a tape, one after the other. Each pass is searched for
+-- after the end of the one before.
+--
+-- The toolpath says which passes there are, at which height, with which allowance, and where their
+-- cuts start and end. The side of the cutter and its distance from the contour come from the part.
+module Verify.PassLocation
+  ( Guide (..),
+    locate,
+    areFirst,
+  )
+where
+
+import Base.Quantity (Mm (..), plus, times)
+import Base.Region (Located (..), Region)
+import Data.List (foldl')
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, isJust)
+import Geometry.Carrier (Side (..))
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Milling)
+import Part.Part qualified as Part
+import Toolpath.Toolpath (Block, Move)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Deviation (MillingPass (..))
+import Verify.Deviation qualified as Deviation
+import Verify.Edge (Edge)
+import Verify.Edge qualified as Edge
+import Verify.MillingJob (MillingJob (..))
+import Verify.Motion (CutterMotion (number))
+import Verify.Motion qualified as Motion
+import Verify.MotionSet qualified as MotionSet
+import Verify.PassFrames (FrameRange (..))
+import Verify.PassSearch qualified as PassSearch
+import Verify.Requirement qualified as Requirement
+
+-- | Knowledge for the search.
+data Guide = Guide
+  { machine :: Machine,
+    -- | the cutter stays at its first height, so heights are not compared
+    isFlat :: Bool,
+    -- | last frame of a pass by its number, if the program's own frames tell it
+    lastFrameOf :: Int -> Maybe Int,
+    -- | frames of a cut by the number of its pass, if the program's own frames tell them. They
+    -- decide between passes that lie within the tolerance of one another.
+    cutFramesOf :: Int -> Maybe FrameRange
+  }
+
+-- | State of the search: the position and height of the centre, the motions after it, the last
+-- pass.
+data Reading = Reading
+  { at :: (Point, Mm),
+    rest :: [CutterMotion],
+    lastPass :: Maybe MillingPass
+  }
+
+-- | Cut of the toolpath: the number of its pass among all passes, whether it is one of several cuts
+-- of the pass, the statement, the pass, the moves.
+data Cut = Cut
+  { passIndex :: Int,
+    isPartial :: Bool,
+    statementAt :: Located Milling,
+    plannedPass :: Toolpath.Pass,
+    cutMoves :: NonEmpty Move
+  }
+
+-- | Locate the passes along contours on a tape, from a start position and height.
+locate :: Guide -> (Point, Mm) -> [CutterMotion] -> [Block] -> [MillingPass]
+locate guide begin motions blocks =
+  go (Reading begin motions Nothing) (zip3 (Toolpath.passNumbers blocks) (arePartial blocks) blocks)
+  where
+    go reading numbered = case numbered of
+      [] -> []
+      (passIndex, isPartial, block) : more -> case block of
+        Toolpath.Cutting {Toolpath.job, Toolpath.pass, Toolpath.cut} ->
+          let found =
+                locateCut
+                  guide
+                  reading
+                  Cut
+                    { passIndex,
+                      isPartial,
+                      statementAt = job,
+                      plannedPass = pass,
+                      cutMoves = cut
+                    }
+           in found : go (afterPass found reading) more
+        Toolpath.Clearing {}
+          | Just final <- lastFrameOf guide passIndex -> go (afterFrame final reading) more
+        _ -> go reading more
+
+-- | State after a located pass.
+afterPass :: MillingPass -> Reading -> Reading
+afterPass pass reading = case lastOf (PassSearch.motionsOf (found pass)) of
+  Nothing -> reading {lastPass = Just pass}
+  Just final ->
+    Reading
+      { at = Motion.endPosition final,
+        rest = drop 1 (dropWhile (not . Motion.isSame final) (rest reading)),
+        lastPass = Just pass
+      }
+
+-- | State after a frame.
+afterFrame :: Int -> Reading -> Reading
+afterFrame final reading =
+  reading {at = maybe (at reading) Motion.endPosition (lastOf done), rest = later}
+  where
+    (done, later) = span ((<= final) . number) (rest reading)
+
+-- | Locate one cut.
+locateCut :: Guide -> Reading -> Cut -> MillingPass
+locateCut guide reading cut =
+  MillingPass {job, passNumber, level, found = PassSearch.find job startsAt searched}
+  where
+    Located statement milling = statementAt cut
+    Toolpath.Pass {Toolpath.number = passNumber, Toolpath.atHeight = level} = plannedPass cut
+    job = jobOf (machine guide) statement milling cut edges
+    -- All cuts of a statement have its elements in common.
+    edges = case lastPass reading of
+      Just MillingPass {job = MillingJob {edges = same}, passNumber = m} | m == passNumber -> same
+      _ -> Edge.edgesOf (Part.contour milling)
+    startsAt
+      | isFlat guide || MotionSet.isSameHeight (machine guide) level (snd (at reading)) =
+        Just (fst (at reading))
+      | otherwise = Nothing
+    searched
+      | isFlat guide = ownMotions
+      | otherwise = filter (MotionSet.isAtHeight (machine guide) level) ownMotions
+    ownMotions = case cutFramesOf guide (passIndex cut) of
+      Nothing -> rest reading
+      Just (FrameRange a b) ->
+        takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (rest reading))
+
+-- | Demand of the part for a cut.
+jobOf :: Machine -> Region -> Milling -> Cut -> BoxTree Edge -> MillingJob
+jobOf machine statement milling cut edges =
+  MillingJob
+    { milling,
+      statement,
+      side,
+      entry = Segment.start (Toolpath.segment (NonEmpty.head (cutMoves cut))),
+      exit =
+        fromMaybe
+          (Segment.end (Toolpath.segment (NonEmpty.last (cutMoves cut))))
+          (exitByControl milling side reach),
+      reach,
+      maxReach = largestReach milling (Edge.largestAllowance edges) reach,
+      allowance,
+      exitTolerance = plus allowance (exitUncertainty machine milling reach),
+      isPartialCut = isPartial cut,
+      edges
+    }
+  where
+    side = Requirement.cutterSide milling
+    reach = Requirement.centreDistance milling (Toolpath.left (plannedPass cut))
+    allowance =
+      plus
+        (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
+        (Machine.pulse machine)
+
+-- | Tests for each block whether it is one of several cuts of its pass. A pass is only divided
+-- where rest material is allowed.
+arePartial :: [Block] -> [Bool]
+arePartial blocks =
+  zipWith3
+    (\before own next -> isJust own && (own == before || own == next))
+    (Nothing : passes)
+    passes
+    (drop 1 passes <> [Nothing])
+  where
+    passes = map passOf blocks
+    passOf b = case b of
+      Toolpath.Cutting
+        { Toolpath.job = Located _ milling,
+          Toolpath.pass = Toolpath.Pass {Toolpath.number, Toolpath.left, Toolpath.atHeight}
+        }
+          | Part.rest milling == Part.Allowed ->
+            Just (number, left, atHeight)
+      _ -> Nothing
+
+-- | Position of the centre at the end of a contour under cutter compensation: square beside the end
+-- of the last element. On a closed contour, the control may or may not count the last corner.
+exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
+exitByControl milling side (Mm reach) = case (Part.byControl milling, side) of
+  (Just _, Just s) ->
+    Just
+      ( Vec.shift
+          (Vec.scale (sign s * reach) (Vec.left (Segment.endDirection final)))
+          (Segment.end final)
+      )
+  _ -> Nothing
+  where
+    final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
+    sign s = case s of
+      LeftOf -> 1
+      RightOf -> -1
+
+-- | Uncertainty of that position. Rounding to pulses changes the direction of the last move, most
+-- if it has the smallest length that a control is sent.
+exitUncertainty :: Machine -> Milling -> Mm -> Mm
+exitUncertainty machine milling reach = case Part.byControl milling of
+  Just _ -> times (2 * pulse / shortest) reach
+  Nothing -> Mm 0
+  where
+    Mm pulse = Machine.pulse machine
+    Mm shortest = Tolerance.controlLength
+
+-- | Largest distance of the centre from a contour, for the largest allowance of its elements. At a
+-- sharp corner the toolpath goes up to twice as far.
+largestReach :: Milling -> Mm -> Mm -> Mm
+largestReach milling allowance reach
+  | Part.corners milling == Part.Sharp = times 2 (plus reach allowance)
+  | otherwise = plus reach allowance
+
+-- | Tests for each pass whether it is the first one along its contour.
+areFirst :: [MillingPass] -> [Bool]
+areFirst passes =
+  zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
+
+lastOf :: [a] -> Maybe a
+lastOf = foldl' (\_ a -> Just a) Nothing

@@ -1,0 +1,188 @@
+-- | Deviation of one pass of a pocket, by distances alone: no motion cuts into the walls, and
+-- nothing that the cutter can reach is left.
+--
+-- Let A be the set of all positions of the cutter's centre that keep the cutter's radius and the
+-- allowance from the walls. The cutter can reach all points within its radius of A. Two things are
+-- shown at each depth:
+--
+-- * Rim: each point of the border of A has a motion close by. So the walls are cut wherever a
+--   cutter touches them. A reachable point outside of A is within the radius of the border, so it
+--   is cleared as well; this includes the corners.
+-- * Floor: each point of A is within the radius of a motion; see "Verify.PocketFloor".
+module Verify.PocketDeviation
+  ( examine,
+  )
+where
+
+import Base.Quantity (Mm (..), plus)
+import Data.List (find, foldl', minimumBy, sortOn)
+import Data.Maybe (fromMaybe, mapMaybe, maybeToList)
+import Data.Ord (comparing)
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Machine.Machine qualified as Machine
+import Part.Part (Element)
+import Part.Part qualified as Part
+import Verify.Coverage (Cover (Cover), Gap (..))
+import Verify.Coverage qualified as Coverage
+import Verify.Deviation qualified as Deviation
+import Verify.Gouge (KeepOut (searchRadius))
+import Verify.Gouge qualified as Gouge
+import Verify.Motion (CutterMotion (number, segment))
+import Verify.Motion qualified as Motion
+import Verify.MotionSet (MotionSet)
+import Verify.MotionSet qualified as MotionSet
+import Verify.Pocket (ClearingPass (..), Pocket (..))
+import Verify.Pocket qualified as Pocket
+import Verify.PocketFloor qualified as PocketFloor
+import Verify.Proof (ContourProof (ContourProof), Finding (..), Witness (Witness))
+import Verify.Proof qualified as Proof
+
+-- | Compare the tape with one pass of a pocket. The function tells the motions of the pass. In the
+-- first pass of the pocket, all motions near it are examined for gouges; in the others, only those
+-- of the pass.
+examine ::
+  MotionSet ->
+  (CutterMotion -> Bool) ->
+  Pocket ->
+  Bool ->
+  ClearingPass ->
+  (ContourProof, [Finding])
+examine set isOwn pocket isFirst pass = (contourProof, findings)
+  where
+    (allowedGouge, allowedExcess) = allowedIn set pocket
+    clearing = clearingMotions set pocket pass
+    examined =
+      filter
+        (\m -> MotionSet.isBelowTop m && (isFirst || isOwn m))
+        (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
+    keepOut m = Gouge.constantKeepOut (if isOwn m then reach pass else MotionSet.toolOf set m)
+    deepest = deepestGouge keepOut pocket examined
+    missed
+      | isFinal pass = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim pocket)
+      | otherwise = []
+    worst = Proof.deepest missed
+    tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
+    contourProof =
+      ContourProof
+        { Proof.contour = Part.contourName (Part.contour (milling pocket)),
+          Proof.gouge = deepest,
+          Proof.excess = worst,
+          Proof.allowedGouge,
+          Proof.allowedExcess
+        }
+    findings =
+      [ Gouge first w allowedGouge
+        | Just w <- [deepest],
+          Proof.amount w > allowedGouge,
+          Just first <- [firstGouge keepOut pocket allowedGouge examined]
+      ]
+        <> [Excess first (fromMaybe first worst) allowedExcess | first : _ <- [tooMuch]]
+        <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
+
+-- | Finding for a position in the final pass that is not cleared.
+floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
+floorFindings pocket pass allowedExcess clearing =
+  [ NotCleared (statement pocket) (level pass) p
+    | isFinal pass,
+      p <-
+        maybeToList
+          ( PocketFloor.unclearedPoint
+              pocket
+              (plus (Part.radius (milling pocket)) allowedExcess)
+              (BoxTree.byPlace Motion.box clearing)
+          )
+  ]
+
+-- | Allowed gouge and excess: the tolerance and one pulse; for the excess also the spare room of
+-- the rim.
+allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
+allowedIn set pocket =
+  (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
+  where
+    pulse = Machine.pulse (MotionSet.machine set)
+    (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
+    isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
+
+-- | Motions at the height of a pass with a cutter that is large enough. If one of them starts in
+-- the bounding box of the pocket, only those around the box are taken: none further away is the
+-- nearest one of any point of the pocket.
+clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
+clearingMotions set pocket pass
+  | any (startsInBounds . segment) around = around
+  | otherwise = filter isClearing (MotionSet.motions set)
+  where
+    around =
+      filter
+        isClearing
+        (MotionSet.nearby set (BoundingBox.inflate (diagonal (bounds pocket)) (bounds pocket)))
+    isClearing m =
+      (MotionSet.isFlat set || MotionSet.isAtHeight (MotionSet.machine set) (level pass) m)
+        && MotionSet.toolOf set m >= Part.radius (milling pocket)
+    startsInBounds s =
+      BoundingBox.meets (BoundingBox.ofPoints (Segment.start s) []) (bounds pocket)
+    diagonal (BoundingBox left bottom right top) =
+      Mm (Vec.norm (Vec.vec (right - left) (top - bottom)))
+
+-- | Deepest gouge of some motions into the walls of a pocket.
+deepestGouge :: (CutterMotion -> KeepOut) -> Pocket -> [CutterMotion] -> Maybe Witness
+deepestGouge keepOut pocket = foldl' orDeeper Nothing
+  where
+    orDeeper best m
+      | Gouge.mayGougeDeeper (keepOut m) best m (Motion.pathList m) (near m) =
+        maybe best (Just . Proof.deeper best) (Gouge.gougeOf (keepOut m) (walls pocket) m)
+      | otherwise = best
+    near m =
+      BoxTree.within
+        (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
+        (walls pocket)
+
+-- | First gouge into the walls of a pocket that is deeper than allowed.
+firstGouge :: (CutterMotion -> KeepOut) -> Pocket -> Mm -> [CutterMotion] -> Maybe Witness
+firstGouge keepOut pocket allowed motions =
+  find
+    ((> allowed) . Proof.amount)
+    (mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) motions)
+
+-- | Distances of the rim from the motions. A distance within the allowance is only given if it is
+-- larger than all before it.
+unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
+unreached allowance motions = go (Mm 0)
+  where
+    go least parts = case parts of
+      [] -> []
+      (e, s) : rest
+        | isSurelyCovered least s -> go least rest
+        | otherwise -> case Coverage.largestGap cover Nothing least s of
+          Nothing -> go least rest
+          Just gap ->
+            witness e gap : go (if size gap > allowance then least else size gap) rest
+    witness e Gap {size, location, members} =
+      Witness
+        { Proof.amount = size,
+          Proof.frame =
+            number (minimumBy (comparing (Coverage.distanceTo location . Motion.paths)) members),
+          Proof.element = Part.origin e,
+          Proof.location
+        }
+    isSurelyCovered least@(Mm d) s =
+      FastDistance.isCovered
+        d
+        Motion.pathList
+        (const True)
+        (BoxTree.within (BoundingBox.inflate least (BoundingBox.ofSegment s)) motions)
+        s
+    cover =
+      Cover
+        { Coverage.index = motions,
+          Coverage.pathsOf = Motion.paths,
+          Coverage.isEligible = const True,
+          Coverage.reach = Mm 0,
+          Coverage.allowance = allowance
+        }

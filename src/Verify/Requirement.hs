@@ -1,0 +1,123 @@
+-- | Facts about a milling that the proof works out from the part alone: the side of the cutter, the
+-- distance of its centre from the contour, the bevels along a swivelling blade.
+--
+-- The toolpath stage has functions of its own for the same facts. Nothing is imported from it here:
+-- a fault of the toolpath on one of these points makes the tape differ from the part as the proof
+-- sees it, and the tape is refused.
+module Verify.Requirement
+  ( cutterSide,
+    centreDistance,
+    isOnContour,
+    facingTheRoom,
+    bevels,
+  )
+where
+
+import Base.Quantity (Mm (..), plus)
+import Base.Region (Located (..))
+import Control.Applicative ((<|>))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isNothing)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Carrier qualified as Carrier
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Part.Part (Contour, Milling)
+import Part.Part qualified as Part
+
+-- Side and distance -------------------------------------------------------------------------------
+
+-- | Side of the contour on which the cutter has to be, in the direction of travel; nothing if the
+-- cutter runs on the contour. A closed contour has an interior. A turned profile has the axis of
+-- the spindle, @y = 0@, on its inside: a tool that turns outside is on the left if the profile
+-- leads to larger x.
+cutterSide :: Milling -> Maybe Carrier.Side
+cutterSide milling = case value (Part.side milling) of
+  Part.On -> Nothing
+  Part.LeftSide -> Just Carrier.LeftOf
+  Part.RightSide -> Just Carrier.RightOf
+  Part.Inside -> interior
+  Part.Outside -> fmap opposite interior
+  where
+    contour = Part.contour milling
+    interior = case (Part.ends contour, Part.work milling) of
+      (Part.Closed, _)
+        | isCounterClockwise contour -> Just Carrier.LeftOf
+        | otherwise -> Just Carrier.RightOf
+      (Part.Open, Part.Turned)
+        | Vec.x end >= Vec.x start -> Just Carrier.RightOf
+        | otherwise -> Just Carrier.LeftOf
+      (Part.Open, Part.Milled) -> Nothing
+    start = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))
+    end = Segment.end (Part.segment (NonEmpty.last (Part.elements contour)))
+
+opposite :: Carrier.Side -> Carrier.Side
+opposite side = case side of
+  Carrier.LeftOf -> Carrier.RightOf
+  Carrier.RightOf -> Carrier.LeftOf
+
+isCounterClockwise :: Contour -> Bool
+isCounterClockwise contour = Polyarc.areaOf Part.segment (Part.elements contour) > 0
+
+-- | Test that the cutter's centre runs on the contour itself.
+isOnContour :: Milling -> Bool
+isOnContour milling = value (Part.side milling) == Part.On
+
+-- | Distance of the cutter's centre from the contour, in mm, in a pass that leaves an allowance.
+centreDistance :: Milling -> Mm -> Mm
+centreDistance milling allowance
+  | isOnContour milling = allowance
+  | otherwise = plus (Part.radius milling) allowance
+
+-- | Outline and islands of a pocket, all with the free room on the side on which the outline has
+-- it: an island goes in the sense opposite to that of the outline.
+facingTheRoom :: Contour -> [Contour] -> [Contour]
+facingTheRoom outline islands = outline : map facing islands
+  where
+    facing island
+      | isCounterClockwise island == isCounterClockwise outline = Part.backwards island
+      | otherwise = island
+
+-- Bevels ------------------------------------------------------------------------------------------
+
+-- | Position along the contour in mm, and the bevel there in radians.
+data Known = Known Double Double
+
+-- | Bevels at the start and at the end of each element, in radians; nothing if no element has one.
+-- Between elements with a bevel it changes linearly with arc length, on a closed contour also
+-- across its start; before the first and after the last one of an open contour it is constant.
+bevels :: Contour -> Maybe (Vector (Double, Double))
+bevels contour
+  | Vector.all (isNothing . Part.bevel) elements = Nothing
+  | otherwise = Just (Vector.imap bevelOf elements)
+  where
+    elements = Vector.fromList (NonEmpty.toList (Part.elements contour))
+    bevelOf i element = case Part.bevel element of
+      Just given -> given
+      Nothing -> (at i (marks Vector.! i), at i (marks Vector.! (i + 1)))
+    at i = interpolated (earlier Vector.! i) (later Vector.! i)
+    -- Positions of the starts of all elements, and the length of the contour.
+    marks = Vector.scanl' (+) 0 (fmap lengthOf elements)
+    lengthOf e = let Mm l = Segment.length (Part.segment e) in l
+    starts = Vector.imap (\i e -> Known (marks Vector.! i) . fst <$> Part.bevel e) elements
+    ends = Vector.imap (\i e -> Known (marks Vector.! (i + 1)) . snd <$> Part.bevel e) elements
+    -- Last bevel at or before each element, first one at or after it.
+    earlier = Vector.postscanl' (flip (<|>)) (overStart (-1) lastOf ends) ends
+    later = Vector.postscanr' (<|>) (overStart 1 firstOf starts) starts
+    overStart sense pick known = case Part.ends contour of
+      Part.Open -> Nothing
+      Part.Closed -> (\(Known x b) -> Known (x + sense * Vector.last marks) b) <$> pick known
+    lastOf = Vector.foldl' (flip (<|>)) Nothing
+    firstOf = Vector.foldr (<|>) Nothing
+
+-- | Linear interpolation between two known bevels; constant where only one is known.
+interpolated :: Maybe Known -> Maybe Known -> Double -> Double
+interpolated before after x = case (before, after) of
+  (Just (Known p a), Just (Known q b))
+    | q > p -> a + (b - a) * (x - p) / (q - p)
+    | otherwise -> a
+  (Just (Known _ a), Nothing) -> a
+  (Nothing, Just (Known _ b)) -> b
+  (Nothing, Nothing) -> 0

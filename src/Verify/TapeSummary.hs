@@ -1,0 +1,62 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Summary of the frames of a tape, computed in one traversal because they are many.
+module Verify.TapeSummary
+  ( TapeSummary (..),
+    summarize,
+  )
+where
+
+import Base.PulseVector (Pulses3 (..))
+import Base.Quantity (Pulses)
+import Control.Applicative ((<|>))
+import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
+
+-- | Summary of a tape.
+data TapeSummary = TapeSummary
+  { -- | number of frames
+    count :: Int,
+    endPosition :: Pulses3,
+    -- | largest increment of each axis, without its sign
+    largestIncrement :: Pulses3,
+    -- | number of the first frame that ends at another height than the start
+    firstRisen :: Maybe Int,
+    -- | number of the first frame that differs from the program's own
+    firstDifference :: Maybe Int
+  }
+
+-- | Summarize the frames of a tape from a start position, compared with the program's own frames.
+summarize :: Pulses3 -> [Frame.Planned] -> [Frame] -> TapeSummary
+summarize begin@(Pulses3 _ _ startHeight) = go (TapeSummary 0 begin 0 Nothing Nothing)
+  where
+    go :: TapeSummary -> [Frame.Planned] -> [Frame] -> TapeSummary
+    go !summary planned frames = case frames of
+      []
+        | null planned -> summary
+        | otherwise -> summary {firstDifference = firstDifference summary <|> Just next}
+      f : more -> go (withFrame startHeight (isPlanned f planned) f summary) (drop 1 planned) more
+      where
+        next = count summary + 1
+    isPlanned f planned = case planned of
+      p : _ -> Frame.frame p == f
+      [] -> False
+
+-- | Summary with one more frame; the height at the start of the tape is given, and whether the
+-- frame is the program's own.
+withFrame :: Pulses -> Bool -> Frame -> TapeSummary -> TapeSummary
+withFrame startHeight isOwn f summary =
+  TapeSummary
+    { count = number,
+      endPosition = Pulses3 (x + dx) (y + dy) height,
+      largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
+      firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
+      firstDifference = firstDifference summary <|> if isOwn then Nothing else Just number
+    }
+  where
+    number = count summary + 1
+    Pulses3 x y z = endPosition summary
+    Pulses3 dx dy dz = increment f
+    Pulses3 a b c = largestIncrement summary
+    height = z + dz

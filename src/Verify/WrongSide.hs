@@ -1,0 +1,90 @@
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Motions along a contour on the wrong side of it.
+module Verify.WrongSide
+  ( wrongSide,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Data.List (minimumBy)
+import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Ord (comparing)
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
+import Geometry.Distance qualified as Distance
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part qualified as Part
+import Verify.Edge (Edge (element, long, shape))
+import Verify.Edge qualified as Edge
+import Verify.MillingJob (MillingJob (..))
+import Verify.MillingJob qualified as MillingJob
+import Verify.Motion (CutterMotion (number, segment))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Finding (WrongSide))
+
+-- | Finding for a motion that is beside an element on the wrong side. A line is sampled at its
+-- middle, an arc between the points of 'Motion.samples'. The elements that the cutter may touch in
+-- the motion are given.
+wrongSide :: MillingJob -> CutterMotion -> [Edge] -> Maybe Finding
+wrongSide job m close = do
+  demanded <- side job
+  let suspicious = filter (mayBeWrong job demanded close around) sampled
+  listToMaybe (mapMaybe (wrongAt job demanded m around) suspicious)
+  where
+    around = MillingJob.edgesInBox job m
+    sampled = map (\k -> Segment.at k (segment m)) fractions
+    fractions
+      | FastDistance.isLine (segment m) = [0.5]
+      | otherwise = let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
+
+-- | Test by fast bounds that one of the elements nearest to a point may have it on its wrong side.
+-- The elements that the cutter may touch are tried first, then all elements around the motion.
+mayBeWrong :: MillingJob -> Side -> [Edge] -> [Edge] -> Point -> Bool
+mayBeWrong job demanded close around p =
+  least > a - FastDistance.unsure && any isWrong near
+  where
+    (x, y) = (Vec.x p, Vec.y p)
+    Mm a = allowance job
+    Mm limit = MillingJob.contactLimit job
+    leastOf es = Edge.leastDistance (1 / 0) es x y
+    (near, least)
+      | ofClose + FastDistance.unsure <= limit = (close, ofClose)
+      | otherwise = (around, leastOf around)
+    ofClose = leastOf close
+    isWrong e =
+      FastDistance.mayLieWithin (least + FastDistance.unsure) (long e) (shape e) x y
+        && FastDistance.distance (shape e) x y <= least + FastDistance.unsure
+        && FastDistance.spansAbout (shape e) x y
+        && not (isOn e)
+    isOn e = case demanded of
+      Carrier.LeftOf -> FastDistance.isLeftOf (FastDistance.spot x y) (shape e)
+      Carrier.RightOf -> FastDistance.isRightOf (FastDistance.spot x y) (shape e)
+
+-- | Exact test at one point, against the nearest element.
+wrongAt :: MillingJob -> Side -> CutterMotion -> [Edge] -> Point -> Maybe Finding
+wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | e <- around] of
+  [] -> Nothing
+  distances
+    | d > allowance job
+        && Segment.spans (segmentOf nearest) p
+        && sideOf p (segmentOf nearest) /= demanded ->
+      Just (WrongSide (number m) (Part.origin (element nearest)))
+    | otherwise -> Nothing
+    where
+      (d, nearest) = minimumBy (comparing fst) distances
+  where
+    segmentOf = Part.segment . element
+
+-- | Side of a segment on which a point lies.
+sideOf :: Point -> Segment -> Side
+sideOf p s
+  | Vec.cross ahead (Vec.to foot p) > 0 = Carrier.LeftOf
+  | otherwise = Carrier.RightOf
+  where
+    foot = Segment.at (Segment.fraction s p) s
+    ahead = Segment.directionAt (Segment.fraction s p) s

@@ -1,0 +1,175 @@
+-- | Independence of the proof from the toolpath: 'Verify.Requirement' works out the side of the
+-- cutter, its distance from the contour and the bevels of a blade from the part.
+--
+-- A law that requires a proven tape is also a law against the toolpath. If the toolpath chooses a
+-- wrong side, the program still compiles, and only the proof can refuse its tape. The mutants of
+-- these laws are in the toolpath.
+module Verify.RequirementSpec (spec) where
+
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..))
+import Base.Result qualified as Result
+import Compile (Analysis (..), Punched (..))
+import Compile qualified
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Vector qualified as Vector
+import Frame.Frame qualified as Frame
+import Frame.FromToolpath qualified as FromToolpath
+import Generate qualified
+import Machine.Machine (Machine)
+import Machines (iso6983)
+import Machines qualified
+import Part.Part (Milling)
+import Part.Part qualified as Part
+import Test.Hspec
+import Test.QuickCheck
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.FromTape qualified as Verify
+import Verify.Proof (Finding (..), Proof)
+import Verify.Proof qualified as Proof
+import Verify.Requirement qualified as Requirement
+
+spec :: Spec
+spec = do
+  describe "the side of the cutter" $
+    mapM_
+      onItsSide
+      [ ("outside a closed contour", "mill c outside { depth 2 }"),
+        ("inside a closed contour", "mill c inside { depth 2 }"),
+        ("outside a clockwise contour", "mill turned outside { depth 2 }"),
+        ("on the left", "mill l left { depth 2 }"),
+        ("on the right", "mill l right { depth 2 }"),
+        ("in a pocket", "pocket c step 4 { depth 2 }")
+      ]
+  describe "the side of a turning tool" $
+    mapM_
+      onItsSideOfAShaft
+      [ ("outside", "turn shaft outside { approach (5, 21) }"),
+        ("inside", "turn shaft inside { approach (5, 19) }")
+      ]
+  it
+    "the bevel of a blade is proven between elements of different length (catches a bevel that \
+    \changes by the number of elements)"
+    $ do
+      (path', proof) <- proven iso6983 bladeProgram
+      Proof.findings proof `shouldBe` []
+      [Vector.toList b | Just b <- map Requirement.bevels (contoursOf path')]
+        `shouldSatisfy` all
+          (and . zipWith isNear (concatMap pair [(0, 0), (0, 2), (2, 8), (8, 8)]) . concatMap pair)
+  it
+    "the distance of the cutter is that of the part (catches a proof with the distance that the \
+    \toolpath gives)"
+    $ property $
+      forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
+        case Generate.milled (Mm 0.02) c of
+          Nothing -> discard
+          Just laid -> case Result.output (FromToolpath.quantise lkp01f laid) of
+            Nothing -> discard
+            Just program ->
+              let prove path' =
+                    Proof.findings
+                      (Verify.prove lkp01f path' program (map Frame.frame (Frame.planned program)))
+                  larger = withJobs (\m -> m {Part.radius = Mm (Generate.radiusOf c + 0.2)}) laid
+               in prove (withReach (Mm 0) laid) === []
+                    .&&. counterexample "a larger cutter" (any isGouge (prove larger))
+  where
+    onItsSide (name, statement) =
+      it (name <> " is that of the part (catches a toolpath on the other side)") $ do
+        (_, proof) <- proven iso6983 (millingProgram statement)
+        Proof.findings proof `shouldBe` []
+    onItsSideOfAShaft (name, statement) =
+      it (name <> " is that of the part (catches a toolpath on the other side)") $ do
+        (_, proof) <- proven lkp01f (turningProgram statement)
+        Proof.findings proof `shouldBe` []
+    isGouge finding = case finding of
+      Gouge {} -> True
+      _ -> False
+    pair (a, b) = [a, b]
+    isNear degrees b = abs (degrees * pi / 180 - b) < 1e-9
+
+lkp01f :: Machine
+lkp01f = Machines.named "lkp-01f"
+
+-- | Toolpath of a program and the proof of its own tape.
+proven :: Machine -> Text -> IO (Toolpath, Proof)
+proven machine text =
+  maybe (fail "the program has errors") pure . Result.settled $
+    Compile.analyse [] (Compile.alone "p.part" text) `Result.thenSound` \a ->
+      Compile.punch machine (path a) `Result.thenSound` \p ->
+        pure (path a, proofOf (path a) (program p))
+  where
+    proofOf path' program' =
+      Verify.prove machine path' program' (map Frame.frame (Frame.planned program'))
+
+-- | Program whose toolpath exists on both sides of each contour: the cutter goes down where it
+-- begins to cut.
+millingProgram :: Text -> Text
+millingProgram statement =
+  Text.unlines
+    [ "part p",
+      "tool mill(diameter 6 mm)",
+      "feed 60 mm/min",
+      "tolerance 0.02 mm",
+      "clearance 5 mm",
+      "from (0, 0, 10)",
+      "contour c closed { ccw circle((0, 0), 30) }",
+      "contour turned closed { cw circle((0, 0), 30) }",
+      "contour l open { line((0, 0), (40, 10)) }",
+      statement
+    ]
+
+turningProgram :: Text -> Text
+turningProgram statement =
+  Text.unlines
+    [ "part p",
+      "machine lkp-01f",
+      "tool turn(nose 1 mm)",
+      "feed 40",
+      "tolerance 0.01",
+      "from (10, 40)",
+      "contour shaft open { line((0, 20), (-30, 20)) }",
+      statement
+    ]
+
+-- | Two elements of lengths 10 and 30 without a bevel, between one of 0° and one of 8°.
+bladeProgram :: Text
+bladeProgram =
+  Text.unlines
+    [ "part p",
+      "machine iso6983",
+      "tool blade(diameter 8 mm, gear 36 mm)",
+      "feed 100 mm/min",
+      "tolerance 0.02 mm",
+      "clearance 30 mm",
+      "from (-50, 20, 40)",
+      "contour edge open {",
+      "  line((0, 0), (30, 0)) bevel 0",
+      "  line((30, 0), (30, -10))",
+      "  line((30, -10), (0, -10))",
+      "  line((0, -10), (0, -5)) bevel 8",
+      "}",
+      "mill edge left { depth 3 }"
+    ]
+
+-- | Contours of the cuts of a toolpath.
+contoursOf :: Toolpath -> [Part.Contour]
+contoursOf p = [Part.contour m | Toolpath.Cutting {Toolpath.job = Located _ m} <- Toolpath.blocks p]
+
+-- | Toolpath with other statements.
+withJobs :: (Milling -> Milling) -> Toolpath -> Toolpath
+withJobs change p = p {Toolpath.blocks = map changed (Toolpath.blocks p)}
+  where
+    changed block = case block of
+      Toolpath.Cutting {Toolpath.job = Located at m} -> block {Toolpath.job = Located at (change m)}
+      _ -> block
+
+-- | Toolpath that claims another distance from the contour.
+withReach :: Mm -> Toolpath -> Toolpath
+withReach reach p = p {Toolpath.blocks = map changed (Toolpath.blocks p)}
+  where
+    changed block = case block of
+      Toolpath.Cutting {Toolpath.pass} ->
+        block {Toolpath.pass = pass {Toolpath.reach = reach}}
+      _ -> block
