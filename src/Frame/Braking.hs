@@ -2,8 +2,8 @@
 -- themselves.
 --
 -- To slow down from the feed v to v₂ a machine needs the length @(v² − v₂²) / 2a@. So at the
--- distance s before a lower feed v₂ it may run at @√(v₂² + 2as)@ at most. Where a move is faster, it
--- is cut, and the frames from there to the lower feed are marked as braking.
+-- distance s before a lower feed v₂ it may run at @√(v₂² + 2as)@ at most. Where a move is faster,
+-- it is cut, and the frames from there to the lower feed are marked as braking.
 --
 -- A machine without such a mark has slow frames only. The program asks for them at the end of an
 -- element, and they take the length @v² / 2a@ at the lowest feed code.

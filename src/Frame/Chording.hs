@@ -110,8 +110,8 @@ mostEqualised = 256
 bisections :: Int
 bisections = 5
 
--- | Chords of nearly equal length in place of the @others@ at the end of a plan. Greedy chords are as
--- long as the bounds allow, so the last one is a short remainder. Bisection finds the tightest
+-- | Chords of nearly equal length in place of the @others@ at the end of a plan. Greedy chords are
+-- as long as the bounds allow, so the last one is a short remainder. Bisection finds the tightest
 -- limits that need no more chords; under these the last chord is about as long as the rest.
 equalised :: ChordPlan -> [RunPoint] -> [RunPoint] -> [RunPoint]
 equalised plan kept others = go bisections (1 - 1 / fromIntegral (length others)) 1 others

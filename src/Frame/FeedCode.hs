@@ -29,8 +29,8 @@ import Machine.Machine qualified as Machine
 codeFor :: Machine -> Feed -> Frame -> Mm -> FeedChoice
 codeFor machine v f l = Machine.choose machine (codeValue machine v f l)
 
--- | Feed in the unit of the machine's codes, for a frame of the given length: mm/min along the path,
--- or pulses per second of the leading axis.
+-- | Feed in the unit of the machine's codes, for a frame of the given length: mm/min along the
+-- path, or pulses per second of the leading axis.
 codeValue :: Machine -> Feed -> Frame -> Mm -> Double
 codeValue machine (Feed v) f l = maybe v (v / 60 *) (pulsesPerMm machine f l)
 

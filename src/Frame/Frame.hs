@@ -232,8 +232,8 @@ commandFaults machine n f =
       o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)
   ]
 
--- | True for an arc within one quadrant about its centre, computed in whole pulses: both ends lie in
--- the same quadrant, and the arc does not leave it in between.
+-- | True for an arc within one quadrant about its centre, computed in whole pulses: both ends lie
+-- in the same quadrant, and the arc does not leave it in between.
 isInQuadrant :: Sense -> Frame -> Bool
 isInQuadrant sense f = a * c >= 0 && b * d >= 0 && isForward (a * d - b * c)
   where

@@ -72,8 +72,8 @@ quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
   path@Toolpath {Toolpath.start = Located startRegion (SpacePoint startPoint startHeight)} =
-    -- These errors are evaluated before there are frames; else they would keep the whole toolpath in
-    -- memory while the frames are made.
+    -- These errors are evaluated before there are frames; else they would keep the whole toolpath
+    -- in memory while the frames are made.
     foldr seq () (tooCoarse <> tooMany) `seq` case errorsOf tooCoarse tooMany made of
       [] -> Result warnings [] (Just (FrameProgram begin frames))
       problems
@@ -294,8 +294,8 @@ addStep context@Context {machine} instruction made step = case instruction of
               (Planned f' role (origin m) cutterRadius)
               made {pending = Nothing}
 
--- | Add a frame. Given are its feed in the program, 'Part.Rapid' where the compiler sets it, and the
--- position at its end.
+-- | Add a frame. Given are its feed in the program, 'Part.Rapid' where the compiler sets it, and
+-- the position at its end.
 addFrame :: Context -> Pace -> Pulses3 -> Planned -> Making -> Making
 addFrame Context {frameContext} feed end !p made =
   made
@@ -381,7 +381,8 @@ curveSteps machine grid begin bounds run =
         (ArcFitting.divisions machine bounds run)
     )
 
--- | Position at the end of a part of a run, and its steps. The given move of the run has its height.
+-- | Position at the end of a part of a run, and its steps. The given move of the run has its
+-- height.
 partSteps ::
   Machine -> Arc.Grid -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
 partSteps machine grid bounds m begin part = case part of
@@ -391,10 +392,11 @@ partSteps machine grid bounds m begin part = case part of
   ArcFitting.Arcs segments ->
     let allowance = ArcFitting.roundingAllowance machine bounds
         chordError = Sagitta (Chord.remainder machine allowance)
-        ends = map (\s -> Rounding.rounded machine (Segment.end s, level)) (NonEmpty.toList segments)
+        tolerance = ArcTolerance allowance allowance allowance
+        ends = [Rounding.rounded machine (Segment.end s, level) | s <- NonEmpty.toList segments]
         parts =
           zipWith
-            (segmentSteps machine grid (ArcTolerance allowance allowance allowance) chordError m)
+            (segmentSteps machine grid tolerance chordError m)
             (begin : ends)
             (NonEmpty.toList segments)
      in (lastOr begin ends, concat parts)

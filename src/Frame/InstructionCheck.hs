@@ -111,8 +111,8 @@ boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany fin
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 
--- | Check the next instruction. The ends of the chords of its run are given; they are evaluated only
--- along a curve on a machine without arcs.
+-- | Check the next instruction. The ends of the chords of its run are given; they are evaluated
+-- only along a curve on a machine without arcs.
 check ::
   InstructionContext ->
   Instruction ->

@@ -121,7 +121,8 @@ isBetter context arc ends best k c =
         all (isLess . Deviation.linearErrorAt frameArc) samples
           && isLess (linear (Deviation.sampledDeviation frameArc))
 
--- | Fractions of a sweep between its ends; those first at which the deviation is likely to be large.
+-- | Fractions of a sweep between its ends; those first at which the deviation is likely to be
+-- large.
 samples :: [Double]
 samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
@@ -170,8 +171,8 @@ isWithinTolerance allowed d =
     && Mm (inward d) <= inwards allowed
     && Mm (outward d) <= outwards allowed
 
--- | Step between two grid points about the grid point @c@. An arc that a cut has left nearly straight
--- becomes a line.
+-- | Step between two grid points about the grid point @c@. An arc that a cut has left nearly
+-- straight becomes a line.
 legBetween :: ArcContext -> RoundedArc -> Pulses2 -> Pulses2 -> Pulses2 -> Leg
 legBetween context arc c from to =
   Leg
@@ -236,8 +237,8 @@ swept s = case s of
 isNearlyStraight :: ArcContext -> Segment -> Bool
 isNearlyStraight context s = Segment.bulge s < Mm (0.5 * pulse (grid context))
 
--- | True if straight steps through some grid points stay within the tolerance of an arc. A sagitta of
--- half a pulse and the rounding of the ends together exceed a pulse, so this has to be tested.
+-- | True if straight steps through some grid points stay within the tolerance of an arc. A sagitta
+-- of half a pulse and the rounding of the ends together exceed a pulse, so this has to be tested.
 isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
 isStraightEnough context exact stops = case exact of
   Straight _ _ -> True

@@ -87,8 +87,8 @@ deviationOf tolerance exact ofFrame =
 
 -- | Deviation at the ends of an arc, if that is provably the largest one and the arc stays within
 -- the smaller tolerance whatever the control does. Between the ends the deviation is interpolated
--- linearly, up to @φ²·v/8@ for a centre that is off by v and a sweep φ. The bound used here is twice
--- that, for the terms of second order in v.
+-- linearly, up to @φ²·v/8@ for a centre that is off by v and a sweep φ. The bound used here is
+-- twice that, for the terms of second order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe Deviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1

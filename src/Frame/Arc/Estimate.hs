@@ -82,8 +82,9 @@ endsOf grid arc
     Mm toA = Vec.distance (centre arc) a
     Mm toB = Vec.distance (centre arc) b
 
--- | Estimated deviation in mm of an arc about a grid point: the largest of those at its middle and at
--- its end with the radius of the beginning, and at its middle with a linear change of the radius.
+-- | Estimated deviation in mm of an arc about a grid point: the largest of those at its middle and
+-- at its end with the radius of the beginning, and at its middle with a linear change of the
+-- radius.
 --
 -- About a centre that is off by a vector v, the deviation is @e + v·(u − u₀)@ where the exact
 -- radius has the direction u. Here e is the deviation at the beginning and u₀ the direction there.
