@@ -21,7 +21,7 @@ where
 
 import Base.PulseVector (Pulses3 (..), flat)
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
-import Data.Maybe (mapMaybe)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Frame.Arc.Attempt qualified as Attempt
 import Frame.Arc.Centre qualified as Centre
 import Frame.Arc.Context
@@ -29,12 +29,13 @@ import Frame.Arc.Context
     ArcStep (..),
     ArcTolerance (..),
     Grid (..),
+    RoundedArc (..),
     gridOf,
   )
 import Frame.Arc.Context qualified as Context
 import Frame.Rounding qualified as Rounding
 import Geometry.Carrier (Sense (..))
-import Geometry.Segment (Segment (..))
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 
@@ -59,45 +60,38 @@ mostHalvings = 5
 halved :: Int -> ArcContext -> Pulses3 -> Segment -> [ArcStep]
 halved halvings context begin s = case s of
   Straight _ _ -> asLine
-  Arc {centre, sweep = Rad sweep}
+  Segment.Arc {Segment.centre, Segment.sweep = Rad sweep}
     | Attempt.isNearlyStraight context s
         && Attempt.isStraightEnough context s (flat begin : map (flat . target) asLine) ->
       asLine
     | halvings <= 0 || not (isCentreFitting context begin centre radius) ->
       map straightTo (chordsOf context begin s)
     | otherwise ->
-      let sense = if sweep > 0 then CounterClockwise else Clockwise
-          arc =
-            Context.RoundedArc
-              { Context.begin,
-                Context.finish,
-                Context.exact = s,
-                Context.centre,
-                Context.radius,
-                Context.sweep,
-                Context.sense
-              }
-          candidates = [Centre.nearCentres context arc, Centre.remoteCentres context arc]
-       in case mapMaybe (Attempt.bestAbout context arc) candidates of
-            found : _ -> found
-            [] ->
-              let (front, back) = Segment.cutAt 0.5 s
-                  middle = Context.roundedPoint context (Segment.end front)
-               in halved (halvings - 1) context begin front
-                    <> halved (halvings - 1) context middle back
+      let arc = RoundedArc {begin, finish, exact = s, centre, radius, sweep, sense}
+       in fromMaybe halves (asArcs context arc)
     where
       radius = Segment.radius centre (Segment.start s)
+      sense = if sweep > 0 then CounterClockwise else Clockwise
   where
     finish = Context.roundedPoint context (Segment.end s)
     straightTo p = ArcStep {target = p, turnsAbout = Nothing}
-    asLine =
-      map
-        straightTo
-        ( Rounding.split
-            (machine (grid context))
-            begin
-            ((Segment.start s, height context), (Segment.end s, height context))
-        )
+    asLine = map straightTo (Rounding.split (machine (grid context)) begin (from, to))
+    from = (Segment.start s, height context)
+    to = (Segment.end s, height context)
+    halves =
+      let (front, back) = Segment.cutAt 0.5 s
+          middle = Context.roundedPoint context (Segment.end front)
+       in halved (halvings - 1) context begin front <> halved (halvings - 1) context middle back
+
+-- | Steps of a rounded arc about the best of the candidates for its centre. Those near the exact
+-- centre have priority.
+asArcs :: ArcContext -> RoundedArc -> Maybe [ArcStep]
+asArcs context arc =
+  listToMaybe
+    ( mapMaybe
+        (Attempt.bestAbout context arc)
+        [Centre.nearCentres context arc, Centre.remoteCentres context arc]
+    )
 
 -- | True for an arc whose centre fits its field from the beginning and from every other point of
 -- the arc. A centre for which this is false could be used for some parts of the arc only.

@@ -338,38 +338,41 @@ furthestReachable limits view best before run = case run of
     | otherwise -> furthestReachable limits view better after more
     where
       t = turnLimit limits before move
-      tangents = tangentsTo limits view move
-      sectorAt u =
-        let on = Segment.at u (segment move)
-         in narrowed limits view before move tangents u on (meeting limits move u on run)
-      after = sectorAt t
-      better = maybe best found (lastReachable limits view before move sectorAt (t, after))
+      outlook =
+        Outlook {limits, view, before, move, run, tangents = tangentsTo limits view move}
+      after = sectorAt outlook t
+      better = maybe best found (lastReachable outlook (t, after))
       found u =
         Just (travelled before + lengthBetween (from move) u move, pointOn limits move u run)
 
--- | Last fraction of a move that a chord can reach. Given are the sector before the move, the
--- sector at any fraction of it, and the last fraction to be tried with its sector.
-lastReachable ::
-  Limits ->
-  Viewpoint ->
-  Sector ->
-  MoveRest ->
-  (Double -> Sector) ->
-  (Double, Sector) ->
-  Maybe Double
-lastReachable limits view before move sectorAt (t, after) = case search limits of
+-- | Move that a chord from the viewpoint may end in.
+data Outlook = Outlook
+  { limits :: Limits,
+    view :: Viewpoint,
+    -- | the sector at the beginning of the move
+    before :: Sector,
+    move :: MoveRest,
+    -- | the run that begins with the move
+    run :: [MoveRest],
+    tangents :: Tangents
+  }
+
+-- | Last fraction of a move that a chord can reach, from the last fraction to be tried and its
+-- sector.
+lastReachable :: Outlook -> (Double, Sector) -> Maybe Double
+lastReachable outlook@Outlook {limits, view, before, move} (t, after) = case search limits of
   AtEnds
     | isReachable after -> Just t
     | isReachable before,
-      u <- lastWithin (excess . sectorAt) (from move, excess before) (t, excess after),
+      u <- lastWithin (excess . sectorAt outlook) (from move, excess before) (t, excess after),
       u > from move ->
       Just u
     | otherwise -> Nothing
   Anywhere ->
     lastBetween
-      sectorAt
+      (sectorAt outlook)
       ( (t, after) :
-        [(u, sectorAt u) | u <- turningPoints limits view move t]
+        [(u, sectorAt outlook u) | u <- turningPoints limits view move t]
           <> [(from move, before)]
       )
 
@@ -377,17 +380,17 @@ lastReachable limits view before move sectorAt (t, after) = case search limits o
 -- Between two neighbouring fractions the direction of the chord changes monotonically. The lowest
 -- fraction itself does not count.
 lastBetween :: (Double -> Sector) -> [(Double, Sector)] -> Maybe Double
-lastBetween sectorAt marks = case marks of
+lastBetween sectorOf marks = case marks of
   (high, atHigh) : earlier@((low, atLow) : _)
     | isReachable atHigh -> Just high
-    | u : _ <- filter (\u -> u > low && isReachable (sectorAt u)) crossings -> Just u
-    | otherwise -> lastBetween sectorAt earlier
+    | u : _ <- filter (\u -> u > low && isReachable (sectorOf u)) crossings -> Just u
+    | otherwise -> lastBetween sectorOf earlier
     where
       crossings =
-        [ bisected (\u -> miss (sectorAt u) /= miss atHigh) low high
+        [ bisected (\u -> miss (sectorOf u) /= miss atHigh) low high
           | miss atLow /= miss atHigh
         ]
-          <> [ lastWithin (excess . sectorAt) (low, excess atLow) (high, excess atHigh)
+          <> [ lastWithin (excess . sectorOf) (low, excess atLow) (high, excess atHigh)
                | isReachable atLow
              ]
   _ -> Nothing
@@ -479,11 +482,9 @@ tangentsTo limits view move =
           [let Rad toCentre = Vec.turn (forward view) away in toCentre - asin sine]
       _ -> []
 
--- | Sector at fraction @t@ of a move, from the sector before the move. Given are the point of the
--- run at @t@ and the meeting point there, which is the end of the chord that is judged.
-narrowed ::
-  Limits -> Viewpoint -> Sector -> MoveRest -> Tangents -> Double -> Point -> Point -> Sector
-narrowed limits view before move tangents t on goal =
+-- | Sector at fraction @t@ of a move, with the verdict on the chord to the meeting point there.
+sectorAt :: Outlook -> Double -> Sector
+sectorAt Outlook {limits, view, before, move, run, tangents} t =
   Sector
     { leastDirection = low,
       mostDirection = high,
@@ -493,11 +494,19 @@ narrowed limits view before move tangents t on goal =
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
       travelled = covered,
-      miss = if isChord then Miss byDirection bySlope else Miss LT LT,
-      excess = if isChord then max excessDirection excessSlope else 1
+      miss =
+        if isChord
+          then Miss (side low high along) (side lowSlope highSlope slope)
+          else Miss LT LT,
+      excess =
+        if isChord
+          then max (outside low high along) (outside lowSlope highSlope slope)
+          else 1
     }
   where
     covered = travelled before + lengthBetween (from move) t move
+    on = Segment.at t (segment move)
+    goal = meeting limits move t on run
     toPoint = Vec.to (eye view) on
     distance = Vec.norm toPoint
     chord = Vec.to (eye view) goal
@@ -519,14 +528,21 @@ narrowed limits view before move tangents t on goal =
           [direction + asin (rightOf limits / distance) | distance > rightOf limits]
             <> [d | d <- onRight tangents, heading before <= d, d <= after]
         )
-    after = case segment move of
-      Straight _ _ -> heading before
-      Arc {sweep = Rad s} -> heading before + s * (t - from move)
-    byDirection = side low high along
-    bySlope = side lowSlope highSlope slope
-    excessDirection = max (low - along) (along - high)
-    excessSlope = max (lowSlope - slope) (slope - highSlope)
-    side a b x
-      | x < a = LT
-      | x > b = GT
-      | otherwise = EQ
+    after = headingAt move (heading before) t
+
+-- | Direction of the run at fraction @t@ of a move, from that at the beginning of the move.
+headingAt :: MoveRest -> Double -> Double -> Double
+headingAt move before t = case segment move of
+  Straight _ _ -> before
+  Arc {sweep = Rad s} -> before + s * (t - from move)
+
+-- | Position of a number relative to an interval; 'EQ' is within.
+side :: Double -> Double -> Double -> Ordering
+side low high x
+  | x < low = LT
+  | x > high = GT
+  | otherwise = EQ
+
+-- | Distance of a number from an interval; at most 0 within.
+outside :: Double -> Double -> Double -> Double
+outside low high x = max (low - x) (x - high)

@@ -156,16 +156,12 @@ foldDigits add layout frame w n start = case service f of
     meaning = InWord (content w) n
     count = Layout.digitCount f (abs n)
     rest = lowestDigits count (abs n)
-    pointAt k before =
-      if k == decimals f - 1
-        then let Symbol.Symbol _ h weight = point layout in add before h weight (meaning Point)
-        else pure before
     -- The digits of the rest from place k down to 0.
     plainDigits k !left !before
       | k < 0 = pure before
       | otherwise = do
         let d = left `quot` Layout.power k
-        ready <- pointAt k before
+        ready <- addPoint add layout w n k before
         next <- addDigit add layout (meaning (Digit d k NoHole False)) d ready
         plainDigits (k - 1) (left - d * Layout.power k) next
     serviceDigits k !services !left !before
@@ -180,11 +176,28 @@ foldDigits add layout frame w n start = case service f of
               if isPunched
                 then Symbol.serviceDigit (symbols layout) d
                 else Symbol.digit (symbols layout) d
-        ready <- pointAt k before
+        ready <- addPoint add layout w n k before
         next <-
           add ready holes (Symbol.digitWeight (symbols layout) d) (meaning (Digit d k s isPunched))
         serviceDigits (k - 1) (drop 1 services) (left - d * Layout.power k) next
 {-# INLINE foldDigits #-}
+
+-- | Add the decimal point if it comes before the digit in place @k@.
+addPoint ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Layout ->
+  Word' ->
+  Int ->
+  Int ->
+  r ->
+  m r
+addPoint add layout w n k before
+  | k == decimals (form w) - 1 =
+    let Symbol.Symbol _ h weight = point layout
+     in add before h weight (InWord (content w) n Point)
+  | otherwise = pure before
+{-# INLINE addPoint #-}
 
 -- | Upper bound for the number of rows of a frame.
 mostRows :: Layout -> Int
