@@ -1,10 +1,10 @@
--- | Curves on machines that walk arcs. A run of moves along a curve holds the arcs that stand for
--- it to 'Tolerance.curve'; within what a job allows far fewer do.
+-- | Curves on machines with circular interpolation. The arcs in a run approximate its curve to
+-- 'Tolerance.curve'. Far fewer arcs are enough within the tolerance of a job.
 module Frame.ArcFitting
   ( RunPart (..),
-    ways,
+    divisions,
     arcs,
-    remainder,
+    roundingAllowance,
   )
 where
 
@@ -21,91 +21,93 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (segment))
 
--- | How far the arcs may leave the curve: by what is allowed on the side where less is. Where that
--- is nothing to speak of, as in a band that lies on one side of the contour, by a small share of a
--- pulse, which is to be taken from what rounding may add.
-allowance :: Machine -> Bounds -> Mm
-allowance machine bounds =
+-- | Largest distance of the fitted arcs from the curve: the smaller one of the two bounds. If that
+-- is nearly 0, as in a band on one side of the contour, it is 'leastShare' of a pulse. The excess
+-- is then subtracted from the error allowed for rounding, see 'roundingAllowance'.
+fitTolerance :: Machine -> Bounds -> Mm
+fitTolerance machine bounds =
   max (times leastShare (Machine.pulse machine)) (min (left bounds) (right bounds))
 
--- | A pulse's share that arcs may always be off.
+-- | Share of a pulse that the fitted arcs may always deviate.
 leastShare :: Double
 leastShare = 0.1
 
--- | What the arcs leave of the pulse that rounding may add.
-remainder :: Machine -> Bounds -> Mm
-remainder machine bounds =
+-- | Error allowed for rounding: one pulse, less what the fitted arcs exceed the bounds by.
+roundingAllowance :: Machine -> Bounds -> Mm
+roundingAllowance machine bounds =
   minus
     (Machine.pulse machine)
-    (max (Mm 0) (minus (allowance machine bounds) (min (left bounds) (right bounds))))
+    (max (Mm 0) (minus (fitTolerance machine bounds) (min (left bounds) (right bounds))))
 
--- | A part of a run, and how it is walked.
+-- | Part of a run, and its representation in frames.
 data RunPart
-  = -- | in chords
+  = -- | moves to be divided into chords
     Chords (NonEmpty Move)
-  | -- | on arcs and lines that stand for it
+  | -- | fitted arcs and lines
     Arcs (NonEmpty Segment)
   deriving stock (Eq, Show)
 
--- | Ways to walk a run at one height, in parts one behind the other: on arcs, and if the centres of
--- some of them do not fit their fields, in chords where the run itself is so nearly straight, or
--- everywhere as well.
-ways :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
-ways machine bounds run
-  | or kinds && (any isBent few || length few <= mostTried) =
-    [Arcs few] :| [map part (NonEmpty.groupBy (\(a, _) (b, _) -> a == b) (zip kinds moves))]
-      <> [[Chords run] | mayBeFewer]
-  | otherwise = [Arcs few] :| []
+-- | Alternative divisions of a level run into parts, of which the one with the fewest frames is to
+-- be taken. The first has only fitted arcs. If the centres of some arcs of the run do not fit their
+-- fields, the second has chords for these moves and fitted arcs for the others, and the third has
+-- chords for the whole run.
+divisions :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
+divisions machine bounds run
+  | or kinds && (any isRemoteBend fitted || length fitted <= mostTried) =
+    [Arcs fitted] :| [map part (NonEmpty.groupBy (\(a, _) (b, _) -> a == b) (zip kinds moves))]
+      <> [[Chords run] | mayNeedFewerChords]
+  | otherwise = [Arcs fitted] :| []
   where
-    few = onArcs run
+    fitted = fit run
     moves = NonEmpty.toList run
-    -- A straight move is walked like what is before it.
-    kinds = drop 1 (scanl (\before m -> fromMaybe before (isFar (segment m))) False moves)
-    part ms@((far, _) :| _)
-      | far = Chords (fmap snd ms)
-      | otherwise = Arcs (onArcs (fmap snd ms))
-    onArcs = arcs (allowance machine bounds)
-    isFar s = case s of
+    -- A line is treated like the arc before it.
+    kinds = drop 1 (scanl (\before m -> fromMaybe before (isRemote (segment m))) False moves)
+    part ms@((isRemotePart, _) :| _)
+      | isRemotePart = Chords (fmap snd ms)
+      | otherwise = Arcs (fit (fmap snd ms))
+    fit = arcs (fitTolerance machine bounds)
+    -- True for an arc whose centre does not fit its field; none for a line.
+    isRemote s = case s of
       Straight _ _ -> Nothing
-      Arc {start, centre} -> Just (Segment.radius centre start >= most)
-    -- What leaves its chord by less is walked straight, wherever its centre is.
-    isBent s = isFar s == Just True && Segment.bulge s >= times 0.5 (Machine.pulse machine)
-    -- A chord leaves an arc by no more than both sides allow and what the arcs are off. Those that
-    -- go over from one arc to the next count for both; what is bent goes in chords itself, which
-    -- leave it by a part of a pulse.
-    mayBeFewer =
-      sum (fmap (least band) few) - length few
-        < sum (fmap (\s -> if isBent s then 2 * least (0.3 * pulse) s else 2) few)
-    Mm band = plus (plus (left bounds) (right bounds)) (times 2 (allowance machine bounds))
+      Arc {start, centre} -> Just (Segment.radius centre start >= largestRadius)
+    -- An arc that deviates less from its chord becomes a line, wherever its centre is.
+    isRemoteBend s =
+      isRemote s == Just True && Segment.bulge s >= times 0.5 (Machine.pulse machine)
+    -- Lower bound for the number of chords, against that for the frames of the fitted arcs. A chord
+    -- deviates from a fitted arc by at most both bounds and twice the error of the fit. A chord
+    -- across the joint of two arcs counts for both. A remote bend is divided into chords itself,
+    -- which deviate by a fraction of a pulse.
+    mayNeedFewerChords =
+      sum (fmap (leastChords band) fitted) - length fitted
+        < sum
+          (fmap (\s -> if isRemoteBend s then 2 * leastChords (0.3 * pulse) s else 2) fitted)
+    Mm band = plus (plus (left bounds) (right bounds)) (times 2 (fitTolerance machine bounds))
     Mm pulse = Machine.pulse machine
-    most =
-      let Pulses n =
-            Machine.centreCapacity machine
+    largestRadius =
+      let Pulses n = Machine.centreCapacity machine
        in times (fromIntegral n) (minimum [Machine.pulseOf machine axis | axis <- [X, Y]])
 
--- | Runs of more arcs are walked on arcs if all of these are walked as such: to try other ways
--- takes longer than all else.
+-- | Largest number of fitted arcs for which other divisions are tried although the centres of all
+-- fitted arcs fit. With more arcs they would take longer than everything else.
 mostTried :: Int
 mostTried = 1000
 
--- | How many chords touch a segment at least that leave it by so many mm at most: what one of them
--- cuts off an arc of the radius r turns by no more than @2·arccos(1 − y/r)@.
-least :: Double -> Segment -> Int
-least off s = case s of
+-- | Least number of chords of a segment with at most @sagitta@ mm of chord error: a chord of an arc
+-- of radius r spans at most @2·arccos(1 − y/r)@.
+leastChords :: Double -> Segment -> Int
+leastChords sagitta s = case s of
   Straight _ _ -> 1
   Arc {start, centre, sweep = Rad a} ->
-    let Mm r =
-          Segment.radius centre start
-     in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - off / r)))))
+    let Mm r = Segment.radius centre start
+     in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
--- | Few arcs and lines that stay so near to a run, from its beginning to its end.
+-- | Arcs and lines within a distance of a run, with the same ends; never more than the run has.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
-arcs allowed run =
+arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of
     Nothing -> pure (segment (NonEmpty.head run))
-    Just pieces ->
-      let few = MeasuredPolyarc.fromOutline (PolyarcFit.approximate allowed pieces)
-       in -- No more than there were.
-          if MeasuredPolyarc.count few <= length pieces
-            then MeasuredPolyarc.segments few
-            else pieces
+    Just segments ->
+      let fitted = MeasuredPolyarc.fromOutline (PolyarcFit.approximate tolerance segments)
+       in if MeasuredPolyarc.count fitted <= length segments
+            then MeasuredPolyarc.segments fitted
+            else segments

@@ -1,10 +1,12 @@
--- | Slowing down: what a machine does not do by itself, the frames have to say.
+-- | Braking sections: frames that slow down before a lower feed, for machines that do not do so by
+-- themselves.
 --
--- From a feed v down to v₂ a machine needs the way @(v² − v₂²) / 2a@. So at a distance s before a
--- lower feed v₂ it may go no faster than @√(v₂² + 2as)@; where the moves would, they are cut, and
--- from there up to the lower feed they slow down to it. A machine without a sign for that knows
--- only the slow stretch that a program asks for at the end of an element: of the way
--- @v² / 2a@ at the lowest code.
+-- To slow down from the feed v to v₂ a machine needs the length @(v² − v₂²) / 2a@. So at the
+-- distance s before a lower feed v₂ it may run at @√(v₂² + 2as)@ at most. Where a move is faster,
+-- it is cut, and the frames from there to the lower feed are marked as braking.
+--
+-- A machine without such a mark has slow frames only. The program asks for them at the end of an
+-- element, and they take the length @v² / 2a@ at the lowest feed code.
 module Frame.Braking
   ( applied,
   )
@@ -17,7 +19,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Frame.FeedCode qualified as FeedCode
-import Frame.Instruction (Drive (..), Instruction (..))
+import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Instruction qualified as Instruction
 import Machine.Machine (Braking (..), BrakingForm (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
@@ -25,119 +27,134 @@ import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The tasks, cut where the cutter begins to slow down.
+-- | Instructions with their runs cut at the beginning of the braking sections.
 applied :: Machine -> [Instruction] -> [Instruction]
-applied machine tasks = case brakingForm (Machine.braking machine) of
-  ByControl -> tasks
-  SlowFrames -> concatMap (slowed machine) tasks
-  BrakedFrames least -> onTime machine least tasks
+applied machine instructions = case brakingForm (Machine.braking machine) of
+  ByControl -> instructions
+  SlowFrames -> concatMap (slowedAtEnd machine) instructions
+  BrakedFrames least -> withBrakedFrames machine least instructions
 
--- | The feed that a move gets; on machines whose codes do not say it, the one that is asked.
+-- | Feed of a move in mm/s as the machine gives it; the feed asked for on machines whose codes
+-- depend on the direction.
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
   Rapid -> let Feed v = FeedCode.rapid machine in v / 60
-  At (Located _ asked) -> let Feed v = gets machine asked in v / 60
+  At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
 
-gets :: Machine -> Feed -> Feed
-gets machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
+-- | Feed that the machine gives for the feed asked for, limited to its range.
+nearestFeed :: Machine -> Feed -> Feed
+nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
   LeadingAxis -> Feed asked
   AlongPath -> case Machine.choose machine asked of
     Machine.Given _ v -> Feed v
     Machine.NoSuchFeed low high -> Feed (max low (min high asked))
 
--- | A run that is to be slow at its end becomes two.
-slowed :: Machine -> Instruction -> [Instruction]
-slowed machine task = case task of
+-- | Instruction divided into the run at its feed and the slow end, where the program asks for one.
+slowedAtEnd :: Machine -> Instruction -> [Instruction]
+slowedAtEnd machine instruction = case instruction of
   Run {run = ms}
     | Toolpath.braked (NonEmpty.last ms),
       At _ <- pace (NonEmpty.head ms) ->
       let v = obtained machine (NonEmpty.head ms)
-          (_, cut) =
-            mapAccumR
-              tail'
-              (v * v / (2 * deceleration (Machine.braking machine)))
-              (NonEmpty.toList ms)
-       in regrouped task (concat cut)
-  _ -> [task]
+          slowLength = v * v / (2 * deceleration (Machine.braking machine))
+          (_, parts) = mapAccumR slowEnd slowLength (NonEmpty.toList ms)
+       in divided instruction (concat parts)
+  _ -> [instruction]
   where
-    tail' left m
-      | left <= 0 = (0, [(Asked, m)])
-      | left >= way = (left - way, [(Lowest, m)])
+    -- Moves from the last one on, with the length in mm that is still to be slow.
+    slowEnd left m
+      | left <= 0 = (0, [(AsProgrammed, m)])
+      | left >= l = (left - l, [(LowestCode, m)])
       | otherwise =
-        let (front, back) = Instruction.cutBefore left m in (0, [(Asked, front), (Lowest, back)])
+        let (front, back) = Instruction.cutBeforeEnd left m
+         in (0, [(AsProgrammed, front), (LowestCode, back)])
       where
-        Mm way = Instruction.wayOf m
+        Mm l = Instruction.lengthOf m
 
--- | The moves of a task with their drives: a task for each drive.
-regrouped :: Instruction -> [(Drive, Move)] -> [Instruction]
-regrouped task parts = case task of
-  Order _ _ -> [task]
+-- | Run divided into one instruction for each stretch of the same feed mode.
+divided :: Instruction -> [(FeedMode, Move)] -> [Instruction]
+divided instruction parts = case instruction of
+  Words _ _ -> [instruction]
   Run {} ->
-    [ task {drive = fst (NonEmpty.head part), run = fmap snd part}
+    [ instruction {feedMode = fst (NonEmpty.head part), run = fmap snd part}
       | part <- NonEmpty.groupBy (\a b -> fst a == fst b) parts
     ]
 
--- Before every lower feed -------------------------------------------------------------------------
+-- Frames that are marked as braking ---------------------------------------------------------------
 
--- | What lies ahead of a place: the square of the fastest that is allowed there in (mm/s)², the
--- feed that is slowed down to, and the number of the stretch in which that is done, counted from
--- the end.
-data Ahead = Ahead {square :: Double, target :: Double, stretch :: Int}
+-- | Limit that the later moves set at some point of the toolpath.
+data FeedLimit = FeedLimit
+  { -- | square of the highest feed there, in (mm/s)²
+    square :: Double,
+    -- | feed in mm/s at the end of the braking section
+    target :: Double,
+    -- | number of the braking section, counted from the end of the program
+    section :: Int
+  }
 
--- | How much of the end of a move slows down, in mm, and to what.
-data Mark = Mark {before :: Double, to :: Double, within :: Int}
+-- | Part of a braking section within a move: its length in mm at the end of the move, the feed in
+-- mm/s at the end of the section, the number of the section.
+data BrakingEnd = BrakingEnd {brakingLength :: Double, to :: Double, within :: Int}
 
-onTime :: Machine -> Feed -> [Instruction] -> [Instruction]
-onTime machine least tasks = concatMap cut marked
+-- | Instructions with the marked frames before every lower feed. At the end of an element with
+-- braking, and at the end of the program, the feed has to come down to @least@.
+withBrakedFrames :: Machine -> Feed -> [Instruction] -> [Instruction]
+withBrakedFrames machine least instructions = concatMap cut marked
   where
-    Feed final = gets machine least
-    v2 = final / 60
-    (_, marked) = mapAccumR overTask Ahead {square = v2 * v2, target = v2, stretch = 0} tasks
-    overTask ahead task = case task of
-      Order _ _ -> (ahead, (task, []))
+    Feed leastPerMinute = nearestFeed machine least
+    v = leastPerMinute / 60
+    (_, marked) =
+      mapAccumR markRun FeedLimit {square = v * v, target = v, section = 0} instructions
+    markRun limit instruction = case instruction of
+      Words _ _ -> (limit, (instruction, []))
       Run {run = ms} ->
-        let (ahead', marks) =
-              mapAccumR (mark machine v2) ahead (atTheEnd ms)
-         in (ahead', (task, marks))
-    -- A stretch shorter than a pulse is not cut off a run.
-    lengths = Map.fromListWith (+) [(within k, before k) | (_, marks) <- marked, (_, k) <- marks]
-    Mm grain = Machine.pulse machine
-    cut (task, marks) = case task of
-      Order _ _ -> [task]
+        let (limit', ends) = mapAccumR (mark machine v) limit (brakedAtEnd ms)
+         in (limit', (instruction, ends))
+    sectionLengths =
+      Map.fromListWith (+) [(within e, brakingLength e) | (_, ends) <- marked, (_, e) <- ends]
+    Mm pulse = Machine.pulse machine
+    cut (instruction, ends) = case instruction of
+      Words _ _ -> [instruction]
       Run {}
-        | all isWhole marks -> regrouped task [(slowingTo k, m) | (m, k) <- marks]
-        | otherwise -> regrouped task (concatMap parts marks)
-    isWhole (m, k) = before k > 0 && before k >= (let Mm way = Instruction.wayOf m in way)
-    slowingTo k = Slowing (Feed (60 * to k))
-    parts (m, k)
-      | before k <= 0 || Map.findWithDefault 0 (within k) lengths < grain = [(Asked, m)]
-      | before k >= way = [(slowingTo k, m)]
+        | all isWhole ends -> divided instruction [(brakingTo e, m) | (m, e) <- ends]
+        | otherwise -> divided instruction (concatMap parts ends)
+    isWhole (m, e) =
+      brakingLength e > 0 && brakingLength e >= (let Mm l = Instruction.lengthOf m in l)
+    brakingTo e = BrakingTo (Feed (60 * to e))
+    parts (m, e)
+      | brakingLength e <= 0 || isTooShort e = [(AsProgrammed, m)]
+      | brakingLength e >= l = [(brakingTo e, m)]
       | otherwise =
-        let (front, back) =
-              Instruction.cutBefore (before k) m
-         in [(Asked, front), (slowingTo k, back)]
+        let (front, back) = Instruction.cutBeforeEnd (brakingLength e) m
+         in [(AsProgrammed, front), (brakingTo e, back)]
       where
-        Mm way = Instruction.wayOf m
+        Mm l = Instruction.lengthOf m
+    -- A section shorter than a pulse is not cut off a run.
+    isTooShort e = Map.findWithDefault 0 (within e) sectionLengths < pulse
 
--- | What slows down at its end does so once, however many arcs stand for it.
-atTheEnd :: NonEmpty Move -> [Move]
-atTheEnd ms = map Toolpath.unbraked (NonEmpty.init ms) <> [NonEmpty.last ms]
+-- | Moves of a run, of which only the last one keeps the request to brake at its end. The arcs of a
+-- curve share one request.
+brakedAtEnd :: NonEmpty Move -> [Move]
+brakedAtEnd ms = map Toolpath.unbraked (NonEmpty.init ms) <> [NonEmpty.last ms]
 
--- | How a move ends, given what lies ahead of it; and what that makes lie ahead of the move before.
-mark :: Machine -> Double -> Ahead -> Move -> (Ahead, (Move, Mark))
-mark machine slow behind m
-  | way <= 0 = (ahead, (m, Mark 0 (target ahead) (stretch ahead)))
-  | v * v <= square ahead = (fresh, (m, Mark 0 (target ahead) (stretch ahead)))
-  | needed >= way =
-    (ahead {square = square ahead + 2 * a * way}, (m, Mark way (target ahead) (stretch ahead)))
-  | otherwise = (fresh, (m, Mark needed (target ahead) (stretch ahead)))
+-- | Braking at the end of a move, from the limit after it, and the limit before it. The third
+-- argument is the feed in mm/s at the end of an element with braking.
+mark :: Machine -> Double -> FeedLimit -> Move -> (FeedLimit, (Move, BrakingEnd))
+mark machine slow after m
+  | l <= 0 = (limit, (m, BrakingEnd 0 (target limit) (section limit)))
+  | v * v <= square limit = (ownFeed, (m, BrakingEnd 0 (target limit) (section limit)))
+  | needed >= l =
+    ( limit {square = square limit + 2 * a * l},
+      (m, BrakingEnd l (target limit) (section limit))
+    )
+  | otherwise = (ownFeed, (m, BrakingEnd needed (target limit) (section limit)))
   where
-    Mm way = Instruction.wayOf m
+    Mm l = Instruction.lengthOf m
     v = obtained machine m
     a = deceleration (Machine.braking machine)
-    needed = (v * v - square ahead) / (2 * a)
-    fresh = Ahead {square = v * v, target = v, stretch = stretch ahead + 1}
-    ahead
-      | Toolpath.braked m && slow * slow < square behind =
-        Ahead {square = slow * slow, target = slow, stretch = stretch behind + 1}
-      | otherwise = behind
+    needed = (v * v - square limit) / (2 * a)
+    ownFeed = FeedLimit {square = v * v, target = v, section = section limit + 1}
+    limit
+      | Toolpath.braked m && slow * slow < square after =
+        FeedLimit {square = slow * slow, target = slow, section = section after + 1}
+      | otherwise = after

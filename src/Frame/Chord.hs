@@ -1,8 +1,12 @@
--- | Chords: how far they may be off, and where they end.
+-- | Allowed chord errors, and the chords of single segments.
+--
+-- The module derives from the tolerance of a job how far a chord may lie from the toolpath, divides
+-- an arc into equal chords within that error, and counts chords and frames in advance. Curves of
+-- several moves are divided by "Frame.Chording".
 module Frame.Chord
-  ( Allowed (..),
-    allowedOn,
-    rounding,
+  ( ChordTolerance (..),
+    chordTolerance,
+    raisedToRounding,
     remainder,
     ends,
     chords,
@@ -33,33 +37,39 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Move (..))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | How far chords may be off.
-data Allowed
-  = -- | between points of the path
+-- | Allowed chord error of a run of moves.
+data ChordTolerance
+  = -- | largest sagitta of a segment; the ends of its chords lie on the segment
     Sagitta Mm
-  | -- | so far towards the centre of an arc, and so far away from it
-    BandOf Mm Mm
-  | -- | along a curve
-    Along Chording.Bounds
+  | -- | band about an arc: distance towards its centre, distance away from it
+    ArcBand Mm Mm
+  | -- | bounds on both sides of a curve of several moves
+    OnCurve Chording.Bounds
+  deriving stock (Eq, Show)
 
--- | What is allowed to the chords of a run.
-allowedOn :: Machine -> Milling -> NonEmpty Move -> Allowed
-allowedOn machine job =
-  \ms -> if Toolpath.isCurve ms then onCurve else chordError side job (segment (NonEmpty.head ms))
+-- | Allowed chord error of the runs of a milling job.
+chordTolerance :: Machine -> Milling -> NonEmpty Move -> ChordTolerance
+chordTolerance machine job = \run ->
+  if Toolpath.isCurve run
+    then onCurve
+    else segmentTolerance side job (segment (NonEmpty.head run))
   where
-    -- Both are the same for all runs of a job.
+    -- Both are the same for all runs of a job, so they are computed once per job.
     side = fromRight Nothing (Toolpath.leadingSide job)
-    onCurve = Along (curveBounds machine side job)
+    onCurve = OnCurve (curveBounds machine side job)
 
--- | What the rounding of their ends leaves to the chords of an arc that may be off by so much, less
--- a hair.
+-- | Chord error that remains of a tolerance when the ends of the chords are rounded to whole
+-- pulses: rounding moves an end by up to half the diagonal of a pulse. At least 0; a relative
+-- 'Tolerance.equal' is subtracted for the rounding of doubles.
 remainder :: Machine -> Mm -> Mm
-remainder machine off =
-  times (1 - Tolerance.equal) (max (Mm 0) (minus off (times (sqrt 0.5) (Machine.pulse machine))))
+remainder machine tolerance =
+  times
+    (1 - Tolerance.equal)
+    (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.pulse machine))))
 
--- | How far a curve may lie from its chords: a chord that runs inside of the material has the curve
--- on the cutter's side. What the arcs are off from the curve is taken from it first. Heights are as
--- exact as the chords, or to a pulse.
+-- | Bounds for the chords of a curve. A chord inside of the material has the curve on the cutter's
+-- side. The arcs of a curve are approximations themselves, so 'Tolerance.curve' is subtracted
+-- first. Heights keep the smaller of the two side bounds, but need not be finer than a pulse.
 curveBounds :: Machine -> Maybe Carrier.Side -> Milling -> Chording.Bounds
 curveBounds machine side job =
   Chording.Bounds
@@ -74,104 +84,107 @@ curveBounds machine side job =
       (Part.OnPath d, _) -> (less d, less d)
       (Part.Band a b, Just Carrier.LeftOf) -> (less a, less b)
       (Part.Band a b, Just Carrier.RightOf) -> (less b, less a)
-      (Part.Band a b, Nothing) ->
-        let d =
-              if a > Mm 0 && b > Mm 0 then min a b else max a b
-         in (less d, less d)
+      (Part.Band a b, Nothing) -> let d = sideless a b in (less d, less d)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | The chord error of a segment: on the side of the material its own, and on the other one.
-chordError :: Maybe Carrier.Side -> Milling -> Segment -> Allowed
-chordError leading job s = case (Part.tolerance job, s) of
+-- | Allowed chord error of one segment. In a band the two sides of an arc have different
+-- tolerances, and which of them is towards its centre depends on the side of the cutter.
+segmentTolerance :: Maybe Carrier.Side -> Milling -> Segment -> ChordTolerance
+segmentTolerance leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
   (Part.Band a b, Straight _ _) -> Sagitta (max a b)
   (Part.Band a b, Arc {sweep = Rad angle}) -> case leading of
-    -- The centre of an arc lies on the left when it is walked counter-clockwise; the material lies
-    -- on the side on which the cutter is not.
+    -- The centre of a counter-clockwise arc lies on its left. The material lies on the side
+    -- opposite to the cutter.
     Just side
-      | (angle > 0) == (side == Carrier.LeftOf) -> BandOf b a
-      | otherwise -> BandOf a b
-    Nothing -> Sagitta (if a > Mm 0 && b > Mm 0 then min a b else max a b)
+      | (angle > 0) == (side == Carrier.LeftOf) -> ArcBand b a
+      | otherwise -> ArcBand a b
+    Nothing -> Sagitta (sideless a b)
 
--- | What is allowed to chords whose ends are rounded: where the tolerance is less than rounding
--- leaves of a pulse, that. A band of which one side is wider stays as it was asked for.
-rounding :: Machine -> Allowed -> Allowed
-rounding machine allowed = case allowed of
+-- | Tolerance for both sides where the side of the cutter is unknown: the smaller side of a band,
+-- or the other one if that is 0.
+sideless :: Mm -> Mm -> Mm
+sideless a b = if a > Mm 0 && b > Mm 0 then min a b else max a b
+
+-- | Chord error raised to what the rounding of the ends leaves of one pulse, where the tolerance
+-- asks for less. A band with one side that wide stays as it is.
+raisedToRounding :: Machine -> ChordTolerance -> ChordTolerance
+raisedToRounding machine tolerance = case tolerance of
   Sagitta y -> Sagitta (max least y)
-  BandOf a b -> if max a b >= least then allowed else BandOf least least
-  -- What the arcs are off from the curve is taken from it first.
-  Along bounds
-    | max (Chording.left bounds) (Chording.right bounds) >= most -> allowed
-    | otherwise -> Along bounds {Chording.left = most, Chording.right = most}
+  ArcBand a b -> if max a b >= least then tolerance else ArcBand least least
+  OnCurve bounds
+    | max (Chording.left bounds) (Chording.right bounds) >= leastOnCurve -> tolerance
+    | otherwise -> OnCurve bounds {Chording.left = leastOnCurve, Chording.right = leastOnCurve}
   where
     least = remainder machine (Machine.pulse machine)
-    most = minus least Tolerance.curve
+    -- The arcs of a curve are off by up to 'Tolerance.curve' themselves.
+    leastOnCurve = minus least Tolerance.curve
 
--- | The ends of the chords of a run with their heights; of a curve, when there are more than so
--- many, at least so many.
-ends :: Int -> Machine -> Allowed -> NonEmpty Move -> [PathPosition]
-ends most machine allowed ms = case allowed of
-  Sagitta y -> alone (chords machine y)
-  BandOf toward away -> alone (bandChords machine toward away)
-  Along bounds -> Chording.chordEnds most bounds ms
+-- | Ends of the chords of a run with their heights. If a curve has more than @limit@ chords, the
+-- list is incomplete but has at least @limit@ entries.
+ends :: Int -> Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
+ends limit machine tolerance run = case tolerance of
+  Sagitta y -> withHeights (chords machine y (segment m))
+  ArcBand toward away -> withHeights (bandChords machine toward away (segment m))
+  OnCurve bounds -> Chording.chordEnds limit bounds run
   where
-    m = NonEmpty.head ms
-    alone chordsOf =
-      let points =
-            chordsOf (segment m)
-       in zip
-            points
-            [ Rounding.heightAt (fromIntegral k / fromIntegral (length points)) m
-              | k <- [1 .. length points]
-            ]
+    m = NonEmpty.head run
+    withHeights points =
+      zip
+        points
+        [ Rounding.heightAt (fromIntegral k / fromIntegral (length points)) m
+          | k <- [1 .. length points]
+        ]
 
--- | The ends of the chords of a segment, the last one its end: equal steps that stay within the
--- sagitta, @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@ (Ural paper; R is the radius of the path),
--- none longer than a quarter turn.
+-- | Ends of the chords of a segment, the last of which is the end of the segment. The steps are
+-- equal and stay within the sagitta y: @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@ (Ural paper; R
+-- is the radius of the toolpath). No chord spans more than a quarter turn.
 chords :: Machine -> Mm -> Segment -> [Point]
 chords machine sagitta segment =
   [Segment.at (fromIntegral k / fromIntegral n) segment | k <- [1 .. n]]
   where
     n = chordCount machine sagitta segment
 
--- | The ends of the chords of a segment within a band: so far towards the centre of an arc, so far
--- away from it. Between its ends, which lie on the arc, the corners lie on the outer edge of the
--- band, @ρ = R + δ₂@, and the chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
+-- | Ends of the chords of a segment within a band: the distance δ₁ towards the centre of the arc,
+-- and δ₂ away from it. The first and the last end lie on the arc. The corners between lie on the
+-- outer edge of the band, @ρ = R + δ₂@, and the chords touch its inner edge: @cos(Δφ/2) = (R −
+-- δ₁)/ρ@.
 bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
 bandChords machine toward away s = case s of
   Straight _ b -> [b]
   Arc {start = p, centre, sweep = Rad angle}
     | away <= Mm 0 -> chords machine toward s
-    | 2 * leave >= abs angle && abs angle <= pi / 2 -> [Segment.end s]
-    | otherwise -> [corner (first + fromIntegral k * step) | k <- [0 .. count]] <> [Segment.end s]
+    | 2 * toInnerEdge >= abs angle && abs angle <= pi / 2 -> [Segment.end s]
+    | otherwise ->
+      [corner (first + fromIntegral k * step) | k <- [0 .. count]] <> [Segment.end s]
     where
       Mm r = Segment.radius centre p
       inner = max 0 (let Mm d = toward in r - d)
       outer = let Mm d = away in r + d
-      -- From an end of the arc to where its chord touches the inner edge, and on to the outer one.
-      leave = acos (inner / r)
-      first' = min (pi / 4) (leave + acos (inner / outer))
+      -- Angle from an end of the arc to the point where its chord touches the inner edge.
+      toInnerEdge = acos (inner / r)
+      toFirstCorner = min (pi / 4) (toInnerEdge + acos (inner / outer))
       widest =
         max
           (2 * asin (min 1 (let Mm pulse = Machine.pulse machine in pulse / (2 * r))))
           (min (pi / 2) (2 * acos (inner / outer)))
-      count = max 0 (ceiling ((abs angle - 2 * first') / widest - 1e-9)) :: Int
-      first = if count == 0 then abs angle / 2 else first'
+      count = max 0 (ceiling ((abs angle - 2 * toFirstCorner) / widest - countSlack)) :: Int
+      first = if count == 0 then abs angle / 2 else toFirstCorner
       step = if count == 0 then 0 else (abs angle - 2 * first) / fromIntegral count
       corner a =
         Vec.shift
           (Vec.scale (outer / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p)))
           centre
 
--- | How many frames a run needs, or one less for each chord: its chords, each split to fit the
--- fields of a frame. Where the chords of a curve end is given.
-frameCount :: Machine -> Allowed -> NonEmpty Move -> [PathPosition] -> Int
-frameCount machine allowed ms stops = case allowed of
-  Sagitta y -> alone y
-  BandOf a b -> alone (max a b)
-  Along _ ->
-    let points =
-          map fst stops
+-- | Number of frames for a run, from the ends of its chords: each chord is split to fit the fields
+-- of a frame. The number may be too small by one for each chord. The given ends are read only for a
+-- curve.
+frameCount :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition] -> Int
+frameCount machine tolerance run chordEnds = case tolerance of
+  Sagitta y -> equalChords y
+  ArcBand a b -> equalChords (max a b)
+  OnCurve _ ->
+    let points = map fst chordEnds
      in sum
           ( zipWith
               (\p q -> parts (let Mm d = Vec.distance p q in d))
@@ -179,28 +192,30 @@ frameCount machine allowed ms stops = case allowed of
               points
           )
   where
-    only = segment (NonEmpty.head ms)
-    alone y =
-      let n =
-            chordCount machine y only
+    only = segment (NonEmpty.head run)
+    equalChords y =
+      let n = chordCount machine y only
           Mm l = Segment.length only
        in n * parts (l / fromIntegral n)
     parts l = max 1 (ceiling (l / (fromIntegral field * pulse)))
     Mm pulse = Machine.pulse machine
     Pulses field = max 1 (minimum [Machine.capacity machine axis | axis <- [X, Y]])
 
--- | How many chords a segment needs. Chords shorter than a pulse serve nobody.
+-- | Number of equal chords of a segment within a sagitta; 1 for a line. Chords shorter than a pulse
+-- are useless, so there the length of the arc in pulses limits the number.
 chordCount :: Machine -> Mm -> Segment -> Int
 chordCount machine (Mm y) segment = case segment of
   Straight _ _ -> 1
   Arc {start = p, centre, sweep = Rad angle} ->
     let Mm r = Segment.radius centre p
         step = min (pi / 2) (4 * asin (min 1 (sqrt (y / (2 * r)))))
-        wanted = ceiling (abs angle / step - almost) :: Int
+        bySagitta = ceiling (abs angle / step - countSlack) :: Int
         Mm l = Segment.length segment
         Mm pulse = Machine.pulse machine
-        sensible = ceiling (l / pulse)
-     in max 1 (if step * r < pulse then sensible else wanted)
-  where
-    -- A step that fits a whole number of times is not to need one more for rounding.
-    almost = 1e-9
+        byPulse = ceiling (l / pulse)
+     in max 1 (if step * r < pulse then byPulse else bySagitta)
+
+-- | Share of a step that may be missing in a count of steps. Without it a step that fits a whole
+-- number of times would give one chord more by the rounding of doubles.
+countSlack :: Double
+countSlack = 1e-9

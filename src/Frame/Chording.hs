@@ -1,13 +1,15 @@
--- | Chords along a run: moves that go on, without a corner, along one curve. Each chord reaches
--- from where the last one ended as far along the run as it may, whatever arcs it passes.
+-- | Longest chords along a run of moves. A run is a curve without corners that consists of several
+-- lines and arcs. Each chord begins where the last one ended and reaches as far along the run as
+-- the bounds allow, across any number of arcs.
 --
--- From the beginning of a chord every point of the run is seen in a direction, and the chord has to
--- pass it within what is allowed on either side: that leaves a sector of directions, which narrows
--- as the run goes on. An arc narrows it by its end and by the place at which its tangent runs along
--- the edge of the sector, so nothing is sampled.
+-- The method is known from polyline simplification as cone intersection (Sklansky and Gonzalez,
+-- 1980). A chord has to pass every point of the run within the bounds, so each point leaves a
+-- sector of directions for the chord. The chord can be continued as long as the intersection of
+-- these sectors is not empty. An arc narrows the sector at its end and where its tangent is
+-- parallel to an edge of the sector; no points are sampled.
 --
--- Where more is allowed on one side than on the other, the chords may meet in the middle of what is
--- allowed, beside the run, if that makes them fewer; only its beginning and its end lie on it then.
+-- If the bounds on the two sides differ, chords may also meet beside the run, in the middle between
+-- the bounds, where that gives fewer chords. The first and the last end always lie on the run.
 module Frame.Chording
   ( Bounds (..),
     chordEnds,
@@ -28,143 +30,171 @@ import Geometry.Vec qualified as Vec
 import Toolpath.Toolpath (Move)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | How far a run may lie from its chords.
+-- | Largest distances of a run from its chords.
 data Bounds = Bounds
   { -- | to the left of the chord
     left :: Mm,
-    -- | to its right
+    -- | to the right of the chord
     right :: Mm,
-    -- | above and below it, at the same share of the way
+    -- | above and below the chord, compared at equal shares of the length
     rise :: Mm,
-    -- | no chord need be shorter along the run
+    -- | length along the run that every chord may have, whatever the other bounds say
     shortest :: Mm
   }
   deriving stock (Eq, Show)
 
--- | The ends of the chords of a run with their heights, the last one its end. When there are more
--- than so many, at least so many of them.
+-- | Ends of the chords of a run with their heights. The last one is the end of the run. If there
+-- are more than @limit@ chords, the list is incomplete but has at least @limit@ entries.
 chordEnds :: Int -> Bounds -> NonEmpty Move -> [(Point, Mm)]
-chordEnds most bounds run =
+chordEnds limit bounds run =
   map
-    (\p -> (place p, Mm (level p)))
-    (maybe [final] (\pieces -> ends most bounds pieces final) (NonEmpty.nonEmpty (map piece long)))
+    (\p -> (point p, Mm (level p)))
+    (maybe [final] (\moves -> ends limit bounds moves final) (NonEmpty.nonEmpty (map rest long)))
   where
     long = NonEmpty.filter (\m -> Segment.length (Toolpath.segment m) > Mm 0) run
-    piece m = let (Mm a, Mm b) = Toolpath.heights m in Piece (Toolpath.segment m) 0 (a, b)
+    rest m = let (Mm a, Mm b) = Toolpath.heights m in MoveRest (Toolpath.segment m) 0 (a, b)
     final =
-      let m =
-            NonEmpty.last run
+      let m = NonEmpty.last run
           Mm z = snd (Toolpath.heights m)
-       in Place (Segment.end (Toolpath.segment m)) z []
+       in RunPoint (Segment.end (Toolpath.segment m)) z []
 
--- | The ends of the chords of pieces, whose own end is given.
-ends :: Int -> Bounds -> NonEmpty Piece -> Place -> [Place]
-ends most bounds pieces final =
-  if count > most
-    then widest chosen
-    else kept <> evenest evenings (1 - 1 / fromIntegral (length others)) 1 others
+-- | Part of a move from a fraction of its length to its end.
+data MoveRest = MoveRest
+  { -- | the whole segment of the move
+    segment :: Segment,
+    -- | the fraction of its length
+    from :: Double,
+    -- | heights in mm at both ends of the whole move
+    heights :: (Double, Double)
+  }
+
+-- | End of a chord: the point, its height in mm, and the part of the run after it.
+data RunPoint = RunPoint {point :: Point, level :: Double, rest :: [MoveRest]}
+
+-- Choice of the chords ----------------------------------------------------------------------------
+
+-- | Ends of the chords of a run; the end of the run itself is given. The thorough plans take
+-- longer, and can save a chord only where the run bends to both sides. They are tried where one
+-- chord less makes a difference.
+ends :: Int -> Bounds -> NonEmpty MoveRest -> RunPoint -> [RunPoint]
+ends limit bounds run final =
+  if count > limit then widest chosen else kept <> equalised chosen kept others
   where
     chosen
       | n <- counted quick,
         n > 2,
-        n <= min few most,
-        bendsBack pieces,
+        n <= min fewChords limit,
+        bendsBothWays run,
         counted thorough < n =
         thorough
       | otherwise = quick
-    quick = fewest (walks AtEnds bounds pieces id)
+    quick = fewest (plans AtEnds bounds run id)
     thorough =
       fewest
-        (walks Anywhere bounds pieces id <> walks Anywhere (mirrored bounds) (turned pieces) back)
-    back places = drop 1 (reverse places) <> [final]
+        (plans Anywhere bounds run id <> plans Anywhere (mirrored bounds) (reversed run) back)
+    back points = drop 1 (reverse points) <> [final]
     fewest = minimumBy (comparing counted)
-    counted = length . take (most + 1) . widest
+    counted = length . take (limit + 1) . widest
     count = counted chosen
-    (kept, others) = splitAt (count - mostEvened) (widest chosen)
-    -- The tightest limits that need no more chords make the last one as long as the others.
-    evenest :: Int -> Double -> Double -> [Place] -> [Place]
-    evenest tries low high best
-      | tries <= 0 || count == 1 = best
-      | null (drop (length others) tighter) = evenest (tries - 1) low middle tighter
-      | otherwise = evenest (tries - 1) middle high best
+    (kept, others) = splitAt (count - mostEqualised) (widest chosen)
+
+-- | Largest number of chords for which the thorough plans are tried.
+fewChords :: Int
+fewChords = 16
+
+-- | Largest number of chords that are made equally long. Of a longer run only the last ones are.
+mostEqualised :: Int
+mostEqualised = 256
+
+-- | Number of bisections of the tightness in 'equalised'.
+bisections :: Int
+bisections = 5
+
+-- | Chords of nearly equal length in place of the @others@ at the end of a plan. Greedy chords are
+-- as long as the bounds allow, so the last one is a short remainder. Bisection finds the tightest
+-- limits that need no more chords; under these the last chord is about as long as the rest.
+equalised :: ChordPlan -> [RunPoint] -> [RunPoint] -> [RunPoint]
+equalised plan kept others = go bisections (1 - 1 / fromIntegral (length others)) 1 others
+  where
+    go :: Int -> Double -> Double -> [RunPoint] -> [RunPoint]
+    go tries low high best
+      | tries <= 0 || null (drop 1 others) = best
+      | null (drop (length others) tighter) = go (tries - 1) low middle tighter
+      | otherwise = go (tries - 1) middle high best
       where
         middle = (low + high) / 2
-        tighter = walk chosen middle (NonEmpty.last (begin chosen :| kept))
+        tighter = chordsFrom plan middle (NonEmpty.last (begin plan :| kept))
 
--- | Of no more chords than so many, one less makes a difference: where a run bends to both sides
--- they are looked for thoroughly, and from its end as well.
-few :: Int
-few = 16
-
--- | The chords of a run are made as long as one another; of more than so many, only the last ones.
-mostEvened :: Int
-mostEvened = 256
-
--- | Whether a run bends to both sides. On one that does not, no chords are fewer than those that
--- reach furthest.
-bendsBack :: NonEmpty Piece -> Bool
-bendsBack pieces = any (> 0) sweeps && any (< 0) sweeps
+-- | True for a run that bends to both sides. On any other run the longest chords are the fewest.
+bendsBothWays :: NonEmpty MoveRest -> Bool
+bendsBothWays run = any (> 0) sweeps && any (< 0) sweeps
   where
-    sweeps = [s | Piece {segment = Arc {sweep = Rad s}} <- NonEmpty.toList pieces]
+    sweeps = [s | MoveRest {segment = Arc {sweep = Rad s}} <- NonEmpty.toList run]
 
--- | Chords along pieces: where they begin, where they end when they are widest, and where they do
--- by how tight the limits are and from which place on.
-data Walk = Walk {begin :: Place, widest :: [Place], walk :: Double -> Place -> [Place]}
+-- | One way to divide a run into chords.
+data ChordPlan = ChordPlan
+  { begin :: RunPoint,
+    -- | ends of the chords under the full bounds
+    widest :: [RunPoint],
+    -- | ends of the chords from a point on, under limits of the given tightness (see 'limitsOf')
+    chordsFrom :: Double -> RunPoint -> [RunPoint]
+  }
 
--- | The walks along pieces: upon the run, and beside it where that may help.
-walks :: Search -> Bounds -> NonEmpty Piece -> ([Place] -> [Place]) -> [Walk]
-walks search bounds pieces onto =
-  [ Walk {begin, widest = walk 1 begin, walk}
-    | walk <- upon : [between | left bounds /= right bounds]
+-- | Plans for a run: with all ends on the run, and with ends beside it where the bounds differ. The
+-- last argument turns the ends of a plan into those of the original run.
+plans :: EndSearch -> Bounds -> NonEmpty MoveRest -> ([RunPoint] -> [RunPoint]) -> [ChordPlan]
+plans search bounds run restore =
+  [ ChordPlan {begin, widest = chordsFrom 1 begin, chordsFrom}
+    | chordsFrom <- onRun : [besideRun | left bounds /= right bounds]
   ]
   where
     begin =
-      let p =
-            NonEmpty.head pieces
-       in Place
-            { place = Segment.at 0 (segment p),
-              level = levelAt 0 p,
-              rest = NonEmpty.toList pieces
+      let first = NonEmpty.head run
+       in RunPoint
+            { point = Segment.at 0 (segment first),
+              level = levelAt 0 first,
+              rest = NonEmpty.toList run
             }
-    between tightness from = onto (chords (limits tightness) from)
-    upon tightness from = onto (chords (limits tightness) {aside = 0} from)
+    besideRun tightness p = restore (chords (limits tightness) p)
+    onRun tightness p = restore (chords (limits tightness) {aside = 0} p)
     limits tightness = (limitsOf bounds tightness) {search}
 
--- | The bounds of a run walked the other way.
+-- | Bounds of the reversed run.
 mirrored :: Bounds -> Bounds
 mirrored bounds = bounds {left = right bounds, right = left bounds}
 
--- | Whole pieces walked the other way.
-turned :: NonEmpty Piece -> NonEmpty Piece
-turned pieces =
-  NonEmpty.reverse (fmap (\p -> Piece (Segment.reverse (segment p)) 0 (swap (heights p))) pieces)
+-- | Whole moves in the opposite direction.
+reversed :: NonEmpty MoveRest -> NonEmpty MoveRest
+reversed run =
+  NonEmpty.reverse (fmap (\m -> MoveRest (Segment.reverse (segment m)) 0 (swap (heights m))) run)
 
--- | How often the limits are halved.
-evenings :: Int
-evenings = 5
+-- Limits ------------------------------------------------------------------------------------------
 
--- | Where in a piece the end of a chord is looked for.
-data Search
-  = -- | at the end of the piece, or behind a beginning that a chord reaches
+-- | Part of a move in which the end of a chord is looked for.
+data EndSearch
+  = -- | its end, or a point after a beginning that the chord can reach
     AtEnds
-  | -- | also where a chord reaches neither
+  | -- | every point, also where the chord can reach neither the beginning nor the end
     Anywhere
   deriving stock (Eq)
 
--- | Bounds in mm, and how far the run may turn within a chord, in radians.
+-- | Bounds in mm, made tighter by a common factor.
 data Limits = Limits
   { leftOf :: Double,
     rightOf :: Double,
-    -- | how far to the right of the run the chords meet
+    -- | distance of the points where chords meet from the run, to the right
     aside :: Double,
+    -- | above and below the chord
     rising :: Double,
+    -- | angle in radians by which the run may turn within one chord
     turning :: Double,
+    -- | shortest length of a chord along the run
     least :: Double,
-    search :: Search
+    search :: EndSearch
   }
 
--- | The chords of an arc turn by so much of what they might when its sagitta is the square of that
--- share.
+-- | Limits for a tightness from 0 to 1; 1 gives the full bounds. A chord of an arc spans the
+-- fraction @tightness@ of its largest angle when its sagitta has the fraction @tightness²@.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
   Limits
@@ -178,167 +208,197 @@ limitsOf bounds tightness =
     }
   where
     Mm least = shortest bounds
-    -- Less than one point from the chord is on it.
+    -- A point within 'Tolerance.coincident' of the chord lies on it.
     share d = let Mm y = max Tolerance.coincident (times (tightness * tightness) d) in y
 
--- | What is left of a move, from a fraction of its length on; the heights at the ends of the whole
--- move in mm.
-data Piece = Piece {segment :: Segment, from :: Double, heights :: (Double, Double)}
+-- Points of the run -------------------------------------------------------------------------------
 
--- | A place on the run, its height in mm, and what lies behind it.
-data Place = Place {place :: Point, level :: Double, rest :: [Piece]}
+-- | Ends of the longest chords from a point to the end of the run.
+chords :: Limits -> RunPoint -> [RunPoint]
+chords limits p
+  | null (rest p) = []
+  | otherwise = let next = furthest limits p in next : chords limits next
 
--- | The ends of the chords from a place on.
-chords :: Limits -> Place -> [Place]
-chords limits begin
-  | null (rest begin) = []
-  | otherwise = let next = furthest limits begin in next : chords limits next
-
--- | A place at a fraction of the first of some pieces, where chords can meet.
-placeOn :: Limits -> Piece -> Double -> [Piece] -> Place
-placeOn limits piece t pieces =
-  Place
-    { place = meeting limits piece t (Segment.at t (segment piece)) pieces,
-      level = levelAt t piece,
-      rest = if t >= 1 then drop 1 pieces else piece {from = t} : drop 1 pieces
+-- | End of a chord at fraction @t@ of the first move of a run. The run is given twice: by its first
+-- move, and whole.
+pointOn :: Limits -> MoveRest -> Double -> [MoveRest] -> RunPoint
+pointOn limits move t run =
+  RunPoint
+    { point = meeting limits move t (Segment.at t (segment move)) run,
+      level = levelAt t move,
+      rest = if t >= 1 then drop 1 run else move {from = t} : drop 1 run
     }
 
--- | Where chords meet at a fraction of the first of some pieces, given the point there: beside it,
--- at its end on it.
-meeting :: Limits -> Piece -> Double -> Point -> [Piece] -> Point
-meeting limits piece t on pieces
-  | t >= 1 && null (drop 1 pieces) || aside limits == 0 = on
+-- | Point where chords meet at fraction @t@ of the first move of a run, from the point of the run
+-- there: @aside@ to its right, but on the run at its end.
+meeting :: Limits -> MoveRest -> Double -> Point -> [MoveRest] -> Point
+meeting limits move t on run
+  | t >= 1 && null (drop 1 run) || aside limits == 0 = on
   | otherwise =
-    Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment piece)))) on
+    Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment move)))) on
 
-levelAt :: Double -> Piece -> Double
-levelAt t piece = let (a, b) = heights piece in if t >= 1 then b else a + t * (b - a)
+-- | Height in mm at a fraction of a move.
+levelAt :: Double -> MoveRest -> Double
+levelAt t move = let (a, b) = heights move in if t >= 1 then b else a + t * (b - a)
 
--- Looking along the run
+-- | Length in mm between two fractions of a move.
+lengthBetween :: Double -> Double -> MoveRest -> Double
+lengthBetween a b move = let Mm l = Segment.length (segment move) in l * (b - a)
 
--- | The beginning of a chord: the place, its height in mm, and the direction in which the run sets
--- out there.
-data Eye = Eye {standing :: Point, standingAt :: Double, out :: Vec}
+-- | Point of the run after @distance@ mm, or the end of the run.
+advanced :: Limits -> Double -> RunPoint -> RunPoint
+advanced limits distance p = case rest p of
+  [] -> p
+  move : _
+    | distance >= l -> advanced limits (distance - l) (pointOn limits move 1 (rest p))
+    | otherwise -> pointOn limits move (from move + (1 - from move) * distance / l) (rest p)
+    where
+      l = lengthBetween (from move) 1 move
 
--- | What is seen of the run from the beginning of a chord, up to some place. Directions are angles
--- in radians from the one in which the run sets out, counter-clockwise.
-data Sight = Sight
-  { -- | the directions in which a chord passes the run within the limits
-    lowest :: Double,
-    highest :: Double,
-    -- | the rises with which it does, in mm per mm of the way
-    flattest :: Double,
-    steepest :: Double,
-    -- | the direction of the run at this place, and the least and the greatest on the way
+-- The sector of directions ------------------------------------------------------------------------
+
+-- | Beginning of a chord: the point, its height in mm, and the direction of the run there.
+data Viewpoint = Viewpoint {eye :: Point, eyeLevel :: Double, forward :: Vec}
+
+-- | Directions that a chord can take from a viewpoint to pass the run within the limits, up to some
+-- point of the run. Directions are angles in radians from 'forward', counter-clockwise.
+data Sector = Sector
+  { leastDirection :: Double,
+    mostDirection :: Double,
+    -- | slopes that keep the heights within the limits, in mm per mm along the run
+    leastSlope :: Double,
+    mostSlope :: Double,
+    -- | direction of the run at this point, and its extremes up to there
     heading :: Double,
     leastHeading :: Double,
     mostHeading :: Double,
-    -- | the way so far in mm
-    gone :: Double,
-    -- | how a chord to this place misses them
-    missed :: Missed,
-    -- | how far it does, in radians or as a rise; no more than 0 within
-    beyond :: Double
+    -- | length of the run up to this point in mm
+    travelled :: Double,
+    -- | side on which a chord to this point would leave the sector
+    miss :: Miss,
+    -- | angle or slope by which it would leave the sector; at most 0 for a chord within the limits
+    excess :: Double
   }
 
--- | On which side of what is allowed the direction of a chord is, and its rise; 'EQ' is within.
-data Missed = Missed Ordering Ordering
+-- | Position of a chord relative to the sector, by direction and by slope; 'EQ' is within.
+data Miss = Miss Ordering Ordering
   deriving stock (Eq)
 
--- | Whether a chord to the place stays within the limits.
-fits :: Sight -> Bool
-fits sight = beyond sight <= 0
+-- | True if a chord to the point stays within the limits.
+isReachable :: Sector -> Bool
+isReachable sector = excess sector <= 0
 
--- | Where the longest chord from a place ends. A place behind one that no chord reaches may be
--- reached again, as long as there is any direction left.
-furthest :: Limits -> Place -> Place
-furthest limits begin = case rest begin of
-  [] -> begin
+-- | True for a sector without any direction or without any slope.
+isClosed :: Sector -> Bool
+isClosed sector =
+  leastDirection sector > mostDirection sector || leastSlope sector > mostSlope sector
+
+-- | Sector before anything of the run has been passed.
+unrestricted :: Sector
+unrestricted =
+  Sector
+    { leastDirection = -pi,
+      mostDirection = pi,
+      leastSlope = -1 / 0,
+      mostSlope = 1 / 0,
+      heading = 0,
+      leastHeading = 0,
+      mostHeading = 0,
+      travelled = 0,
+      miss = Miss EQ EQ,
+      excess = -1
+    }
+
+-- | End of the longest chord from a point, or the point at the shortest length if no chord reaches
+-- that far.
+furthest :: Limits -> RunPoint -> RunPoint
+furthest limits p = case rest p of
+  [] -> p
   first : _ ->
-    case reached
-      (Eye (place begin) (level begin) (Segment.directionAt (from first) (segment first)))
-      Nothing
-      nothing
-      (rest begin) of
-      Just (way, p) | way >= least limits -> p
-      _ -> onward limits (least limits) begin
-  where
-    nothing =
-      Sight
-        { lowest = -pi,
-          highest = pi,
-          flattest = -1 / 0,
-          steepest = 1 / 0,
-          heading = 0,
-          leastHeading = 0,
-          mostHeading = 0,
-          gone = 0,
-          missed = Missed EQ EQ,
-          beyond = -1
-        }
-    reached eye best before pieces = case pieces of
-      [] -> best
-      piece : more
-        | isClosed after || t < 1 -> better
-        | otherwise -> reached eye better after more
-        where
-          t = turnsAt limits before piece
-          tangents = tangentsTo limits eye piece
-          seen u =
-            let on =
-                  Segment.at u (segment piece)
-             in see limits eye before piece tangents u on (meeting limits piece u on pieces)
-          after = seen t
-          better = maybe best found $ case search limits of
-            AtEnds
-              | fits after -> Just t
-              | fits before,
-                share <- lastWithin (beyond . seen) (from piece, beyond before) (t, beyond after),
-                share > from piece ->
-                Just share
-              | otherwise -> Nothing
-            Anywhere ->
-              lastFit
-                seen
-                ( (t, after) :
-                  [(u, seen u) | u <- standstills limits eye piece t]
-                    <> [(from piece, before)]
-                )
-          found u =
-            Just (gone before + lengthBetween (from piece) u piece, placeOn limits piece u pieces)
-    isClosed sight = lowest sight > highest sight || flattest sight > steepest sight
+    let forward = Segment.directionAt (from first) (segment first)
+        view = Viewpoint {eye = point p, eyeLevel = level p, forward}
+     in case furthestReachable limits view Nothing unrestricted (rest p) of
+          Just (l, end) | l >= least limits -> end
+          _ -> advanced limits (least limits) p
 
--- | The place so many mm further on, or the end.
-onward :: Limits -> Double -> Place -> Place
-onward limits way at = case rest at of
-  [] -> at
-  piece : _
-    | way >= left' -> onward limits (way - left') (placeOn limits piece 1 (rest at))
-    | otherwise -> placeOn limits piece (from piece + (1 - from piece) * way / left') (rest at)
+-- | Last point of a run that a chord can reach, with the length of the run up to there; the best so
+-- far is given. A chord may miss a point and still reach a later one, so the search goes on until
+-- the sector is closed or the run has turned too far.
+furthestReachable ::
+  Limits ->
+  Viewpoint ->
+  Maybe (Double, RunPoint) ->
+  Sector ->
+  [MoveRest] ->
+  Maybe (Double, RunPoint)
+furthestReachable limits view best before run = case run of
+  [] -> best
+  move : more
+    | isClosed after || t < 1 -> better
+    | otherwise -> furthestReachable limits view better after more
     where
-      left' = lengthBetween (from piece) 1 piece
+      t = turnLimit limits before move
+      outlook =
+        Outlook {limits, view, before, move, run, tangents = tangentsTo limits view move}
+      after = sectorAt outlook t
+      better = maybe best found (lastReachable outlook (t, after))
+      found u =
+        Just (travelled before + lengthBetween (from move) u move, pointOn limits move u run)
 
--- | The last fraction at which a chord fits. Given are fractions from the last one back to one that
--- does not count, with what is seen there; between two of them the direction of the chord turns one
--- way only.
-lastFit :: (Double -> Sight) -> [(Double, Sight)] -> Maybe Double
-lastFit seen marks = case marks of
+-- | Move that a chord from the viewpoint may end in.
+data Outlook = Outlook
+  { limits :: Limits,
+    view :: Viewpoint,
+    -- | the sector at the beginning of the move
+    before :: Sector,
+    move :: MoveRest,
+    -- | the run that begins with the move
+    run :: [MoveRest],
+    tangents :: Tangents
+  }
+
+-- | Last fraction of a move that a chord can reach, from the last fraction to be tried and its
+-- sector.
+lastReachable :: Outlook -> (Double, Sector) -> Maybe Double
+lastReachable outlook@Outlook {limits, view, before, move} (t, after) = case search limits of
+  AtEnds
+    | isReachable after -> Just t
+    | isReachable before,
+      u <- lastWithin (excess . sectorAt outlook) (from move, excess before) (t, excess after),
+      u > from move ->
+      Just u
+    | otherwise -> Nothing
+  Anywhere ->
+    lastBetween
+      (sectorAt outlook)
+      ( (t, after) :
+        [(u, sectorAt outlook u) | u <- turningPoints limits view move t]
+          <> [(from move, before)]
+      )
+
+-- | Last fraction that a chord can reach, from fractions with their sectors in descending order.
+-- Between two neighbouring fractions the direction of the chord changes monotonically. The lowest
+-- fraction itself does not count.
+lastBetween :: (Double -> Sector) -> [(Double, Sector)] -> Maybe Double
+lastBetween sectorOf marks = case marks of
   (high, atHigh) : earlier@((low, atLow) : _)
-    | fits atHigh -> Just high
-    | share : _ <- filter (\u -> u > low && fits (seen u)) crossings -> Just share
-    | otherwise -> lastFit seen earlier
+    | isReachable atHigh -> Just high
+    | u : _ <- filter (\u -> u > low && isReachable (sectorOf u)) crossings -> Just u
+    | otherwise -> lastBetween sectorOf earlier
     where
       crossings =
-        [ lastWhere (\u -> missed (seen u) /= missed atHigh) low high
-          | missed atLow /= missed atHigh
+        [ bisected (\u -> miss (sectorOf u) /= miss atHigh) low high
+          | miss atLow /= miss atHigh
         ]
-          <> [lastWithin (beyond . seen) (low, beyond atLow) (high, beyond atHigh) | fits atLow]
+          <> [ lastWithin (excess . sectorOf) (low, excess atLow) (high, excess atHigh)
+               | isReachable atLow
+             ]
   _ -> Nothing
 
--- | The last fraction of which something holds, between one of which it does and one of which it
--- does not.
-lastWhere :: (Double -> Bool) -> Double -> Double -> Double
-lastWhere holds = go (40 :: Int)
+-- | Bisection: the last number for which a predicate holds that is true at @low@ and false at
+-- @high@.
+bisected :: (Double -> Bool) -> Double -> Double -> Double
+bisected holds = go (40 :: Int)
   where
     go tries low high
       | tries <= 0 = low
@@ -347,11 +407,13 @@ lastWhere holds = go (40 :: Int)
       where
         middle = (low + high) / 2
 
--- | The same of what is no more than 0 at the first one and more at the last one, given both. Where
--- a straight line between the two says, of an end that stays with half of what it is there (the
--- rule of Illinois); every fourth time in the middle.
+-- | Last number at which a function is at most 0, by the Illinois variant of regula falsi. The
+-- function is given with its values at both ends of the interval: at most 0 at the first, more than
+-- 0 at the second. The Illinois rule halves the value at an end that is kept twice. Every fourth
+-- step is a bisection, so the interval always shrinks.
 lastWithin :: (Double -> Double) -> (Double, Double) -> (Double, Double) -> Double
-lastWithin excess (first, atFirst) (final, atFinal) = go (160 :: Int) EQ first atFirst final atFinal
+lastWithin function (first, atFirst) (final, atFinal) =
+  go (160 :: Int) EQ first atFirst final atFinal
   where
     finest = (final - first) / 2 ^ (40 :: Int)
     go tries moved low a high b
@@ -359,117 +421,128 @@ lastWithin excess (first, atFirst) (final, atFinal) = go (160 :: Int) EQ first a
       | e <= 0 = go (tries - 1) LT next e high (if moved == LT then b / 2 else b)
       | otherwise = go (tries - 1) GT low (if moved == GT then a / 2 else a) next e
       where
-        e = excess next
+        e = function next
         next =
-          if tries `mod` 4 /= 0 && straight > low && straight < high
-            then straight
+          if tries `mod` 4 /= 0 && secant > low && secant < high
+            then secant
             else (low + high) / 2
-        straight = low + (high - low) * (a / (a - b))
+        secant = low + (high - low) * (a / (a - b))
 
--- | The fractions up to one at which the direction of a chord to a piece turns back: where the
--- piece heads away from the eye or towards it. The last one first.
-standstills :: Limits -> Eye -> Piece -> Double -> [Double]
-standstills limits eye piece t = case segment piece of
+-- | Fractions of a move, in descending order, at which the direction from the viewpoint to the
+-- meeting point changes its sense of rotation. At these the line of sight is tangent to the circle
+-- on which the chords meet. Only fractions below @t@ are listed.
+turningPoints :: Limits -> Viewpoint -> MoveRest -> Double -> [Double]
+turningPoints limits view move t = case segment move of
   Straight _ _ -> []
   Arc {start, centre, sweep = Rad s} ->
     let Mm r = Segment.radius centre start
-        away = Vec.to centre (standing eye)
-        -- Chords meet on a circle about the same centre.
+        away = Vec.to centre (eye view)
+        -- Chords meet on a concentric circle.
         ratio = (r + signum s * aside limits) / Vec.norm away
-        turnings =
+        fractions =
           [ u
             | abs ratio < 1,
               a <- [acos ratio, -(acos ratio)],
-              let u = Segment.fraction (segment piece) (Vec.shift (Vec.rotate (Rad a) away) centre),
-              u > from piece,
+              let u = Segment.fraction (segment move) (Vec.shift (Vec.rotate (Rad a) away) centre),
+              u > from move,
               u < t
           ]
-     in sortOn negate turnings
+     in sortOn negate fractions
 
--- | The way on a piece from one fraction to another in mm.
-lengthBetween :: Double -> Double -> Piece -> Double
-lengthBetween a b piece = let Mm l = Segment.length (segment piece) in l * (b - a)
-
--- | As far as a piece can be followed before the run has turned by more than it may within a chord.
-turnsAt :: Limits -> Sight -> Piece -> Double
-turnsAt limits before piece = case segment piece of
+-- | Fraction of a move at which the run has turned by the largest angle for one chord; 1 if it does
+-- not turn that far.
+turnLimit :: Limits -> Sector -> MoveRest -> Double
+turnLimit limits before move = case segment move of
   Straight _ _ -> 1
   Arc {sweep = Rad s}
-    | s > 0 -> within s (leastHeading before + turning limits)
-    | otherwise -> within s (mostHeading before - turning limits)
+    | s > 0 -> upTo s (leastHeading before + turning limits)
+    | otherwise -> upTo s (mostHeading before - turning limits)
   where
-    within s end
-      | signum s * (heading before + s * (1 - from piece) - end) <= Tolerance.equal = 1
-      | otherwise = max (from piece) (from piece + (end - heading before) / s)
+    upTo s end
+      | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
+      | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | The directions in which the tangents to a piece run along the edges of what is allowed, to its
--- left and to its right.
+-- | Directions of lines from the viewpoint that an arc overshoots by exactly the limit, to the left
+-- and to the right of the line. The arc is parallel to such a line at its furthest point.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
-tangentsTo :: Limits -> Eye -> Piece -> Tangents
-tangentsTo limits eye piece =
-  Tangents {onLeft = touched (-1) (leftOf limits), onRight = touched 1 (rightOf limits)}
+tangentsTo :: Limits -> Viewpoint -> MoveRest -> Tangents
+tangentsTo limits view move =
+  Tangents {onLeft = touching (-1) (leftOf limits), onRight = touching 1 (rightOf limits)}
   where
-    -- The direction in which a circle walked in a sense bulges by so much: its tangent there is
-    -- that direction.
-    touched :: Double -> Double -> [Double]
-    touched sense y = case segment piece of
+    -- Only a clockwise arc overshoots to the left, only a counter-clockwise one to the right.
+    touching :: Double -> Double -> [Double]
+    touching sense y = case segment move of
       Arc {start, centre, sweep = Rad s}
         | signum s == sense,
           let Mm r = Segment.radius centre start,
-          let away = Vec.to (standing eye) centre,
+          let away = Vec.to (eye view) centre,
           let sine = sense * (r - y) / Vec.norm away,
           abs sine <= 1 ->
-          [let Rad there = Vec.turn (out eye) away in there - asin sine]
+          [let Rad toCentre = Vec.turn (forward view) away in toCentre - asin sine]
       _ -> []
 
--- | What is seen when a piece has been passed up to a fraction, given the point there, and whether
--- a chord to a point beside it fits.
-see :: Limits -> Eye -> Sight -> Piece -> Tangents -> Double -> Point -> Point -> Sight
-see limits eye before piece tangents t on goal =
-  Sight
-    { lowest = low,
-      highest = high,
-      flattest = flat,
-      steepest = steep,
+-- | Sector at fraction @t@ of a move, with the verdict on the chord to the meeting point there.
+sectorAt :: Outlook -> Double -> Sector
+sectorAt Outlook {limits, view, before, move, run, tangents} t =
+  Sector
+    { leastDirection = low,
+      mostDirection = high,
+      leastSlope = lowSlope,
+      mostSlope = highSlope,
       heading = after,
       leastHeading = min (leastHeading before) after,
       mostHeading = max (mostHeading before) after,
-      gone = way,
-      missed =
-        if isChord then Missed (beside low high along) (beside flat steep climb) else Missed LT LT,
-      beyond =
+      travelled = covered,
+      miss =
         if isChord
-          then max (max (low - along) (along - high)) (max (flat - climb) (climb - steep))
+          then Miss (side low high along) (side lowSlope highSlope slope)
+          else Miss LT LT,
+      excess =
+        if isChord
+          then max (outside low high along) (outside lowSlope highSlope slope)
           else 1
     }
   where
-    way = gone before + lengthBetween (from piece) t piece
-    end = Vec.to (standing eye) on
-    distance = Vec.norm end
-    chord = Vec.to (standing eye) goal
-    isChord = Vec.norm chord > 0 && way > 0
-    Rad along = if goal == on then Rad direction else Vec.turn (out eye) chord
-    Rad direction = Vec.turn (out eye) end
-    climb = (levelAt t piece - standingAt eye) / way
-    flat = max (flattest before) (climb - rising limits / way)
-    steep = min (steepest before) (climb + rising limits / way)
+    covered = travelled before + lengthBetween (from move) t move
+    on = Segment.at t (segment move)
+    goal = meeting limits move t on run
+    toPoint = Vec.to (eye view) on
+    distance = Vec.norm toPoint
+    chord = Vec.to (eye view) goal
+    isChord = Vec.norm chord > 0 && covered > 0
+    Rad along = if goal == on then Rad direction else Vec.turn (forward view) chord
+    Rad direction = Vec.turn (forward view) toPoint
+    slope = (levelAt t move - eyeLevel view) / covered
+    lowSlope = max (leastSlope before) (slope - rising limits / covered)
+    highSlope = min (mostSlope before) (slope + rising limits / covered)
     low =
       maximum
-        ( lowest before :
+        ( leastDirection before :
           [direction - asin (leftOf limits / distance) | distance > leftOf limits]
             <> [d | d <- onLeft tangents, after <= d, d <= heading before]
         )
     high =
       minimum
-        ( highest before :
+        ( mostDirection before :
           [direction + asin (rightOf limits / distance) | distance > rightOf limits]
             <> [d | d <- onRight tangents, heading before <= d, d <= after]
         )
-    after = case segment piece of
-      Straight _ _ -> heading before
-      Arc {sweep = Rad s} -> heading before + s * (t - from piece)
-    beside a b x
-      | x < a = LT
-      | x > b = GT
-      | otherwise = EQ
+    after = headingAt move (heading before) t
+
+-- | Direction of the run at fraction @t@ of a move, from that at the beginning of the move.
+headingAt :: MoveRest -> Double -> Double -> Double
+headingAt move before t = case segment move of
+  Straight _ _ -> before
+  Arc {sweep = Rad s} -> before + s * (t - from move)
+
+-- | Position of a number relative to an interval; 'EQ' is within.
+side :: Double -> Double -> Double -> Ordering
+side low high x
+  | x < low = LT
+  | x > high = GT
+  | otherwise = EQ
+
+-- | Distance of a number from an interval; at most 0 within.
+outside :: Double -> Double -> Double -> Double
+outside low high x = max (low - x) (x - high)

@@ -1,12 +1,17 @@
--- | Commands: which words a machine has for one, and in which frames they stand.
+-- | Commands of the part program as words of a machine, and the frames that hold them.
+--
+-- A command for which a machine has no word becomes a warning, because the operator can carry it
+-- out by hand. An auxiliary command is refused there, and so is a number that does not fit its
+-- word. Commands are pending until the next move, whose frame holds them if no word would occur
+-- twice in it.
 module Frame.Command
-  ( Told (..),
-    told,
-    kept,
-    released,
-    Waiting (..),
+  ( Translation (..),
+    translated,
+    compensationOn,
+    compensationOff,
+    Pending (..),
     add,
-    atTheEnd,
+    finalFrames,
   )
 where
 
@@ -41,65 +46,112 @@ import Machine.Machine qualified as Machine
 import Part.Part (Command, Sense (..), Switch (..))
 import Part.Part qualified as Part
 
--- | What a machine makes of a command.
-data Told = Told {numbers :: [(CommandName, Int)], warnings :: [Warning], errors :: [Error]}
+-- | Words of a machine for a command, and the reports about it.
+data Translation = Translation
+  { -- | the words with their numbers
+    numbers :: [(CommandName, Int)],
+    warnings :: [Warning],
+    errors :: [Error]
+  }
 
--- | The words for a command with their numbers.
-told :: Machine -> Located Command -> Told
-told machine (Located region c) = case wordsFor (Machine.orders machine) c of
+-- | Words for a command with their numbers.
+translated :: Machine -> Located Command -> Translation
+translated machine (Located region c) = case wordsFor (Machine.orders machine) c of
   [] -> case c of
-    Part.Auxiliary n -> Told [] [] [NoSuchCommand region AuxiliaryCommand n 0]
-    _ -> Told [] [ByHand region kind] []
-  orders -> case concatMap value' orders of
-    [] -> Told [] [SpeedUnsaid region] []
+    Part.Auxiliary n -> Translation [] [] [NoSuchCommand region AuxiliaryCommand n 0]
+    _ -> Translation [] [ManualCommand region (kindOf c)] []
+  commandWords -> case concatMap (numbersFor c) commandWords of
+    [] -> Translation [] [SpindleSpeedMissing region] []
     ns ->
-      Told
+      Translation
         ns
-        (concatMap stepWarning orders)
-        [ NoSuchCommand region kind n most
+        (concatMap (speedWarnings region c) commandWords)
+        [ NoSuchCommand region (kindOf c) n most
           | (o, n) <- ns,
             Just most <- [Machine.orderCapacity machine o],
             n > most
         ]
-  where
-    kind = kindOf c
-    value' CommandWord {order, value} = map (order,) $ case value of
-      Fixed n -> [n]
-      Argument -> argument
-      Step table -> [n | Just turns <- [speed], Just (n, _) <- [nearestStep table turns]]
-      Diameter -> []
-    argument = case c of
-      Part.Auxiliary n -> [n]
-      Part.ChangeTool n _ -> [n]
-      _ -> maybe [] (pure . round) speed
-    speed = case c of
-      Part.SpindleOn _ turns -> turns
-      Part.SpindleOff -> Nothing
-      Part.CoolantTo _ -> Nothing
-      Part.Auxiliary _ -> Nothing
-      Part.ChangeTool _ _ -> Nothing
-    stepWarning CommandWord {value} = case (value, speed) of
-      (Step table, Just turns) ->
-        [ SpeedDiffers region turns got
-          | Just (_, got) <- [nearestStep table turns],
-            isOff turns got
-        ]
-      (Argument, Just turns)
-        | isOff turns (fromIntegral (round turns :: Int)) ->
-          [SpeedDiffers region turns (fromIntegral (round turns :: Int))]
-      _ -> []
-    isOff turns got = abs (got - turns) > stepSlack * turns
 
--- | The words that tell the control to keep a cutter of this radius on a side of the contour, with
--- the diameter in their decimals. On a machine whose plane is mirrored left is right.
-kept :: Machine -> Region -> Side -> Mm -> Told
-kept machine asked side radius@(Mm r) = case Machine.compensation (Machine.orders machine) of
-  Nothing -> Told [] [] [NoCompensation asked]
-  Just c -> case numberOf (if leftHanded then keepLeft c else keepRight c) of
-    Just n -> Told [n] [] []
-    Nothing -> Told [] [] [DiameterBeyond asked (times 2 radius)]
+-- | Words that a machine has for a command; none if the operator has to carry it out.
+wordsFor :: CommandWords -> Command -> [CommandWord]
+wordsFor table c = case c of
+  Part.SpindleOn Clockwise _ -> spindleClockwise table
+  Part.SpindleOn CounterClockwise _ -> spindleCounterClockwise table
+  Part.SpindleOff -> spindleOff table
+  Part.CoolantTo SwitchOn -> coolantOn table
+  Part.CoolantTo SwitchOff -> coolantOff table
+  Part.Auxiliary _ -> auxiliary table
+  Part.ChangeTool _ _ -> toolChange table
+
+-- | Device that a command switches.
+kindOf :: Command -> CommandKind
+kindOf c = case c of
+  Part.Auxiliary _ -> AuxiliaryCommand
+  Part.SpindleOn _ _ -> SpindleCommand
+  Part.SpindleOff -> SpindleCommand
+  Part.CoolantTo _ -> CoolantCommand
+  Part.ChangeTool _ _ -> ToolCommand
+
+-- | Numbers of a word for a command: one, or none if the number is the spindle speed and the
+-- program does not give it.
+numbersFor :: Command -> CommandWord -> [(CommandName, Int)]
+numbersFor c CommandWord {order, value} = map (order,) $ case value of
+  Fixed n -> [n]
+  Argument -> case c of
+    Part.Auxiliary n -> [n]
+    Part.ChangeTool n _ -> [n]
+    _ -> maybe [] (pure . round) (spindleSpeed c)
+  Step table -> [n | Just asked <- [spindleSpeed c], Just (n, _) <- [nearestStep table asked]]
+  Diameter -> []
+
+-- | Spindle speed that a command asks for, in turns per minute.
+spindleSpeed :: Command -> Maybe Double
+spindleSpeed c = case c of
+  Part.SpindleOn _ speed -> speed
+  Part.SpindleOff -> Nothing
+  Part.CoolantTo _ -> Nothing
+  Part.Auxiliary _ -> Nothing
+  Part.ChangeTool _ _ -> Nothing
+
+-- | Warning about a spindle speed that differs from the one asked for by more than 'speedSlack'.
+speedWarnings :: Region -> Command -> CommandWord -> [Warning]
+speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
+  (Step table, Just asked) ->
+    [ SpindleSpeedDiffers region asked obtained
+      | Just (_, obtained) <- [nearestStep table asked],
+        differs asked obtained
+    ]
+  (Argument, Just asked)
+    | differs asked (whole asked) -> [SpindleSpeedDiffers region asked (whole asked)]
+  _ -> []
   where
-    leftHanded = (side == LeftOf) /= Machine.isMirrored machine
+    whole asked = fromIntegral (round asked :: Int)
+    differs asked obtained = abs (obtained - asked) > speedSlack * asked
+
+-- | Share of the spindle speed by which the obtained speed may differ without a warning.
+speedSlack :: Double
+speedSlack = 0.1
+
+-- | Step with the nearest speed, and that speed; the lower step if two are equally near.
+nearestStep :: Map.Map Int Double -> Double -> Maybe (Int, Double)
+nearestStep table asked = case Map.toList table of
+  [] -> Nothing
+  steps -> Just (minimumBy (comparing (\(n, v) -> (abs (v - asked), n))) steps)
+
+-- Cutter compensation -----------------------------------------------------------------------------
+
+-- | Words that switch cutter compensation on, for a cutter of the given radius on one side of the
+-- contour. The diameter goes into the word as a decimal number. On a machine with a mirrored plane
+-- left and right are exchanged.
+compensationOn :: Machine -> Region -> Side -> Mm -> Translation
+compensationOn machine asked side radius@(Mm r) =
+  case Machine.compensation (Machine.orders machine) of
+    Nothing -> Translation [] [] [NoCompensation asked]
+    Just c -> case numberOf (if isLeft then keepLeft c else keepRight c) of
+      Just n -> Translation [n] [] []
+      Nothing -> Translation [] [] [DiameterOutOfRange asked (times 2 radius)]
+  where
+    isLeft = (side == LeftOf) /= Machine.isMirrored machine
     numberOf CommandWord {order, value} = case value of
       Fixed n -> Just (order, n)
       Diameter
@@ -113,10 +165,10 @@ kept machine asked side radius@(Mm r) = case Machine.compensation (Machine.order
       Step _ -> Nothing
     Mm pulse = Machine.pulse machine
 
--- | The words that tell the control to keep the cutter beside the contour no longer.
-released :: Machine -> Told
-released machine =
-  Told
+-- | Words that switch cutter compensation off.
+compensationOff :: Machine -> Translation
+compensationOff machine =
+  Translation
     [ (order o, n)
       | Just c <- [Machine.compensation (Machine.orders machine)],
         let o = release c,
@@ -125,63 +177,38 @@ released machine =
     []
     []
 
--- | A step that differs from the turns asked by more than this share is worth a warning.
-stepSlack :: Double
-stepSlack = 0.1
+-- The frames of commands --------------------------------------------------------------------------
 
--- | The step with the nearest value; of two the lower.
-nearestStep :: Map.Map Int Double -> Double -> Maybe (Int, Double)
-nearestStep table turns = case Map.toList table of
-  [] -> Nothing
-  steps -> Just (minimumBy (comparing (\(n, v) -> (abs (v - turns), n))) steps)
-
-wordsFor :: CommandWords -> Command -> [CommandWord]
-wordsFor orders c = case c of
-  Part.SpindleOn Clockwise _ -> spindleClockwise orders
-  Part.SpindleOn CounterClockwise _ -> spindleCounterClockwise orders
-  Part.SpindleOff -> spindleOff orders
-  Part.CoolantTo SwitchOn -> coolantOn orders
-  Part.CoolantTo SwitchOff -> coolantOff orders
-  Part.Auxiliary _ -> auxiliary orders
-  Part.ChangeTool _ _ -> toolChange orders
-
--- | What a command is about.
-kindOf :: Command -> CommandKind
-kindOf c = case c of
-  Part.Auxiliary _ -> AuxiliaryCommand
-  Part.SpindleOn _ _ -> SpindleCommand
-  Part.SpindleOff -> SpindleCommand
-  Part.CoolantTo _ -> CoolantCommand
-  Part.ChangeTool _ _ -> ToolCommand
-
--- Where they stand --------------------------------------------------------------------------------
-
--- | Commands that wait for the next move: what they say, in the order of the layout's words, and
--- the place of the first.
-data Waiting = Waiting {place :: Region, given :: [(CommandName, Int)]}
+-- | Commands that no frame holds yet: the region of the first one, and the words in the order of
+-- the layout.
+data Pending = Pending {asked :: Region, given :: [(CommandName, Int)]}
   deriving stock (Eq, Show)
 
--- | The words of a command join those that wait, if no word would be said twice; else those that
--- wait need a frame of their own, and so do the first of the command's words when it says one twice
--- itself.
-add :: Machine -> Region -> [(CommandName, Int)] -> Maybe Waiting -> ([Waiting], Maybe Waiting)
-add machine region orders waiting = case (parts orders, waiting) of
-  ([], _) -> ([], waiting)
+-- | Add the words of a command to the pending ones. No word may occur twice in a frame. The result
+-- has the groups that now need frames of their own, and the group that is pending after that. If
+-- the command itself repeats a word, it is divided into several groups.
+add ::
+  Machine ->
+  Region ->
+  [(CommandName, Int)] ->
+  Maybe Pending ->
+  ([Pending], Maybe Pending)
+add machine region commandWords pending = case (withoutRepetition commandWords, pending) of
+  ([], _) -> ([], pending)
   ([only], Just before)
     | not (any ((`elem` map fst (given before)) . fst) only) ->
       ([], Just before {given = inOrder machine (given before <> only)})
-  (several, before) ->
-    (maybe [] pure before <> map alone (init several), Just (alone (last several)))
+  (groups, before) ->
+    (maybe [] pure before <> map group (init groups), Just (group (last groups)))
   where
-    alone part = Waiting {place = region, given = inOrder machine part}
-    -- Without a word twice in one.
-    parts os = case os of
+    group ws = Pending {asked = region, given = inOrder machine ws}
+    withoutRepetition os = case os of
       [] -> []
-      o : more -> case parts more of
-        part : others | fst o `notElem` map fst part -> (o : part) : others
+      o : more -> case withoutRepetition more of
+        ws : others | fst o `notElem` map fst ws -> (o : ws) : others
         others -> [o] : others
 
--- | In the order of the words of a frame, and of the bits in their service track.
+-- | Words sorted into the order of the layout, and of the bits in the service track of a word.
 inOrder :: Machine -> [(CommandName, Int)] -> [(CommandName, Int)]
 inOrder machine = sortOn (\(o, _) -> elemIndex o names)
   where
@@ -195,9 +222,9 @@ inOrder machine = sortOn (\(o, _) -> elemIndex o names)
       FeedWord -> bits w
     bits w = [o | OrderBit o _ <- Machine.service (form w)]
 
--- | What stands in the frames at the very end.
-atTheEnd :: Machine -> [[(CommandName, Int)]]
-atTheEnd machine =
+-- | Words of the frames that end every program of a machine.
+finalFrames :: Machine -> [[(CommandName, Int)]]
+finalFrames machine =
   [ inOrder machine [(order o, n) | o <- NonEmpty.toList group, Fixed n <- [value o]]
     | group <- Machine.finish (Machine.orders machine)
   ]

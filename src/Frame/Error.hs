@@ -1,4 +1,7 @@
--- | What a machine can not do, or does otherwise than asked.
+-- | Errors and warnings of the step from the toolpath to frames: requests that a machine cannot
+-- carry out, or carries out in another manner than asked.
+--
+-- The constructors hold regions and facts. Words appear only in 'toReport' and 'warningReport'.
 module Frame.Error
   ( Error (..),
     Warning (..),
@@ -19,59 +22,59 @@ import Machine.Machine qualified as Machine
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
+-- | Reason why no frames are made. The region is that of the text in the part program.
 data Error
-  = -- | the feed asked, and the lowest and highest that there are
-    FeedMissing Region Feed Feed Feed
-  | -- that they give along an axis
-
-    -- | the feed asked, the pulses a second that it needs, the lowest and highest number that there
-    -- are with the feeds
-    FrequencyMissing Region Feed Double (Double, Feed) (Double, Feed)
-  | -- | a place that no machine reaches
+  = -- | a feed along the path without a feed code: the feed asked for, the lowest and the highest
+    -- feed of the machine
+    FeedOutOfRange Region Feed Feed Feed
+  | -- | a feed that the leading axis cannot give: the feed asked for, the pulses per second that it
+    -- needs; the lowest and the highest frequency of the machine, each with its feed along an axis
+    FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
+  | -- | a point further from the zero of the part than the given limit
     OutOfReach Region Point Mm
-  | -- | a milling statement whose tolerance is not small against its cutter's radius: tolerance,
-    -- radius
+  | -- | a milling statement whose tolerance and one pulse reach the radius of its cutter: the
+    -- tolerance, the radius
     ToleranceTooLarge Region Mm Mm
-  | -- | a number of a command, and the highest that the machine has; 0 if it has none
+  | -- | a number of a command, and the highest one of the machine; 0 if it has none
     NoSuchCommand Region CommandKind Int Int
-  | -- | more frames than a tape may have
+  | -- | more than the given number of frames
     TooManyFrames Region Int
-  | -- | one contour more than there may be begins here
+  | -- | more than the given number of contours; the region is that of the first one too many
     TooManyContours Region Int
-  | -- | a move along an axis that the machine lacks
+  | -- | a move along an axis that the machine does not have
     NoSuchAxis Region Axis
-  | -- | a place on an axis that the field of its positions does not hold, and the furthest that it
-    -- does
-    BeyondField Region Axis Mm Mm
-  | -- | a control that does not keep the cutter beside the contour
+  | -- | a position on an axis that does not fit its field, and the largest one that does
+    PositionOutOfField Region Axis Mm Mm
+  | -- | a control without cutter compensation
     NoCompensation Region
-  | -- | a diameter that the control cannot be told
-    DiameterBeyond Region Mm
+  | -- | a cutter diameter that the word for it cannot hold
+    DiameterOutOfRange Region Mm
   deriving stock (Eq, Ord, Show)
 
+-- | Difference between the request and the frames.
 data Warning
-  = -- | the feed asked, and the lowest and the highest that are obtained
+  = -- | the feed asked for, the lowest and the highest feed obtained
     FeedDiffers Region Feed Feed Feed
-  | -- | where the program starts, and where the machine can stand
+  | -- | the start in the program, and the nearest position in whole pulses
     StartRounded Region Point Point
-  | -- | a move in z of a machine that is not known to have one
-    HeightUnsure Region
-  | -- | a command that the tape can not give
-    ByHand Region CommandKind
-  | -- | the turns a minute asked, and those obtained
-    SpeedDiffers Region Double Double
-  | -- | a spindle whose speed the tape has to say, and the program does not
-    SpeedUnsaid Region
+  | -- | a move in z on a machine whose source does not mention one
+    HeightUncertain Region
+  | -- | a command for which the machine has no word
+    ManualCommand Region CommandKind
+  | -- | spindle speeds in turns per minute: the one asked for, the one obtained
+    SpindleSpeedDiffers Region Double Double
+  | -- | a spindle command without the speed that its word needs
+    SpindleSpeedMissing Region
   deriving stock (Eq, Ord, Show)
 
--- | What a command is about.
+-- | Device that a command switches.
 data CommandKind = SpindleCommand | CoolantCommand | ToolCommand | AuxiliaryCommand
   deriving stock (Eq, Ord, Show)
 
--- | The words for an error on a machine.
+-- | Report of an error on a machine.
 toReport :: Machine -> Error -> Report
 toReport machine err = case err of
-  FeedMissing region asked lowest highest ->
+  FeedOutOfRange region asked lowest highest ->
     ( report
         Report.Error
         "E0501"
@@ -80,7 +83,7 @@ toReport machine err = case err of
     )
       { message = ["Its feeds go from " <> feed lowest <> " to " <> feed highest <> "."]
       }
-  FrequencyMissing region asked needed (low, slow) (high, quick) ->
+  FrequencyOutOfRange region asked needed (low, lowFeed) (high, highFeed) ->
     ( report
         Report.Error
         "E0501"
@@ -95,7 +98,7 @@ toReport machine err = case err of
               <> " to "
               <> Decimal.short 2 high
               <> ".",
-            "Along an axis that is " <> feed slow <> " to " <> feed quick <> "."
+            "Along an axis that is " <> feed lowFeed <> " to " <> feed highFeed <> "."
           ]
       }
   OutOfReach region p limit ->
@@ -163,14 +166,14 @@ toReport machine err = case err of
     )
       { message = ["The cutter would move in " <> axisName axis <> " here."]
       }
-  BeyondField region axis place limit ->
+  PositionOutOfField region axis position limit ->
     ( report
         Report.Error
         "E0508"
         (InSource region)
         ( axisName axis
             <> " = "
-            <> Decimal.mm place
+            <> Decimal.mm position
             <> " does not fit the field of "
             <> machineName machine
         )
@@ -187,7 +190,7 @@ toReport machine err = case err of
       { message = ["Its tape has no word for it."],
         hints = ["Leave this out: the compiler works out the path of the cutter's centre."]
       }
-  DiameterBeyond region diameter ->
+  DiameterOutOfRange region diameter ->
     ( report
         Report.Error
         "E0509"
@@ -214,7 +217,7 @@ toReport machine err = case err of
           ]
       }
 
--- | The words for a warning on a machine.
+-- | Report of a warning on a machine.
 warningReport :: Machine -> Warning -> Report
 warningReport machine warning = case warning of
   FeedDiffers region asked lowest highest ->
@@ -247,7 +250,7 @@ warningReport machine warning = case warning of
               <> ")."
           ]
       }
-  HeightUnsure region ->
+  HeightUncertain region ->
     ( report
         Report.Warning
         "W0503"
@@ -259,12 +262,12 @@ warningReport machine warning = case warning of
             \machine at hand follows them is for you to know."
           ]
       }
-  ByHand region kind ->
+  ManualCommand region kind ->
     ( report
         Report.Warning
         "W0504"
         (InSource region)
-        (machineName machine <> " cannot be told " <> what kind <> " by its tape")
+        (machineName machine <> " cannot be told " <> subjectOf kind <> " by its tape")
     )
       { message =
           [ "It has to be done by hand here."
@@ -281,7 +284,7 @@ warningReport machine warning = case warning of
               not (null (Machine.auxiliary (Machine.orders machine)))
           ]
       }
-  SpeedDiffers region asked given ->
+  SpindleSpeedDiffers region asked given ->
     ( report
         Report.Warning
         "W0505"
@@ -290,7 +293,7 @@ warningReport machine warning = case warning of
     )
       { message = ["Asked is " <> turns asked <> "; the machine can be told none nearer to it."]
       }
-  SpeedUnsaid region ->
+  SpindleSpeedMissing region ->
     ( report
         Report.Warning
         "W0506"
@@ -301,7 +304,7 @@ warningReport machine warning = case warning of
         hints = ["Give the turns a minute."]
       }
   where
-    what kind = case kind of
+    subjectOf kind = case kind of
       SpindleCommand -> "about the spindle"
       CoolantCommand -> "about the coolant"
       ToolCommand -> "to change its tool"
@@ -314,7 +317,7 @@ warningReport machine warning = case warning of
         (Machine.LeadingAxis, _) -> "the machine's feeds are steps along the axis that leads"
     turns n = Decimal.short 1 n <> " turns a minute"
 
--- | What a number of a command is.
+-- | Name of the number of a command.
 numbered :: CommandKind -> Text
 numbered kind = case kind of
   SpindleCommand -> "spindle speed"
@@ -322,11 +325,14 @@ numbered kind = case kind of
   ToolCommand -> "tool"
   AuxiliaryCommand -> "auxiliary command"
 
+-- | Name of the word of an axis.
 axisName :: Axis -> Text
 axisName axis = Machine.contentWord (Machine.Along axis)
 
+-- | Name of a machine.
 machineName :: Machine -> Text
 machineName machine = let MachineName name = Machine.name machine in name
 
+-- | Feed with its unit.
 feed :: Feed -> Text
 feed (Feed f) = Decimal.short 2 f <> " mm/min"

@@ -1,15 +1,19 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Which code a frame gets for a feed, and what feed a code gives.
+-- | Feed codes: the code of a frame for a feed, and the feed that a code gives.
+--
+-- On some machines a code is a feed along the path. On others it is a frequency of the leading
+-- axis, in pulses per second; there the feed along the path depends on the direction of the frame
+-- as well.
 module Frame.FeedCode
   ( codeFor,
     given,
     wayOf,
-    valueFor,
+    codeValue,
     rapid,
     about,
-    nearest,
-    alongAxis,
+    nearestCode,
+    feedAlongAxis,
   )
 where
 
@@ -21,19 +25,20 @@ import Geometry.Segment qualified as Segment
 import Machine.Machine (FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | The code for a feed in a frame of this length, whatever code stands there.
+-- | Code for a feed in a frame of the given length. The code in the frame itself is not used.
 codeFor :: Machine -> Feed -> Frame -> Mm -> FeedChoice
-codeFor machine v f way = Machine.choose machine (valueFor machine v f way)
+codeFor machine v f l = Machine.choose machine (codeValue machine v f l)
 
--- | A feed in the measure of the machine's codes.
-valueFor :: Machine -> Feed -> Frame -> Mm -> Double
-valueFor machine (Feed v) f way = maybe v (v / 60 *) (perMm machine f way)
+-- | Feed in the unit of the machine's codes, for a frame of the given length: mm/min along the
+-- path, or pulses per second of the leading axis.
+codeValue :: Machine -> Feed -> Frame -> Mm -> Double
+codeValue machine (Feed v) f l = maybe v (v / 60 *) (pulsesPerMm machine f l)
 
--- | The feed along the path that a frame's code gives, for a frame of this length. None where
--- nothing moves, where a rapid move is a motion of its own, and for a code that the machine does
--- not have.
+-- | Feed along the path that the code of a frame gives, for a frame of the given length. None for
+-- a frame without motion, for a motion that is rapid by itself, and for a code that the machine
+-- does not have.
 given :: Machine -> Frame -> Mm -> Maybe Feed
-given machine f way = case motion f of
+given machine f l = case motion f of
   Still -> Nothing
   Rapid -> Nothing
   Straightway -> obtained
@@ -41,23 +46,23 @@ given machine f way = case motion f of
   where
     obtained =
       fmap
-        (\x -> Feed (maybe x (\n -> 60 * x / n) (perMm machine f way)))
+        (\x -> Feed (maybe x (\n -> 60 * x / n) (pulsesPerMm machine f l)))
         (Machine.valueOf machine (speed f))
 
--- | How many pulses of the leading axis fall on a mm of the path; none where feeds are those along
--- the path. On an arc the axis that leads changes: there it is the pulses of the way itself. A
--- frame without length counts as one along an axis.
-perMm :: Machine -> Frame -> Mm -> Maybe Double
-perMm machine f (Mm way) = case Machine.feedMeasure (Machine.feeds machine) of
+-- | Pulses of the leading axis per mm of the path; none on a machine whose codes are feeds along
+-- the path. On an arc the leading axis changes, so pulses along the path itself are counted. A
+-- frame without length counts as a move along an axis.
+pulsesPerMm :: Machine -> Frame -> Mm -> Maybe Double
+pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Nothing
-  LeadingAxis -> Just (if way > 0 && leading > 0 then fromIntegral leading / way else 1 / grain)
+  LeadingAxis -> Just (if l > 0 && leading > 0 then fromIntegral leading / l else 1 / pulse)
   where
-    Mm grain = Machine.pulse machine
+    Mm pulse = Machine.pulse machine
     leading = case motion f of
       Round _ -> 0
       _ -> let Pulses3 x y z = abs (increment f); Pulses n = max x (max y z) in n
 
--- | The length of a frame's way in mm.
+-- | Length of a frame in mm, in space for a straight one.
 wayOf :: Machine -> Frame -> Mm
 wayOf machine f = case motion f of
   Round _ -> plane
@@ -65,23 +70,23 @@ wayOf machine f = case motion f of
   where
     plane = Segment.length (Frame.segment machine 0 f)
 
--- | The code for a feed; the lowest or the highest for one that the machine does not have.
-nearest :: Machine -> Feed -> Frame -> FeedCode
-nearest machine v f = case Machine.choose machine asked of
+-- | Code for a feed in a frame. The lowest or the highest code for a feed outside of their range.
+nearestCode :: Machine -> Feed -> Frame -> FeedCode
+nearestCode machine v f = case Machine.choose machine asked of
   Given code _ -> code
   NoSuchFeed low high -> case Machine.choose machine (if asked < low then low else high) of
     Given code _ -> code
     NoSuchFeed _ _ -> Machine.rapidCode machine
   where
-    asked = valueFor machine v f (wayOf machine f)
+    asked = codeValue machine v f (wayOf machine f)
 
--- | The feed of rapid moves, as far as it is known.
+-- | Feed of rapid moves along an axis; 0 if the description does not give it.
 rapid :: Machine -> Feed
 rapid machine =
-  maybe (Feed 0) (alongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
+  maybe (Feed 0) (feedAlongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
--- | The feed that is obtained for one that is asked: exactly where codes are feeds along the path,
--- else about.
+-- | Feed that the machine gives for the feed asked for. Exact where codes are feeds along the path.
+-- Where they are frequencies the direction is not known here, so the result is the feed asked for.
 about :: Machine -> Feed -> Feed
 about machine asked@(Feed v) =
   case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of
@@ -89,8 +94,8 @@ about machine asked@(Feed v) =
     (AlongPath, NoSuchFeed _ _) -> asked
     (LeadingAxis, _) -> asked
 
--- | The feed that a value of the machine's codes gives along an axis.
-alongAxis :: Machine -> Double -> Feed
-alongAxis machine x = case Machine.feedMeasure (Machine.feeds machine) of
+-- | Feed along an axis, from a feed in the unit of the machine's codes.
+feedAlongAxis :: Machine -> Double -> Feed
+feedAlongAxis machine x = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Feed x
-  LeadingAxis -> let Mm grain = Machine.pulse machine in Feed (60 * x * grain)
+  LeadingAxis -> let Mm pulse = Machine.pulse machine in Feed (60 * x * pulse)

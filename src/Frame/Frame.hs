@@ -1,7 +1,11 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Frames: what a controller is told, in whole pulses along the axes of the part.
+-- | Frames: what a controller does at once, in whole pulses along the axes of the part.
+--
+-- The module owns the frame, the program of frames and the rules that every frame of a machine
+-- keeps. It refuses nothing by itself: 'invariants' lists the rules that are broken. Positions in
+-- mm are derived from pulses here and nowhere else.
 module Frame.Frame
   ( Frame (..),
     FrameMotion (..),
@@ -34,31 +38,36 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | What stands on the tape.
+-- | One frame as the tape holds it.
 data Frame = Frame
   { motion :: FrameMotion,
+    -- | pulses from the beginning of the frame to its end
     increment :: {-# UNPACK #-} Pulses3,
-    -- | of an arc: from its beginning to its centre; else 0
+    -- | pulses from the beginning of an arc to its centre; 0 for every other motion
     centre :: {-# UNPACK #-} Pulses2,
-    -- | 0 where nothing moves, and where a rapid move is a motion of its own
+    -- | feed code; 0 for a frame without motion and for 'Rapid'
     speed :: FeedCode,
-    -- | it slows down to its speed
+    -- | the frame slows down to its feed
     braking :: Bool,
     -- | commands with their numbers, in the order of the layout's words; each at most once
     orders :: [(CommandName, Int)]
   }
   deriving stock (Eq, Show)
 
+-- | Kind of motion in a frame.
 data FrameMotion
-  = Still
-  | -- | only on machines that have a motion for it; elsewhere it is straight at the highest speed
+  = -- | none: the frame holds only commands
+    Still
+  | -- | rapid move, on machines that have a motion of its own for it; on all others a rapid move
+    -- is a straight one with the highest feed code
     Rapid
-  | Straightway
-  | -- | an arc in the plane; with no increment a full circle
+  | -- | straight line
+    Straightway
+  | -- | circular arc in the plane x, y; a full circle where the increment is 0
     Round Sense
   deriving stock (Eq, Show)
 
--- | A frame that only commands.
+-- | Frame that holds only these commands.
 still :: [(CommandName, Int)] -> Frame
 still given =
   Frame
@@ -70,24 +79,26 @@ still given =
       orders = given
     }
 
+-- | True for a frame with a motion.
 isMoving :: Frame -> Bool
 isMoving f = motion f /= Still
 
--- | A frame with the reason for it.
+-- | Frame with the reason for it.
 data Planned = Planned
   { frame :: Frame,
     role :: Role,
+    -- | the text in the part program that asks for the frame
     origin :: Region,
-    -- | the radius of the cutter in the spindle
+    -- | radius of the cutter in the spindle
     tool :: Mm
   }
   deriving stock (Eq, Show)
 
--- | What a frame does. The number counts the passes along contours and in pockets from 0.
+-- | Purpose of a frame. The number counts the passes along contours and in pockets, from 0.
 data Role = Approaching Int | Cutting Int | Retracting Int | Travelling | Drilling | Commanding
   deriving stock (Eq, Show)
 
--- | The number of the pass to which a frame belongs.
+-- | Number of the pass that a frame belongs to, from 0; none for frames outside of passes.
 passOf :: Role -> Maybe Int
 passOf role = case role of
   Approaching n -> Just n
@@ -97,12 +108,12 @@ passOf role = case role of
   Drilling -> Nothing
   Commanding -> Nothing
 
--- | The frames of a tape, and where the cutter stands before the first, in pulses from the zero of
--- the part.
+-- | All frames of a tape, and the position of the cutter before the first one, in pulses from the
+-- zero of the part.
 data FrameProgram = FrameProgram {start :: Pulses3, planned :: [Planned]}
   deriving stock (Eq, Show)
 
--- | A position in mm, in the plane.
+-- | Position in the plane in mm, from a position in pulses.
 position :: Machine -> Pulses3 -> Point
 position machine (Pulses3 (Pulses x) (Pulses y) _) =
   Vec.point (fromIntegral x * px) (fromIntegral y * py)
@@ -110,71 +121,74 @@ position machine (Pulses3 (Pulses x) (Pulses y) _) =
     Mm px = Machine.pulseOf machine X
     Mm py = Machine.pulseOf machine Y
 
--- | The height of a position in mm.
+-- | Height in mm, from a position in pulses.
 height :: Machine -> Pulses3 -> Mm
 height machine (Pulses3 _ _ (Pulses z)) =
   let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
 
--- | The centre of an arc that begins at a position.
+-- | Centre in mm of an arc that begins at the given position.
 centreOf :: Machine -> Pulses3 -> Frame -> Point
 centreOf machine (Pulses3 x y z) f =
   let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
 
--- | What a frame does in the plane from a position, in mm. The radius of an arc may differ at its
--- ends by rounding; the segment goes about the centre of the frame and ends where the frame ends.
+-- | Line or arc in mm that a frame describes in the plane, from the given position on. Rounding may
+-- make the radii at the two ends of an arc differ. The segment turns about the centre of the frame
+-- and ends where the frame ends.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
-  Round turn
+  Round sense
     | begin == finish ->
       Segment.Arc
         { Segment.start = begin,
           Segment.end = finish,
           Segment.centre = middle,
-          Segment.sweep = Rad (Carrier.sense turn * 2 * pi)
+          Segment.sweep = Rad (Carrier.sense sense * 2 * pi)
         }
-    | otherwise -> Segment.arc turn middle begin finish
+    | otherwise -> Segment.arc sense middle begin finish
   _ -> Straight begin finish
   where
     begin = position machine at
     finish = position machine (at + increment f)
     middle = centreOf machine at f
 
--- | A rule that a frame breaks; the frame's number from 1.
+-- | Rule that a frame breaks. The first number is that of the frame, from 1.
 data Broken
-  = -- | an increment that its field does not hold
+  = -- | an increment that does not fit its field
     OverCapacity Int Axis Pulses
-  | -- | a centre that its field does not hold, or that is none
+  | -- | a centre at the beginning of its arc, or one that does not fit its field
     BadCentre Int
-  | -- | a feed code that the machine does not have, or none where the frame moves
+  | -- | a feed code that the machine does not have, or a feed code other than 0 where the motion
+    -- takes none
     NoSuchSpeed Int FeedCode
-  | -- | a motion that the machine does not have, or that its increments contradict
+  | -- | a motion that the machine does not have, or that contradicts its increments
     NoSuchMotion Int
-  | -- | a command that the machine does not have, or one given twice
+  | -- | a command that the machine does not have, or a command given twice
     NoSuchOrder Int CommandName
-  | -- | a frame that moves nothing and commands nothing
+  | -- | a frame without motion and without commands
     Idle Int
   deriving stock (Eq, Show)
 
--- | The rules that every list of frames for a machine keeps; the ones that are broken.
+-- | All broken rules in the frames of a program, in the order of the frames; empty for a valid one.
 invariants :: Machine -> [Frame] -> [Broken]
 invariants machine = concat . zipWith (broken machine) [1 ..]
 
--- | The rules that a frame with a number breaks. Most frames keep them all, and nothing is made for
--- them.
+-- | Rules that a frame with the given number breaks. Nearly all frames keep every rule, so the
+-- result for them is found without building a list.
 broken :: Machine -> Int -> Frame -> [Broken]
 broken machine n f
-  | null fields && null speeds && null motions && null commands && not idle = []
-  | otherwise = fields <> speeds <> motions <> commands <> [Idle n | idle]
+  | null fields && null feeds && null motions && null repeated && not isEmpty = []
+  | otherwise = fields <> feeds <> motions <> repeated <> [Idle n | isEmpty]
   where
-    !fields = inFields machine n f
-    !speeds = atSpeed machine n f
-    !motions = asMoved machine n f
-    !commands = asCommanded machine n f
-    !idle = not (isMoving f) && null (orders f)
+    !fields = capacityFaults machine n f
+    !feeds = feedCodeFaults machine n f
+    !motions = motionFaults machine n f
+    !repeated = commandFaults machine n f
+    !isEmpty = not (isMoving f) && null (orders f)
 
--- What a field of positions holds depends on where the tape stands; there the increments are free.
-inFields :: Machine -> Int -> Frame -> [Broken]
-inFields machine n f =
+-- | Increments that do not fit their fields. A field for absolute positions limits the position and
+-- not the increment, so nothing is checked there.
+capacityFaults :: Machine -> Int -> Frame -> [Broken]
+capacityFaults machine n f =
   [ OverCapacity n axis d
     | Machine.measure (Machine.layout machine) == Increments,
       (axis, d) <- [(X, x), (Y, y), (Z, z)],
@@ -183,48 +197,50 @@ inFields machine n f =
   where
     Pulses3 x y z = increment f
 
-atSpeed :: Machine -> Int -> Frame -> [Broken]
-atSpeed machine n f = case motion f of
+feedCodeFaults :: Machine -> Int -> Frame -> [Broken]
+feedCodeFaults machine n f = case motion f of
   Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
   Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-  Straightway -> known
-  Round _ -> known
+  Straightway -> unknown
+  Round _ -> unknown
   where
-    known = [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
+    unknown = [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
 
-asMoved :: Machine -> Int -> Frame -> [Broken]
-asMoved machine n f = case motion f of
+motionFaults :: Machine -> Int -> Frame -> [Broken]
+motionFaults machine n f = case motion f of
   Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
   Rapid ->
     [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
   Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
-  Round turn -> case Machine.arcs machine of
+  Round sense -> case Machine.arcs machine of
     NoArcs -> [NoSuchMotion n]
-    Arcs {Machine.fullCircle = whole, Machine.quadrants = parts} ->
+    Arcs {Machine.fullCircle, Machine.quadrants} ->
       [ NoSuchMotion n
-        | (increment f == 0 && not whole) || z /= 0 || (parts && not (inQuadrant turn f))
+        | (increment f == 0 && not fullCircle)
+            || z /= 0
+            || (quadrants && not (isInQuadrant sense f))
       ]
         <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]
   where
     Pulses3 _ _ z = increment f
     Pulses2 i j = centre f
 
-asCommanded :: Machine -> Int -> Frame -> [Broken]
-asCommanded machine n f =
+commandFaults :: Machine -> Int -> Frame -> [Broken]
+commandFaults machine n f =
   [ NoSuchOrder n o
     | (k, (o, v)) <- zip [0 :: Int ..] (orders f),
       o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)
   ]
 
--- | Whether an arc keeps to one quadrant about its centre, by whole pulses: its ends lie in one,
--- and it goes from one to the other without leaving it.
-inQuadrant :: Sense -> Frame -> Bool
-inQuadrant turn f = a * c >= 0 && b * d >= 0 && forwards (a * d - b * c)
+-- | True for an arc within one quadrant about its centre, computed in whole pulses: both ends lie
+-- in the same quadrant, and the arc does not leave it in between.
+isInQuadrant :: Sense -> Frame -> Bool
+isInQuadrant sense f = a * c >= 0 && b * d >= 0 && isForward (a * d - b * c)
   where
     Pulses2 i j = centre f
     Pulses3 x y _ = increment f
     (a, b) = (-i, -j)
     (c, d) = (x - i, y - j)
-    forwards cross = case turn of
+    isForward cross = case sense of
       CounterClockwise -> cross > 0
       Clockwise -> cross < 0

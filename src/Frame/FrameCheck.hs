@@ -1,13 +1,13 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What stands against frames, and what is to be told of them: they are looked at one by one, in
--- order.
+-- | Checks of finished frames: feeds that the machine does not have, axes that it lacks, positions
+-- that do not fit their fields. Frames are checked one by one, in order.
 module Frame.FrameCheck
   ( FrameContext,
-    lookAt,
+    contextOf,
     FrameFindings,
-    nothing,
-    see,
+    noFindings,
+    check,
     errors,
     warnings,
   )
@@ -15,7 +15,7 @@ where
 
 import Base.PulseVector (Pulses3)
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
-import Base.Region (Located (..), Region)
+import Base.Region (Located (Located), Region)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (maybeToList)
@@ -29,142 +29,145 @@ import Machine.Machine (Axis (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 
--- | What is the same for all frames.
+-- | Facts about the machine that are the same for all frames.
 data FrameContext = FrameContext
   { machine :: Machine,
-    -- | whether a code gives the same feed in every frame
+    -- | a code gives the same feed in every frame
     isAlongPath :: Bool,
-    -- | axes that there are not
-    lacking :: [Axis],
-    -- | the largest positions that fit their fields, where fields hold positions
-    fields :: [(Axis, Pulses)]
+    -- | axes that the machine does not have
+    missingAxes :: [Axis],
+    -- | largest positions that fit their fields, on a machine with absolute positions
+    largestPositions :: [(Axis, Pulses)]
   }
 
-lookAt :: Machine -> FrameContext
-lookAt machine =
+-- | Context for the frames of a machine.
+contextOf :: Machine -> FrameContext
+contextOf machine =
   FrameContext
     { machine,
       isAlongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath,
-      lacking = [axis | (axis, most) <- capacities, most == 0],
-      fields = case Machine.measure (Machine.layout machine) of
+      missingAxes = [axis | (axis, most) <- capacities, most == 0],
+      largestPositions = case Machine.measure (Machine.layout machine) of
         Machine.Increments -> []
         Machine.Positions -> filter ((> 0) . snd) capacities
     }
   where
     capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
 
--- | What the frames so far have shown.
+-- | Findings in the frames so far.
 data FrameFindings = FrameFindings
-  { -- | what is obtained for each feed of the program
-    obtained :: Map (Region, Feed) Range,
-    -- | the feed that was asked last, and the code that it got
+  { -- | range of the feeds obtained for each feed of the program
+    obtained :: Map (Region, Feed) FeedRange,
+    -- | feed of the program in the last frame, and its code
     lastPace :: Pace,
     lastCode :: FeedCode,
-    -- | feeds of the program for which the axis that leads finds no code; of each the first
-    noCode :: Map (Region, Feed) Error,
-    -- | the first move along an axis that there is not
-    missing :: Maybe Error,
-    -- | the first position that does not fit its field
-    beyond :: Maybe Error
+    -- | for each feed of the program, the first frame for which the leading axis has no code
+    withoutCode :: Map (Region, Feed) Error,
+    -- | first move along an axis that the machine does not have
+    missingAxis :: Maybe Error,
+    -- | first position that does not fit its field
+    outOfField :: Maybe Error
   }
 
--- | From the lowest to the highest feed in mm/min.
-data Range = Range Double Double
+-- | Lowest and highest feed in mm/min.
+data FeedRange = FeedRange Double Double
 
-nothing :: FrameFindings
-nothing =
+-- | Findings before the first frame.
+noFindings :: FrameFindings
+noFindings =
   FrameFindings
     { obtained = Map.empty,
       lastPace = Rapid,
       lastCode = FeedCode 0,
-      noCode = Map.empty,
-      missing = Nothing,
-      beyond = Nothing
+      withoutCode = Map.empty,
+      missingAxis = Nothing,
+      outOfField = Nothing
     }
 
--- | Feeds without codes, then moves along axes that there are not, then positions that do not fit;
--- of each the first.
+-- | Errors: the feeds without a code, then the first missing axis, then the first position that
+-- does not fit.
 errors :: FrameFindings -> [Error]
-errors seen = Map.elems (noCode seen) <> maybeToList (missing seen) <> maybeToList (beyond seen)
+errors findings =
+  Map.elems (withoutCode findings)
+    <> maybeToList (missingAxis findings)
+    <> maybeToList (outOfField findings)
 
--- | A feed obtained that differs from the one asked by more than this share is worth a warning.
+-- | Share of the feed by which the obtained feed may differ without a warning.
 feedSlack :: Double
 feedSlack = 0.1
 
--- | One warning for each feed of the program that some frame does not meet, with all that its
--- frames obtain.
+-- | One warning for each feed of the program that some frame misses by more than 'feedSlack', with
+-- the range of the feeds obtained for it.
 warnings :: FrameFindings -> [Warning]
-warnings seen =
+warnings findings =
   [ FeedDiffers region (Feed v) (Feed low) (Feed high)
-    | ((region, Feed v), Range low high) <- Map.toList (obtained seen),
+    | ((region, Feed v), FeedRange low high) <- Map.toList (obtained findings),
       max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v
   ]
 
--- | Look at the next frame: how fast the program asks it to be, if it is the program that does, and
--- else rapid; where it ends; the frame.
-see :: FrameContext -> Pace -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
-see look asked at p = placed look at p . fed look asked (frame p)
+-- | Check the next frame. Given are its feed in the program, 'Rapid' where the compiler sets the
+-- feed itself, and the position at its end.
+check :: FrameContext -> Pace -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
+check context asked at p = checkPosition context at p . checkFeed context asked (frame p)
 
-fed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
-fed look asked f before = case asked of
+checkFeed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
+checkFeed context asked f before = case asked of
   Rapid -> before
   At (Located region v)
-    -- Along the path the same code gives the same.
-    | isAlongPath look && lastCode before == speed f && lastPace before == asked -> before
-    | otherwise -> fedAnew look (region, v) f before {lastPace = asked, lastCode = speed f}
+    -- Codes along the path give the same feed for the same code, so nothing new can be found.
+    | isAlongPath context && lastCode before == speed f && lastPace before == asked -> before
+    | otherwise ->
+      checkNewFeed context (region, v) f before {lastPace = asked, lastCode = speed f}
 
-fedAnew :: FrameContext -> (Region, Feed) -> Frame -> FrameFindings -> FrameFindings
-fedAnew FrameContext {machine, isAlongPath} key@(region, v) f before =
-  case (FeedCode.codeFor machine v f way, FeedCode.given machine f way) of
+checkNewFeed :: FrameContext -> (Region, Feed) -> Frame -> FrameFindings -> FrameFindings
+checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
+  case (FeedCode.codeFor machine v f l, FeedCode.given machine f l) of
     (Machine.Given _ _, Just (Feed g)) ->
-      before {obtained = Map.insertWith reaching key (Range g g) (obtained before)}
+      before {obtained = Map.insertWith united key (FeedRange g g) (obtained before)}
     (Machine.Given _ _, Nothing) -> before
-    -- A feed that there is not is no matter of a warning.
     (Machine.NoSuchFeed low high, _)
+      -- "Frame.InstructionCheck" has reported it already.
       | isAlongPath -> before
       | otherwise ->
         before
-          { noCode =
-              Map.insertWith
-                (\_ first -> first)
-                key
-                ( FrequencyMissing
-                    region
-                    v
-                    (FeedCode.valueFor machine v f way)
-                    (low, FeedCode.alongAxis machine low)
-                    (high, FeedCode.alongAxis machine high)
-                )
-                (noCode before)
+          { withoutCode =
+              Map.insertWith (\_ first -> first) key (frequencyError low high) (withoutCode before)
           }
   where
-    way = FeedCode.wayOf machine f
+    l = FeedCode.wayOf machine f
+    frequencyError low high =
+      FrequencyOutOfRange
+        region
+        v
+        (FeedCode.codeValue machine v f l)
+        (low, FeedCode.feedAlongAxis machine low)
+        (high, FeedCode.feedAlongAxis machine high)
 
-reaching :: Range -> Range -> Range
-reaching (Range a b) (Range c d) = Range (min a c) (max b d)
+united :: FeedRange -> FeedRange -> FeedRange
+united (FeedRange a b) (FeedRange c d) = FeedRange (min a c) (max b d)
 
-placed :: FrameContext -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
-placed FrameContext {machine, lacking, fields} at p before
-  | not (any isMissing lacking) && all fits fields = before
+checkPosition :: FrameContext -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
+checkPosition FrameContext {machine, missingAxes, largestPositions} at p before
+  | not (any isUsed missingAxes) && all isFitting largestPositions = before
   | otherwise =
     before
-      { missing =
+      { missingAxis =
           firstOf
-            (missing before)
-            [NoSuchAxis place axis | axis <- lacking, isMissing axis],
-        beyond =
+            (missingAxis before)
+            [NoSuchAxis region axis | axis <- missingAxes, isUsed axis],
+        outOfField =
           firstOf
-            (beyond before)
-            [ BeyondField place axis (mm axis (Rounding.component axis at)) (mm axis most)
-              | (axis, most) <- fields,
-                not (fits (axis, most))
+            (outOfField before)
+            [ PositionOutOfField region axis (mm axis (Rounding.component axis at)) (mm axis most)
+              | (axis, most) <- largestPositions,
+                not (isFitting (axis, most))
             ]
       }
   where
-    isMissing axis = Rounding.component axis (increment (frame p)) /= 0
-    fits (axis, most) = abs (Rounding.component axis at) <= most
-    place = Frame.origin p
-    mm axis (Pulses n) = let Mm grain = Machine.pulseOf machine axis in Mm (fromIntegral n * grain)
+    isUsed axis = Rounding.component axis (increment (frame p)) /= 0
+    isFitting (axis, most) = abs (Rounding.component axis at) <= most
+    region = Frame.origin p
+    mm axis (Pulses n) = let Mm pulse = Machine.pulseOf machine axis in Mm (fromIntegral n * pulse)
     firstOf known found = case (known, found) of
       (Nothing, e : _) -> Just e
       _ -> known

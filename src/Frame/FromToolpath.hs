@@ -1,9 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | From the path to the frames of a machine: arcs where it walks them, else chords within the
--- tolerance; positions in whole pulses; moves split to fit their fields; feeds, braking and
--- commands as the machine takes them.
+-- | From the toolpath to the frames of a machine.
+--
+-- A run of moves becomes arcs where the machine has circular interpolation, and chords within the
+-- tolerance elsewhere. Positions are rounded to whole pulses, moves are split to fit their fields,
+-- and every frame gets its feed code, its braking mark and its commands. Requests that the machine
+-- cannot carry out are refused or reported as warnings, see "Frame.Error".
 module Frame.FromToolpath
   ( quantise,
     chords,
@@ -25,13 +28,15 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
-import Frame.Arc (ArcStep (..))
+import Frame.Arc (ArcStep (..), ArcTolerance (..))
 import Frame.Arc qualified as Arc
+import Frame.ArcFitting (RunPart)
 import Frame.ArcFitting qualified as ArcFitting
 import Frame.Braking qualified as Braking
-import Frame.Chord (Allowed (..), bandChords, chordCount, chords)
+import Frame.Chord (ChordTolerance (..), bandChords, chordCount, chords)
 import Frame.Chord qualified as Chord
-import Frame.Command (Told, Waiting (..))
+import Frame.Chording (Bounds)
+import Frame.Command (Pending (..), Translation)
 import Frame.Command qualified as Command
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
@@ -44,13 +49,14 @@ import Frame.Frame
   )
 import Frame.Frame qualified as Frame
 import Frame.FrameCheck qualified as FrameCheck
-import Frame.Instruction (Drive (..), Instruction (..))
+import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Instruction qualified as Instruction
 import Frame.InstructionCheck qualified as InstructionCheck
 import Frame.Rounding (PathPosition)
 import Frame.Rounding qualified as Rounding
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
@@ -60,68 +66,83 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The frames of a path. Positions are rounded to whole pulses as absolute positions, and an
--- increment is the difference of two of them, so rounding never adds up. What keeps the frames from
--- being made at all, or from being few enough, is looked for before they are made.
+-- | Frames of a toolpath. Errors that keep the frames from being made at all, or that make them too
+-- many, are found before the frames are made.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
-  path@Toolpath {Toolpath.start = Located fromRegion (SpacePoint fromPoint fromHeight)} =
-    foldr seq () (tooCoarse <> tooMany) `seq` case nubOrd (early <> late) of
+  path@Toolpath {Toolpath.start = Located startRegion (SpacePoint startPoint startHeight)} =
+    -- These errors are evaluated before there are frames; else they would keep the whole toolpath
+    -- in memory while the frames are made.
+    foldr seq () (tooCoarse <> tooMany) `seq` case errorsOf tooCoarse tooMany made of
       [] -> Result warnings [] (Just (FrameProgram begin frames))
-      problems ->
-        Result
-          (if null boundless then warnings else nubOrd (startWarning <> byHand))
-          problems
-          Nothing
+      problems
+        | isUnbounded -> Result (nubOrd (startWarnings <> commandWarnings made)) problems Nothing
+        | otherwise -> Result warnings problems Nothing
     where
-      begin = Rounding.rounded machine (fromPoint, fromHeight)
-      looks =
-        Looks
+      begin = Rounding.rounded machine (startPoint, startHeight)
+      context =
+        Context
           { machine,
             grid = Arc.gridOf machine,
-            early = InstructionCheck.lookFrom machine fromRegion fromPoint,
-            late = FrameCheck.lookAt machine
+            instructionContext = InstructionCheck.contextOf machine startRegion startPoint,
+            frameContext = FrameCheck.contextOf machine
           }
       making =
         framesOf
-          looks
-          (nothingFrom fromRegion begin)
-          (Braking.applied machine (Instruction.tasksOf machine path))
+          context
+          (initial startRegion begin)
+          (Braking.applied machine (Instruction.instructions machine path))
       made = LazyList.end making
       frames = LazyList.toList making
-      commands = reverse (told made)
-      warnings =
-        nubOrd
-          ( startWarning
-              <> FrameCheck.warnings (seen made)
-              <> InstructionCheck.unsure (looked made)
-              <> byHand
-          )
-      startWarning =
-        let at' = Frame.position machine begin
-         in [StartRounded fromRegion fromPoint at' | not (Vec.near at' fromPoint)]
-      byHand = concatMap Command.warnings commands
-      boundless = InstructionCheck.boundless (looked made)
-      -- Looked at before there are frames, so that the path is not held for them.
-      tooCoarse = mapMaybe (toleranceProblem machine) (Toolpath.blocks path)
-      tooMany = tooManyContours machine path
-      early =
-        tooCoarse
-          <> InstructionCheck.feedless (looked made)
-          <> boundless
-          <> concatMap Command.errors commands
-          <> tooMany
-      late
-        | null boundless = case overlong made of
-          Just place -> [TooManyFrames place InstructionCheck.mostFrames]
-          Nothing -> FrameCheck.errors (seen made)
-        | otherwise = []
+      tooCoarse = mapMaybe (toleranceError machine) (Toolpath.blocks path)
+      tooMany = contourErrors machine path
+      isUnbounded = not (null (InstructionCheck.boundErrors (instructionFindings made)))
+      startWarnings = startWarning machine startRegion startPoint begin
+      warnings = nubOrd (startWarnings <> warningsOf made)
 
--- What stands against it --------------------------------------------------------------------------
+-- | All errors, without repetition. Given are the errors of the tolerances, those of the number of
+-- contours, and the final state.
+errorsOf :: [Error] -> [Error] -> Making -> [Error]
+errorsOf tooCoarse tooMany made =
+  nubOrd
+    ( tooCoarse
+        <> InstructionCheck.feedErrors (instructionFindings made)
+        <> bounds
+        <> concatMap Command.errors (reverse (translations made))
+        <> tooMany
+        <> ofFrames
+    )
+  where
+    bounds = InstructionCheck.boundErrors (instructionFindings made)
+    ofFrames
+      | null bounds = case tooManyFrom made of
+        Just region -> [TooManyFrames region InstructionCheck.mostFrames]
+        Nothing -> FrameCheck.errors (frameFindings made)
+      | otherwise = []
 
-toleranceProblem :: Machine -> Toolpath.Block -> Maybe Error
-toleranceProblem machine block = case block of
+-- | Warnings of the frames and of the commands, from the final state.
+warningsOf :: Making -> [Warning]
+warningsOf made =
+  FrameCheck.warnings (frameFindings made)
+    <> InstructionCheck.heightWarnings (instructionFindings made)
+    <> commandWarnings made
+
+commandWarnings :: Making -> [Warning]
+commandWarnings made = concatMap Command.warnings (reverse (translations made))
+
+-- | Warning about a start point between two pulses.
+startWarning :: Machine -> Region -> Point -> Pulses3 -> [Warning]
+startWarning machine region asked begin =
+  [StartRounded region asked given | not (Vec.near given asked)]
+  where
+    given = Frame.position machine begin
+
+-- Errors that need no frames ----------------------------------------------------------------------
+
+-- | Error of a block whose tolerance is too large for its cutter.
+toleranceError :: Machine -> Toolpath.Block -> Maybe Error
+toleranceError machine block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ job} -> tooLarge job
   Toolpath.Clearing {Toolpath.pocket = Located _ p} -> tooLarge (Part.wall p)
   Toolpath.Travelling _ _ -> Nothing
@@ -130,264 +151,289 @@ toleranceProblem machine block = case block of
   where
     tooLarge job
       | Toolpath.touchedRadius job > Mm 0
-          && plus allowed (Machine.pulse machine) >= Part.radius job =
-        Just (ToleranceTooLarge (region (Part.side job)) allowed (Part.radius job))
+          && plus tolerance (Machine.pulse machine) >= Part.radius job =
+        Just (ToleranceTooLarge (region (Part.side job)) tolerance (Part.radius job))
       | otherwise = Nothing
       where
-        allowed = uncurry max (Part.deepest (Part.tolerance job))
+        tolerance = uncurry max (Part.deepest (Part.tolerance job))
 
--- | Machined contours, each counted once for all of its passes.
-tooManyContours :: Machine -> Toolpath -> [Error]
-tooManyContours machine path = case Machine.mostContours (Machine.limits machine) of
+-- | Error of more contours than the machine allows. A contour counts once for all of its passes.
+contourErrors :: Machine -> Toolpath -> [Error]
+contourErrors machine path = case Machine.mostContours (Machine.limits machine) of
   Nothing -> []
   Just most ->
     [TooManyContours region most | (_, region) <- take 1 (drop most (Map.toList contours))]
   where
-    contours = Map.fromList (mapMaybe placeOf (Toolpath.blocks path))
-    placeOf b = case b of
-      Toolpath.Cutting {Toolpath.job = job, Toolpath.pass = pass} ->
+    contours = Map.fromList (mapMaybe contourOf (Toolpath.blocks path))
+    contourOf b = case b of
+      Toolpath.Cutting {Toolpath.job, Toolpath.pass} ->
         Just (Toolpath.number pass, region (Part.side (value job)))
-      Toolpath.Clearing {Toolpath.pocket = job, Toolpath.pass = pass} ->
-        Just (Toolpath.number pass, region (Part.side (Part.wall (value job))))
+      Toolpath.Clearing {Toolpath.pocket, Toolpath.pass} ->
+        Just (Toolpath.number pass, region (Part.side (Part.wall (value pocket))))
       Toolpath.Travelling _ _ -> Nothing
       Toolpath.Holing _ _ -> Nothing
       Toolpath.Commanding _ -> Nothing
 
--- The frames --------------------------------------------------------------------------------------
+-- Making the frames -------------------------------------------------------------------------------
 
--- | What is the same for all tasks and frames.
-data Looks = Looks
+-- | Facts that are the same for all instructions and frames.
+data Context = Context
   { machine :: Machine,
     grid :: Arc.Grid,
-    early :: InstructionCheck.InstructionContext,
-    late :: FrameCheck.FrameContext
+    instructionContext :: InstructionCheck.InstructionContext,
+    frameContext :: FrameCheck.FrameContext
   }
 
--- | What has been made of the tasks so far. Each task is taken once, so that none is kept.
+-- | State after the instructions so far. Each instruction is used once, so none of them is kept in
+-- memory.
 data Making = Making
-  { -- | where the cutter stands, and the place in the program that brought it there
+  { -- | position of the cutter, and the region of the program that has led there
     at :: Pulses3,
     here :: Region,
     -- | commands that no frame holds yet
-    waiting :: Maybe Waiting,
-    -- | the frames of the task at hand and all commands, the latest first
+    pending :: Maybe Pending,
+    -- | frames of the current instruction, the latest first
     latest :: [Planned],
-    told :: [Told],
-    -- | how many frames there are, and where they become too many
+    -- | all commands, the latest first
+    translations :: [Translation],
+    -- | number of frames, and the region of the first frame that is too many
     count :: Int,
-    overlong :: Maybe Region,
-    looked :: InstructionCheck.InstructionFindings,
-    seen :: FrameCheck.FrameFindings
+    tooManyFrom :: Maybe Region,
+    instructionFindings :: InstructionCheck.InstructionFindings,
+    frameFindings :: FrameCheck.FrameFindings
   }
 
-nothingFrom :: Region -> Pulses3 -> Making
-nothingFrom here at =
+-- | State before the first instruction.
+initial :: Region -> Pulses3 -> Making
+initial here at =
   Making
     { at,
       here,
-      waiting = Nothing,
+      pending = Nothing,
       latest = [],
-      told = [],
+      translations = [],
       count = 0,
-      overlong = Nothing,
-      looked = InstructionCheck.nothing,
-      seen = FrameCheck.nothing
+      tooManyFrom = Nothing,
+      instructionFindings = InstructionCheck.noFindings,
+      frameFindings = FrameCheck.noFindings
     }
 
--- | The frames of tasks, and what has been made at the end of them.
-framesOf :: Looks -> Making -> [Instruction] -> LazyList Making Planned
-framesOf looks !made tasks = case tasks of
-  [] -> let final = ended looks placed in LazyList.behind (latest final) (LazyList.End final)
-  task : more ->
-    let made' =
-          next looks placed task
-     in LazyList.behind (latest made') (framesOf looks made' more)
+-- | Frames of instructions as a lazy list, which ends with the final state.
+framesOf :: Context -> Making -> [Instruction] -> LazyList Making Planned
+framesOf context !made instructions = case instructions of
+  [] ->
+    let final = ended context emptied
+     in LazyList.behind (latest final) (LazyList.End final)
+  instruction : more ->
+    let made' = next context emptied instruction
+     in LazyList.behind (latest made') (framesOf context made' more)
   where
-    -- The frames of the task before stand in the series.
-    placed = made {latest = []}
+    -- The frames of the last instruction are in the list already.
+    emptied = made {latest = []}
 
--- | Make the frames of the next task. Commands stand in the frame of the next move, where they find
--- room. Once the frames cannot be made or are too many there are no more of them.
-next :: Looks -> Making -> Instruction -> Making
-next looks@Looks {machine, grid, early} made task = case task of
-  Order place said ->
-    let (now, waiting') = Command.add machine place (Command.numbers said) (waiting made)
-     in (foldl' (commanding looks) made now)
-          { waiting = waiting',
-            here = place,
-            told = said : told made
+-- | Make the frames of the next instruction. Commands go into the frame of the next move if there
+-- is room for them. Once the frames are too many or cannot be made, no more are added.
+next :: Context -> Making -> Instruction -> Making
+next context@Context {machine, grid, instructionContext} made instruction = case instruction of
+  Words region translation ->
+    let (full, pending') =
+          Command.add machine region (Command.numbers translation) (pending made)
+     in (foldl' (addCommands context) made full)
+          { pending = pending',
+            here = region,
+            translations = translation : translations made
           }
   Run {run}
-    | InstructionCheck.isBounded looked' ->
+    | InstructionCheck.isBounded findings ->
       let final = NonEmpty.last run
-          walked =
+          stepped =
             foldl'
-              (stepped looks task)
-              made {looked = looked'}
-              (stepsOf machine grid (at made) task stops)
-       in walked
+              (addStep context instruction)
+              made {instructionFindings = findings}
+              (stepsOf machine grid (at made) instruction chordEnds)
+       in stepped
             { at = Rounding.rounded machine (Segment.end (segment final), snd (heights final)),
               here = origin final
             }
-    | otherwise -> made {looked = looked'}
+    | otherwise -> made {instructionFindings = findings}
   where
-    looked' = InstructionCheck.see early task stops (looked made)
-    -- They are counted before they become frames.
-    stops = case task of
-      Order _ _ -> []
-      Run {allowed, run} -> chordStops machine allowed run
+    -- The chords are counted here before frames are made of them.
+    findings =
+      InstructionCheck.check instructionContext instruction chordEnds (instructionFindings made)
+    chordEnds = case instruction of
+      Words _ _ -> []
+      Run {tolerance, run} -> chordEndsOf machine tolerance run
 
--- | Behind the last move commands stand in a frame of their own, and then comes what always ends a
--- program.
-ended :: Looks -> Making -> Making
-ended looks@Looks {machine} made =
+-- | Add the frames after the last move: one for the commands that are still pending, and those that
+-- end every program of the machine.
+ended :: Context -> Making -> Making
+ended context@Context {machine} made =
   foldl'
-    (commanding looks)
-    (maybe made (commanding looks made) (waiting made))
-    [Waiting {place = here made, given} | given <- Command.atTheEnd machine]
+    (addCommands context)
+    (maybe made (addCommands context made) (pending made))
+    [Pending {asked = here made, given} | given <- Command.finalFrames machine]
 
--- | A frame that only commands.
-commanding :: Looks -> Making -> Waiting -> Making
-commanding looks made Waiting {place, given} =
-  put looks Rapid (at made) (Planned (Frame.still given) Commanding place (Mm 0)) made
+-- | Add a frame that holds only commands.
+addCommands :: Context -> Making -> Pending -> Making
+addCommands context made Pending {asked, given} =
+  addFrame context Rapid (at made) (Planned (Frame.still given) Commanding asked (Mm 0)) made
 
--- | The frame of a step of a task, if it moves anything, with the commands that wait.
-stepped :: Looks -> Instruction -> Making -> ArcStep -> Making
-stepped looks@Looks {machine} task made s = case task of
-  Order _ _ -> made
-  Run {role, tool, drive, run = m :| _} ->
-    case frameOf machine drive (Toolpath.pace m) (at made) s of
-      Nothing -> made {at = stop s}
+-- | Add the frame of a step, with the pending commands. A step that moves nothing has no frame.
+addStep :: Context -> Instruction -> Making -> ArcStep -> Making
+addStep context@Context {machine} instruction made step = case instruction of
+  Words _ _ -> made
+  Run {role, cutterRadius, feedMode, run = m :| _} ->
+    case frameOf machine feedMode (Toolpath.pace m) (at made) step of
+      Nothing -> made {at = target step}
       Just f ->
-        let f' = maybe f (\w -> f {orders = given w}) (waiting made)
-         in put
-              looks
-              (if drive == Asked then Toolpath.pace m else Part.Rapid)
-              (stop s)
-              (Planned f' role (origin m) tool)
-              made {waiting = Nothing}
+        let f' = maybe f (\p -> f {orders = given p}) (pending made)
+         in addFrame
+              context
+              (if feedMode == AsProgrammed then Toolpath.pace m else Part.Rapid)
+              (target step)
+              (Planned f' role (origin m) cutterRadius)
+              made {pending = Nothing}
 
--- | A frame behind the others: how fast the program asks it to be, where it ends.
-put :: Looks -> Pace -> Pulses3 -> Planned -> Making -> Making
-put Looks {late} asked stop !p made =
+-- | Add a frame. Given are its feed in the program, 'Part.Rapid' where the compiler sets it, and
+-- the position at its end.
+addFrame :: Context -> Pace -> Pulses3 -> Planned -> Making -> Making
+addFrame Context {frameContext} feed end !p made =
   made
-    { at = stop,
+    { at = end,
       latest = p : latest made,
       count = count made + 1,
-      overlong =
-        if count made == InstructionCheck.mostFrames then Just (Frame.origin p) else overlong made,
-      seen = FrameCheck.see late asked stop p (seen made)
+      tooManyFrom =
+        if count made == InstructionCheck.mostFrames
+          then Just (Frame.origin p)
+          else tooManyFrom made,
+      frameFindings = FrameCheck.check frameContext feed end p (frameFindings made)
     }
 
--- | The frame of a step; none for one that moves nothing.
-frameOf :: Machine -> Drive -> Pace -> Pulses3 -> ArcStep -> Maybe Frame
-frameOf machine drive pace at ArcStep {stop, about} = case about of
+-- | Frame of a step from a position; none for a step that moves nothing.
+frameOf :: Machine -> FeedMode -> Pace -> Pulses3 -> ArcStep -> Maybe Frame
+frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbout of
   Nothing
-    | moved == 0 -> Nothing
-    | drive == Asked && pace == Rapid && Machine.hasRapidMotion machine -> Just (bare Frame.Rapid 0)
-    | otherwise -> Just (driven (bare Straightway 0))
-  Just (turn, c) -> Just (driven (bare (Round turn) c))
+    | increment == 0 -> Nothing
+    | feedMode == AsProgrammed && pace == Rapid && Machine.hasRapidMotion machine ->
+      Just (withoutFeed Frame.Rapid 0)
+    | otherwise -> Just (withFeed (withoutFeed Straightway 0))
+  Just (sense, c) -> Just (withFeed (withoutFeed (Round sense) c))
   where
-    moved = stop - at
-    bare motion centre =
-      Frame {motion, increment = moved, centre, speed = FeedCode 0, braking = False, orders = []}
-    driven f = case (drive, pace) of
-      (Lowest, _) -> f {speed = fst (Machine.slowest machine)}
-      (Slowing v, _) -> f {speed = FeedCode.nearest machine v f, braking = True}
-      (Asked, Rapid) -> f {speed = Machine.rapidCode machine}
-      (Asked, At (Located _ v)) -> f {speed = FeedCode.nearest machine v f}
+    increment = target - begin
+    withoutFeed motion centre =
+      Frame {motion, increment, centre, speed = FeedCode 0, braking = False, orders = []}
+    withFeed f = case (feedMode, pace) of
+      (LowestCode, _) -> f {speed = fst (Machine.slowest machine)}
+      (BrakingTo v, _) -> f {speed = FeedCode.nearestCode machine v f, braking = True}
+      (AsProgrammed, Rapid) -> f {speed = Machine.rapidCode machine}
+      (AsProgrammed, At (Located _ v)) -> f {speed = FeedCode.nearestCode machine v f}
 
--- | Where the frames of a run end and how they get there, given where its chords end.
+-- Steps of a run ----------------------------------------------------------------------------------
+
+-- | Steps of an instruction from a position, given the ends of the chords of its run.
 stepsOf :: Machine -> Arc.Grid -> Pulses3 -> Instruction -> [PathPosition] -> [ArcStep]
-stepsOf machine grid begin task stops = case task of
-  Order _ _ -> []
-  Run {allowed, run = m :| []}
+stepsOf machine grid begin instruction chordEnds = case instruction of
+  Words _ _ -> []
+  Run {tolerance, run = m :| []}
     | Straight a b <- segment m,
-      isByItself allowed ->
-      map alone (Rounding.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
-  Run {allowed, run} -> case Machine.arcs machine of
-    Arcs {} | Rounding.isLevel machine run -> arcSteps machine grid begin allowed run
-    _ -> map alone (chordSteps machine begin run stops)
+      isForSegment tolerance ->
+      map straightTo (Rounding.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
+  Run {tolerance, run} -> case Machine.arcs machine of
+    Arcs {} | Rounding.isLevel machine run -> arcSteps machine grid begin tolerance run
+    _ -> map straightTo (chordSteps machine begin run chordEnds)
   where
-    isByItself allowed = case allowed of
-      Along _ -> False
+    isForSegment tolerance = case tolerance of
+      OnCurve _ -> False
       Sagitta _ -> True
-      BandOf _ _ -> True
+      ArcBand _ _ -> True
 
--- | A straight step.
-alone :: Pulses3 -> ArcStep
-alone stop = ArcStep {stop, about = Nothing}
+-- | Straight step.
+straightTo :: Pulses3 -> ArcStep
+straightTo target = ArcStep {target, turnsAbout = Nothing}
 
--- | The steps of a run at one height on a machine that walks arcs. What the arcs along a curve are
--- off is taken from what their own steps may be off. Of several ways the one of fewest steps.
-arcSteps :: Machine -> Arc.Grid -> Pulses3 -> Allowed -> NonEmpty Move -> [ArcStep]
-arcSteps machine grid begin allowed run = case allowed of
-  Along bounds ->
-    minimumBy
-      (comparing length)
-      ( fmap
-          (concat . snd . mapAccumL (partSteps bounds) begin)
-          (ArcFitting.ways machine bounds run)
-      )
-  Sagitta y ->
-    steps
-      (Arc.ArcTolerance pulse (plus pulse y) (plus pulse y))
-      (Chord.rounding machine allowed)
-      begin
-      (segment m)
-  BandOf inwards outwards ->
-    steps
-      (Arc.ArcTolerance pulse (plus pulse inwards) (plus pulse outwards))
-      (Chord.rounding machine allowed)
-      begin
-      (segment m)
+-- | Steps of a level run on a machine with arcs.
+arcSteps :: Machine -> Arc.Grid -> Pulses3 -> ChordTolerance -> NonEmpty Move -> [ArcStep]
+arcSteps machine grid begin tolerance run = case tolerance of
+  OnCurve bounds -> curveSteps machine grid begin bounds run
+  Sagitta y -> ofSegment y y
+  ArcBand inwards outwards -> ofSegment inwards outwards
   where
     m = NonEmpty.head run
-    level = fst (heights m)
     pulse = Machine.pulse machine
-    steps room chordsOff =
-      Arc.steps
+    ofSegment inwards outwards =
+      segmentSteps
+        machine
         grid
-        room
-        ( \at s ->
-            let chord =
-                  m {segment = s} :| []
-             in chordSteps
-                  machine
-                  at
-                  chord
-                  (Chord.ends InstructionCheck.mostFrames machine chordsOff chord)
-        )
-        level
-    partSteps bounds at part = case part of
-      ArcFitting.Chords ms ->
-        let stops =
-              chordSteps machine at ms (chordStops machine allowed ms)
-         in (fromMaybe at (listToMaybe (reverse stops)), map alone stops)
-      ArcFitting.Arcs segments ->
-        let left = ArcFitting.remainder machine bounds
-            ends =
-              map (\s -> Rounding.rounded machine (Segment.end s, level)) (NonEmpty.toList segments)
-            walked =
-              zipWith
-                (steps (Arc.ArcTolerance left left left) (Sagitta (Chord.remainder machine left)))
-                (at : ends)
-                (NonEmpty.toList segments)
-         in (fromMaybe at (listToMaybe (reverse ends)), concat walked)
+        (ArcTolerance pulse (plus pulse inwards) (plus pulse outwards))
+        (Chord.raisedToRounding machine tolerance)
+        m
+        begin
+        (segment m)
 
--- | Where the chords of a run end, with their heights.
-chordStops :: Machine -> Allowed -> NonEmpty Move -> [PathPosition]
-chordStops machine allowed =
-  Chord.ends InstructionCheck.mostFrames machine (Chord.rounding machine allowed)
+-- | Steps of a level run along a curve: those of the division with the fewest steps. The deviation
+-- of the fitted arcs from the curve is subtracted from the tolerance of their steps.
+curveSteps :: Machine -> Arc.Grid -> Pulses3 -> Bounds -> NonEmpty Move -> [ArcStep]
+curveSteps machine grid begin bounds run =
+  minimumBy
+    (comparing length)
+    ( fmap
+        (concat . snd . mapAccumL (partSteps machine grid bounds (NonEmpty.head run)) begin)
+        (ArcFitting.divisions machine bounds run)
+    )
 
--- | The ends of the steps along a run's chords from a position on.
+-- | Position at the end of a part of a run, and its steps. The given move of the run has its
+-- height.
+partSteps ::
+  Machine -> Arc.Grid -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
+partSteps machine grid bounds m begin part = case part of
+  ArcFitting.Chords ms ->
+    let ends = chordSteps machine begin ms (chordEndsOf machine (OnCurve bounds) ms)
+     in (lastOr begin ends, map straightTo ends)
+  ArcFitting.Arcs segments ->
+    let allowance = ArcFitting.roundingAllowance machine bounds
+        chordError = Sagitta (Chord.remainder machine allowance)
+        tolerance = ArcTolerance allowance allowance allowance
+        ends = [Rounding.rounded machine (Segment.end s, level) | s <- NonEmpty.toList segments]
+        parts =
+          zipWith
+            (segmentSteps machine grid tolerance chordError m)
+            (begin : ends)
+            (NonEmpty.toList segments)
+     in (lastOr begin ends, concat parts)
+  where
+    level = fst (heights m)
+    lastOr p ps = fromMaybe p (listToMaybe (reverse ps))
+
+-- | Steps along one segment, whose chords take all but the geometry from the given move.
+segmentSteps ::
+  Machine -> Arc.Grid -> ArcTolerance -> ChordTolerance -> Move -> Pulses3 -> Segment -> [ArcStep]
+segmentSteps machine grid tolerance chordError m =
+  Arc.steps
+    grid
+    tolerance
+    ( \at s ->
+        let chord = m {segment = s} :| []
+         in chordSteps
+              machine
+              at
+              chord
+              (Chord.ends InstructionCheck.mostFrames machine chordError chord)
+    )
+    (fst (heights m))
+
+-- | Ends of the chords of a run in mm, with their heights.
+chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
+chordEndsOf machine tolerance =
+  Chord.ends InstructionCheck.mostFrames machine (Chord.raisedToRounding machine tolerance)
+
+-- | Ends of the steps along the chords of a run in pulses, from a position on.
 chordSteps :: Machine -> Pulses3 -> NonEmpty Move -> [PathPosition] -> [Pulses3]
-chordSteps machine begin run stops =
+chordSteps machine begin run ends =
   concat
     ( zipWith
         (Rounding.split machine)
-        (begin : map (Rounding.rounded machine) stops)
-        (zip (first : stops) stops)
+        (begin : map (Rounding.rounded machine) ends)
+        (zip (first : ends) ends)
     )
   where
     m = NonEmpty.head run

@@ -1,10 +1,14 @@
--- | What of the path becomes frames, before anything is rounded.
+-- | Instructions: the toolpath as runs of moves and commands, before anything is rounded.
+--
+-- An instruction is either a run of moves along one line, arc or curve, with its purpose, its
+-- tolerance and its feed, or the words of a command. "Frame.Braking" divides runs, and
+-- "Frame.FromToolpath" makes frames of the instructions.
 module Frame.Instruction
   ( Instruction (..),
-    Drive (..),
-    tasksOf,
-    wayOf,
-    cutBefore,
+    FeedMode (..),
+    instructions,
+    lengthOf,
+    cutBeforeEnd,
   )
 where
 
@@ -13,125 +17,139 @@ import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
-import Frame.Chord (Allowed (..))
+import Frame.Chord (ChordTolerance (..))
 import Frame.Chord qualified as Chord
-import Frame.Command (Told)
+import Frame.Command (Translation)
 import Frame.Command qualified as Command
 import Frame.Frame (Role (..))
 import Frame.Rounding qualified as Rounding
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
+import Part.Part (Milling)
 import Part.Part qualified as Part
-import Toolpath.Toolpath (Move (..), Toolpath, heights, pace)
+import Toolpath.Toolpath (Block, Move (..), Sent, Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Moves along one line, arc or curve with their role and what is allowed to their chords, or a
--- command.
+-- | One instruction.
 data Instruction
-  = Run
+  = -- | moves along one line, arc or curve
+    Run
       { role :: Role,
-        allowed :: Allowed,
-        -- | the radius of the cutter
-        tool :: Mm,
-        drive :: Drive,
+        tolerance :: ChordTolerance,
+        -- | radius of the cutter
+        cutterRadius :: Mm,
+        feedMode :: FeedMode,
         run :: NonEmpty Move
       }
-  | -- | a command, or what tells the control to keep the cutter beside the contour or no longer:
-    -- where it is asked
-    Order Region Told
+  | -- | words of a command, or those that switch cutter compensation, and the region that asks for
+    -- them
+    Words Region Translation
 
--- | How fast.
-data Drive
-  = -- | as the program asks
-    Asked
-  | -- | at the lowest code
-    Lowest
-  | -- | slowing down to a feed, by a sign of its own
-    Slowing Feed
+-- | Origin of the feed of a run.
+data FeedMode
+  = -- | the feed of the moves in the program
+    AsProgrammed
+  | -- | the lowest feed code
+    LowestCode
+  | -- | slowing down to a feed, in frames that are marked as braking
+    BrakingTo Feed
   deriving stock (Eq, Show)
 
--- | The tasks of a path in order.
-tasksOf :: Machine -> Toolpath -> [Instruction]
-tasksOf machine path =
-  concat (zipWith block (Toolpath.passNumbers (Toolpath.blocks path)) (Toolpath.blocks path))
+-- | Instructions for a toolpath, in order.
+instructions :: Machine -> Toolpath -> [Instruction]
+instructions machine path =
+  concat (zipWith (ofBlock machine) (Toolpath.passNumbers blocks) blocks)
   where
-    straight r radius = map (Run r (Sagitta (Mm 0)) radius Asked . (:| []))
-    block n b = case b of
-      Toolpath.Travelling radius ms -> straight Travelling radius ms
-      Toolpath.Holing (Located _ d) ms -> straight Drilling (Part.drillRadius d) ms
-      Toolpath.Commanding c -> [Order (region c) (Command.told machine c)]
-      Toolpath.Cutting
-        { Toolpath.job = Located region' job,
-          Toolpath.approach = before,
-          Toolpath.cut = along,
-          Toolpath.retract = after,
-          Toolpath.sent
-        } ->
-          fromMaybe
-            ( concat
-                [ led (Approaching n) job before,
-                  led (Cutting n) job (NonEmpty.toList along),
-                  led (Retracting n) job after
-                ]
-            )
-            (keeping n (fromMaybe region' (Part.byControl job)) job =<< sent)
-      Toolpath.Clearing
-        { Toolpath.pocket = Located _ p,
-          Toolpath.approach = before,
-          Toolpath.cleared = along,
-          Toolpath.retract = after
-        } ->
-          let job =
-                Part.wall p
-           in concat
-                [ led (Approaching n) job before,
-                  concatMap (inPocket n job) (NonEmpty.toList along),
-                  led (Retracting n) job after
-                ]
-    -- Where something is in the way, the cutter leaves what it cuts and comes back.
-    inPocket n job m
-      | pace m == Part.Rapid = led (Retracting n) job [m]
-      | uncurry (/=) (heights m) = led (Approaching n) job [m]
-      | otherwise = led (Cutting n) job [m]
-    -- The control keeps the cutter beside the contour: each move of the edge goes as it is, those
-    -- along a curve, too.
-    keeping n asked job edge
-      | null (Command.errors on) =
-        Just
-          ( concat
-              [ led (Approaching n) job (Toolpath.before edge),
-                [Order asked on],
-                one (Approaching n) (Toolpath.entry edge),
-                concatMap (one (Cutting n)) (Toolpath.edge edge),
-                [Order asked (Command.released machine)],
-                one (Retracting n) (Toolpath.exit edge),
-                led (Retracting n) job (Toolpath.behind edge)
-              ]
-          )
-      | otherwise = Just [Order asked on]
-      where
-        on = Command.kept machine asked (Toolpath.side edge) (Part.radius job)
-        one r m = led r job [m {continues = False}]
-    led r job =
-      let allowed =
-            Chord.allowedOn machine job
-       in map (\ms -> Run r (allowed ms) (Part.radius job) Asked ms) . Toolpath.runs
+    blocks = Toolpath.blocks path
 
--- | The way of a move, in space.
-wayOf :: Move -> Mm
-wayOf m = Mm (sqrt (l * l + h * h))
+-- | Instructions for a block with the number of its pass.
+ofBlock :: Machine -> Int -> Block -> [Instruction]
+ofBlock machine n b = case b of
+  Toolpath.Travelling radius ms -> straightRuns Travelling radius ms
+  Toolpath.Holing (Located _ d) ms -> straightRuns Drilling (Part.drillRadius d) ms
+  Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
+  Toolpath.Cutting
+    { Toolpath.job = Located region' job,
+      Toolpath.approach,
+      Toolpath.cut,
+      Toolpath.retract,
+      Toolpath.sent
+    } ->
+      fromMaybe
+        ( concat
+            [ milled machine (Approaching n) job approach,
+              milled machine (Cutting n) job (NonEmpty.toList cut),
+              milled machine (Retracting n) job retract
+            ]
+        )
+        (compensated machine n (fromMaybe region' (Part.byControl job)) job <$> sent)
+  Toolpath.Clearing
+    { Toolpath.pocket = Located _ p,
+      Toolpath.approach,
+      Toolpath.cleared,
+      Toolpath.retract
+    } ->
+      let job = Part.wall p
+       in concat
+            [ milled machine (Approaching n) job approach,
+              concatMap (\m -> milled machine (roleInPocket n m) job [m]) (NonEmpty.toList cleared),
+              milled machine (Retracting n) job retract
+            ]
+
+-- | Runs outside of milling: one for each move, with no chord error.
+straightRuns :: Role -> Mm -> [Move] -> [Instruction]
+straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius AsProgrammed . (:| []))
+
+-- | Runs of a milling job.
+milled :: Machine -> Role -> Milling -> [Move] -> [Instruction]
+milled machine r job =
+  map (\ms -> Run r (tolerance ms) (Part.radius job) AsProgrammed ms) . Toolpath.runs
+  where
+    tolerance = Chord.chordTolerance machine job
+
+-- | Role of a move in a pocket. Where material or an island lies between two cuts, the cutter
+-- retracts with a rapid move and approaches again.
+roleInPocket :: Int -> Move -> Role
+roleInPocket n m
+  | pace m == Part.Rapid = Retracting n
+  | uncurry (/=) (heights m) = Approaching n
+  | otherwise = Cutting n
+
+-- | Instructions for a pass with cutter compensation: the control gets the edge of the part, and
+-- the words that switch compensation on and off. Every move of the edge is a run of its own, also
+-- along a curve. If the machine cannot be given these words, only their errors remain.
+compensated :: Machine -> Int -> Region -> Milling -> Sent -> [Instruction]
+compensated machine n asked job edge
+  | null (Command.errors on) =
+    concat
+      [ milled machine (Approaching n) job (Toolpath.before edge),
+        [Words asked on],
+        single (Approaching n) (Toolpath.entry edge),
+        concatMap (single (Cutting n)) (Toolpath.edge edge),
+        [Words asked (Command.compensationOff machine)],
+        single (Retracting n) (Toolpath.exit edge),
+        milled machine (Retracting n) job (Toolpath.behind edge)
+      ]
+  | otherwise = [Words asked on]
+  where
+    on = Command.compensationOn machine asked (Toolpath.side edge) (Part.radius job)
+    single r m = milled machine r job [m {continues = False}]
+
+-- | Length of a move in space.
+lengthOf :: Move -> Mm
+lengthOf m = Mm (sqrt (l * l + h * h))
   where
     Mm l = Segment.length (segment m)
     Mm h = uncurry minus (heights m)
 
--- | A move in two, so many mm before its end; the way is longer.
-cutBefore :: Double -> Move -> (Move, Move)
-cutBefore stretch m =
+-- | Two parts of a move, cut @distance@ mm before its end. The move has to be longer than that.
+cutBeforeEnd :: Double -> Move -> (Move, Move)
+cutBeforeEnd distance m =
   ( Toolpath.unbraked (Toolpath.atHeights (fst (heights m), z) m) {segment = front},
     (Toolpath.atHeights (z, snd (heights m)) m) {segment = back}
   )
   where
-    Mm way = wayOf m
-    share = 1 - stretch / way
+    Mm l = lengthOf m
+    share = 1 - distance / l
     (front, back) = Segment.cutAt share (segment m)
     z = Rounding.heightAt share m

@@ -1,18 +1,19 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | What stands against tasks before their frames are made, and what is to be told of them: they
--- are looked at one by one, in order.
+-- | Checks of instructions before their frames are made: feeds without a code, points out of reach,
+-- too many frames, moves in z that the machine may not have. Instructions are checked one by one,
+-- in order.
 module Frame.InstructionCheck
   ( InstructionContext,
-    lookFrom,
+    contextOf,
     InstructionFindings,
-    nothing,
-    see,
+    noFindings,
+    check,
     isBounded,
-    feedless,
-    boundless,
-    unsure,
+    feedErrors,
+    boundErrors,
+    heightWarnings,
     mostFrames,
   )
 where
@@ -23,10 +24,10 @@ import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
-import Frame.Chord (Allowed)
+import Frame.Chord (ChordTolerance)
 import Frame.Chord qualified as Chord
 import Frame.Error (Error (..), Warning (..))
-import Frame.Instruction (Drive (..), Instruction (..))
+import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Rounding (PathPosition)
 import Frame.Rounding qualified as Rounding
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -40,160 +41,181 @@ import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move (..), heights, pace)
 
--- | More frames than this are 38 km of tape.
+-- | Largest number of frames of a program. More than this would take 38 km of tape.
 mostFrames :: Int
 mostFrames = 1000000
 
--- | What is the same for all tasks.
+-- | Facts that are the same for all instructions.
 data InstructionContext = InstructionContext
   { machine :: Machine,
-    -- | whether the feed of a frame does not depend on where it goes
+    -- | the feed of a frame does not depend on its direction
     isAlongPath :: Bool,
-    -- | whether heights stand on the tape, but nothing is known to move there
-    areHeightsUnsure :: Bool,
-    -- | the beginning of the path, if it lies too far away
-    tooFar :: Maybe Error
+    -- | the tape has a field for z, but the source mentions no axis that moves there
+    isHeightUncertain :: Bool,
+    -- | error for the start of the toolpath, if it is out of reach
+    startError :: Maybe Error
   }
 
--- | On a machine, from a point and the place in the program that names it.
-lookFrom :: Machine -> Region -> Point -> InstructionContext
-lookFrom machine fromRegion fromPoint =
+-- | Context for a machine, a start point and the region that names it.
+contextOf :: Machine -> Region -> Point -> InstructionContext
+contextOf machine startRegion start =
   InstructionContext
     { machine,
       isAlongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath,
-      areHeightsUnsure = Machine.capacity machine Z > 0 && Z `notElem` Machine.driven machine,
-      tooFar = beyond fromRegion fromPoint
+      isHeightUncertain = Machine.capacity machine Z > 0 && Z `notElem` Machine.driven machine,
+      startError = reachError startRegion start
     }
 
--- | What the tasks so far have shown, the latest first.
+-- | Findings in the instructions so far; the lists have the latest first.
 data InstructionFindings = InstructionFindings
-  { -- | the pace that was looked at last
+  { -- | feed of the run that was checked last
     lastPace :: Pace,
-    -- | feeds along the path that no code gives, whatever the frames
-    noCode :: [Error],
-    -- | places that are too far away, at most one of a run
-    distant :: [Error],
-    -- | as many frames as can be counted without making them
+    -- | feeds along the path that no code gives
+    withoutCode :: [Error],
+    -- | points out of reach, at most one for each run
+    outOfReach :: [Error],
+    -- | number of frames, as far as it is known before they are made
     count :: Int,
-    -- | where they become too many
-    overlong :: Maybe Error,
-    -- | the first move that changes the height unsurely
-    rising :: Maybe Warning
+    -- | error for the run with which the frames become too many
+    tooMany :: Maybe Error,
+    -- | first move in z that the machine may not have
+    uncertainHeight :: Maybe Warning
   }
 
-nothing :: InstructionFindings
-nothing =
+-- | Findings before the first instruction.
+noFindings :: InstructionFindings
+noFindings =
   InstructionFindings
     { lastPace = Rapid,
-      noCode = [],
-      distant = [],
+      withoutCode = [],
+      outOfReach = [],
       count = 0,
-      overlong = Nothing,
-      rising = Nothing
+      tooMany = Nothing,
+      uncertainHeight = Nothing
     }
 
--- | Whether the frames of all tasks so far can be made, and are not too many.
+-- | True as long as all points are in reach and the frames are not too many, so that the frames can
+-- be made.
 isBounded :: InstructionFindings -> Bool
-isBounded seen = null (distant seen) && null (overlong seen)
+isBounded findings = null (outOfReach findings) && null (tooMany findings)
 
-feedless :: InstructionFindings -> [Error]
-feedless = reverse . noCode
+-- | Feeds without a code, in order.
+feedErrors :: InstructionFindings -> [Error]
+feedErrors = reverse . withoutCode
 
-boundless :: InstructionFindings -> [Error]
-boundless seen = reverse (distant seen) <> maybeToList (overlong seen)
+-- | Errors that keep the frames from being made: points out of reach, too many frames.
+boundErrors :: InstructionFindings -> [Error]
+boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany findings)
 
-unsure :: InstructionFindings -> [Warning]
-unsure = maybeToList . rising
+-- | Warning about moves in z that the machine may not have.
+heightWarnings :: InstructionFindings -> [Warning]
+heightWarnings = maybeToList . uncertainHeight
 
--- | Look at the next task, given where the chords of its run end; they are asked for only along a
--- curve on a machine that walks no arcs.
-see ::
+-- | Check the next instruction. The ends of the chords of its run are given; they are evaluated
+-- only along a curve on a machine without arcs.
+check ::
   InstructionContext ->
   Instruction ->
   [PathPosition] ->
   InstructionFindings ->
   InstructionFindings
-see look task stops before = case task of
-  Order _ _ -> before
-  Run {drive, allowed, run} ->
-    counted look allowed run stops (reached look run (risen look run (fed look drive run before)))
+check context instruction chordEnds before = case instruction of
+  Words _ _ -> before
+  Run {feedMode, tolerance, run} ->
+    counted
+      context
+      tolerance
+      run
+      chordEnds
+      (checkReach context run (checkHeights context run (checkFeed context feedMode run before)))
 
-fed :: InstructionContext -> Drive -> NonEmpty Move -> InstructionFindings -> InstructionFindings
-fed look drive moves before = case (drive, asked) of
-  (Asked, At (Located region (Feed v)))
-    | isAlongPath look && asked /= lastPace before -> case Machine.choose (machine look) v of
-      Machine.NoSuchFeed low high ->
-        before
-          { lastPace = asked,
-            noCode = FeedMissing region (Feed v) (Feed low) (Feed high) : noCode before
-          }
-      Machine.Given _ _ -> before {lastPace = asked}
+checkFeed ::
+  InstructionContext ->
+  FeedMode ->
+  NonEmpty Move ->
+  InstructionFindings ->
+  InstructionFindings
+checkFeed context feedMode moves before = case (feedMode, asked) of
+  (AsProgrammed, At (Located region (Feed v)))
+    | isAlongPath context && asked /= lastPace before ->
+      case Machine.choose (machine context) v of
+        Machine.NoSuchFeed low high ->
+          before
+            { lastPace = asked,
+              withoutCode =
+                FeedOutOfRange region (Feed v) (Feed low) (Feed high) : withoutCode before
+            }
+        Machine.Given _ _ -> before {lastPace = asked}
   _ -> before
   where
     asked = pace (NonEmpty.head moves)
 
-risen :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
-risen look moves before
-  | areHeightsUnsure look,
-    Nothing <- rising before =
+checkHeights :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
+checkHeights context moves before
+  | isHeightUncertain context,
+    Nothing <- uncertainHeight before =
     before
-      { rising =
+      { uncertainHeight =
           listToMaybe
-            [HeightUnsure (origin m) | m <- NonEmpty.toList moves, uncurry (/=) (heights m)]
+            [HeightUncertain (origin m) | m <- NonEmpty.toList moves, uncurry (/=) (heights m)]
       }
   | otherwise = before
 
-reached :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
-reached look moves before
-  | null (tooFar look) && all (isNear . segment) moves = before
+checkReach :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
+checkReach context moves before
+  | null (startError context) && all (isSurelyInReach . segment) moves = before
   | otherwise =
     maybe
       before
-      (\e -> before {distant = e : distant before})
+      (\e -> before {outOfReach = e : outOfReach before})
       (listToMaybe (mapMaybe problem (NonEmpty.toList moves)))
   where
     problem m
-      | null (tooFar look) && isNear (segment m) = Nothing
+      | null (startError context) && isSurelyInReach (segment m) = Nothing
       | BoundingBox.BoundingBox l b r t <- BoundingBox.ofSegment (segment m) =
-        beyond (origin m) (Vec.point l b) <|> beyond (origin m) (Vec.point r t) <|> tooFar look
+        reachError (origin m) (Vec.point l b)
+          <|> reachError (origin m) (Vec.point r t)
+          <|> startError context
 
--- | Whether a segment is surely within reach; of an arc its whole circle is looked at.
-isNear :: Segment -> Bool
-isNear s = case s of
-  Straight a b -> isWithin 0 a && isWithin 0 b
-  Arc {start = from, centre} -> let Mm r = Segment.radius centre from in isWithin r centre
+-- | True for a segment within reach, tested by the full circle of an arc. False does not mean that
+-- the arc itself is out of reach.
+isSurelyInReach :: Segment -> Bool
+isSurelyInReach s = case s of
+  Straight a b -> isInReach 0 a && isInReach 0 b
+  Arc {start = from, centre} -> let Mm r = Segment.radius centre from in isInReach r centre
 
--- | Whether a point is no further from the middle than the reach less so many mm, along both axes.
-isWithin :: Double -> Point -> Bool
-isWithin less p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - less
+-- | True for a point that stays at least @margin@ mm within 'Tolerance.reach' along both axes.
+isInReach :: Double -> Point -> Bool
+isInReach margin p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - margin
   where
     Mm limit = Tolerance.reach
 
-beyond :: Region -> Point -> Maybe Error
-beyond region p = if isWithin 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
+reachError :: Region -> Point -> Maybe Error
+reachError region p =
+  if isInReach 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
--- | More frames than a tape may have, as far as it can be seen without making them. Where the
--- machine walks arcs they are no more than the moves.
+-- | Count the frames of a run as far as that is possible without making them. On a machine with
+-- arcs a level run counts as one frame, so the count is a lower bound there.
 counted ::
   InstructionContext ->
-  Allowed ->
+  ChordTolerance ->
   NonEmpty Move ->
   [PathPosition] ->
   InstructionFindings ->
   InstructionFindings
-counted look allowed moves stops before = case overlong before of
+counted context tolerance moves chordEnds before = case tooMany before of
   Just _ -> before
   Nothing
     | now > mostFrames ->
-      before {overlong = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
+      before {tooMany = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
     | otherwise -> before {count = now}
   where
     !now =
-      count before + case Machine.arcs (machine look) of
-        Arcs {} | Rounding.isLevel (machine look) moves -> 1
+      count before + case Machine.arcs (machine context) of
+        Arcs {} | Rounding.isLevel (machine context) moves -> 1
         _ ->
           Chord.frameCount
-            (machine look)
-            (Chord.rounding (machine look) allowed)
+            (machine context)
+            (Chord.raisedToRounding (machine context) tolerance)
             moves
-            (take (mostFrames + 1) stops)
+            (take (mostFrames + 1) chordEnds)

@@ -1,8 +1,10 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Places in whole pulses: every position is rounded by itself, as an absolute position, so
--- rounding never adds up.
+-- | Positions in whole pulses, and the splitting of straight moves that are too long for one frame.
+--
+-- Every position is rounded by itself as an absolute position, so rounding errors never add up. An
+-- increment is the difference of two rounded positions.
 module Frame.Rounding
   ( PathPosition,
     rounded,
@@ -23,30 +25,30 @@ import Machine.Machine (Axis (..), AxisMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (..), heights)
 
--- | In the plane, and the height.
+-- | Position in mm: the point in the plane, and the height.
 type PathPosition = (Point, Mm)
 
--- | The nearest whole number of pulses on each axis; half a pulse goes up.
+-- | Nearest whole number of pulses on each axis; half a pulse is rounded up.
 rounded :: Machine -> PathPosition -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
   where
     pulses axis x = let Mm step = Machine.pulseOf machine axis in Pulses (floor (x / step + 0.5))
 
--- | The height at a fraction of a move.
+-- | Height at a fraction of a move, by linear interpolation; the height of its end from 1 on.
 heightAt :: Double -> Move -> Mm
 heightAt t m
   | t >= 1 = snd (heights m)
   | otherwise = plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
 
--- | Whether all moves keep one height, in whole pulses.
+-- | True for moves that all stay at one height, in whole pulses.
 isLevel :: Machine -> NonEmpty Move -> Bool
 isLevel machine ms =
-  isFlat ms || all (\m -> isFirst (fst (heights m)) && isFirst (snd (heights m))) ms
+  isFlat ms || all (\m -> isSameLevel (fst (heights m)) && isSameLevel (snd (heights m))) ms
   where
-    isFirst z = level z == level (fst (heights (NonEmpty.head ms)))
+    isSameLevel z = level z == level (fst (heights (NonEmpty.head ms)))
     level z = component Z (rounded machine (Vec.point 0 0, z))
 
--- | Whether all moves keep one height exactly, as most do.
+-- | True for moves that all stay at one height exactly, as most do.
 isFlat :: NonEmpty Move -> Bool
 isFlat (m :| more) = case heights m of
   (Mm first, Mm final) -> first == final && go first more
@@ -56,20 +58,20 @@ isFlat (m :| more) = case heights m of
       n : others -> case heights n of
         (Mm a, Mm b) -> a == z && b == z && go z others
 
--- | The stops of a straight move, given the position where it begins in pulses and its exact ends:
--- equal parts, each rounded by itself, as few as fit into the fields. Fields of positions hold a
--- move of any length.
+-- | Ends of the frames for a straight move, from its first position in pulses and its exact ends.
+-- The move is divided into the fewest equal parts whose increments fit their fields; each end is
+-- rounded by itself. Fields for absolute positions take a move of any length, so there it stays
+-- whole.
 split :: Machine -> Pulses3 -> (PathPosition, PathPosition) -> [Pulses3]
 split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout machine) of
   Positions -> [finish]
-  Increments -> first (filter fits (map parts [fewest .. fewest + spareParts]))
+  Increments -> first (filter isFitting (map parts [fewest .. fewest + spareParts]))
   where
     finish = rounded machine (b, zb)
-    fewest = maximum (1 : [needed axis d | (axis, d) <- axes (finish - begin)])
-    -- A machine without the axis is told so elsewhere.
-    needed axis (Pulses d) =
-      let Pulses c =
-            Machine.capacity machine axis
+    fewest = maximum (1 : [partCount axis d | (axis, d) <- axes (finish - begin)])
+    -- An axis without a field, of capacity 0, is reported by "Frame.FrameCheck".
+    partCount axis (Pulses d) =
+      let Pulses c = Machine.capacity machine axis
        in if d == 0 || c == 0 then 1 else (abs d + c - 1) `div` c
     parts n =
       [ rounded machine (Vec.between t a b, plus za (times t (minus zb za)))
@@ -77,10 +79,10 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
           let t = fromIntegral k / fromIntegral n
       ]
         <> [finish]
-    fits stops =
+    isFitting ends =
       and
         [ abs d <= Machine.capacity machine axis
-          | step <- zipWith (-) stops (begin : stops),
+          | step <- zipWith (-) ends (begin : ends),
             (axis, d) <- axes step
         ]
     axes v = [(axis, d) | axis <- [X, Y, Z], let d = component axis v, d /= 0]
@@ -88,11 +90,12 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       x : _ -> x
       [] -> [finish]
 
--- | Rounding makes a part longer by a pulse at most: so many parts more are always enough on an
--- axis with two digits.
+-- | Number of part counts that 'split' tries beyond the smallest one. Rounding makes a part at most
+-- one pulse longer, so this is always enough for an axis with two digits or more.
 spareParts :: Int
 spareParts = 1000
 
+-- | Component of a position along an axis, in pulses.
 component :: Axis -> Pulses3 -> Pulses
 component axis (Pulses3 x y z) = case axis of
   X -> x

@@ -1,4 +1,6 @@
--- | Why a tape can not be read.
+-- | Damage: the reasons why a tape cannot be read, and their reports.
+--
+-- A damage holds its position and its facts; words appear only in 'toReport'.
 module Tape.Damage
   ( Damage (..),
     Reason (..),
@@ -17,94 +19,101 @@ import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 import Tape.RowMeaning qualified as RowMeaning
 
--- | The row from 1, the frame from 1 if it is in one, the word if it is in one, and why.
+-- | Damaged row from 1, the frame from 1 and the word if the row is in one, and the reason.
 data Damage = Damage {row :: Int, frame :: Maybe Int, field :: Maybe Content, reason :: Reason}
   deriving stock (Eq, Show)
 
+-- | Fault of a row, of a frame or of the tape.
 data Reason
-  = -- | a row that is not blank in the leader, which has so many
+  = -- | a row in the leader is not blank; the leader has the given number of rows
     LeaderNotBlank Int
-  | -- | the tape ends within its leader, which has so many rows
+  | -- | the tape ends within its leader, which has the given number of rows
     NoFrames Int
   | -- | a hole in the blank rows before an even frame
     ShiftNotBlank
-  | -- | a hole in the blank rows behind a frame
+  | -- | a hole in the blank rows after a frame
     GapNotBlank
-  | CutOff
-  | -- | the symbols behind the last frame are missing
-    NoClosing Text
-  | -- | blank rows at the end: as they are, as they must be
+  | -- | the tape ends within a frame
+    CutOff
+  | -- | the given symbols after the last frame are missing
+    MissingClosing Text
+  | -- | wrong number of blank rows at the end: found, expected
     TrailerLength Int Int
-  | -- | a hole outside the tracks of the tape
+  | -- | a hole outside of the tracks of the tape
     ForeignTrack
   | -- | an odd number of holes
     BadParity
-  | -- | holes that are no digit, in a tape with so many tracks
+  | -- | no digit: the number of tracks, the holes
     NoDigit Int Word8
-  | -- | a symbol where a digit belongs
+  | -- | a symbol in the position of a digit
     NotADigit Char
-  | -- | holes that are no symbol
+  | -- | no symbol: the number of tracks, the holes
     NoSymbol Int Word8
-  | -- | what stands there, what should
+  | -- | a wrong symbol: found, expected
     Unexpected Char Char
-  | -- | holes where there must be none
+  | -- | holes in a row that has to be blank
     NotBlank
-  | -- | what should stand there
+  | -- | a blank row in the position of a symbol
     Missing Char
-  | -- | the word with this address can not stand there
-    WordOutOfPlace Char
-  | MarkerMissing
-  | -- | a hole in the service track where there is none
+  | -- | a word with this address cannot be here
+    UnexpectedWord Char
+  | -- | a digit without the marker in the service track
+    MarkerMissing
+  | -- | a hole in the service track where none is allowed
     ServiceHole
   | -- | a number without its sign
     NoSign
   | MinusZero
-  | -- | a digit that says neither direction nor which axis leads
+  | -- | a digit that gives neither direction, with or without the leading axis
     NoPriority Int
-  | -- | what stands there, what should
+  | -- | a wrong digit for the direction and the leading axis: found, expected
     WrongPriority Int Int
-  | -- | what the symbols of the frame add to, of what that should be a multiple
-    AddsTo Int Int
-  | -- | what stands there, what should
+  | -- | a wrong check sum: the sum, the number of which it has to be a multiple
+    WrongSum Int Int
+  | -- | a wrong frame number: found, expected
     WrongNumber Int Int
-  | -- | no motion with this number
+  | -- | a motion code that the machine does not have
     UnknownMotion Int
-  | -- | a motion that moves nothing
-    MotionWithoutMove
-  | MoveWithoutMotion
+  | -- | a motion without an increment
+    MotionWithoutIncrement
+  | -- | an increment without a motion code
+    IncrementWithoutMotion
   | -- | a feed code that the machine does not have
-    UnknownSpeed Int
-  | SpeedWithoutMove Int
-  | MoveWithoutSpeed
-  | -- | the feed is the one said before
-    SpeedRepeated Int
-  | -- | nothing moves and nothing is commanded
-    IdleFrame
-  | -- | a rule that frames keep
-    Rule Broken
-  | -- | the machine would write the frame otherwise: what should stand there
-    Otherwise Text
-  | -- | what was punched as one frame is read as another
+    UnknownFeedCode Int
+  | -- | a feed code in a frame that takes none
+    FeedWithoutMotion Int
+  | -- | a motion at a feed, without a feed code
+    MotionWithoutFeed
+  | -- | a modal feed code that is in force already
+    FeedRepeated Int
+  | -- | neither a motion nor a command
+    NoContent
+  | -- | a rule for frames is broken
+    BrokenRule Broken
+  | -- | a row that the machine would write in another manner; the text describes the expected row
+    WrittenOtherwise Text
+  | -- | the frames on the tape are not those that were punched
     Misread
   deriving stock (Eq, Show)
 
--- | The words for a damaged tape.
+-- | Report of a damaged tape.
 toReport :: Damage -> Report
 toReport (Damage at n c why) =
   ( report
       Report.Error
       "E0601"
       (InTape at)
-      ("row " <> Decimal.whole at <> place <> ": " <> reasonWord why)
+      ("row " <> Decimal.whole at <> position <> ": " <> reasonText why)
   )
     { message = explanation why
     }
   where
-    place = case (n, c) of
+    position = case (n, c) of
       (Nothing, _) -> ""
       (Just k, Nothing) -> " (frame " <> Decimal.whole k <> ")"
       (Just k, Just w) -> " (frame " <> Decimal.whole k <> ", " <> Machine.contentWord w <> ")"
 
+-- | Sentences after the title of a report.
 explanation :: Reason -> [Text]
 explanation why = case why of
   NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows." | wanted > 0]
@@ -116,21 +125,22 @@ explanation why = case why of
         <> Decimal.whole wanted
         <> ": frames are missing, or the tape is torn."
     ]
-  NoClosing _ -> ["Frames are missing, or the tape is torn."]
+  MissingClosing _ -> ["Frames are missing, or the tape is torn."]
   Misread ->
     [ "The machine's description lets frames be read in two ways. Look at what stands between \
       \words, and at words that may be left out."
     ]
   _ -> []
 
-reasonWord :: Reason -> Text
-reasonWord why = case why of
+-- | Title of a report without the position.
+reasonText :: Reason -> Text
+reasonText why = case why of
   LeaderNotBlank _ -> "the leader is not blank"
   NoFrames _ -> "the tape is empty or ends within its leader"
   ShiftNotBlank -> "a hole in the blank rows before an even frame"
   GapNotBlank -> "a hole in the gap behind the frame"
   CutOff -> "the tape ends within a frame"
-  NoClosing text -> "the tape ends without ‘" <> Text.intercalate " " (Text.lines text) <> "’"
+  MissingClosing text -> "the tape ends without ‘" <> Text.intercalate " " (Text.lines text) <> "’"
   TrailerLength _ _ -> "the end of the tape is not as it should be"
   ForeignTrack -> "a hole outside the tracks of this tape"
   BadParity -> "the number of holes is odd"
@@ -141,7 +151,7 @@ reasonWord why = case why of
     RowMeaning.shown found <> " stands where " <> RowMeaning.shown wanted <> " belongs"
   NotBlank -> "a hole in a row that has to be blank"
   Missing wanted -> RowMeaning.shown wanted <> " is missing"
-  WordOutOfPlace c ->
+  UnexpectedWord c ->
     "a word "
       <> RowMeaning.shown c
       <> " can not stand here: it is out of order, there already, or none of this machine"
@@ -155,7 +165,7 @@ reasonWord why = case why of
       <> Decimal.whole found
       <> " and should be "
       <> Decimal.whole wanted
-  AddsTo total modulus ->
+  WrongSum total modulus ->
     "the frame adds to "
       <> Decimal.whole total
       <> ", which is no multiple of "
@@ -163,19 +173,20 @@ reasonWord why = case why of
   WrongNumber found wanted ->
     "the frame is numbered " <> Decimal.whole found <> " and should be " <> Decimal.whole wanted
   UnknownMotion n -> "the machine has no motion " <> Decimal.whole n
-  MotionWithoutMove -> "a motion that moves nothing"
-  MoveWithoutMotion -> "the frame moves and does not say how"
-  UnknownSpeed s -> "the machine has no speed " <> Decimal.whole s
-  SpeedWithoutMove s -> "the speed is " <> Decimal.whole s <> " but nothing moves at a speed"
-  MoveWithoutSpeed -> "the frame moves but has no speed"
-  SpeedRepeated s -> "the speed " <> Decimal.whole s <> " was said before"
-  IdleFrame -> "the frame moves nothing and commands nothing"
-  Rule broken -> brokenWord broken
+  MotionWithoutIncrement -> "a motion that moves nothing"
+  IncrementWithoutMotion -> "the frame moves and does not say how"
+  UnknownFeedCode s -> "the machine has no speed " <> Decimal.whole s
+  FeedWithoutMotion s -> "the speed is " <> Decimal.whole s <> " but nothing moves at a speed"
+  MotionWithoutFeed -> "the frame moves but has no speed"
+  FeedRepeated s -> "the speed " <> Decimal.whole s <> " was said before"
+  NoContent -> "the frame moves nothing and commands nothing"
+  BrokenRule broken -> ruleText broken
   Misread -> "it is read as another than was punched"
-  Otherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
+  WrittenOtherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
 
-brokenWord :: Broken -> Text
-brokenWord broken = case broken of
+-- | Title of a report about a broken rule.
+ruleText :: Broken -> Text
+ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"
   BadCentre _ -> "the centre of the arc is none, or too far"
   NoSuchSpeed _ (FeedCode s) -> "the machine has no speed " <> Decimal.whole s <> " for this motion"
@@ -185,7 +196,7 @@ brokenWord broken = case broken of
   NoSuchOrder _ (CommandName o) -> "the machine has no such command " <> o
   Idle _ -> "the frame moves nothing and commands nothing"
 
--- | Holes from the highest track to the lowest.
+-- | Holes as binary digits, from the highest track to the lowest.
 binary :: Int -> Word8 -> Text
 binary tracks w =
   Text.pack [if w `div` (2 ^ k) `mod` 2 == 1 then '1' else '0' | k <- [tracks - 1, tracks - 2 .. 0]]

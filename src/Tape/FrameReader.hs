@@ -1,10 +1,11 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | The rows of one frame read back, by the steps that wrote them.
+-- | Rows of one frame read back, by the same steps of the layout that wrote them.
 --
--- What is read becomes a frame, and the frame is written again: rows that the layout would not have
--- written are faults, whatever they are.
+-- The words are read first, and a frame is made of them. This frame is then written again: any row
+-- that the layout would not have written is a fault. "Tape.FrameReader.Fast" reads simple frames in
+-- one go and leaves all others to this module.
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -37,43 +38,44 @@ import Machine.Machine
 import Machine.Machine qualified as Machine
 import Tape.Damage (Reason (..))
 import Tape.FrameReader.Fast qualified as FastFrameReader
+import Tape.FrameWriter qualified as FrameWriter
 import Tape.Layout
   ( Address (..),
     Layout,
     LayoutStep (..),
     MarkedRow (..),
-    RowContent (..),
     RowMeaning (..),
+    WordRow (..),
   )
 import Tape.Layout qualified as Layout
 import Tape.ModalState (State (..))
 import Tape.ModalState qualified as ModalState
-import Tape.NumberReader (RowFault (..))
+import Tape.NumberReader (RowFault (..), TapeNumber)
 import Tape.NumberReader qualified as NumberReader
 import Tape.RowMeaning qualified as RowMeaning
 import Tape.Symbol (Symbol)
 import Tape.Symbol qualified as Symbol
 
--- | What stands in a frame.
+-- | Words of a frame as they are read.
 data Reading = Reading
-  { -- | its words in order; no two of them say the same
-    saids :: [Said],
-    -- | what its commands are given, and those beside its numbers
-    commands :: [(Machine.CommandName, Int)],
-    braked :: Bool,
-    -- | what the symbols add to, if frames have a check digit
+  { -- | the words in order; no two of them have the same content
+    readWords :: [ReadWord],
+    -- | numbers of commands, from words and from the service track
+    commandNumbers :: [(Machine.CommandName, Int)],
+    isBraking :: Bool,
+    -- | sum of the weights of the symbols, in frames with a check digit
     total :: Int,
-    -- | the row of the check digit, and of what the sum has to be a multiple
+    -- | row of the check digit, and the number of which the sum has to be a multiple
     check :: Maybe (Int, Int)
   }
 
--- | A word, the row of its number, the number, and how many digits it has.
-data Said = Said {word :: Word', at :: Int, number :: Int, places :: Int}
+-- | Word, the row where its number begins, the number, and how many digits it has.
+data ReadWord = ReadWord {word :: Word', at :: Int, number :: Int, places :: Int}
 
--- | The word that says something, if it was read.
-said :: (Content -> Bool) -> Reading -> Maybe Said
-said isIt reading = find (isIt . content . word) (saids reading)
-{-# INLINE said #-}
+-- | First word whose content satisfies a predicate.
+wordWith :: (Content -> Bool) -> Reading -> Maybe ReadWord
+wordWith isContent reading = find (isContent . content . word) (readWords reading)
+{-# INLINE wordWith #-}
 
 isFrameNumber, isMotion, isFeed :: Content -> Bool
 isFrameNumber c = case c of FrameNumber -> True; _ -> False
@@ -84,289 +86,319 @@ isAlong, isCentre :: Axis -> Content -> Bool
 isAlong a c = case c of Along b -> a == b; _ -> False
 isCentre a c = case c of Centre b -> a == b; _ -> False
 
--- | The frame that begins at a row, and the row behind it.
+-- | Frame that begins at row @begin@, and the index of the row after it.
 readFrame :: Layout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
-readFrame plan state rows begin = case FastFrameReader.readFrame plan state rows begin of
+readFrame layout state rows begin = case FastFrameReader.readFrame layout state rows begin of
   FastFrameReader.Read f end -> Right (f, end)
-  FastFrameReader.NotBare -> wordByWord plan state rows begin
+  FastFrameReader.NotSimple -> wordByWord layout state rows begin
 
--- | The same, whatever the frame is.
+-- | The result of 'readFrame' for a frame of any kind, without the fast reader.
 wordByWord :: Layout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
-wordByWord plan state rows begin = do
-  (reading, end) <- readSteps plan rows begin
+wordByWord layout state rows begin = do
+  (reading, end) <- readSteps layout rows begin
   case check reading of
     Just (k, modulus)
       | total reading `mod` max 1 modulus /= 0 ->
-        Left (RowFault k Nothing (AddsTo (total reading) modulus))
+        Left (RowFault k Nothing (WrongSum (total reading) modulus))
     _ -> Right ()
-  f <- frameOf plan state begin reading
-  lawful plan begin reading f
-  if not (isSpelled plan state reading f || isWritten plan state rows begin end f)
-    then written plan rows begin end (Layout.frameMarks plan state f)
+  f <- frameOf layout state begin reading
+  checkRules layout begin reading f
+  if not (hasSameWords layout state reading f || hasSameRows layout state rows begin end f)
+    then compareRows layout rows begin end (FrameWriter.frameRows layout state f)
     else Right ()
   Right (f, end)
 
--- | The words of a frame in order.
+-- Reading the words -------------------------------------------------------------------------------
+
+-- | Words of a frame from a row on, and the index of the row after them.
 readSteps :: Layout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
-readSteps plan rows = go False (Layout.steps plan) [] (Reading [] [] False 0 Nothing)
+readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
-    -- The words so far, the last one first; the rest of what is read rarely changes.
-    go behindWord todo done !now !k = case lacking behindWord todo k of
-      [] -> Right (now {saids = reverse done}, k)
-      Fixed cs : more
-        | next >= 0 -> go False more done (counting cs now) next
-        | otherwise -> Left (mismatch plan Nothing rows k cs)
+    -- The words so far are passed on their own, the last one first: the rest of what is read rarely
+    -- changes.
+    go followsWord todo done !now !k = case skipAbsent layout rows followsWord todo k of
+      [] -> Right (now {readWords = reverse done}, k)
+      FixedStep cs : more
+        | next >= 0 -> go False more done (withSymbols layout cs now) next
+        | otherwise -> Left (mismatch layout Nothing rows k cs)
         where
-          next = Symbol.behind rows k cs
-      Checked modulus : more -> do
-        d <- NumberReader.digit plan Nothing rows k
-        go
-          False
-          more
-          done
-          ( now
-              { total = total now + Symbol.digitWeight (Layout.symbols plan) d,
-                check = Just (k, modulus)
-              }
-          )
-          (k + 1)
-      Worded w cs joined : more
-        | stands -> do
-          n <- NumberReader.numeral plan (content w) (form w) rows begin
-          let s =
-                Said
-                  { word = w,
-                    at = NumberReader.start n,
-                    number = NumberReader.value n,
-                    places = NumberReader.places n
-                  }
-          go True more (s : done) (beside w n (counting (spelled prefix) now)) (NumberReader.next n)
-        | otherwise -> Left (mismatch plan (Just (content w)) rows k (spelled prefix))
+          next = Symbol.rowAfter rows k cs
+      CheckStep modulus : more -> do
+        d <- NumberReader.digit layout Nothing rows k
+        go False more done (withCheckDigit layout k modulus d now) (k + 1)
+      WordStep w cs joined : more
+        | isPresent layout rows w prefix begin -> do
+          n <- NumberReader.numeral layout (content w) (form w) rows begin
+          let now' = withNumber layout w n (withSymbols layout (spelling prefix) now)
+          go True more (readWordOf w n : done) now' (NumberReader.next n)
+        | otherwise -> Left (mismatch layout (Just (content w)) rows k (spelling prefix))
         where
-          prefix = if behindWord then joined else cs
-          begin = Layout.behindAddress rows k prefix
-          stands = isThere w cs begin
-    isThere w cs begin =
-      begin >= 0
-        && (extent cs > 0 || presence w == Always || NumberReader.begins plan (form w) rows begin)
-    -- Behind the words that a frame can do without, as far as they do not stand here.
-    lacking behindWord todo k = case todo of
-      Worded w cs joined : more
-        | presence w /= Always
-            && not
-              (isThere w cs (Layout.behindAddress rows k (if behindWord then joined else cs))) ->
-          lacking behindWord more k
-      _ -> todo
-    counting cs now
-      | Layout.isChecked plan = now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
-      | otherwise = now
-    -- What a command is given; what the service track says beside a number, and what its digits
-    -- add.
-    beside w n now = case content w of
-      Command o -> (counted n now) {commands = (o, NumberReader.value n) : commands (counted n now)}
-      _ -> counted n now
-    counted n now
-      | null (NumberReader.bits n) && not (NumberReader.brakes n) && not (Layout.isChecked plan) =
+          prefix = if followsWord then joined else cs
+          begin = Layout.rowAfterAddress rows k prefix
+
+readWordOf :: Word' -> TapeNumber -> ReadWord
+readWordOf w n =
+  ReadWord
+    { word = w,
+      at = NumberReader.start n,
+      number = NumberReader.value n,
+      places = NumberReader.places n
+    }
+
+-- | True if a word is present whose address ends before row @begin@, which is −1 if the address is
+-- not there. A word without an address that may be left out is present if a number can begin here.
+isPresent :: Layout -> ShortByteString -> Word' -> Address -> Int -> Bool
+isPresent layout rows w cs begin =
+  begin >= 0
+    && ( extent cs > 0
+           || presence w == Always
+           || NumberReader.canBegin layout (form w) rows begin
+       )
+
+-- | Steps without the leading words that may be left out and are not present at row @k@.
+skipAbsent :: Layout -> ShortByteString -> Bool -> [LayoutStep] -> Int -> [LayoutStep]
+skipAbsent layout rows followsWord todo k = case todo of
+  WordStep w cs joined : more
+    | presence w /= Always
+        && not
+          ( isPresent
+              layout
+              rows
+              w
+              cs
+              (Layout.rowAfterAddress rows k (if followsWord then joined else cs))
+          ) ->
+      skipAbsent layout rows followsWord more k
+  _ -> todo
+
+-- | Add the weights of symbols.
+withSymbols :: Layout -> [Symbol] -> Reading -> Reading
+withSymbols layout cs now
+  | Layout.hasCheckDigit layout =
+    now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
+  | otherwise = now
+
+-- | Add the check digit at row @k@.
+withCheckDigit :: Layout -> Int -> Int -> Int -> Reading -> Reading
+withCheckDigit layout k modulus d now =
+  now
+    { total = total now + Symbol.digitWeight (Layout.symbols layout) d,
+      check = Just (k, modulus)
+    }
+
+-- | Add the number of a word: its weights, the number of a command, the holes of the service track.
+withNumber :: Layout -> Word' -> TapeNumber -> Reading -> Reading
+withNumber layout w n now = case content w of
+  Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}
+  _ -> counted
+  where
+    counted
+      | null (NumberReader.bits n)
+          && not (NumberReader.brakes n)
+          && not (Layout.hasCheckDigit layout) =
         now
       | otherwise =
         now
-          { commands = NumberReader.bits n <> commands now,
-            braked = braked now || NumberReader.brakes n,
+          { commandNumbers = NumberReader.bits n <> commandNumbers now,
+            isBraking = isBraking now || NumberReader.brakes n,
             total = total now + NumberReader.total n
           }
 
--- | The row behind symbols that have to stand here.
+-- | Index of the row after the given symbols; a fault if they are not the rows from @k@ on.
 expect :: Layout -> ShortByteString -> Int -> [Symbol] -> Either RowFault Int
-expect plan rows k cs =
-  let next =
-        Symbol.behind rows k cs
-   in if next >= 0 then Right next else Left (mismatch plan Nothing rows k cs)
+expect layout rows k cs =
+  let next = Symbol.rowAfter rows k cs
+   in if next >= 0 then Right next else Left (mismatch layout Nothing rows k cs)
 
--- | The first of some symbols that does not stand where it should.
+-- | Fault of the first row that differs from the given symbols.
 mismatch :: Layout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
-mismatch plan c rows k cs = case cs of
+mismatch layout c rows k cs = case cs of
   [] -> RowFault k c NotBlank
   s : more
     | k >= Short.length rows -> RowFault (Short.length rows - 1) c CutOff
-    | Short.index rows k == Symbol.holes s -> mismatch plan c rows (k + 1) more
-    | otherwise -> RowFault k c (insteadOf plan (Short.index rows k) s)
+    | Short.index rows k == Symbol.holes s -> mismatch layout c rows (k + 1) more
+    | otherwise -> RowFault k c (insteadOf layout (Short.index rows k) s)
 
--- | Why a row is not the symbol that it should be.
+-- | Reason why a row is not the given symbol.
 insteadOf :: Layout -> Word8 -> Symbol -> Reason
-insteadOf plan w s = case NumberReader.blemish plan w of
+insteadOf layout w s = case NumberReader.rowFault layout w of
   Just why -> why
-  Nothing -> case Symbol.symbolAt (Layout.symbols plan) w of
+  Nothing -> case Symbol.symbolAt (Layout.symbols layout) w of
     _ | w == 0 -> Missing (Symbol.name s)
     Nothing ->
       if Symbol.holes s == 0
         then NotBlank
-        else NoSymbol (Machine.tracks (Machine.medium (Layout.machine plan))) w
+        else NoSymbol (Machine.tracks (Machine.medium (Layout.machine layout))) w
     Just c
-      | or [Symbol.name a == c | Worded _ Spelled {spelled = a : _} _ <- Layout.steps plan] ->
-        WordOutOfPlace c
+      | or [Symbol.name a == c | WordStep _ Address {spelling = a : _} _ <- Layout.steps layout] ->
+        UnexpectedWord c
       | otherwise -> Unexpected c (Symbol.name s)
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | A fault of a word, or of the frame as a whole.
+-- | Fault of the first word whose content satisfies a predicate; of the frame if there is none.
 faultOf :: Int -> Reading -> (Content -> Bool) -> Reason -> RowFault
-faultOf begin reading isIt why = case said isIt reading of
+faultOf begin reading isContent why = case wordWith isContent reading of
   Just s -> RowFault (at s) (Just (content (word s))) why
   Nothing -> RowFault begin Nothing why
 
--- | The frame that the words make.
+-- | Frame that the words describe.
 frameOf :: Layout -> State -> Int -> Reading -> Either RowFault Frame
-frameOf plan state begin reading = do
-  mapM_ (numbered state) (said isFrameNumber reading)
-  let moved = Pulses3 (distance X) (distance Y) (distance Z)
-      Pulses3 i j _ = ModalState.signs axes * Pulses3 (spoken X) (spoken Y) 0
-  m <- motionOf plan begin reading moved
-  code <- speedOf plan state begin reading m
+frameOf layout state begin reading = do
+  mapM_ (checkFrameNumber state) (wordWith isFrameNumber reading)
+  let increment = Pulses3 (distance X) (distance Y) (distance Z)
+      Pulses3 i j _ = ModalState.signs axes * Pulses3 (centreNumber X) (centreNumber Y) 0
+  m <- motionOf layout begin reading increment
+  code <- feedCodeOf layout state begin reading m
   pure
     Frame
       { motion = m,
-        increment = moved,
+        increment,
         centre = Pulses2 i j,
         speed = FeedCode code,
-        braking = braked reading,
-        orders =
-          if null (commands reading)
-            then []
-            else
-              [ (o, v)
-                | (o, zero) <- Layout.commands plan,
-                  let vs = [v' | (o', v') <- commands reading, o' == o],
-                  not (null vs),
-                  let v = sum vs,
-                  v /= 0 || zero
-              ]
+        braking = isBraking reading,
+        orders = commandsOf layout reading
       }
   where
-    axes = Layout.axes plan
-    spoken a = maybe 0 (Pulses . number) (said (isCentre a) reading)
-    distance a = case said (isAlong a) reading of
+    axes = Layout.axes layout
+    centreNumber a = maybe 0 (Pulses . number) (wordWith (isCentre a) reading)
+    distance a = case wordWith (isAlong a) reading of
       Nothing -> 0
       Just s ->
         let n = ModalState.along a (ModalState.signs axes) * Pulses (number s)
          in case ModalState.measure axes of
               Increments -> n
-              Positions -> n - ModalState.along a (place state)
+              Positions -> n - ModalState.along a (position state)
 
--- | Frames are counted.
-numbered :: State -> Said -> Either RowFault ()
-numbered state s
+-- | Commands of a frame in the order of the layout, each with the sum of its bits. A 0 that is no
+-- command is left out.
+commandsOf :: Layout -> Reading -> [(Machine.CommandName, Int)]
+commandsOf layout reading
+  | null (commandNumbers reading) = []
+  | otherwise =
+    [ (o, v)
+      | (o, isZeroCommand) <- Layout.commandWords layout,
+        let vs = [v' | (o', v') <- commandNumbers reading, o' == o],
+        not (null vs),
+        let v = sum vs,
+        v /= 0 || isZeroCommand
+    ]
+
+-- | Compare the frame number with the count of the frames.
+checkFrameNumber :: State -> ReadWord -> Either RowFault ()
+checkFrameNumber state s
   | n /= number s = Left (RowFault (at s) (Just FrameNumber) (WrongNumber (number s) n))
   | otherwise = Right ()
   where
     n = ordinal state `mod` 10 ^ digits (form (word s))
 
 motionOf :: Layout -> Int -> Reading -> Pulses3 -> Either RowFault FrameMotion
-motionOf plan begin reading moved = case Layout.motions plan of
-  Nothing -> Right (if moved == 0 then Still else Straightway)
-  Just (w, codes) -> case said isMotion reading of
+motionOf layout begin reading increment = case Layout.motionWord layout of
+  Nothing -> Right (if increment == 0 then Still else Straightway)
+  Just (w, codes) -> case wordWith isMotion reading of
     Nothing
-      | moved == 0 -> Right Still
-      | otherwise -> Left (RowFault begin Nothing MoveWithoutMotion)
+      | increment == 0 -> Right Still
+      | otherwise -> Left (RowFault begin Nothing IncrementWithoutMotion)
     Just s
       | number s == straight codes ->
-        if presence w == Always && moved == 0 then Right Still else moving s Straightway
+        if presence w == Always && increment == 0 then Right Still else moving s Straightway
       | Just (number s) == rapid codes -> moving s Rapid
-      | Just (number s) == clockwise codes -> Right (Round (turned Clockwise CounterClockwise))
+      | Just (number s) == clockwise codes -> Right (Round (onMachine Clockwise CounterClockwise))
       | Just (number s) == counterClockwise codes ->
-        Right (Round (turned CounterClockwise Clockwise))
+        Right (Round (onMachine CounterClockwise Clockwise))
       | otherwise -> wrong s (UnknownMotion (number s))
     where
       wrong s why = Left (RowFault (at s) (Just (content w)) why)
-      moving s m = if moved == 0 then wrong s MotionWithoutMove else Right m
+      moving s m = if increment == 0 then wrong s MotionWithoutIncrement else Right m
   where
-    turned a b = if ModalState.mirrored (Layout.axes plan) then b else a
+    onMachine sense opposite =
+      if ModalState.isMirrored (Layout.axes layout) then opposite else sense
 
-speedOf :: Layout -> State -> Int -> Reading -> FrameMotion -> Either RowFault Int
-speedOf plan state begin reading m = case (said isFeed reading, m) of
+feedCodeOf :: Layout -> State -> Int -> Reading -> FrameMotion -> Either RowFault Int
+feedCodeOf layout state begin reading m = case (wordWith isFeed reading, m) of
   (Nothing, Still) -> Right 0
   (Nothing, Rapid) -> Right 0
   (Nothing, _) -> case feed state of
-    Just (FeedCode n) | changing -> Right n
-    _ -> wrong MoveWithoutSpeed
-  (Just s, Still) -> if number s == 0 then Right 0 else wrong (SpeedWithoutMove (number s))
-  (Just s, Rapid) -> if number s == 0 then Right 0 else wrong (SpeedWithoutMove (number s))
+    Just (FeedCode n) | isModal -> Right n
+    _ -> wrong MotionWithoutFeed
+  (Just s, Still) -> if number s == 0 then Right 0 else wrong (FeedWithoutMotion (number s))
+  (Just s, Rapid) -> if number s == 0 then Right 0 else wrong (FeedWithoutMotion (number s))
   (Just s, _)
-    | changing && feed state == Just (FeedCode (number s)) -> wrong (SpeedRepeated (number s))
-    | isJust (Machine.valueOf (Layout.machine plan) (FeedCode (number s))) -> Right (number s)
-    | number s == 0 -> wrong MoveWithoutSpeed
-    | otherwise -> wrong (UnknownSpeed (number s))
+    | isModal && feed state == Just (FeedCode (number s)) -> wrong (FeedRepeated (number s))
+    | isJust (Machine.valueOf (Layout.machine layout) (FeedCode (number s))) -> Right (number s)
+    | number s == 0 -> wrong MotionWithoutFeed
+    | otherwise -> wrong (UnknownFeedCode (number s))
   where
-    changing = Layout.keepsFeed plan
+    isModal = Layout.isFeedModal layout
     wrong why = Left (faultOf begin reading isFeed why)
 
--- | The frame keeps the rules of frames.
-lawful :: Layout -> Int -> Reading -> Frame -> Either RowFault ()
-lawful plan begin reading f
-  | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading isFeed IdleFrame)
-  | otherwise = case Frame.broken (Layout.machine plan) 1 f of
+-- | Check the rules for frames, see 'Frame.Frame.broken'.
+checkRules :: Layout -> Int -> Reading -> Frame -> Either RowFault ()
+checkRules layout begin reading f
+  | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading isFeed NoContent)
+  | otherwise = case Frame.broken (Layout.machine layout) 1 f of
     [] -> Right ()
-    rule : _ -> Left (blame rule (Rule rule))
+    rule : _ -> Left (faultOf begin reading (blamed rule) (BrokenRule rule))
   where
-    blame rule = case rule of
-      Frame.OverCapacity _ a _ -> faultOf begin reading (isAlong a)
-      Frame.BadCentre _ -> faultOf begin reading (isCentre X)
-      Frame.NoSuchSpeed _ _ -> faultOf begin reading isFeed
-      Frame.NoSuchMotion _ -> faultOf begin reading isMotion
-      Frame.NoSuchOrder _ o -> faultOf begin reading (== Command o)
-      Frame.Idle _ -> faultOf begin reading isFeed
+    blamed rule = case rule of
+      Frame.OverCapacity _ a _ -> isAlong a
+      Frame.BadCentre _ -> isCentre X
+      Frame.NoSuchSpeed _ _ -> isFeed
+      Frame.NoSuchMotion _ -> isMotion
+      Frame.NoSuchOrder _ o -> (== Command o)
+      Frame.Idle _ -> isFeed
 
--- | Whether each word stands where it would be written for a frame, with its number in as many
--- digits: then the rows are those that would be written, where a word has nothing else that could
--- differ.
-isSpelled :: Layout -> State -> Reading -> Frame -> Bool
-isSpelled plan state reading f = Layout.isPlain plan && go (Layout.wordsFor plan f) (saids reading)
+-- Comparison with the frame as it would be written ------------------------------------------------
+
+-- | True if exactly the words that were read would be written for a frame, each with as many
+-- digits. In a layout whose words cannot differ in anything else, the rows are the same then.
+hasSameWords :: Layout -> State -> Reading -> Frame -> Bool
+hasSameWords layout state reading f =
+  Layout.isPlain layout && go (Layout.wordsFor layout f) (readWords reading)
   where
-    -- Both are in the order of the layout.
-    go ws read' = case ws of
-      [] -> null read'
-      w : more -> case ModalState.number (Layout.axes plan) state f w of
-        Nothing -> go more read'
-        Just n -> case read' of
+    -- Both lists are in the order of the layout.
+    go ws found = case ws of
+      [] -> null found
+      w : more -> case ModalState.number (Layout.axes layout) state f w of
+        Nothing -> go more found
+        Just n -> case found of
           s : others ->
             content (word s) == content w
               && n == number s
-              && Layout.isCount (form w) (places s) (abs n)
+              && Layout.isDigitCount (form w) (places s) (abs n)
               && go more others
           [] -> False
 
--- | Whether the rows of a frame are those that would be written for it.
-isWritten :: Layout -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
-isWritten plan state rows begin end f = runIdentity (Layout.foldRows same plan state f begin) == end
+-- | True if the rows from @begin@ to @end@ are those that would be written for a frame.
+hasSameRows :: Layout -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
+hasSameRows layout state rows begin end f =
+  runIdentity (FrameWriter.foldRows same layout state f begin) == end
   where
-    -- Behind a row that is another one there is none.
+    -- The index becomes −1 at the first row that differs.
     same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
--- | The rows of a frame are those that its marks are. A check digit that would be another one
--- follows from the other rows: they are blamed first.
-written :: Layout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
-written plan rows begin end = go begin (Right ())
+-- | Compare the rows with those that would be written, and report the first difference. A wrong
+-- check digit follows from other wrong rows, so those are blamed first.
+compareRows :: Layout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
+compareRows layout rows begin end = go begin (Right ())
   where
-    go k before marks = case marks of
+    go k before expected = case expected of
       [] ->
         if k == end
           then before
-          else Left (RowFault (min k (end - 1)) Nothing (Otherwise "the end of the frame"))
+          else Left (RowFault (min k (end - 1)) Nothing (WrittenOtherwise "the end of the frame"))
       m : more
         | k >= end ->
-          Left
-            ( RowFault
-                (max begin (end - 1))
-                (wordOf m)
-                (Otherwise (RowMeaning.meaning (RowMeaning.row plan Nothing m)))
-            )
+          Left (RowFault (max begin (end - 1)) (wordOf m) (WrittenOtherwise (meaningOf m)))
         | Short.index rows k == holes m -> go (k + 1) before more
-        | CheckSymbol _ <- sense m -> go (k + 1) (Left (fault k m)) more
+        | CheckSymbol _ <- kind m -> go (k + 1) (Left (fault k m)) more
         | otherwise -> Left (fault k m)
-    fault k m = RowFault k (wordOf m) (difference plan (Short.index rows k) m)
+    fault k m = RowFault k (wordOf m) (difference layout (Short.index rows k) m)
+    meaningOf m = RowMeaning.meaning (RowMeaning.row layout Nothing m)
 
--- | The word that a mark is of.
+-- | Word that a row belongs to.
 wordOf :: MarkedRow -> Maybe Content
-wordOf m = case sense m of
+wordOf m = case kind m of
   InWord c _ _ -> Just c
   Blank _ -> Nothing
   Opening _ -> Nothing
@@ -375,15 +407,15 @@ wordOf m = case sense m of
   Separator _ -> Nothing
   CheckSymbol _ -> Nothing
 
--- | Why a row is not the one that should stand there.
+-- | Reason why a row is not the expected one.
 difference :: Layout -> Word8 -> MarkedRow -> Reason
-difference plan w m = fromMaybe specific (NumberReader.blemish plan w)
+difference layout w m = fromMaybe specific (NumberReader.rowFault layout w)
   where
-    table = Layout.symbols plan
-    wanted = RowMeaning.meaning (RowMeaning.row plan Nothing m)
-    specific = case sense m of
-      InWord _ _ (Digit d _ _ hole)
-        | Symbol.digitAt table w == Just d -> if hole then MarkerMissing else ServiceHole
-      InWord _ n (Lead d) | Just found <- Symbol.digitAt table w, n /= 0 -> WrongPriority found d
+    table = Layout.symbols layout
+    specific = case kind m of
+      InWord _ _ (Digit d _ _ isPunched)
+        | Symbol.digitAt table w == Just d -> if isPunched then MarkerMissing else ServiceHole
+      InWord _ n (PriorityDigit d)
+        | Just found <- Symbol.digitAt table w, n /= 0 -> WrongPriority found d
       Blank _ -> NotBlank
-      _ -> Otherwise wanted
+      _ -> WrittenOtherwise (RowMeaning.meaning (RowMeaning.row layout Nothing m))

@@ -1,17 +1,18 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | What a layout remembers from frame to frame.
+-- | Modal state: values that a tape keeps from frame to frame, and the numbers that the words of a
+-- frame have in such a state.
 module Tape.ModalState
   ( State (..),
-    first,
-    rising,
+    initial,
+    changesHeight,
     Axes (..),
     axes,
     along,
     number,
-    isBare,
-    standsBare,
-    zeroCommands,
+    isSimple,
+    occursInSimple,
+    isZeroCommand,
     after,
   )
 where
@@ -38,82 +39,85 @@ import Machine.Machine
   )
 import Machine.Machine qualified as Machine
 
+-- | State of a tape before a frame.
 data State = State
-  { -- | of the next frame, from 1
+  { -- | number of the next frame, from 1
     ordinal :: Int,
-    -- | where the cutter stands, along the axes of the part
-    place :: Pulses3,
-    -- | the axes whose position the tape has not said yet
-    unsaid :: [Axis],
-    -- | the feed said last
+    -- | position of the cutter in pulses, along the axes of the part
+    position :: Pulses3,
+    -- | axes whose position the tape has not given yet
+    unwritten :: [Axis],
+    -- | last feed code on the tape
     feed :: Maybe FeedCode
   }
   deriving stock (Eq, Show)
 
--- | Before the first frame: whether the tape has to do with heights, and where the cutter stands.
--- The first frame that moves says where it goes; its height only if that ever changes, since else
--- it is set by hand.
-first :: Bool -> Pulses3 -> State
-first rises start =
-  State {ordinal = 1, place = start, unsaid = [X, Y] <> [Z | rises], feed = Nothing}
+-- | State before the first frame, at the given position. On a tape with absolute positions the
+-- first frame that moves gives all of them. It gives the height only if some frame changes it
+-- (first argument); otherwise the height is set by hand.
+initial :: Bool -> Pulses3 -> State
+initial changesZ start =
+  State {ordinal = 1, position = start, unwritten = [X, Y] <> [Z | changesZ], feed = Nothing}
 
--- | Whether frames change the height.
-rising :: [Frame] -> Bool
-rising = any (\f -> let Pulses3 _ _ z = increment f in z /= 0)
+-- | True for frames that change the height.
+changesHeight :: [Frame] -> Bool
+changesHeight = any (\f -> let Pulses3 _ _ z = increment f in z /= 0)
 
--- | How the axes of the tape lie to those of the part.
+-- | Axes of the tape relative to those of the part.
 data Axes = Axes
-  { measure :: AxisMeasure,
-    -- | 1, or −1 for an axis that points the other way
+  { -- | increments or absolute positions
+    measure :: AxisMeasure,
+    -- | 1, or −1 for an axis in the opposite direction
     signs :: Pulses3,
-    -- | seen from the machine clockwise arcs of the part are counter-clockwise
-    mirrored :: Bool
+    -- | clockwise arcs of the part are counter-clockwise on the machine
+    isMirrored :: Bool
   }
 
+-- | Axes of a machine.
 axes :: Machine -> Axes
 axes machine =
   Axes
     { measure = Machine.measure (Machine.layout machine),
       signs = Pulses3 (sign X) (sign Y) (sign Z),
-      mirrored = Machine.isMirrored machine
+      isMirrored = Machine.isMirrored machine
     }
   where
     sign a =
       if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
 
--- | The component along an axis.
+-- | Component along an axis.
 along :: Axis -> Pulses3 -> Pulses
 along a (Pulses3 x y z) = case a of
   X -> x
   Y -> y
   Z -> z
 
--- | The number that a word of a frame holds; nothing where the frame has no such word.
+-- | Number of a word of a frame; none if the frame is written without this word.
 number :: Axes -> State -> Frame -> Word' -> Maybe Int
 number system state frame word = case content word of
   FrameNumber ->
-    standing (presence word /= InMotion || moving) (ordinal state `mod` 10 ^ digits (form word))
+    present (presence word /= InMotion || moving) (ordinal state `mod` 10 ^ digits (form word))
   Motion codes ->
-    standing
+    present
       (presence word == Always || moving)
-      (motionNumber (mirrored system) codes (motion frame))
+      (motionNumber (isMirrored system) codes (motion frame))
   Along a ->
-    standing (axisStands system state frame (presence word) a) (axisNumber system state frame a)
-  Centre a -> standing (centreStands (presence word)) (centreNumber a)
-  FeedWord -> standing (feedStands (presence word)) code
+    present (isAxisPresent system state frame (presence word) a) (axisNumber system state frame a)
+  Centre a -> present (isCentrePresent (presence word)) (centreNumber a)
+  FeedWord -> present (isFeedPresent (presence word)) code
   Command o -> commandNumber (presence word) o
   where
-    standing yes n = if yes then Just $! n else Nothing
+    present yes n = if yes then Just $! n else Nothing
     moving = Frame.isMoving frame
     FeedCode code = speed frame
     centreNumber a =
       let Pulses2 i j = centre frame; Pulses n = along a (signs system * Pulses3 i j 0) in n
-    centreStands p = case p of
+    isCentrePresent p = case p of
       Always -> True
       InMotion -> moving
       WhenNeeded -> isArc frame
       WhenChanged -> isArc frame
-    feedStands p = case p of
+    isFeedPresent p = case p of
       Always -> True
       InMotion -> moving
       WhenNeeded -> hasFeed frame
@@ -126,44 +130,44 @@ number system state frame word = case content word of
     given :: CommandName -> Maybe Int
     given o = lookup o (orders frame)
 
--- | Whether a frame walks no arc and commands nothing.
-isBare :: Frame -> Bool
-isBare frame = null (orders frame) && not (isArc frame)
+-- | True for a simple frame: one without an arc and without commands. Most frames are simple.
+isSimple :: Frame -> Bool
+isSimple frame = null (orders frame) && not (isArc frame)
 
--- | Whether a word can stand in a frame that walks no arc and commands nothing. Another word has no
--- 'number' there.
-standsBare :: Word' -> Bool
-standsBare word = case content word of
-  Centre _ -> standsAnyway
-  Command _ -> standsAnyway
+-- | True for a word that can occur in a simple frame. All other words have no 'number' there.
+occursInSimple :: Word' -> Bool
+occursInSimple word = case content word of
+  Centre _ -> occursAnyway
+  Command _ -> occursAnyway
   FrameNumber -> True
   Motion _ -> True
   Along _ -> True
   FeedWord -> True
   where
-    standsAnyway = case presence word of
+    occursAnyway = case presence word of
       Always -> True
       InMotion -> True
       WhenNeeded -> False
       WhenChanged -> False
 
--- | Whether 0 in the word of a command is a command: where the word stands without one, 0 says that
--- there is none.
-zeroCommands :: Word' -> Bool
-zeroCommands word = case presence word of
+-- | True for the word of a command in which 0 is a command of its own. In a word that is written
+-- without a command as well, 0 means that there is none.
+isZeroCommand :: Word' -> Bool
+isZeroCommand word = case presence word of
   Always -> False
   InMotion -> False
   WhenNeeded -> True
   WhenChanged -> True
 
--- | Which number says a motion. A frame without motion that must say one says a straight move.
+-- | Number for a motion. A frame without motion gets the number of a straight line, in words that
+-- are always written.
 motionNumber :: Bool -> MotionCodes -> FrameMotion -> Int
 motionNumber mirror codes m = case m of
   Still -> straight codes
   Straightway -> straight codes
   Rapid -> fromMaybe (straight codes) (rapid codes)
-  Round turn
-    | (turn == Clockwise) /= mirror -> fromMaybe (straight codes) (clockwise codes)
+  Round sense
+    | (sense == Clockwise) /= mirror -> fromMaybe (straight codes) (clockwise codes)
     | otherwise -> fromMaybe (straight codes) (counterClockwise codes)
 
 isArc :: Frame -> Bool
@@ -173,7 +177,7 @@ isArc frame = case motion frame of
   Rapid -> False
   Straightway -> False
 
--- | Whether the frame moves at a feed.
+-- | True for a frame that moves at a feed.
 hasFeed :: Frame -> Bool
 hasFeed frame = case motion frame of
   Round _ -> True
@@ -181,36 +185,38 @@ hasFeed frame = case motion frame of
   Still -> False
   Rapid -> False
 
-axisStands :: Axes -> State -> Frame -> Presence -> Axis -> Bool
-axisStands system state frame p a = case p of
+isAxisPresent :: Axes -> State -> Frame -> Presence -> Axis -> Bool
+isAxisPresent system state frame p a = case p of
   Always -> True
   InMotion -> Frame.isMoving frame
-  WhenNeeded -> needed
-  WhenChanged -> needed
+  WhenNeeded -> isNeeded
+  WhenChanged -> isNeeded
   where
-    needed =
+    isNeeded =
       Frame.isMoving frame
-        && (along a (increment frame) /= 0 || measure system == Positions && a `elem` unsaid state)
+        && ( along a (increment frame) /= 0
+               || measure system == Positions && a `elem` unwritten state
+           )
 
 axisNumber :: Axes -> State -> Frame -> Axis -> Int
 axisNumber system state frame a = n
   where
-    Pulses n = along a (signs system) * counted
-    counted = case measure system of
+    Pulses n = along a (signs system) * measured
+    measured = case measure system of
       Increments -> along a (increment frame)
-      Positions -> along a (place state) + along a (increment frame)
+      Positions -> along a (position state) + along a (increment frame)
 
--- | After a frame with words.
+-- | State after a frame with the given words.
 after :: Axes -> [Word'] -> State -> Frame -> State
 after system ws state frame =
   State
     { ordinal = ordinal state + 1,
-      place = place state + increment frame,
-      unsaid = case measure system of
-        Increments -> unsaid state
-        Positions -> filter (not . isSaid) (unsaid state),
+      position = position state + increment frame,
+      unwritten = case measure system of
+        Increments -> unwritten state
+        Positions -> filter (not . isWritten) (unwritten state),
       feed =
         if hasFeed frame && feed state /= Just (speed frame) then Just (speed frame) else feed state
     }
   where
-    isSaid a = or [isJust (number system state frame w) | w <- ws, content w == Along a]
+    isWritten a = or [isJust (number system state frame w) | w <- ws, content w == Along a]

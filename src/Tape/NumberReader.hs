@@ -1,16 +1,16 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Numbers on a tape, read.
+-- | Numbers read from the rows of a tape, in the form that the layout gives for their word.
 module Tape.NumberReader
   ( RowFault (..),
     TapeNumber (..),
     numeral,
-    begins,
+    canBegin,
     Figures (..),
     plainFigures,
     digit,
-    blemish,
+    rowFault,
   )
 where
 
@@ -26,75 +26,77 @@ import Tape.Layout (Layout)
 import Tape.Layout qualified as Layout
 import Tape.Symbol qualified as Symbol
 
--- | A row, counted from 0, that is not as it should be; the word that it is of; why.
+-- | Faulty row: its index from 0, the word that it belongs to, and the reason.
 data RowFault = RowFault Int (Maybe Content) Reason
   deriving stock (Eq, Show)
 
--- | A number with what the service track says beside it.
+-- | Number with the holes of the service track beside it.
 data TapeNumber = TapeNumber
-  { -- | the row where it begins
+  { -- | index of its first row
     start :: Int,
-    -- | the row behind it
+    -- | index of the row after it
     next :: Int,
     value :: Int,
-    -- | how many digits it has
+    -- | number of its digits
     places :: Int,
+    -- | command bits in the service track
     bits :: [(CommandName, Int)],
+    -- | hole for braking in the service track
     brakes :: Bool,
-    -- | what its symbols add to
+    -- | sum of the weights of its symbols
     total :: Int
   }
 
--- | The number in a form that stands at a row.
+-- | Number in the given form, from row @begin@ on.
 numeral :: Layout -> Content -> NumberForm -> ShortByteString -> Int -> Either RowFault TapeNumber
-numeral plan c f rows begin = do
-  Signed behind minus weight <- readSign plan c f rows begin
+numeral layout c f rows begin = do
+  SignPart afterSign minus weight <- readSign layout c f rows begin
   let whole = digits f - decimals f
       zero =
         Digits
-          { at = behind,
+          { at = afterSign,
             amount = 0,
             negative = minus,
-            told = [],
-            slow = False,
-            count = weight,
+            commandBits = [],
+            braking = False,
+            weights = weight,
             services = service f
           }
-  front <- figures plan c rows (if padded f then whole else min 1 whole) whole zero
+  front <- figures layout c rows (if padded f then whole else min 1 whole) whole zero
   ds <-
     if decimals f > 0
-      then point plan c rows front >>= figures plan c rows (decimals f) (decimals f)
+      then point layout c rows front >>= figures layout c rows (decimals f) (decimals f)
       else Right front
-  if negative ds && amount ds == 0 && isPlain
-    then Left (RowFault behind (Just c) MinusZero)
+  if negative ds && amount ds == 0 && refusesMinusZero
+    then Left (RowFault afterSign (Just c) MinusZero)
     else
       Right
         TapeNumber
           { start = begin,
             next = at ds,
             value = if negative ds then negate (amount ds) else amount ds,
-            places = at ds - behind - (if decimals f > 0 then 1 else 0),
-            bits = told ds,
-            brakes = slow ds,
-            total = count ds
+            places = at ds - afterSign - (if decimals f > 0 then 1 else 0),
+            bits = commandBits ds,
+            brakes = braking ds,
+            total = weights ds
           }
   where
-    -- With a digit for direction a zero is judged by what should have been written.
-    isPlain = case sign f of
+    -- A digit for the direction is compared later with the one that would be written.
+    refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True
       ServiceSign -> True
       MinusSign -> True
       EitherSign -> True
 
--- | Whether a number may begin at a row.
-begins :: Layout -> NumberForm -> ShortByteString -> Int -> Bool
-begins plan f rows k =
+-- | True if a number in the given form can begin at row @k@.
+canBegin :: Layout -> NumberForm -> ShortByteString -> Int -> Bool
+canBegin layout f rows k =
   digits f == 0
-    || k < Short.length rows && (isJust (Symbol.digitAt (Layout.symbols plan) w) || isSign)
+    || k < Short.length rows && (isJust (Symbol.digitAt (Layout.symbols layout) w) || isSign)
   where
     w = Short.index rows k
-    is c = w == Symbol.holes (Symbol.symbol (Layout.symbols plan) c)
+    is c = w == Symbol.holes (Symbol.symbol (Layout.symbols layout) c)
     isSign = case sign f of
       Unsigned -> False
       ServiceSign -> False
@@ -102,93 +104,108 @@ begins plan f rows k =
       MinusSign -> is '-'
       EitherSign -> is '-' || is '+'
 
--- | What stands before the digits: the row behind it, whether it says minus, and what it counts.
-data Signed = Signed Int Bool Int
+-- | Rows before the digits: the index of the row after them, true for a minus, and their weight.
+data SignPart = SignPart Int Bool Int
 
-readSign :: Layout -> Content -> NumberForm -> ShortByteString -> Int -> Either RowFault Signed
-readSign plan c f rows k = case sign f of
-  Unsigned -> Right (Signed k False 0)
-  ServiceSign -> Right (Signed k False 0)
-  MinusSign -> Right (if here minus then behind minus True else Signed k False 0)
+readSign :: Layout -> Content -> NumberForm -> ShortByteString -> Int -> Either RowFault SignPart
+readSign layout c f rows k = case sign f of
+  Unsigned -> Right (SignPart k False 0)
+  ServiceSign -> Right (SignPart k False 0)
+  MinusSign -> Right (if isHere minus then afterSymbol minus True else SignPart k False 0)
   EitherSign
-    | here minus -> Right (behind minus True)
-    | here plus -> Right (behind plus False)
+    | isHere minus -> Right (afterSymbol minus True)
+    | isHere plus -> Right (afterSymbol plus False)
     | k >= Short.length rows -> Left (cutOff c rows)
-    | otherwise -> Left (RowFault k (Just c) (fromMaybe NoSign (blemish plan (Short.index rows k))))
+    | otherwise ->
+      Left (RowFault k (Just c) (fromMaybe NoSign (rowFault layout (Short.index rows k))))
   Priority leadForth leadBack forth back -> do
-    d <- digit plan (Just c) rows k
-    let after isMinus = Right (Signed (k + 1) isMinus (Symbol.digitWeight (Layout.symbols plan) d))
+    d <- digit layout (Just c) rows k
+    let afterDigit isMinus =
+          Right (SignPart (k + 1) isMinus (Symbol.digitWeight (Layout.symbols layout) d))
     if d == leadBack || d == back
-      then after True
+      then afterDigit True
       else
         if d == leadForth || d == forth
-          then after False
+          then afterDigit False
           else Left (RowFault k (Just c) (NoPriority d))
   where
-    minus = Layout.minus plan
-    plus = Layout.plus plan
-    here s = k < Short.length rows && Short.index rows k == Symbol.holes s
-    behind s isMinus = Signed (k + 1) isMinus (Symbol.weight s)
+    minus = Layout.minus layout
+    plus = Layout.plus layout
+    isHere s = k < Short.length rows && Short.index rows k == Symbol.holes s
+    afterSymbol s isMinus = SignPart (k + 1) isMinus (Symbol.weight s)
 {-# INLINE readSign #-}
 
--- | The digits read so far.
+-- | State while the digits of a number are read.
 data Digits = Digits
-  { at :: Int,
+  { -- | index of the next row
+    at :: Int,
+    -- | value of the digits so far
     amount :: Int,
     negative :: Bool,
-    told :: [(CommandName, Int)],
-    slow :: Bool,
-    count :: Int,
-    -- | what the service track says at the next ones
+    commandBits :: [(CommandName, Int)],
+    braking :: Bool,
+    -- | sum of the weights so far
+    weights :: Int,
+    -- | use of the service track at the next digits
     services :: [Service]
   }
 
--- | At least so many digits, and as many as there are up to a number.
+-- | Read at least @least@ digits and at most @most@. Fewer than @most@ are a fault if another digit
+-- follows that cannot be read.
 figures :: Layout -> Content -> ShortByteString -> Int -> Int -> Digits -> Either RowFault Digits
-figures plan c rows least most ds
-  | at now < at ds + least || at now < at ds + most && isDigit = Left (stopped plan c rows now)
+figures layout c rows least most ds
+  | at now < at ds + least || at now < at ds + most && isDigit = Left (stopFault layout c rows now)
   | otherwise = Right now
   where
-    now = sound plan rows (at ds + most) ds
+    now = digitsUpTo layout rows (at ds + most) ds
     isDigit =
       at now < Short.length rows
-        && isJust (Symbol.digitAt (Layout.symbols plan) (Short.index rows (at now)))
+        && isJust (Symbol.digitAt (Layout.symbols layout) (Short.index rows (at now)))
 {-# INLINE figures #-}
 
--- | The digits up to a row, as far as the service track says what it may beside them.
-sound :: Layout -> ShortByteString -> Int -> Digits -> Digits
-sound plan rows end ds
+-- | Read digits up to row @end@, as long as the service track beside them has holes only where its
+-- use allows them.
+digitsUpTo :: Layout -> ShortByteString -> Int -> Digits -> Digits
+digitsUpTo layout rows end ds
   | null (services ds),
-    Figures k n <- plainFigures plan rows end (at ds) (amount ds) =
+    Figures k n <- plainFigures layout rows end (at ds) (amount ds) =
     ds
       { at = k,
         amount = n,
-        count = if Layout.isChecked plan then count ds + weights (at ds) k else count ds
+        weights =
+          if Layout.hasCheckDigit layout then weights ds + sumBetween (at ds) k else weights ds
       }
-  | otherwise = go (at ds) (amount ds) (negative ds) (told ds) (slow ds) (count ds) (services ds)
+  | otherwise = serviceDigits layout rows end ds
   where
-    weights from to =
+    table = Layout.symbols layout
+    sumBetween from to =
       sum
         [ Symbol.digitWeight table d
           | k <- [from .. to - 1],
             Just d <- [Symbol.digitAt table (Short.index rows k)]
         ]
-    table = Layout.symbols plan
+
+-- | The same with a service track.
+serviceDigits :: Layout -> ShortByteString -> Int -> Digits -> Digits
+serviceDigits layout rows end ds =
+  go (at ds) (amount ds) (negative ds) (commandBits ds) (braking ds) (weights ds) (services ds)
+  where
+    table = Layout.symbols layout
     limit = min end (Short.length rows)
-    go k n minus bits brakes weight track
+    go k n minus set brakes weight track
       | k < limit,
         Just d <- Symbol.digitAt table (Short.index rows k) =
-        let hole = Symbol.holeAt table (Short.index rows k)
-            next minus' bits' brakes' =
-              go (k + 1) (10 * n + d) minus' bits' brakes' (weight + Symbol.digitWeight table d)
+        let hole = Symbol.hasServiceHole table (Short.index rows k)
+            more minus' set' brakes' =
+              go (k + 1) (10 * n + d) minus' set' brakes' (weight + Symbol.digitWeight table d)
          in case track of
-              [] -> if hole then reached else next minus bits brakes []
-              NoHole : more -> if hole then reached else next minus bits brakes more
-              Marker : more -> if hole then next minus bits brakes more else reached
-              MinusHole : more -> next (minus || hole) bits brakes more
-              OrderBit o b : more ->
-                next minus (if hole then (o, 1 `shiftL` b) : bits else bits) brakes more
-              BrakingHole : more -> next minus bits (brakes || hole) more
+              [] -> if hole then reached else more minus set brakes []
+              NoHole : rest -> if hole then reached else more minus set brakes rest
+              Marker : rest -> if hole then more minus set brakes rest else reached
+              MinusHole : rest -> more (minus || hole) set brakes rest
+              OrderBit o b : rest ->
+                more minus (if hole then (o, 1 `shiftL` b) : set else set) brakes rest
+              BrakingHole : rest -> more minus set (brakes || hole) rest
       | otherwise = reached
       where
         reached =
@@ -196,67 +213,68 @@ sound plan rows end ds
             { at = k,
               amount = n,
               negative = minus,
-              told = bits,
-              slow = brakes,
-              count = weight,
+              commandBits = set,
+              braking = brakes,
+              weights = weight,
               services = track
             }
 
--- | The row behind some digits, and their number.
+-- | Index of the row after some digits, and their value.
 data Figures = Figures Int Int
 
--- | The digits up to a row without a hole in the service track, from a row on and behind those of a
--- number.
+-- | Digits without a hole in the service track, from a row on and up to row @end@. The value
+-- continues that of the digits before them.
 plainFigures :: Layout -> ShortByteString -> Int -> Int -> Int -> Figures
-plainFigures plan rows end = go
+plainFigures layout rows end = go
   where
-    table = Layout.symbols plan
+    table = Layout.symbols layout
     limit = min end (Short.length rows)
     go !k !n
       | k < limit,
         w <- Short.index rows k,
         Just d <- Symbol.digitAt table w,
-        not (Symbol.holeAt table w) =
+        not (Symbol.hasServiceHole table w) =
         go (k + 1) (10 * n + d)
       | otherwise = Figures k n
 
--- | Why the digits end.
-stopped :: Layout -> Content -> ShortByteString -> Digits -> RowFault
-stopped plan c rows ds = case (digit plan (Just c) rows (at ds), services ds) of
+-- | Reason why the digits end too early.
+stopFault :: Layout -> Content -> ShortByteString -> Digits -> RowFault
+stopFault layout c rows ds = case (digit layout (Just c) rows (at ds), services ds) of
   (Left fault, _) -> fault
   (Right _, Marker : _) -> RowFault (at ds) (Just c) MarkerMissing
   (Right _, _) -> RowFault (at ds) (Just c) ServiceHole
 
--- | The decimal point.
+-- | Read the decimal point.
 point :: Layout -> Content -> ShortByteString -> Digits -> Either RowFault Digits
-point plan c rows ds
+point layout c rows ds
   | at ds >= Short.length rows = Left (cutOff c rows)
-  | w == Symbol.holes s = Right ds {at = at ds + 1, count = count ds + Symbol.weight s}
-  | otherwise = Left (RowFault (at ds) (Just c) (fromMaybe (Missing '.') (blemish plan w)))
+  | w == Symbol.holes s = Right ds {at = at ds + 1, weights = weights ds + Symbol.weight s}
+  | otherwise = Left (RowFault (at ds) (Just c) (fromMaybe (Missing '.') (rowFault layout w)))
   where
     w = Short.index rows (at ds)
-    s = Layout.point plan
+    s = Layout.point layout
 {-# INLINE point #-}
 
--- | The digit at a row.
+-- | Digit at row @k@, with or without a hole in the service track.
 digit :: Layout -> Maybe Content -> ShortByteString -> Int -> Either RowFault Int
-digit plan c rows k
+digit layout c rows k
   | k >= Short.length rows = Left (RowFault (Short.length rows - 1) c CutOff)
-  | otherwise = case Symbol.digitAt (Layout.symbols plan) w of
+  | otherwise = case Symbol.digitAt (Layout.symbols layout) w of
     Just d -> Right d
     Nothing -> Left (RowFault k c why)
   where
     w = Short.index rows k
-    why = case (blemish plan w, Symbol.symbolAt (Layout.symbols plan) w) of
+    why = case (rowFault layout w, Symbol.symbolAt (Layout.symbols layout) w) of
       (Just reason, _) -> reason
       (Nothing, Just s) -> NotADigit s
-      (Nothing, Nothing) -> NoDigit (Machine.tracks (Machine.medium (Layout.machine plan))) w
+      (Nothing, Nothing) -> NoDigit (Machine.tracks (Machine.medium (Layout.machine layout))) w
 
--- | What is wrong with a row whatever it should be.
-blemish :: Layout -> Word8 -> Maybe Reason
-blemish plan w
-  | Symbol.isForeign (Layout.symbols plan) w = Just ForeignTrack
-  | Symbol.isOdd (Layout.symbols plan) w = Just BadParity
+-- | Fault of a row that is wrong whatever it should be: a hole outside of the tracks, or wrong
+-- parity.
+rowFault :: Layout -> Word8 -> Maybe Reason
+rowFault layout w
+  | Symbol.isOutsideTracks (Layout.symbols layout) w = Just ForeignTrack
+  | Symbol.isOdd (Layout.symbols layout) w = Just BadParity
   | otherwise = Nothing
 
 cutOff :: Content -> ShortByteString -> RowFault

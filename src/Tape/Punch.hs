@@ -1,8 +1,10 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Frames onto tape and tape into frames: the leader, the frames with what stands between them,
--- the end.
+-- | Writing a whole tape and reading it: leader, frames with the blank rows between them, trailer.
+--
+-- Reading refuses a tape that the machine would not have written, see "Tape.Damage". The rows of
+-- one frame are written by "Tape.FrameWriter" and read by "Tape.FrameReader".
 module Tape.Punch
   ( write,
     rows,
@@ -31,6 +33,7 @@ import Machine.Machine (AxisMeasure (..), Machine, Medium (..), Spare (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Damage (..), Reason (..), toReport)
 import Tape.FrameReader qualified as FrameReader
+import Tape.FrameWriter qualified as FrameWriter
 import Tape.Layout (BlankRows (..), Layout, MarkedRow (..), RowMeaning (..))
 import Tape.Layout qualified as Layout
 import Tape.ModalState (State)
@@ -45,224 +48,226 @@ import Prelude hiding (read)
 
 -- Writing -----------------------------------------------------------------------------------------
 
--- | Punch frames that keep the invariants of the machine, from where the cutter stands before the
--- first.
+-- | Tape of frames that keep the rules of the machine. The cutter begins at the given position.
 write :: Machine -> Pulses3 -> [Frame] -> Tape
 write machine start frames =
   Tape
     ( ByteString.concat
-        ( holesOf (opened plan) :
-          punched plan (ModalState.first (ModalState.rising frames) start) frames
-            <> [holesOf (closed plan)]
+        ( holesOf (rowsBefore layout) :
+          frameRows layout (ModalState.initial (ModalState.changesHeight frames) start) frames
+            <> [holesOf (rowsAfter layout)]
         )
     )
   where
-    plan = Layout.fromMachine machine
+    layout = Layout.fromMachine machine
     holesOf = ByteString.pack . map holes
 
--- | The rows of frames with what stands between them, in pieces: they are put into one buffer,
--- which is copied when it is full.
-punched :: Layout -> State -> [Frame] -> [ByteString]
-punched plan state frames = runST (Primitive.newPrimArray (piece + most) >>= go 0 state frames)
+-- | Rows of the frames with the blank rows between them, in blocks. The rows are written to one
+-- buffer, which is copied when it is full.
+frameRows :: Layout -> State -> [Frame] -> [ByteString]
+frameRows layout state frames =
+  runST (Primitive.newPrimArray (blockSize + mostOfFrame) >>= go 0 state frames)
   where
-    medium = Machine.medium (Layout.machine plan)
-    most = evenShift medium + Layout.mostRows plan + gap medium
+    medium = Machine.medium (Layout.machine layout)
+    mostOfFrame = evenShift medium + FrameWriter.mostRows layout + gap medium
     go used now todo buffer = case todo of
-      [] -> (: []) <$> taken used buffer
+      [] -> (: []) <$> copied used buffer
       f : more
-        | used >= piece -> (:) <$> taken used buffer <*> go 0 now todo buffer
+        | used >= blockSize -> (:) <$> copied used buffer <*> go 0 now todo buffer
         | otherwise -> do
           let put at h _ _ = Primitive.writePrimArray buffer at h >> (pure $! at + 1)
               blanks at n
                 | n <= 0 = pure at
                 | otherwise = (at + n) <$ Primitive.setPrimArray buffer at n 0
-          begin <- blanks used (shiftRows medium (ModalState.ordinal now))
-          end <- Layout.foldRows put plan now f begin
+          begin <- blanks used (shiftCount medium (ModalState.ordinal now))
+          end <- FrameWriter.foldRows put layout now f begin
           next <- blanks end (gap medium)
-          go next (Layout.after plan now f) more buffer
-    taken used buffer = do
+          go next (Layout.after layout now f) more buffer
+    copied used buffer = do
       PrimArray filled <- Primitive.freezePrimArray buffer 0 used
       let !rows' = Short.fromShort (SBS filled)
       pure rows'
 
--- | So many rows are written at once.
-piece :: Int
-piece = 32768
+-- | Number of rows in a block of 'frameRows'.
+blockSize :: Int
+blockSize = 32768
 
--- | The rows of the same tape, each with what it means.
+-- | Rows of the tape that 'write' makes, each with its meaning.
 rows :: Machine -> Pulses3 -> [Frame] -> [Row]
 rows machine start frames =
-  [RowMeaning.row plan n m | (n, marks) <- stretches plan start frames, m <- marks]
+  [RowMeaning.row layout n m | (n, marked) <- markedRows layout start frames, m <- marked]
   where
-    plan = Layout.fromMachine machine
+    layout = Layout.fromMachine machine
 
--- | The marks of a tape, those of each frame with its number.
-stretches :: Layout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
-stretches plan start frames =
-  (Nothing, opened plan) : go (ModalState.first (ModalState.rising frames) start) frames
+-- | Rows of a tape in groups: those of each frame with its number, and those at both ends.
+markedRows :: Layout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
+markedRows layout start frames =
+  (Nothing, rowsBefore layout) :
+  go (ModalState.initial (ModalState.changesHeight frames) start) frames
   where
-    medium = Machine.medium (Layout.machine plan)
+    medium = Machine.medium (Layout.machine layout)
     go state todo = case todo of
-      [] -> [(Nothing, closed plan)]
+      [] -> [(Nothing, rowsAfter layout)]
       f : more ->
         ( Just (ModalState.ordinal state),
-          shift plan (ModalState.ordinal state)
-            <> Layout.frameMarks plan state f
+          Layout.blanks Shift (shiftCount medium (ModalState.ordinal state))
+            <> FrameWriter.frameRows layout state f
             <> Layout.blanks Gap (gap medium)
         ) :
-        go (Layout.after plan state f) more
+        go (Layout.after layout state f) more
 
--- | What stands before the first frame.
-opened :: Layout -> [MarkedRow]
-opened plan =
+-- | Rows before the first frame: the leader and the opening symbols.
+rowsBefore :: Layout -> [MarkedRow]
+rowsBefore layout =
   Layout.blanks Leader (leader medium)
-    <> map (Layout.constant Opening) (symbolsOf plan (opening medium))
+    <> map (Layout.constant Opening) (symbolsOf layout (opening medium))
   where
-    medium = Machine.medium (Layout.machine plan)
+    medium = Machine.medium (Layout.machine layout)
 
--- | What stands behind the last frame.
-closed :: Layout -> [MarkedRow]
-closed plan =
-  map (Layout.constant Closing) (symbolsOf plan (closing medium))
+-- | Rows after the last frame: the closing symbols and the trailer.
+rowsAfter :: Layout -> [MarkedRow]
+rowsAfter layout =
+  map (Layout.constant Closing) (symbolsOf layout (closing medium))
     <> Layout.blanks Trailer (leader medium)
   where
-    medium = Machine.medium (Layout.machine plan)
+    medium = Machine.medium (Layout.machine layout)
 
--- | What stands right before a frame, by its number from 1.
-shift :: Layout -> Int -> [MarkedRow]
-shift plan n = Layout.blanks Shift (shiftRows (Machine.medium (Layout.machine plan)) n)
-
--- | The blank rows before a frame, by its number from 1.
-shiftRows :: Medium -> Int -> Int
-shiftRows medium n = if even n then evenShift medium else 0
+-- | Number of blank rows before the frame with the number @n@, from 1.
+shiftCount :: Medium -> Int -> Int
+shiftCount medium n = if even n then evenShift medium else 0
 
 symbolsOf :: Layout -> Text.Text -> [Symbol]
-symbolsOf plan = map (Symbol.symbol (Layout.symbols plan)) . Text.unpack
+symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 
 -- Reading -----------------------------------------------------------------------------------------
 
--- | Read a tape that begins where the cutter stands.
+-- | Frames of a tape. The cutter begins at the given position.
 --
--- With a counted grid everything stands at its place: a blank row may be a digit 0. Otherwise rows
--- that the code passes over are left out first, and blank rows are passed over between frames.
+-- On a medium where every row counts, each row has its place: a blank row may be a digit 0. On all
+-- other media the rows that the code skips are removed first, and blank rows between frames are
+-- skipped.
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
-read machine start (Tape raw) = case beginning source of
+read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
-  -- Increments do not tell where the cutter stands.
-  Right behind | not (saysPlaces source) -> gathered source start behind False
-  -- Only the frames tell whether the height has to be said.
-  Right behind -> case (gathered source start behind True, gathered source start behind False) of
-    (Right frames, _) | ModalState.rising frames -> Right frames
-    (Left high, Right frames) | ModalState.rising frames -> Left high
+  -- Increments do not depend on the position, so the tape never has to give the height.
+  Right begin | not (hasPositions source) -> readFrom source start begin False
+  -- Only the frames show whether the first of them gives the height.
+  Right begin -> case (readFrom source start begin True, readFrom source start begin False) of
+    (Right frames, _) | ModalState.changesHeight frames -> Right frames
+    (Left withHeight, Right frames) | ModalState.changesHeight frames -> Left withHeight
     (_, Right frames) -> Right frames
-    (Left high, Left low) -> Left (if row high > row low then high else low)
-    (Right _, Left low) -> Left low
+    (Left withHeight, Left without) ->
+      Left (if row withHeight > row without then withHeight else without)
+    (Right _, Left without) -> Left without
   where
     source = sourceOf (Layout.fromMachine machine) raw
 
--- | Read a tape on which some frames should stand. Where it has just these they are what is read:
--- they are not made a second time.
+-- | Frames of a tape that is expected to hold the given frames. If it does, these very frames are
+-- the result, so they are not held in memory twice. Else the tape is read as by 'read'.
 readBack :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
-readBack machine start wanted tape
-  | holds machine start wanted tape = Right wanted
+readBack machine start expected tape
+  | holds machine start expected tape = Right expected
   | otherwise = read machine start tape
 
--- | Read a tape that was punched with these frames: anything else than them is a damage.
+-- | Frames of a tape that was punched from the given frames. Any other frames on it are a damage:
+-- the description of the machine is ambiguous.
 readOwn :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
-readOwn machine start wanted tape
-  | holds machine start wanted tape = Right wanted
+readOwn machine start punched tape
+  | holds machine start punched tape = Right punched
   | otherwise =
     read machine start tape >>= \frames ->
       Left
-        (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) wanted frames)))) Nothing Misread)
+        (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) punched frames)))) Nothing Misread)
 
--- | Whether these frames are read from a tape. If it says where the cutter is, they tell whether it
--- says heights.
+-- | True if reading a tape gives exactly the given frames. On a tape with positions these frames
+-- show whether the first of them gives the height.
 holds :: Machine -> Pulses3 -> [Frame] -> Tape -> Bool
-holds machine start wanted (Tape raw) = case beginning source of
+holds machine start expected (Tape raw) = case firstFrameRow source of
   Left _ -> False
-  Right behind ->
-    are
-      wanted
+  Right begin ->
+    areEqual
+      expected
       ( framesFrom
           source
-          behind
-          (ModalState.first (saysPlaces source && ModalState.rising wanted) start)
+          begin
+          (ModalState.initial (hasPositions source && ModalState.changesHeight expected) start)
       )
   where
     source = sourceOf (Layout.fromMachine machine) raw
-    are frames series = case (frames, series) of
-      (f : fs, LazyList.Next g more) -> f == g && are fs more
-      ([], LazyList.End wrong) -> null wrong
+    areEqual frames found = case (frames, found) of
+      (f : fs, LazyList.Next g more) -> f == g && areEqual fs more
+      ([], LazyList.End fault) -> null fault
       _ -> False
 
--- | The row of the first frame.
-beginning :: Source -> Either RowFault Int
-beginning source =
-  frontOf source >>= \at ->
+-- | Index of the first row of the first frame.
+firstFrameRow :: Source -> Either RowFault Int
+firstFrameRow source =
+  afterLeader source >>= \at ->
     FrameReader.expect
-      (plan source)
+      (layout source)
       (line source)
       at
-      (symbolsOf (plan source) (opening (grid source)))
+      (symbolsOf (layout source) (opening (medium source)))
 
--- | Whether frames say where the cutter is, rather than how far it goes.
-saysPlaces :: Source -> Bool
-saysPlaces source = ModalState.measure (Layout.axes (plan source)) /= Increments
+-- | True for a tape with absolute positions.
+hasPositions :: Source -> Bool
+hasPositions source = ModalState.measure (Layout.axes (layout source)) /= Increments
 
--- | The frames from a row on, where the cutter stands before them; whether they say heights.
-gathered :: Source -> Pulses3 -> Int -> Bool -> Either Damage [Frame]
-gathered source start behind rises = case LazyList.end series of
+-- | All frames from a row on. Given are the position of the cutter, and whether the first frame
+-- that moves gives the height.
+readFrom :: Source -> Pulses3 -> Int -> Bool -> Either Damage [Frame]
+readFrom source start begin givesHeight = case LazyList.end found of
   Just (n, fault) -> Left (damage source n fault)
-  Nothing -> Right (LazyList.toList series)
+  Nothing -> Right (LazyList.toList found)
   where
-    series = framesFrom source behind (ModalState.first rises start)
+    found = framesFrom source begin (ModalState.initial givesHeight start)
 
--- | What is wrong, in which frame if it is in one.
+-- | Damage of a row, with the number of its frame.
 damage :: Source -> Maybe Int -> RowFault -> Damage
-damage source n (RowFault at c why) = Damage (1 + origin source at) n c why
+damage source n (RowFault at c why) = Damage (1 + tapeIndex source at) n c why
 
--- | The rows to be read.
+-- | Rows of a tape, prepared for reading.
 data Source = Source
-  { plan :: Layout,
+  { layout :: Layout,
+    -- | all rows
     raw :: ByteString,
-    -- | without those that are passed over
+    -- | the rows that are left when the skipped ones are removed
     kept :: ByteString,
-    -- | the same, where one row at a time is looked at
+    -- | the same, for access to single rows
     line :: ShortByteString,
-    -- | those that are passed over
+    -- | values of rows that are skipped
     skipped :: ByteString,
-    -- | the medium, as far as blank rows are kept
-    grid :: Medium,
-    -- | the symbols behind the last frame
+    -- | the medium; without its blank rows, if these are skipped
+    medium :: Medium,
+    -- | symbols after the last frame
     ending :: [Symbol]
   }
 
 sourceOf :: Layout -> ByteString -> Source
-sourceOf plan raw =
+sourceOf layout raw =
   Source
-    { plan,
+    { layout,
       raw,
       kept,
       line = Short.toShort kept,
       skipped,
-      grid,
-      ending = symbolsOf plan (closing medium)
+      medium =
+        if ByteString.elem 0 skipped then whole {leader = 0, gap = 0, evenShift = 0} else whole,
+      ending = symbolsOf layout (closing whole)
     }
   where
-    medium = Machine.medium (Layout.machine plan)
-    skipped = case spare medium of
+    whole = Machine.medium (Layout.machine layout)
+    skipped = case spare whole of
       Counted -> ByteString.empty
-      Skipped -> ByteString.pack (Machine.skips (Machine.code (Layout.machine plan)))
+      Skipped -> ByteString.pack (Machine.skips (Machine.code (Layout.machine layout)))
     kept =
       if ByteString.any (`ByteString.elem` raw) skipped
         then ByteString.filter (`ByteString.notElem` skipped) raw
         else raw
-    grid = if ByteString.elem 0 skipped then medium {leader = 0, gap = 0, evenShift = 0} else medium
 
--- | The row of the tape for a row that is kept.
-origin :: Source -> Int -> Int
-origin source at
+-- | Index on the tape of a row, from its index among the kept rows.
+tapeIndex :: Source -> Int -> Int
+tapeIndex source at
   | ByteString.null (skipped source) = at
   | otherwise = go at 0
   where
@@ -273,24 +278,27 @@ origin source at
         Nothing -> max 0 (ByteString.length (raw source) - 1)
         Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
 
--- | The row behind the leader. Further blank rows are passed over before the symbols at the
--- beginning; where there are none they may be the trailer.
-frontOf :: Source -> Either RowFault Int
-frontOf source
-  | ByteString.null (kept source) && (passed < asked || not (Text.null (opening (grid source)))) =
+-- | Index of the row after the leader. Further blank rows before the opening symbols are skipped on
+-- a medium that allows that. Without opening symbols they are not, because they could be the
+-- trailer.
+afterLeader :: Source -> Either RowFault Int
+afterLeader source
+  | ByteString.null (kept source)
+      && (skippedBlanks < asked || not (Text.null (opening (medium source)))) =
     Left (RowFault 0 Nothing (NoFrames asked))
-  | blankRun < ByteString.length front = Left (RowFault blankRun Nothing (LeaderNotBlank asked))
-  | blankRun < wanted = Left (RowFault (max 0 (blankRun - 1)) Nothing (NoFrames asked))
-  | passed < asked = Left (RowFault 0 Nothing (LeaderNotBlank asked))
-  | spare (grid source) == Skipped && not (Text.null (opening (grid source))) =
-    Right (blankFrom source wanted)
+  | blankCount < ByteString.length front =
+    Left (RowFault blankCount Nothing (LeaderNotBlank asked))
+  | blankCount < wanted = Left (RowFault (max 0 (blankCount - 1)) Nothing (NoFrames asked))
+  | skippedBlanks < asked = Left (RowFault 0 Nothing (LeaderNotBlank asked))
+  | spare (medium source) == Skipped && not (Text.null (opening (medium source))) =
+    Right (afterBlanks source wanted)
   | otherwise = Right wanted
   where
-    wanted = leader (grid source)
-    asked = leaderAsked source
+    wanted = leader (medium source)
+    asked = leaderLength source
     front = ByteString.take wanted (kept source)
-    blankRun = ByteString.length (ByteString.takeWhile (== 0) front)
-    passed =
+    blankCount = ByteString.length (ByteString.takeWhile (== 0) front)
+    skippedBlanks =
       if skipsBlanks source
         then
           ByteString.count
@@ -298,106 +306,111 @@ frontOf source
             (ByteString.takeWhile (`ByteString.elem` skipped source) (raw source))
         else asked
 
--- | The blank rows before the first frame and behind the last.
-leaderAsked :: Source -> Int
-leaderAsked source = leader (Machine.medium (Layout.machine (plan source)))
+-- | Number of blank rows before the first frame, and after the last.
+leaderLength :: Source -> Int
+leaderLength source = leader (Machine.medium (Layout.machine (layout source)))
 
--- | Whether blank rows are passed over everywhere.
+-- | True for a tape whose blank rows are skipped everywhere.
 skipsBlanks :: Source -> Bool
 skipsBlanks source = ByteString.elem 0 (skipped source)
 
--- | The first row from one on that is not blank.
-blankFrom :: Source -> Int -> Int
-blankFrom source at =
+-- | Index of the first row, from the given one on, that is not blank.
+afterBlanks :: Source -> Int -> Int
+afterBlanks source at =
   at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | The frames from a row on, and behind them what is wrong with the tape, and in which frame, if
--- anything is.
+-- | Frames from a row on as a lazy list. It ends with the first fault and the number of its frame,
+-- if there is a fault.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
 framesFrom source = go
   where
-    p = plan source
     go !at !state = case endAt source at of
       Ended -> LazyList.End Nothing
       Torn fault -> wrong Nothing fault
-      Onward -> case blankRows source ShiftNotBlank (shiftRows (grid source) n) at of
+      Continued -> case blankRows source ShiftNotBlank (shiftCount (medium source) n) at of
         Left fault -> wrong (Just n) fault
-        Right begin -> case FrameReader.readFrame p state (line source) (firstFrom begin) of
-          Left fault -> maybe (wrong (Just n) fault) (wrong Nothing) (tornAt source at)
-          Right (f, next) -> case blankRows source GapNotBlank (gap (grid source)) next of
-            Left fault -> wrong (Just n) fault
-            Right behind ->
-              let !state' =
-                    Layout.after p state f
-               in LazyList.Next f (go behind state')
+        Right begin ->
+          case FrameReader.readFrame (layout source) state (line source) (frameBegin begin) of
+            Left fault -> maybe (wrong (Just n) fault) (wrong Nothing) (tornAt source at)
+            Right (f, next) -> case blankRows source GapNotBlank (gap (medium source)) next of
+              Left fault -> wrong (Just n) fault
+              Right afterGap ->
+                let !state' = Layout.after (layout source) state f
+                 in LazyList.Next f (go afterGap state')
       where
         n = ModalState.ordinal state
     wrong n fault = LazyList.End (Just (n, fault))
-    firstFrom begin = case spare (grid source) of
+    frameBegin begin = case spare (medium source) of
       Counted -> begin
-      Skipped -> blankFrom source begin
+      Skipped -> afterBlanks source begin
 
--- | The row behind blank ones.
+-- | Index of the row after @n@ blank rows.
 blankRows :: Source -> Reason -> Int -> Int -> Either RowFault Int
 blankRows source why n at
   | n <= 0 = Right at
-  | otherwise = case ByteString.findIndex (/= 0) stretch of
+  | otherwise = case ByteString.findIndex (/= 0) found of
     Just k -> Left (RowFault (at + k) Nothing why)
     Nothing
-      | ByteString.length stretch < n ->
+      | ByteString.length found < n ->
         Left (RowFault (ByteString.length (kept source) - 1) Nothing CutOff)
       | otherwise -> Right (at + n)
   where
-    stretch = ByteString.take n (ByteString.drop at (kept source))
+    found = ByteString.take n (ByteString.drop at (kept source))
 
--- | Whether the tape ends where a frame may begin.
-data End = Ended | Torn RowFault | Onward
+-- The end of the tape -----------------------------------------------------------------------------
+
+-- | State of the tape at a row where a frame can begin: properly ended, torn, or with further
+-- frames.
+data End = Ended | Torn RowFault | Continued
 
 endAt :: Source -> Int -> End
-endAt source at = case spare (grid source) of
+endAt source at = case spare (medium source) of
   Counted
-    | ByteString.length (kept source) - at == Text.length closer + leader (grid source),
-      Just _ <- tailAt source at ->
+    | ByteString.length (kept source) - at == Text.length closer + leader (medium source),
+      Just _ <- trailerAt source at ->
       Ended
     | at >= ByteString.length (kept source) -> torn
-    | otherwise -> Onward
-  Skipped -> case tailAt source at of
-    Nothing -> if blankFrom source at >= ByteString.length (kept source) then torn else Onward
+    | otherwise -> Continued
+  Skipped -> case trailerAt source at of
+    Nothing -> if afterBlanks source at >= ByteString.length (kept source) then torn else Continued
     Just found
-      | blanksBehind source found >= leaderAsked source -> Ended
+      | trailerLength source found >= leaderLength source -> Ended
       | otherwise -> torn
   where
-    closer = closing (grid source)
-    torn = maybe Onward Torn (tornAt source at)
+    closer = closing (medium source)
+    torn = maybe Continued Torn (tornAt source at)
 
--- | The blank rows at the end of the tape, by those that are kept there.
-blanksBehind :: Source -> Int -> Int
-blanksBehind source found
+-- | Number of blank rows at the end of the tape, from the number of those that are kept.
+trailerLength :: Source -> Int -> Int
+trailerLength source found
   | skipsBlanks source =
     ByteString.count 0 (ByteString.takeWhileEnd (`ByteString.elem` skipped source) (raw source))
   | otherwise = found
 
--- | The blank rows behind the closing symbols, where these and nothing else stand at a row.
-tailAt :: Source -> Int -> Maybe Int
-tailAt source at = case FrameReader.expect (plan source) (line source) first cs of
-  Right behind
-    | ByteString.all (== 0) (ByteString.drop behind (kept source)) ->
-      Just (ByteString.length (kept source) - behind)
+-- | Number of blank rows after the closing symbols, if these and nothing else follow from a row on.
+trailerAt :: Source -> Int -> Maybe Int
+trailerAt source at = case FrameReader.expect (layout source) (line source) first cs of
+  Right afterSymbols
+    | ByteString.all (== 0) (ByteString.drop afterSymbols (kept source)) ->
+      Just (ByteString.length (kept source) - afterSymbols)
   _ -> Nothing
   where
     cs = ending source
-    first = case spare (grid source) of
+    first = case spare (medium source) of
       Counted -> at
-      Skipped -> if null cs then at else blankFrom source at
+      Skipped -> if null cs then at else afterBlanks source at
 
--- | Why a tape ends other than it should, if it ends at a row.
+-- | Fault of a tape that ends at a row in another manner than it should; none if it does not end
+-- there.
 tornAt :: Source -> Int -> Maybe RowFault
-tornAt source at = case tailAt source at of
+tornAt source at = case trailerAt source at of
   Just found ->
-    Just (RowFault final Nothing (TrailerLength (blanksBehind source found) (leaderAsked source)))
+    Just
+      ( RowFault final Nothing (TrailerLength (trailerLength source found) (leaderLength source))
+      )
   Nothing
-    | blankFrom source at >= ByteString.length (kept source) ->
-      Just (RowFault final Nothing (NoClosing (closing (grid source))))
+    | afterBlanks source at >= ByteString.length (kept source) ->
+      Just (RowFault final Nothing (MissingClosing (closing (medium source))))
     | otherwise -> Nothing
   where
     final = max 0 (ByteString.length (kept source) - 1)

@@ -1,4 +1,7 @@
--- | What the rows of a tape mean, in words.
+-- | Rows of a tape explained in words.
+--
+-- The module puts the meaning of a row, as the layout gives it, into the words of the tape picture.
+-- It reads no rows.
 module Tape.RowMeaning
   ( Row (..),
     row,
@@ -22,35 +25,37 @@ import Machine.Machine
     Word' (..),
   )
 import Machine.Machine qualified as Machine
-import Tape.Layout (BlankRows (..), Layout, MarkedRow (MarkedRow), RowContent (..), RowMeaning (..))
+import Tape.Layout (BlankRows (..), Layout, MarkedRow (MarkedRow), RowMeaning (..), WordRow (..))
 import Tape.Layout qualified as Layout
 import Tape.Symbol qualified as Symbol
 
--- | A row of a tape as a person wants it explained.
+-- | Row of a tape with its explanation.
 data Row = Row
   { holes :: Word8,
-    -- | the frame that it belongs to, from 1
+    -- | number of its frame, from 1; none for rows before the first and after the last frame
     frame :: Maybe Int,
-    -- | what a text shows for it
+    -- | its symbol, as it appears in a text
     symbol :: Maybe Char,
     sense :: RowMeaning,
+    -- | its meaning in words
     meaning :: Text
   }
   deriving stock (Eq, Show)
 
+-- | Row with its explanation, from the number of its frame.
 row :: Layout -> Maybe Int -> MarkedRow -> Row
-row p n (MarkedRow h _ s) =
+row layout n (MarkedRow h _ purpose) =
   Row
     { holes = h,
       frame = n,
-      symbol = Symbol.symbolAt (Layout.symbols p) h,
-      sense = s,
-      meaning = meaningOf p s
+      symbol = Symbol.symbolAt (Layout.symbols layout) h,
+      sense = purpose,
+      meaning = meaningOf layout purpose
     }
 
--- | What a row is for, in words.
+-- | Meaning of a row in words.
 meaningOf :: Layout -> RowMeaning -> Text
-meaningOf p s = case s of
+meaningOf layout purpose = case purpose of
   Blank Leader -> "leader"
   Blank Gap -> "gap"
   Blank Shift -> "shift of an even frame"
@@ -60,36 +65,37 @@ meaningOf p s = case s of
   Constant c -> "always " <> shown c
   Separator c -> "between words " <> shown c
   CheckSymbol d -> "check digit " <> Decimal.whole d
-  InWord c _ (Address a) -> Machine.contentWord c <> ", address " <> shown a
-  InWord c n (Lead d) -> Machine.contentWord c <> ", " <> leadWord c n d <> " " <> Decimal.whole d
+  InWord c _ (AddressSymbol a) -> Machine.contentWord c <> ", address " <> shown a
+  InWord c n (PriorityDigit d) ->
+    Machine.contentWord c <> ", " <> priorityText c n d <> " " <> Decimal.whole d
   InWord c _ (SignSymbol '-') -> Machine.contentWord c <> ", minus"
   InWord c _ (SignSymbol _) -> Machine.contentWord c <> ", plus"
   InWord c _ Point -> Machine.contentWord c <> ", point"
-  InWord c n (Digit d k sv hole) ->
+  InWord c n (Digit d k use isPunched) ->
     Machine.contentWord c
-      <> placeWord (formOf c) k
+      <> placeText (formOf c) k
       <> " "
       <> Decimal.whole d
-      <> kindWord c n k
-      <> (if hole then holeWord sv else "")
+      <> motionAfterDigit c n k
+      <> (if isPunched then serviceText use else "")
   where
-    formOf c = case [form w | w <- Layout.ws p, content w == c] of
+    formOf c = case [form w | w <- Layout.frameWords layout, content w == c] of
       f : _ -> Just f
       [] -> Nothing
-    leadWord c n d =
+    priorityText c n d =
       (if isLeading c d then "leading " else "following ")
         <> (if n < 0 then "backwards" else "forwards")
     isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
--- | The name of a digit's place, with a blank before it; none where there is but one digit.
-placeWord :: Maybe NumberForm -> Int -> Text
-placeWord f k = case f of
+-- | Name of a digit's place after a space; empty for a number of one digit.
+placeText :: Maybe NumberForm -> Int -> Text
+placeText f k = case f of
   Just NumberForm {digits = 1} -> ""
   Just NumberForm {decimals} -> named (k - decimals)
   Nothing -> ""
   where
     named e
-      | e < 0 = " " <> Text.replicate 1 (fraction (negate e))
+      | e < 0 = " " <> fraction (negate e)
       | otherwise = " " <> whole e
     whole e = case e of
       0 -> "units"
@@ -106,39 +112,40 @@ placeWord f k = case f of
       3 -> "thousandths"
       _ -> "10^-" <> Decimal.whole e
 
--- | Behind the last digit of a motion its name.
-kindWord :: Content -> Int -> Int -> Text
-kindWord c n k = case c of
-  Motion codes | k == 0 -> ", " <> motionWord codes n
+-- | Name of a motion, after the last digit of its code.
+motionAfterDigit :: Content -> Int -> Int -> Text
+motionAfterDigit c n k = case c of
+  Motion codes | k == 0 -> ", " <> motionText codes n
   _ -> ""
 
-motionWord :: MotionCodes -> Int -> Text
-motionWord codes n
+motionText :: MotionCodes -> Int -> Text
+motionText codes n
   | n == straight codes = "straight"
   | Just n == rapid codes = "rapid"
   | Just n == clockwise codes = "clockwise"
   | Just n == counterClockwise codes = "counter-clockwise"
   | otherwise = "unknown"
 
-holeWord :: Service -> Text
-holeWord s = case s of
+-- | Meaning of a hole in the service track.
+serviceText :: Service -> Text
+serviceText s = case s of
   MinusHole -> ", minus"
   OrderBit (CommandName o) k -> ", " <> o <> " bit " <> Decimal.whole k
   Marker -> ", marker"
   BrakingHole -> ", braking"
   NoHole -> ""
 
--- | A symbol in a sentence.
+-- | Symbol as it is written in a sentence.
 shown :: Char -> Text
 shown c = case c of
   '\n' -> "LF"
   ' ' -> "space"
   _ -> "‘" <> Text.singleton c <> "’"
 
--- | A word with its number, for a line of text.
+-- | Word with its number, for a line of a text.
 wordMeaning :: Machine -> Content -> Int -> Text
 wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
-  (Motion codes, _) -> motionWord codes n
+  (Motion codes, _) -> motionText codes n
   (FrameNumber, _) -> "number " <> Decimal.whole n
   (_, NumberForm {digits = 0} : _) -> Machine.contentWord c
   (_, NumberForm {decimals} : _)

@@ -1,6 +1,9 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | The rows of a code's symbols, as tables that writing and reading look up.
+-- | Symbols of a tape code and their rows, as tables for writing and reading.
+--
+-- A code may have a parity track, whose hole makes the number of holes in a row even, and a service
+-- track, whose hole marks a digit without changing it.
 module Tape.Symbol
   ( Symbols (..),
     fromMachine,
@@ -10,11 +13,11 @@ module Tape.Symbol
     serviceDigit,
     digitWeight,
     digitAt,
-    holeAt,
-    isForeign,
+    hasServiceHole,
+    isOutsideTracks,
     isOdd,
     symbolAt,
-    behind,
+    rowAfter,
   )
 where
 
@@ -29,74 +32,82 @@ import Data.Word (Word8)
 import Machine.Machine (Machine, Medium, TapeCode)
 import Machine.Machine qualified as Machine
 
+-- | Tables of a tape code.
 data Symbols = Symbols
-  { rowOf :: Map Char Word8,
+  { -- | row of each symbol
+    rowOf :: Map Char Word8,
+    -- | weight of each symbol in a check sum
     weightOf :: Map Char Int,
-    -- | the symbols of whole rows
+    -- | symbol of each row
     nameOf :: Map Word8 Char,
-    -- | the rows of the ten digits without a hole in the service track
+    -- | rows of the ten digits without a hole in the service track
     digitRows :: ShortByteString,
-    -- | and with one
+    -- | rows of the ten digits with a hole in the service track
     serviceRows :: ShortByteString,
-    -- | what the ten digits count
+    -- | weights of the ten digits in a check sum
     digitWeights :: ShortByteString,
-    -- | the digit of every row, the service track left out of account; 'noDigit' for a row that is
-    -- none
+    -- | digit of every row, with or without a hole in the service track; 'noDigit' for all other
+    -- rows
     digitOf :: ShortByteString,
-    -- | the bit of the service track, or none
+    -- | bit of the service track; 0 if there is none
     service :: Word8,
-    -- | the bits beside the tape
-    beside :: Word8,
-    -- | whether a row must have an even number of holes
+    -- | bits that are no tracks of the tape
+    outside :: Word8,
+    -- | the number of holes in a row has to be even
     parity :: Bool
   }
 
--- | A symbol, its row with the hole for parity, and what it counts in a sum.
+-- | Symbol with its row, parity hole included, and its weight in a check sum.
 data Symbol = Symbol {name :: Char, holes :: Word8, weight :: Int}
 
+-- | Tables for a machine.
 fromMachine :: Machine -> Symbols
 fromMachine machine =
   Symbols
     { rowOf = rows,
       weightOf = Machine.weights code,
       nameOf = Map.fromList [(w, c) | (c, w) <- Map.toList rows],
-      digitRows = Short.pack (map plain ciphers),
-      serviceRows = Short.pack (map withHole ciphers),
+      digitRows = Short.pack (map withoutServiceHole digits),
+      serviceRows = Short.pack (map withServiceHole digits),
       digitWeights =
-        Short.pack [fromIntegral (Map.findWithDefault 0 c (Machine.weights code)) | c <- ciphers],
-      digitOf = Short.pack [Map.findWithDefault noDigit w digits | w <- [minBound .. maxBound]],
-      service = mask,
-      beside = besideOf (Machine.medium machine),
+        Short.pack [fromIntegral (Map.findWithDefault 0 c (Machine.weights code)) | c <- digits],
+      digitOf = Short.pack [Map.findWithDefault noDigit w values | w <- [minBound .. maxBound]],
+      service = serviceBit,
+      outside = outsideMask (Machine.medium machine),
       parity = isJust (Machine.evenTrack code)
     }
   where
     code = Machine.code machine
-    mask = maybe 0 (\k -> setBit 0 (k - 1)) (Machine.serviceTrack code)
-    rows = Map.map (completed code) (Machine.symbols code)
-    bare c = Map.findWithDefault 0 c (Machine.symbols code)
-    plain c = completed code (bare c .&. complement mask)
-    withHole c = completed code (bare c .|. mask)
-    ciphers = map intToDigit [0 .. 9]
-    digits =
+    serviceBit = maybe 0 (\k -> setBit 0 (k - 1)) (Machine.serviceTrack code)
+    rows = Map.map (withParity code) (Machine.symbols code)
+    codeRow c = Map.findWithDefault 0 c (Machine.symbols code)
+    withoutServiceHole c = withParity code (codeRow c .&. complement serviceBit)
+    withServiceHole c = withParity code (codeRow c .|. serviceBit)
+    digits = map intToDigit [0 .. 9]
+    values =
       Map.fromList
-        [(w, d) | (d, c) <- zip [0 ..] ciphers, Map.member c rows, w <- [plain c, withHole c]]
+        [ (w, d)
+          | (d, c) <- zip [0 ..] digits,
+            Map.member c rows,
+            w <- [withoutServiceHole c, withServiceHole c]
+        ]
 
--- | The bits of a row that are no tracks of the tape.
-besideOf :: Medium -> Word8
-besideOf medium = complement (fromIntegral ((1 `shiftL` Machine.tracks medium) - 1 :: Int))
+-- | Bits of a row that are no tracks of the tape.
+outsideMask :: Medium -> Word8
+outsideMask medium = complement (fromIntegral ((1 `shiftL` Machine.tracks medium) - 1 :: Int))
 
--- | A row with the hole that makes their number even, where the code has a track for it.
-completed :: TapeCode -> Word8 -> Word8
-completed code w = case Machine.evenTrack code of
+-- | Row with the parity hole, if the code has a parity track and the number of holes is odd.
+withParity :: TapeCode -> Word8 -> Word8
+withParity code w = case Machine.evenTrack code of
   Just k | odd (popCount w) -> w `xor` setBit 0 (k - 1)
   _ -> w
 
--- | No row of a digit.
+-- | Entry of 'digitOf' for a row that is no digit.
 noDigit :: Word8
 noDigit = 10
 
--- | A symbol of a layout. A machine has rows for all symbols of its layout; one without is a blank
--- row.
+-- | Symbol of a layout. The description of a machine has rows for all symbols of its layout; any
+-- other symbol gets a blank row.
 symbol :: Symbols -> Char -> Symbol
 symbol table c =
   Symbol
@@ -105,47 +116,48 @@ symbol table c =
       weight = Map.findWithDefault 0 c (weightOf table)
     }
 
--- | The row of a digit, 0 to 9.
+-- | Row of a digit from 0 to 9, without a hole in the service track.
 digit :: Symbols -> Int -> Word8
 digit table = Short.index (digitRows table)
 
--- | The row of a digit with a hole in the service track.
+-- | Row of a digit from 0 to 9, with a hole in the service track.
 serviceDigit :: Symbols -> Int -> Word8
 serviceDigit table = Short.index (serviceRows table)
 
--- | What a digit, 0 to 9, counts in a sum.
+-- | Weight of a digit from 0 to 9 in a check sum.
 digitWeight :: Symbols -> Int -> Int
 digitWeight table = fromIntegral . Short.index (digitWeights table)
 
--- | The digit of a row, whatever the service track holds.
+-- | Digit of a row, with or without a hole in the service track.
 digitAt :: Symbols -> Word8 -> Maybe Int
 digitAt table w =
-  let d =
-        Short.index (digitOf table) (fromIntegral w)
+  let d = Short.index (digitOf table) (fromIntegral w)
    in if d == noDigit then Nothing else Just (fromIntegral d)
 {-# INLINE digitAt #-}
 
--- | Whether there is a hole in the service track.
-holeAt :: Symbols -> Word8 -> Bool
-holeAt table w = w .&. service table /= 0
+-- | True for a row with a hole in the service track.
+hasServiceHole :: Symbols -> Word8 -> Bool
+hasServiceHole table w = w .&. service table /= 0
 
--- | Whether there is a hole beside the tracks of the tape.
-isForeign :: Symbols -> Word8 -> Bool
-isForeign table w = w .&. beside table /= 0
+-- | True for a row with a hole outside of the tracks of the tape.
+isOutsideTracks :: Symbols -> Word8 -> Bool
+isOutsideTracks table w = w .&. outside table /= 0
 
--- | Whether the number of holes is odd and must not be.
+-- | True for a row with an odd number of holes, in a code with a parity track.
 isOdd :: Symbols -> Word8 -> Bool
 isOdd table w = parity table && odd (popCount w)
 
--- | The symbol of a row; of a digit with a hole in the service track that digit.
+-- | Symbol of a row; the digit for a digit with a hole in the service track.
 symbolAt :: Symbols -> Word8 -> Maybe Char
 symbolAt table w = case Map.lookup w (nameOf table) of
   Just c -> Just c
   Nothing -> intToDigit <$> digitAt table w
 
--- | The row behind symbols that stand at a row; below 0 where they do not.
-behind :: ShortByteString -> Int -> [Symbol] -> Int
-behind rows k cs = case cs of
+-- | Index of the row after the given symbols, if these are the rows from index @k@ on; else −1.
+rowAfter :: ShortByteString -> Int -> [Symbol] -> Int
+rowAfter rows k cs = case cs of
   [] -> k
   c : more ->
-    if k < Short.length rows && Short.index rows k == holes c then behind rows (k + 1) more else -1
+    if k < Short.length rows && Short.index rows k == holes c
+      then rowAfter rows (k + 1) more
+      else -1

@@ -1,4 +1,4 @@
--- | A tape: rows of holes, one byte a row, bit k−1 for a hole in track k.
+-- | Tape: rows of holes. Each row is one byte; bit k−1 is set for a hole in track k.
 module Tape.Tape
   ( Tape (..),
     rowCount,
@@ -12,14 +12,16 @@ import Data.ByteString qualified as ByteString
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 
+-- | Rows of a tape from its beginning; for a text, its bytes.
 newtype Tape = Tape ByteString
   deriving newtype (Eq)
   deriving stock (Show)
 
+-- | Number of rows.
 rowCount :: Tape -> Int
 rowCount (Tape rows) = ByteString.length rows
 
--- | The length of a tape on a machine's pitch, in metres; none for a text.
+-- | Length of a tape in metres, by the pitch of the machine's medium; none for a text.
 metres :: Machine -> Tape -> Maybe Double
 metres machine tape = case Machine.pitch (Machine.medium machine) of
   Nothing -> Nothing

@@ -90,7 +90,7 @@ spec = do
       \word)"
       $ [ length
             [ ()
-              | SpeedDiffers {} <-
+              | SpindleSpeedDiffers {} <-
                   Result.warnings (told kontur [c (SpindleOn Clockwise (Just v)), go])
             ]
           | v <- [500, 560, 460, 1e5]
@@ -105,9 +105,9 @@ spec = do
               ("kontur-3p", SpindleOn Clockwise Nothing)
             ]
       ]
-        `shouldBe` [ [ByHand (Region 0 0) CoolantCommand],
-                     [ByHand (Region 0 0) SpindleCommand],
-                     [SpeedUnsaid (Region 0 0)]
+        `shouldBe` [ [ManualCommand (Region 0 0) CoolantCommand],
+                     [ManualCommand (Region 0 0) SpindleCommand],
+                     [SpindleSpeedMissing (Region 0 0)]
                    ]
     it
       "is refused where a number does not fit, or an auxiliary command has no place (catches a \

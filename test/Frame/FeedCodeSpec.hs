@@ -74,7 +74,7 @@ spec = do
       "refuses a feed that its steps do not reach, with both ranges (catches the nearest step for \
       \any feed)"
       $ [ (needed, low, slow)
-          | FrequencyMissing _ _ needed (low, Feed slow) _ <-
+          | FrequencyOutOfRange _ _ needed (low, Feed slow) _ <-
               Result.errors
                 ( Made.made
                     kontur
@@ -99,7 +99,7 @@ spec = do
                   ]
     it "refuses a feed outside its codes, once" $
       [ (v, low, high)
-        | FeedMissing _ (Feed v) (Feed low) (Feed high) <-
+        | FeedOutOfRange _ (Feed v) (Feed low) (Feed high) <-
             Result.errors
               ( Made.made
                   (Machines.named "lkp-01f")

@@ -34,6 +34,7 @@ import Machines (iso6983, kontur2p, kontur3p, lkiU, lkiUn, lkp01f, n55)
 import Report.Report qualified as Report
 import Tape.FrameReader qualified as FrameReader
 import Tape.FrameReader.Fast qualified as FastFrameReader
+import Tape.FrameWriter qualified as FrameWriter
 import Tape.Holes qualified as Holes
 import Tape.Journey (journey, machines, start)
 import Tape.Layout qualified as Layout
@@ -123,8 +124,8 @@ randomMachines = do
       forAll (Generate.frames m) $ \(at, fs) ->
         forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
           let plan = Layout.fromMachine m
-              states = scanl (Layout.after plan) (ModalState.first (ModalState.rising fs) at) fs
-              rowsFor state f = map Layout.holes (Layout.frameMarks plan state f)
+              states = scanl (Layout.after plan) (ModalState.initial (ModalState.changesHeight fs) at) fs
+              rowsFor state f = map Layout.holes (FrameWriter.frameRows plan state f)
               readBoth state rows =
                 ( FastFrameReader.readFrame plan state (Short.pack rows) 0,
                   FrameReader.wordByWord plan state (Short.pack rows) 0
@@ -132,21 +133,21 @@ randomMachines = do
               isRead state f = case readBoth state (rowsFor state f) of
                 (FastFrameReader.Read g end, slowly) ->
                   Layout.isPlain plan && slowly == Right (g, end) && g == f
-                (FastFrameReader.NotBare, _) ->
-                  not (Layout.isPlain plan && ModalState.isBare f && Frame.isMoving f)
+                (FastFrameReader.NotSimple, _) ->
+                  not (Layout.isPlain plan && ModalState.isSimple f && Frame.isMoving f)
               isSame state rows = case readBoth state rows of
                 (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
-                (FastFrameReader.NotBare, _) -> True
+                (FastFrameReader.NotSimple, _) -> True
               changedRow rows = take k rows <> [w] <> drop (k + 1) rows
               -- As if nothing had been said before.
               unsaid state =
-                (ModalState.first (ModalState.rising fs) (ModalState.place state))
+                (ModalState.initial (ModalState.changesHeight fs) (ModalState.position state))
                   { ModalState.ordinal =
                       ModalState.ordinal state
                   }
            in cover
                 20
-                (Layout.isPlain plan && any (\f -> ModalState.isBare f && Frame.isMoving f) fs)
+                (Layout.isPlain plan && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs)
                 "frames that go straight"
                 $ conjoin
                   [ counterexample
@@ -365,31 +366,31 @@ damage = do
       at 31 (const 0x10) `shouldBe` Just ServiceHole
       at 30 (const 0x10) `shouldBe` Just MinusZero
       at 41 (const 1) `shouldBe` Just ShiftNotBlank
-      at 37 (const 0x10) `shouldBe` Just MoveWithoutSpeed
+      at 37 (const 0x10) `shouldBe` Just MotionWithoutFeed
       at 28 (const 0) `shouldBe` Nothing
       at 3 (const 1) `shouldBe` Just (LeaderNotBlank 25)
   it "of a lettered frame: its sum, its priority, its order" $ do
     let at = reasonAt kontur3p [straight 0 6000 0 27 []]
-    at 26 (const 0) `shouldBe` Just (AddsTo 27 10)
-    at 28 (const 6) `shouldBe` Just (AddsTo 31 10)
+    at 26 (const 0) `shouldBe` Just (WrongSum 27 10)
+    at 28 (const 6) `shouldBe` Just (WrongSum 31 10)
     faultOf kontur3p (blank 25 <> [4, 18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
-      `shouldBe` Just (AddsTo 27 10)
+      `shouldBe` Just (WrongSum 27 10)
     faultOf kontur3p (blank 25 <> lettered [18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (WrongPriority 1 5)
     faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16])
-      `shouldBe` Just (WordOutOfPlace 'Е')
-    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 16]) `shouldBe` Just MoveWithoutSpeed
-    faultOf kontur3p (blank 25 <> lettered [16]) `shouldBe` Just IdleFrame
+      `shouldBe` Just (UnexpectedWord 'Е')
+    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 16]) `shouldBe` Just MotionWithoutFeed
+    faultOf kontur3p (blank 25 <> lettered [16]) `shouldBe` Just NoContent
   it "of lines: a feed said twice, a frame number, an unknown motion, parity, a missing sign" $ do
-    faultLine "N001X+000001F0060" `shouldBe` Just MoveWithoutMotion
+    faultLine "N001X+000001F0060" `shouldBe` Just IncrementWithoutMotion
     faultLine "N002G01X+000001F0060" `shouldBe` Just (WrongNumber 2 1)
     faultLine "N001G04X+000001F0060" `shouldBe` Just (UnknownMotion 4)
-    faultLine "N001G01X+000001" `shouldBe` Just MoveWithoutSpeed
+    faultLine "N001G01X+000001" `shouldBe` Just MotionWithoutFeed
     faultLine "N001G01X000001F0060" `shouldBe` Just NoSign
     faultLine "N001G01X-000000Y+000001F0060" `shouldBe` Just MinusZero
-    faultLine "N001G01Y+000001X+000001F0060" `shouldBe` Just (WordOutOfPlace 'X')
-    faultLine "N001G01X+000001F0060\nN002G01X+000001F0060" `shouldBe` Just (SpeedRepeated 60)
-    faultLine "N001" `shouldBe` Just IdleFrame
+    faultLine "N001G01Y+000001X+000001F0060" `shouldBe` Just (UnexpectedWord 'X')
+    faultLine "N001G01X+000001F0060\nN002G01X+000001F0060" `shouldBe` Just (FeedRepeated 60)
+    faultLine "N001" `shouldBe` Just NoContent
     reasonAt n55 [straight 1 0 0 60 []] 30 (const 0x31) `shouldBe` Just BadParity
   it "of the end: a torn tape, a trailer of another length, a text without its end" $ do
     let rows = rowsOf (tapeOf lkp01f)
@@ -405,7 +406,7 @@ damage = do
       (Punch.read iso6983 start (Tape ""))
       `shouldBe` Just (1, NoFrames 0)
     reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines')
-      `shouldBe` Just (NoClosing "%\n")
+      `shouldBe` Just (MissingClosing "%\n")
   it "does not lie in blank rows between frames or in erased ones, where they are passed over" $ do
     let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
         (front, behind) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
@@ -484,6 +485,6 @@ reasonAt m fs n f =
     _ -> Nothing
   where
     isSum r = case r of
-      AddsTo _ _ -> True
-      MoveWithoutSpeed -> True
+      WrongSum _ _ -> True
+      MotionWithoutFeed -> True
       _ -> False

@@ -1,11 +1,11 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Frames that walk no arc and command nothing, read in one go: most frames of a long tape are of
--- this kind.
+-- | Simple frames, without arcs and commands, read in one go. Most frames of a long tape are
+-- simple.
 --
--- What is read here is what "Tape.FrameReader" reads word by word. All that is not as it would be
--- written is left to it, and so is what to say of a fault.
+-- The result is always that of 'Tape.FrameReader.wordByWord'. Rows that differ in any respect from
+-- those that would be written are left to that reader, and so are the reports about faults.
 module Tape.FrameReader.Fast
   ( Read (..),
     readFrame,
@@ -41,38 +41,43 @@ import Tape.Symbol (Symbol)
 import Tape.Symbol qualified as Symbol
 import Prelude hiding (Read)
 
--- | The frame and the row behind it; or it is another kind of frame, or not as it would be written.
-data Read = Read Frame Int | NotBare
+-- | Result of reading a frame.
+data Read
+  = -- | the frame and the index of the row after it
+    Read Frame Int
+  | -- | a frame that is not simple, or that would be written with other rows
+    NotSimple
 
--- | The frame that begins at a row.
+-- | Frame that begins at row @begin@.
 readFrame :: Layout -> State -> ShortByteString -> Int -> Read
-readFrame plan state rows begin
-  | Layout.isPlain plan = go False (Layout.bareSteps plan) begin 0 (before plan state)
-  | otherwise = NotBare
+readFrame layout state rows begin
+  | Layout.isPlain layout =
+    go False (Layout.simpleSteps layout) begin 0 (withoutWords layout state)
+  | otherwise = NotSimple
   where
     -- The words are numbered from 0.
-    go behindWord todo !k !number !ns = case todo of
-      [] -> made plan state ns k
-      Fixed cs : more ->
-        let next =
-              Symbol.behind rows k cs
-         in if next >= 0 then go False more next number ns else NotBare
-      Checked _ : _ -> NotBare
-      Worded w cs joined : more
-        | at < 0 -> if presence w == Always then NotBare else go behindWord more k (number + 1) ns
-        | Plain next n <- plainNumber plan (form w) rows at,
+    go followsWord todo !k !ordinalOfWord !ns = case todo of
+      [] -> frameFrom layout state ns k
+      FixedStep cs : more ->
+        let next = Symbol.rowAfter rows k cs
+         in if next >= 0 then go False more next ordinalOfWord ns else NotSimple
+      CheckStep _ : _ -> NotSimple
+      WordStep w cs joined : more
+        | at < 0 ->
+          if presence w == Always then NotSimple else go followsWord more k (ordinalOfWord + 1) ns
+        | Number next n <- plainNumber layout (form w) rows at,
           next >= 0,
           isExpected w n ->
           go
             True
             more
             next
-            (number + 1)
-            (saying (content w) n ns {standing = standing ns `setBit` number})
-        | otherwise -> NotBare
+            (ordinalOfWord + 1)
+            (withNumber (content w) n ns {present = present ns `setBit` ordinalOfWord})
+        | otherwise -> NotSimple
         where
-          at = Layout.behindAddress rows k (if behindWord then joined else cs)
-    -- What is known without the frame.
+          at = Layout.rowAfterAddress rows k (if followsWord then joined else cs)
+    -- Numbers that are known before the frame is.
     isExpected w n = case content w of
       FrameNumber -> n == ordinal state `mod` 10 ^ digits (form w)
       Centre _ -> n == 0
@@ -81,124 +86,127 @@ readFrame plan state rows begin
       Along _ -> True
       FeedWord -> True
 
--- | Which words stand there, by bits, and what they say.
+-- | Words of a frame by the bits of their ordinals, and the numbers of the relevant ones.
 data Numbers = Numbers
-  { standing :: Int,
-    alongX :: Int,
-    alongY :: Int,
-    alongZ :: Int,
-    motionCode :: Int,
-    feedCode :: Int
+  { present :: Int,
+    numberX :: Int,
+    numberY :: Int,
+    numberZ :: Int,
+    motionNumber :: Int,
+    -- | −1 if there is no feed word
+    feedNumber :: Int
   }
 
--- | What is true where no word says anything else: the cutter stays where it is, goes straight and
--- as fast as before.
-before :: Layout -> State -> Numbers
-before plan state =
+-- | Numbers of a frame without words: the cutter stays in place, and the motion is straight.
+withoutWords :: Layout -> State -> Numbers
+withoutWords layout state =
   Numbers
-    { standing = 0,
-      alongX = x,
-      alongY = y,
-      alongZ = z,
-      motionCode = maybe 0 (straight . snd) (Layout.motions plan),
-      feedCode = -1
+    { present = 0,
+      numberX = x,
+      numberY = y,
+      numberZ = z,
+      motionNumber = maybe 0 (straight . snd) (Layout.motionWord layout),
+      feedNumber = -1
     }
   where
-    Pulses3 (Pulses x) (Pulses y) (Pulses z) = case ModalState.measure (Layout.axes plan) of
+    Pulses3 (Pulses x) (Pulses y) (Pulses z) = case ModalState.measure (Layout.axes layout) of
       Increments -> 0
-      Positions -> ModalState.signs (Layout.axes plan) * place state
+      Positions -> ModalState.signs (Layout.axes layout) * position state
 
-saying :: Content -> Int -> Numbers -> Numbers
-saying c n ns = case c of
-  Along X -> ns {alongX = n}
-  Along Y -> ns {alongY = n}
-  Along Z -> ns {alongZ = n}
-  Motion _ -> ns {motionCode = n}
-  FeedWord -> ns {feedCode = n}
+withNumber :: Content -> Int -> Numbers -> Numbers
+withNumber c n ns = case c of
+  Along X -> ns {numberX = n}
+  Along Y -> ns {numberY = n}
+  Along Z -> ns {numberZ = n}
+  Motion _ -> ns {motionNumber = n}
+  FeedWord -> ns {feedNumber = n}
   FrameNumber -> ns
   Centre _ -> ns
   Command _ -> ns
-{-# INLINE saying #-}
+{-# INLINE withNumber #-}
 
--- | The frame that moves as the words say, up to a row, if just these words would be written for
--- it.
-made :: Layout -> State -> Numbers -> Int -> Read
-made plan state ns end
-  | moved /= 0,
-    Just m <- motionOf plan (motionCode ns),
+-- | Frame with these numbers that ends before row @end@, if exactly these words would be written
+-- for it.
+frameFrom :: Layout -> State -> Numbers -> Int -> Read
+frameFrom layout state ns end
+  | increment /= 0,
+    Just m <- motionOf layout (motionNumber ns),
     code >= 0,
     f <-
       Frame
         { motion = m,
-          increment = moved,
+          increment,
           centre = 0,
           speed = FeedCode code,
           braking = False,
           orders = []
         },
-    areThese 0 f (Layout.bareWords plan),
-    null (Frame.broken (Layout.machine plan) 1 f) =
+    areThese 0 f (Layout.simpleWords layout),
+    null (Frame.broken (Layout.machine layout) 1 f) =
     Read f end
-  | otherwise = NotBare
+  | otherwise = NotSimple
   where
-    axes = Layout.axes plan
-    there =
-      ModalState.signs axes * Pulses3 (Pulses (alongX ns)) (Pulses (alongY ns)) (Pulses (alongZ ns))
-    moved = case ModalState.measure axes of
-      Increments -> there
-      Positions -> there - place state
-    code = case motionOf plan (motionCode ns) of
-      Just Rapid -> max 0 (feedCode ns)
+    axes = Layout.axes layout
+    given =
+      ModalState.signs axes
+        * Pulses3 (Pulses (numberX ns)) (Pulses (numberY ns)) (Pulses (numberZ ns))
+    increment = case ModalState.measure axes of
+      Increments -> given
+      Positions -> given - position state
+    code = case motionOf layout (motionNumber ns) of
+      Just Rapid -> max 0 (feedNumber ns)
       _
-        | feedCode ns >= 0 -> feedCode ns
-        | Layout.keepsFeed plan, Just (FeedCode n) <- feed state -> n
+        | feedNumber ns >= 0 -> feedNumber ns
+        | Layout.isFeedModal layout, Just (FeedCode n) <- feed state -> n
         | otherwise -> -1
     areThese :: Int -> Frame -> [Word'] -> Bool
-    areThese number f ws = case ws of
+    areThese ordinalOfWord f ws = case ws of
       [] -> True
       w : more ->
-        isJust (ModalState.number axes state f w) == testBit (standing ns) number
-          && areThese (number + 1) f more
+        isJust (ModalState.number axes state f w) == testBit (present ns) ordinalOfWord
+          && areThese (ordinalOfWord + 1) f more
 
--- | A straight motion by its number; where no word says it all motions are straight.
+-- | Straight or rapid motion of a number; on a machine without a word for it every motion is
+-- straight.
 motionOf :: Layout -> Int -> Maybe FrameMotion
-motionOf plan code = case Layout.motions plan of
+motionOf layout code = case Layout.motionWord layout of
   Nothing -> Just Straightway
   Just (_, codes)
     | code == straight codes -> Just Straightway
     | Just code == rapid codes -> Just Rapid
     | otherwise -> Nothing
 
--- | The row behind a number, and the number; the row is below 0 if there is none, or if it would be
--- written otherwise.
-data Plain = Plain Int Int
+-- | Index of the row after a number, and the number. The index is −1 if there is no number, or if
+-- it would be written with other rows.
+data Number = Number Int Int
 
-plainNumber :: Layout -> NumberForm -> ShortByteString -> Int -> Plain
-plainNumber plan f rows begin = case sign f of
+plainNumber :: Layout -> NumberForm -> ShortByteString -> Int -> Number
+plainNumber layout f rows begin = case sign f of
   Unsigned -> unsigned False begin
-  MinusSign -> if here (Layout.minus plan) then unsigned True (begin + 1) else unsigned False begin
+  MinusSign ->
+    if isHere (Layout.minus layout) then unsigned True (begin + 1) else unsigned False begin
   EitherSign
-    | here (Layout.minus plan) -> unsigned True (begin + 1)
-    | here (Layout.plus plan) -> unsigned False (begin + 1)
+    | isHere (Layout.minus layout) -> unsigned True (begin + 1)
+    | isHere (Layout.plus layout) -> unsigned False (begin + 1)
     | otherwise -> none
   ServiceSign -> none
   Priority {} -> none
   where
-    none = Plain (-1) 0
-    here :: Symbol -> Bool
-    here s = begin < Short.length rows && Short.index rows begin == Symbol.holes s
+    none = Number (-1) 0
+    isHere :: Symbol -> Bool
+    isHere s = begin < Short.length rows && Short.index rows begin == Symbol.holes s
     unsigned minus from =
-      case NumberReader.plainFigures plan rows (from + digits f - decimals f) from 0 of
+      case NumberReader.plainFigures layout rows (from + digits f - decimals f) from 0 of
         Figures at n
           | decimals f == 0 -> finished minus (at - from) at n
           | at < Short.length rows,
-            Short.index rows at == Symbol.holes (Layout.point plan),
-            Figures end m <- NumberReader.plainFigures plan rows (at + 1 + decimals f) (at + 1) n,
+            Short.index rows at == Symbol.holes (Layout.point layout),
+            Figures end m <- NumberReader.plainFigures layout rows (at + 1 + decimals f) (at + 1) n,
             end == at + 1 + decimals f ->
             finished minus (end - from - 1) end m
           | otherwise -> none
-    finished minus places end n
-      | Layout.isCount f places n && not (minus && n == 0) =
-        Plain end (if minus then negate n else n)
+    finished minus count end n
+      | Layout.isDigitCount f count n && not (minus && n == 0) =
+        Number end (if minus then negate n else n)
       | otherwise = none
 {-# INLINE plainNumber #-}

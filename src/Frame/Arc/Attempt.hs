@@ -1,0 +1,271 @@
+{-# LANGUAGE BangPatterns #-}
+-- The loops carry more than ten numbers; this option keeps them unboxed.
+{-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
+
+-- | Rounded arcs about given grid points, and the choice of the best one.
+module Frame.Arc.Attempt
+  ( bestAbout,
+    isNearlyStraight,
+    isStraightEnough,
+  )
+where
+
+import Base.PulseVector (Pulses2 (..), Pulses3 (..), flat)
+import Base.Quantity (Mm (..), Rad (..), minus, plus)
+import Data.List (foldl')
+import Data.Maybe (mapMaybe)
+import Data.Ord (comparing)
+import Frame.Arc.Centre qualified as Centre
+import Frame.Arc.Context
+  ( ArcContext (..),
+    ArcStep (..),
+    ArcTolerance (..),
+    Grid (..),
+    RoundedArc (..),
+  )
+import Frame.Arc.Context qualified as Context
+import Frame.Arc.Deviation (Deviation (..))
+import Frame.Arc.Deviation qualified as Deviation
+import Frame.Arc.Estimate (Ends)
+import Frame.Arc.Estimate qualified as Estimate
+import Frame.Arc.Quadrant qualified as Quadrant
+import Geometry.Carrier qualified as Carrier
+import Geometry.Distance qualified as Distance
+import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Arcs (..), Axis (..))
+import Machine.Machine qualified as Machine
+
+-- | Steps of an arc about one grid point, with their largest deviation in mm.
+data Attempt = Attempt {steps :: [ArcStep], deviation :: Double}
+
+-- | Attempt with the rank of its grid point among all that are tried, from 0.
+data Ranked = Ranked {rank :: Int, attempted :: Attempt}
+
+-- | Steps of an arc about the best of some grid points; none if no grid point will do.
+--
+-- Grid points about which the whole arc is one frame have priority; of these the one with the least
+-- deviation is taken, and the first one if several are equal. Only a grid point that passes all
+-- quick estimates is attempted exactly. The search begins with the one that seems best. If none of
+-- them will do, the fewest steps are taken, and of equally many those with the least deviation.
+bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]
+bestAbout context arc centres
+  | Just ends <- Estimate.endsOf (grid context) arc,
+    Likeliest first c <- likeliest ends wholes,
+    Just found <- leastDeviation context arc ends wholes (ranked context arc first c) =
+    Just (steps (attempted found))
+  | otherwise = fewestSteps (mapMaybe (attempt context arc) centres)
+  where
+    wholes = filter (Centre.isOneFrame context arc) centres
+
+fewestSteps :: [Attempt] -> Maybe [ArcStep]
+fewestSteps attempts = case attempts of
+  [] -> Nothing
+  first : others ->
+    Just (steps (foldl' (\x y -> if comparing cost y x == LT then y else x) first others))
+  where
+    cost a = (length (steps a), deviation a)
+
+-- | Grid point with the least estimated deviation, and its rank.
+data Likeliest = None | Likeliest Int Pulses2
+
+likeliest :: Ends -> [Pulses2] -> Likeliest
+likeliest ends = go 0 None (1 / 0)
+  where
+    go !k best !least todo = case todo of
+      [] -> best
+      c : more
+        | d <- Estimate.estimate ends c,
+          d < least,
+          d' <- max d (Estimate.errorAtBegin ends c),
+          d' < least ->
+          go (k + 1) (Likeliest k c) d' more
+        | None <- best -> go (k + 1) (Likeliest k c) least more
+        | otherwise -> go (k + 1) best least more
+
+-- | Attempt with the least deviation about some grid points, from the first attempt.
+leastDeviation ::
+  ArcContext -> RoundedArc -> Ends -> [Pulses2] -> Maybe Ranked -> Maybe Ranked
+leastDeviation context arc ends = go 0
+  where
+    go !k todo best = case todo of
+      [] -> best
+      c : more -> go (k + 1) more (better best k c)
+    better best k c = case best of
+      Nothing -> ranked context arc k c
+      Just b
+        | isBetter context arc ends b k c, Just a <- ranked context arc k c -> Just a
+        | otherwise -> best
+
+ranked :: ArcContext -> RoundedArc -> Int -> Pulses2 -> Maybe Ranked
+ranked context arc k c = Ranked k <$> attempt context arc c
+
+-- | True if the whole arc about a grid point deviates less than the best attempt so far. The tests
+-- come in the order of their cost.
+isBetter :: ArcContext -> RoundedArc -> Ends -> Ranked -> Int -> Pulses2 -> Bool
+isBetter context arc ends best k c =
+  not isSurelyWorse
+    && isLess (Estimate.errorAtBegin ends c)
+    && isLess (Deviation.linearErrorAt frameArc 1)
+    && isLessEverywhere
+  where
+    least = deviation (attempted best)
+    isSurelyWorse = Estimate.estimate ends c - Estimate.estimateError ends c > least
+    isLess d = d < least || d == least && k < rank best
+    frameArc = Estimate.frameArcAbout ends (sense arc) c
+    isLessEverywhere = case Deviation.deviationAtEnds (tolerance context) frameArc of
+      Just d -> isLess (linear d)
+      Nothing ->
+        all (isLess . Deviation.linearErrorAt frameArc) samples
+          && isLess (linear (Deviation.sampledDeviation frameArc))
+
+-- | Fractions of a sweep between its ends; those first at which the deviation is likely to be
+-- large.
+samples :: [Double]
+samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
+
+-- One attempt -------------------------------------------------------------------------------------
+
+-- | Step of an attempt: its ends, the arc between them, and whether that is replaced by a line.
+data Leg = Leg {from :: Pulses2, to :: Pulses2, arcAlong :: Segment, isStraight :: Bool}
+
+-- | Arc about a grid point, if the machine can run it within the tolerance.
+attempt :: ArcContext -> RoundedArc -> Pulses2 -> Maybe Attempt
+attempt context arc c
+  | null ends || isClosed && length ends == 1 && not isFullCircle = Nothing
+  | all (isValid context c) (zip starts ends)
+      && and (zipWith isNear legs deviations)
+      && abs (sum (map (swept . arcAlong) legs) - sweep arc) <= sweepSlack =
+    Just (Attempt (map (stepOf arc c) legs) (maximum (map linear deviations)))
+  | otherwise = Nothing
+  where
+    ends =
+      Quadrant.frameEnds
+        (machine (grid context))
+        (Quadrant.crossings (grid context) (radius arc) (centre arc) c)
+        (sense arc)
+        c
+        (flat (begin arc))
+        (flat (finish arc))
+    starts = flat (begin arc) : ends
+    isClosed = begin arc == finish arc
+    isFullCircle =
+      allowsFullCircle context && abs (sweep arc) >= 2 * pi - Tolerance.equal
+    legs = zipWith (legBetween context arc c) starts ends
+    deviations = map (Deviation.deviationOf (tolerance context) (exact arc) . arcAlong) legs
+    isNear leg d = isStraight leg || isWithinTolerance (tolerance context) d
+    Mm r = radius arc
+    -- Rounding moves an end by up to a pulse, and the centre beside it as well.
+    sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
+
+allowsFullCircle :: ArcContext -> Bool
+allowsFullCircle context = case Machine.arcs (machine (grid context)) of
+  NoArcs -> False
+  Arcs {Machine.fullCircle} -> fullCircle
+
+isWithinTolerance :: ArcTolerance -> Deviation -> Bool
+isWithinTolerance allowed d =
+  Mm (linear d) <= linearError allowed
+    && Mm (inward d) <= inwards allowed
+    && Mm (outward d) <= outwards allowed
+
+-- | Step between two grid points about the grid point @c@. An arc that a cut has left nearly
+-- straight becomes a line.
+legBetween :: ArcContext -> RoundedArc -> Pulses2 -> Pulses2 -> Pulses2 -> Leg
+legBetween context arc c from to =
+  Leg
+    { from,
+      to,
+      arcAlong,
+      isStraight =
+        isNearlyStraight context arcAlong && isStraightEnough context (exact arc) [from, to]
+    }
+  where
+    arcAlong
+      | from == to =
+        Segment.Arc
+          { Segment.start = a,
+            Segment.end = a,
+            Segment.centre = m,
+            Segment.sweep = Rad (Carrier.sense (sense arc) * 2 * pi)
+          }
+      | otherwise = Segment.arc (sense arc) m a (Context.gridPoint (grid context) to)
+    m = Context.gridPoint (grid context) c
+    a = Context.gridPoint (grid context) from
+
+-- | The step of a leg about the grid point @c@.
+stepOf :: RoundedArc -> Pulses2 -> Leg -> ArcStep
+stepOf arc c Leg {from, to = Pulses2 x y, isStraight} =
+  ArcStep
+    { target = Pulses3 x y z,
+      turnsAbout = if isStraight then Nothing else Just (sense arc, c - from)
+    }
+  where
+    Pulses3 _ _ z = finish arc
+
+-- | True for the ends of an arc about the grid point @c@ whose increments and centre fit their
+-- fields, and whose radii differ by no more than two pulses.
+isValid :: ArcContext -> Pulses2 -> (Pulses2, Pulses2) -> Bool
+isValid context c (from, to) =
+  from /= c
+    && to /= c
+    && (let Pulses2 i j = abs (c - from) in max i j <= largestCentre (grid context))
+    && isFitting
+    && abs (a - b) <= 2 * pulse (grid context)
+  where
+    Pulses2 dx dy = to - from
+    isFitting = case Machine.measure (Machine.layout (machine (grid context))) of
+      Machine.Positions -> True
+      Machine.Increments ->
+        abs dx <= Machine.capacity (machine (grid context)) X
+          && abs dy <= Machine.capacity (machine (grid context)) Y
+    inMm = Context.gridPoint (grid context)
+    Mm a = Vec.distance (inMm c) (inMm from)
+    Mm b = Vec.distance (inMm c) (inMm to)
+
+-- | Sweep of an arc in radians; 0 for a line.
+swept :: Segment -> Double
+swept s = case s of
+  Straight _ _ -> 0
+  Segment.Arc {Segment.sweep = Rad a} -> a
+
+-- Lines in place of arcs --------------------------------------------------------------------------
+
+-- | True for a segment with a sagitta of less than half a pulse.
+isNearlyStraight :: ArcContext -> Segment -> Bool
+isNearlyStraight context s = Segment.bulge s < Mm (0.5 * pulse (grid context))
+
+-- | True if straight steps through some grid points stay within the tolerance of an arc. A sagitta
+-- of half a pulse and the rounding of the ends together exceed a pulse, so this has to be tested.
+isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
+isStraightEnough context exact stops = case exact of
+  Straight _ _ -> True
+  Segment.Arc {Segment.start = begin, Segment.centre = middle}
+    -- The arc is at most its sagitta away from its chord, and the chord is at most as far from the
+    -- line as their ends are. If the sum is small, the whole arc lies near the line.
+    | [a, b] <- points,
+      plus
+        (Segment.bulge exact)
+        (max (Vec.distance a begin) (Vec.distance b (Segment.end exact)))
+        <= most ->
+      isWithin
+        (Distance.toPoint middle (Straight a b))
+        (max (Vec.distance middle a) (Vec.distance middle b))
+    -- Points of the arc are sampled, because lines that leave it out entirely would pass otherwise.
+    | otherwise ->
+      isWithin
+        (minimum (map (Distance.toPoint middle) lines'))
+        (maximum (map (Vec.distance middle) points))
+        && all ((<= most) . fromLines) [Segment.at (k / 8) exact | k <- [0 .. 8]]
+    where
+      isWithin nearest furthest =
+        let r = Segment.radius middle begin
+         in minus r nearest <= inwards (tolerance context)
+              && minus furthest r <= outwards (tolerance context)
+      fromLines p = minimum (map (Distance.toPoint p) lines')
+  where
+    most = max (inwards (tolerance context)) (outwards (tolerance context))
+    points = map (Context.gridPoint (grid context)) stops
+    lines' = zipWith Straight points (drop 1 points)

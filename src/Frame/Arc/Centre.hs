@@ -1,0 +1,96 @@
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Grid points that are tried as centres of a rounded arc.
+module Frame.Arc.Centre
+  ( nearCentres,
+    remoteCentres,
+    isOneFrame,
+  )
+where
+
+import Base.PulseVector (Pulses2 (..), flat)
+import Base.Quantity (Mm (..), Pulses (..))
+import Frame.Arc.Context (ArcContext (..), ArcTolerance (linearError), Grid (..), RoundedArc (..))
+import Frame.Arc.Context qualified as Context
+import Frame.Arc.Estimate qualified as Estimate
+import Frame.Arc.Quadrant qualified as Quadrant
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Arcs (..))
+import Machine.Machine qualified as Machine
+
+-- | Grid points near the exact centre, and near the point that is equally far from both rounded
+-- ends.
+nearCentres :: ArcContext -> RoundedArc -> [Pulses2]
+nearCentres context arc
+  | begin arc == finish arc = around (nearest (centre arc))
+  | otherwise =
+    let first = nearest (centre arc)
+     in around first <> filter (not . isBeside first) (around (nearest equidistant))
+  where
+    nearest c = flat (Context.roundedPoint context c)
+    around c = map (c +) neighbours
+    isBeside = isWithin nearReach
+    a = Context.gridPoint (grid context) (flat (begin arc))
+    b = Context.gridPoint (grid context) (flat (finish arc))
+    -- The exact centre, moved onto the perpendicular bisector of the rounded ends.
+    equidistant =
+      let u = Vec.unit (Vec.to a b)
+          c = centre arc
+       in Vec.shift (Vec.scale (Vec.dot u (Vec.to c (Vec.between 0.5 a b))) u) c
+
+-- | Distance in pulses, in x and in y, up to which centres are tried about a point.
+nearReach :: Pulses
+nearReach = 2
+
+neighbours :: [Pulses2]
+neighbours = square nearReach
+
+-- | Grid points up to a distance from zero, in x and in y.
+square :: Pulses -> [Pulses2]
+square most = [Pulses2 di dj | di <- [-most .. most], dj <- [-most .. most]]
+
+-- | True for two grid points up to a distance apart, in x and in y.
+isWithin :: Pulses -> Pulses2 -> Pulses2 -> Bool
+isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <= most
+
+-- | Grid points further from the exact centre about which the whole arc is one frame and its middle
+-- is within the tolerance. They are for arcs for which none of 'nearCentres' will do.
+--
+-- Consider a centre that is off by n towards the middle of an arc of the sweep 2h, and by t across.
+-- Then the middle is off by @(1 − cos h)·n + sin h·t@ and the end by @2·sin h·t@, besides the
+-- rounding of the beginning. So @(1 − cos h)·n@ is at most 3/2 of the tolerance and that rounding.
+remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
+remoteCentres context arc
+  | begin arc == finish arc = []
+  | otherwise =
+    [ c
+      | c <- map (first +) (square (min remoteReach (Pulses reach))),
+        not (isWithin nearReach first c),
+        isOneFrame context arc c,
+        errorInMiddle c <= most
+    ]
+  where
+    first = flat (Context.roundedPoint context (centre arc))
+    Mm most = linearError (tolerance context)
+    reach =
+      ceiling
+        ( min
+            1000
+            ( 1.5 * (most / pulse (grid context) + sqrt 0.5)
+                / (1 - cos (min pi (abs (sweep arc / 2))))
+            )
+        )
+    errorInMiddle = Estimate.errorInMiddle (grid context) arc
+
+-- | Largest distance in pulses of 'remoteCentres', in x and in y. An arc of so small a sweep that
+-- centres further away would do has enough suitable ones within this distance.
+remoteReach :: Pulses
+remoteReach = 8
+
+-- | True if one frame can hold the whole arc about a grid point.
+isOneFrame :: ArcContext -> RoundedArc -> Pulses2 -> Bool
+isOneFrame context arc c = case Machine.arcs (machine (grid context)) of
+  NoArcs -> False
+  Arcs {Machine.quadrants} ->
+    not quadrants
+      || Quadrant.isInQuadrant (sense arc) (flat (begin arc) - c) (flat (finish arc) - c)

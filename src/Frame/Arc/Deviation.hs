@@ -1,0 +1,179 @@
+-- The loops carry more than ten numbers; this option keeps them unboxed.
+{-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
+
+-- | Radial deviation of the arc in a frame from the exact arc.
+--
+-- The rounded ends of an arc usually have different distances from the rounded centre. A control
+-- goes from the first radius to the second: linearly at best, in one jump at worst. Both cases are
+-- measured.
+module Frame.Arc.Deviation
+  ( FrameArc (..),
+    Deviation (..),
+    deviationOf,
+    sampledDeviation,
+    deviationAtEnds,
+    linearErrorAt,
+    roundingError,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (foldl')
+import Data.Maybe (fromMaybe)
+import Frame.Arc.Context (ArcTolerance (inwards, outwards))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+
+-- | Arc of a frame together with the exact circle, in mm and radians.
+data FrameArc = FrameArc
+  { -- | centre of the frame's arc
+    centreX :: Double,
+    centreY :: Double,
+    -- | vector from that centre to the beginning
+    startX :: Double,
+    startY :: Double,
+    -- | radii at both ends
+    startRadius :: Double,
+    endRadius :: Double,
+    -- | signed sweep
+    turned :: Double,
+    -- | centre and radius of the exact circle
+    exactX :: Double,
+    exactY :: Double,
+    exactRadius :: Double
+  }
+
+-- | Frame's arc (second argument) together with the exact arc (first argument); none if either of
+-- them is a line.
+frameArcOf :: Segment -> Segment -> Maybe FrameArc
+frameArcOf exact ofFrame = case (exact, ofFrame) of
+  (Arc {start = p, centre = c}, Arc {start = a, end = b, centre = m, sweep = Rad turned}) ->
+    let Mm exactRadius = Segment.radius c p
+        Mm startRadius = Vec.distance m a
+        Mm endRadius = Vec.distance m b
+     in Just
+          FrameArc
+            { centreX = Vec.x m,
+              centreY = Vec.y m,
+              startX = Vec.x a - Vec.x m,
+              startY = Vec.y a - Vec.y m,
+              startRadius,
+              endRadius,
+              turned,
+              exactX = Vec.x c,
+              exactY = Vec.y c,
+              exactRadius
+            }
+  _ -> Nothing
+
+-- | Largest radial deviations of a frame's arc from the exact circle, in mm.
+data Deviation = Deviation
+  { -- | if the control keeps the radius of the beginning, or changes it linearly to that of the end
+    linear :: Double,
+    -- | towards the centre, whichever of the two radii the control uses at any point
+    inward :: Double,
+    -- | the same away from the centre
+    outward :: Double
+  }
+
+-- | Deviation of a frame's arc (third argument) from the exact arc; 0 if either of them is a line.
+deviationOf :: ArcTolerance -> Segment -> Segment -> Deviation
+deviationOf tolerance exact ofFrame =
+  maybe
+    (Deviation 0 0 0)
+    (\arc -> fromMaybe (sampledDeviation arc) (deviationAtEnds tolerance arc))
+    (frameArcOf exact ofFrame)
+
+-- | Deviation at the ends of an arc, if that is provably the largest one and the arc stays within
+-- the smaller tolerance whatever the control does. Between the ends the deviation is interpolated
+-- linearly, up to @φ²·v/8@ for a centre that is off by v and a sweep φ. The bound used here is
+-- twice that, for the terms of second order in v.
+deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe Deviation
+deviationAtEnds tolerance arc
+  | abs (turned arc) < 1
+      && off < startRadius arc / 8
+      && perpendicular 0 * perpendicular 1 > 0
+      && abs (linear a - linear b) > 8 * interpolationError
+      && max (inward d) (outward d) + interpolationError < smaller =
+    Just d
+  | otherwise = Nothing
+  where
+    a = deviationAt arc 0
+    b = deviationAt arc 1
+    d = larger a b
+    asideX = centreX arc - exactX arc
+    asideY = centreY arc - exactY arc
+    off = abs asideX + abs asideY
+    interpolationError = turned arc * turned arc * off / 4 + roundingError
+    Mm smaller = min (inwards tolerance) (outwards tolerance)
+    -- The deviation is extreme where the radius is parallel to the offset of the centre. There this
+    -- product changes its sign.
+    perpendicular t =
+      let (c, s) = (cos (t * turned arc), sin (t * turned arc))
+       in (c * startX arc - s * startY arc) * asideY - (c * startY arc + s * startX arc) * asideX
+
+-- | Largest rounding error of the double arithmetic, in mm.
+roundingError :: Double
+roundingError = 1e-9
+
+-- | Deviation from samples at every eighth of the sweep, and at the points that are nearest to and
+-- furthest from the exact centre.
+sampledDeviation :: FrameArc -> Deviation
+sampledDeviation arc =
+  foldl'
+    (\d t -> larger d (deviationAt arc t))
+    (foldl' (\d t -> larger d (deviationAt arc t)) (deviationAt arc 0) eighths)
+    extremes
+  where
+    out = Vec.vec (startX arc) (startY arc)
+    aside = Vec.vec (centreX arc - exactX arc) (centreY arc - exactY arc)
+    Rad toward = Vec.turn out aside
+    share angle =
+      let t = angle * signum (turned arc) in (if t < 0 then t + 2 * pi else t) / abs (turned arc)
+    extremes =
+      if Vec.norm aside > 0
+        then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)]
+        else []
+
+larger :: Deviation -> Deviation -> Deviation
+larger (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
+
+eighths :: [Double]
+eighths = [k / 8 | k <- [1 .. 8]]
+
+-- | Deviation at a fraction of the sweep.
+deviationAt :: FrameArc -> Double -> Deviation
+deviationAt arc t =
+  Deviation
+    { linear = max (abs first) (abs between),
+      inward = -(min first final),
+      outward = max first final
+    }
+  where
+    first = beyondCircle arc t (startRadius arc)
+    between = beyondCircle arc t (startRadius arc + t * (endRadius arc - startRadius arc))
+    final = beyondCircle arc t (endRadius arc)
+
+-- | The field 'linear' of 'deviationAt' alone.
+linearErrorAt :: FrameArc -> Double -> Double
+linearErrorAt arc t =
+  max
+    (abs (beyondCircle arc t (startRadius arc)))
+    (abs (beyondCircle arc t (startRadius arc + t * (endRadius arc - startRadius arc))))
+{-# INLINE linearErrorAt #-}
+
+-- | Signed distance in mm from the exact circle to the point at a fraction of the sweep with the
+-- given radius; positive outside of the circle.
+beyondCircle :: FrameArc -> Double -> Double -> Double
+beyondCircle
+  FrameArc {centreX, centreY, startX, startY, startRadius, turned, exactX, exactY, exactRadius}
+  t
+  radius =
+    sqrt (dx * dx + dy * dy) - exactRadius
+    where
+      (along, across) = (cos (t * turned), sin (t * turned))
+      (vx, vy) = (radius / startRadius * startX, radius / startRadius * startY)
+      dx = centreX + (along * vx + across * negate vy) - exactX
+      dy = centreY + (along * vy + across * vx) - exactY
+{-# INLINE beyondCircle #-}

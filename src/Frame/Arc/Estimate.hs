@@ -1,0 +1,187 @@
+-- The loops carry more than ten numbers; this option keeps them unboxed.
+{-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
+
+-- | Quick estimates of the deviation of an arc about a grid point, so that most grid points are
+-- rejected without the exact computation in "Frame.Arc.Deviation".
+module Frame.Arc.Estimate
+  ( Ends,
+    endsOf,
+    estimate,
+    estimateError,
+    errorAtBegin,
+    frameArcAbout,
+    errorInMiddle,
+  )
+where
+
+import Base.PulseVector (Pulses2 (..), flat)
+import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Frame.Arc.Context (Grid (pulseX, pulseY), RoundedArc (..))
+import Frame.Arc.Context qualified as Context
+import Frame.Arc.Deviation (FrameArc (FrameArc))
+import Frame.Arc.Deviation qualified as Deviation
+import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
+import Geometry.Vec qualified as Vec
+
+-- | Rounded ends of an arc and its exact circle, in mm, and what the estimate needs of them.
+data Ends = Ends
+  { -- | resolution of the axes
+    stepX :: Double,
+    stepY :: Double,
+    -- | the rounded ends
+    beginX :: Double,
+    beginY :: Double,
+    finishX :: Double,
+    finishY :: Double,
+    -- | centre and radius of the exact circle
+    exactX :: Double,
+    exactY :: Double,
+    exactRadius :: Double,
+    -- | distances of the rounded ends from the exact circle, positive outside
+    beginError :: Double,
+    finishError :: Double,
+    -- | difference of the directions from the exact centre to the middle and to the beginning
+    halfX :: Double,
+    halfY :: Double,
+    -- | difference of the directions from the exact centre to the end and to the beginning
+    wholeX :: Double,
+    wholeY :: Double
+  }
+
+-- | Ends of an arc; none if both are the same grid point.
+endsOf :: Grid -> RoundedArc -> Maybe Ends
+endsOf grid arc
+  | begin arc == finish arc = Nothing
+  | otherwise =
+    Just
+      Ends
+        { stepX = pulseX grid,
+          stepY = pulseY grid,
+          beginX = Vec.x a,
+          beginY = Vec.y a,
+          finishX = Vec.x b,
+          finishY = Vec.y b,
+          exactX = Vec.x (centre arc),
+          exactY = Vec.y (centre arc),
+          exactRadius,
+          beginError = toA - exactRadius,
+          finishError = toB - exactRadius,
+          halfX = Vec.dot (Vec.vec 1 0) half,
+          halfY = Vec.dot (Vec.vec 0 1) half,
+          wholeX = Vec.dot (Vec.vec 1 0) whole,
+          wholeY = Vec.dot (Vec.vec 0 1) whole
+        }
+  where
+    a = Context.gridPoint grid (flat (begin arc))
+    b = Context.gridPoint grid (flat (finish arc))
+    from = Vec.unit (Vec.to (centre arc) a)
+    half = Vec.add (Vec.rotate (Rad (sweep arc / 2)) from) (Vec.negate from)
+    whole = Vec.add (Vec.unit (Vec.to (centre arc) b)) (Vec.negate from)
+    Mm exactRadius = radius arc
+    Mm toA = Vec.distance (centre arc) a
+    Mm toB = Vec.distance (centre arc) b
+
+-- | Estimated deviation in mm of an arc about a grid point: the largest of those at its middle and
+-- at its end with the radius of the beginning, and at its middle with a linear change of the
+-- radius.
+--
+-- About a centre that is off by a vector v, the deviation is @e + v·(u − u₀)@ where the exact
+-- radius has the direction u. Here e is the deviation at the beginning and u₀ the direction there.
+-- Terms of second order in v are neglected.
+estimate :: Ends -> Pulses2 -> Double
+estimate
+  Ends {stepX, stepY, exactX, exactY, beginError, finishError, halfX, halfY, wholeX, wholeY}
+  (Pulses2 (Pulses i) (Pulses j)) =
+    larger between (larger (abs half) (abs whole))
+    where
+      x = fromIntegral i * stepX - exactX
+      y = fromIntegral j * stepY - exactY
+      half = beginError + x * halfX + y * halfY
+      whole = beginError + x * wholeX + y * wholeY
+      -- At the end the linear change has made up for the whole difference, in the middle for half
+      -- of it.
+      between = abs (half + 0.5 * (finishError - whole))
+      larger a b = if a > b then a else b
+{-# INLINE estimate #-}
+
+-- | Largest amount in mm by which the true deviation can be less than 'estimate'.
+estimateError :: Ends -> Pulses2 -> Double
+estimateError Ends {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Pulses i) (Pulses j)) =
+  (if 8 * off < exactRadius then 4 else 16) * off * off / exactRadius + Deviation.roundingError
+  where
+    off =
+      abs (fromIntegral i * stepX - exactX)
+        + abs (fromIntegral j * stepY - exactY)
+        + stepX
+        + stepY
+{-# INLINE estimateError #-}
+
+-- | Exact deviation at the beginning of an arc about a grid point, as
+-- 'Frame.Arc.Deviation.linearErrorAt' computes it.
+errorAtBegin :: Ends -> Pulses2 -> Double
+errorAtBegin
+  Ends {stepX, stepY, beginX, beginY, exactX, exactY, exactRadius}
+  (Pulses2 (Pulses i) (Pulses j)) =
+    abs (sqrt (x * x + y * y) - exactRadius)
+    where
+      mx = fromIntegral i * stepX
+      my = fromIntegral j * stepY
+      x = mx + (beginX - mx) - exactX
+      y = my + (beginY - my) - exactY
+{-# INLINE errorAtBegin #-}
+
+-- | The whole arc about a grid point as one frame.
+frameArcAbout :: Ends -> Sense -> Pulses2 -> FrameArc
+frameArcAbout
+  Ends {stepX, stepY, beginX, beginY, finishX, finishY, exactX, exactY, exactRadius}
+  sense
+  (Pulses2 (Pulses i) (Pulses j)) =
+    FrameArc
+      { Deviation.centreX,
+        Deviation.centreY,
+        Deviation.startX,
+        Deviation.startY,
+        Deviation.startRadius = sqrt (startX * startX + startY * startY),
+        Deviation.endRadius = sqrt (endX * endX + endY * endY),
+        Deviation.turned,
+        Deviation.exactX,
+        Deviation.exactY,
+        Deviation.exactRadius
+      }
+    where
+      centreX = fromIntegral i * stepX
+      centreY = fromIntegral j * stepY
+      startX = beginX - centreX
+      startY = beginY - centreY
+      endX = finishX - centreX
+      endY = finishY - centreY
+      short = atan2 (startX * endY - startY * endX) (startX * endX + startY * endY)
+      turned = case sense of
+        CounterClockwise | short < 0 -> short + 2 * pi
+        Clockwise | short > 0 -> short - 2 * pi
+        _ -> short
+{-# INLINE frameArcAbout #-}
+
+-- | Exact deviation in the middle of an arc about a grid point, without trigonometry: the middle
+-- lies on the perpendicular to the chord between the directions of the ends. The result is meant to
+-- be applied to many grid points between the same ends.
+errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
+errorInMiddle grid arc =
+  let a = Context.gridPoint grid (flat (begin arc))
+      b = Context.gridPoint grid (flat (finish arc))
+      exactCentre = centre arc
+      sign = -(Carrier.sense (sense arc))
+      Mm r = radius arc
+   in \c ->
+        let m = Context.gridPoint grid c
+            toA = Vec.to m a
+            toB = Vec.to m b
+            first = Vec.norm toA
+            final = Vec.norm toB
+            chord = Vec.unit (Vec.add (Vec.scale (-1 / first) toA) (Vec.scale (1 / final) toB))
+            toMiddle = Vec.scale sign (Vec.left chord)
+            off radiusThere =
+              let Mm d = Vec.distance exactCentre (Vec.shift (Vec.scale radiusThere toMiddle) m)
+               in abs (d - r)
+         in max (off first) (off ((first + final) / 2))

@@ -1,0 +1,242 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Frames written as rows, by the steps of a layout. Each row comes with its weight in the check
+-- sum and its meaning, so the tape and its picture are made by the same steps.
+module Tape.FrameWriter
+  ( frameRows,
+    foldRows,
+    mostRows,
+  )
+where
+
+import Data.Bits (testBit)
+import Data.Functor.Identity (runIdentity)
+import Data.Maybe (fromMaybe)
+import Data.Word (Word8)
+import Frame.Frame (Frame (..))
+import Machine.Machine
+  ( Content (..),
+    NumberForm (..),
+    Service (..),
+    Sign (..),
+    Word' (..),
+  )
+import Tape.Layout
+  ( Address (..),
+    Layout (..),
+    LayoutStep (..),
+    MarkedRow (MarkedRow),
+    RowMeaning (..),
+    WordRow (..),
+  )
+import Tape.Layout qualified as Layout
+import Tape.ModalState (State)
+import Tape.ModalState qualified as ModalState
+import Tape.Symbol qualified as Symbol
+
+-- | Rows of a frame without the gap after it.
+frameRows :: Layout -> State -> Frame -> [MarkedRow]
+frameRows layout state frame =
+  reverse
+    (runIdentity (foldRows (\rows h n m -> pure (MarkedRow h n m : rows)) layout state frame []))
+
+-- | Left fold over the rows of a frame: each with its holes, its weight in the check sum and its
+-- meaning.
+foldRows ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Layout ->
+  State ->
+  Frame ->
+  r ->
+  m r
+foldRows add layout state frame =
+  foldWithSum
+    add
+    (if hasCheckDigit layout then checkSum layout state frame else 0)
+    layout
+    state
+    frame
+{-# INLINE foldRows #-}
+
+-- | Sum of the weights of a frame without its check digit.
+checkSum :: Layout -> State -> Frame -> Int
+checkSum layout state frame = runIdentity (foldWithSum count 0 layout state frame 0)
+  where
+    count total _ n meaning =
+      pure $! case meaning of
+        CheckSymbol _ -> total
+        _ -> total + n
+
+-- | The fold of 'foldRows', from the check sum of the frame.
+foldWithSum ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Int ->
+  Layout ->
+  State ->
+  Frame ->
+  r ->
+  m r
+foldWithSum add total layout state frame =
+  go False (if ModalState.isSimple frame then simpleSteps layout else steps layout)
+  where
+    go followsWord todo before = case todo of
+      [] -> pure before
+      FixedStep cs : more -> constants Constant cs before >>= go False more
+      CheckStep m : more ->
+        let d = checkDigit layout m total
+         in addDigit add layout (CheckSymbol d) d before >>= go False more
+      WordStep w Address {spelling} _ : more ->
+        case ModalState.number (axes layout) state frame w of
+          Nothing -> go followsWord more before
+          Just n -> do
+            separated <-
+              if followsWord then constants Separator (separator layout) before else pure before
+            addressed <- constants (InWord (content w) n . AddressSymbol) spelling separated
+            signed <- foldSign add layout frame w n addressed
+            written <- foldDigits add layout frame w n signed
+            go True more written
+    constants meaning cs !before = case cs of
+      [] -> pure before
+      Symbol.Symbol c h k : more -> add before h k (meaning c) >>= constants meaning more
+{-# INLINE foldWithSum #-}
+
+-- | Add the row of a digit.
+addDigit :: (r -> Word8 -> Int -> RowMeaning -> m r) -> Layout -> RowMeaning -> Int -> r -> m r
+addDigit add layout meaning d before =
+  add before (Symbol.digit (symbols layout) d) (Symbol.digitWeight (symbols layout) d) meaning
+{-# INLINE addDigit #-}
+
+-- | Add the sign of a number, or the digit for its direction and the leading axis.
+foldSign ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Layout ->
+  Frame ->
+  Word' ->
+  Int ->
+  r ->
+  m r
+foldSign add layout frame w n before = case sign (form w) of
+  Unsigned -> pure before
+  ServiceSign -> pure before
+  MinusSign -> if n < 0 then signSymbol '-' (minus layout) else pure before
+  EitherSign
+    | n < 0 -> signSymbol '-' (minus layout)
+    | otherwise -> signSymbol '+' (plus layout)
+  Priority leadForth leadBack forth back ->
+    priority
+      ( if isLeading layout frame (content w)
+          then (if n < 0 then leadBack else leadForth)
+          else (if n < 0 then back else forth)
+      )
+  where
+    signSymbol c (Symbol.Symbol _ h k) = add before h k (InWord (content w) n (SignSymbol c))
+    priority d =
+      addDigit add layout (InWord (content w) n (PriorityDigit d)) (d `mod` 10) before
+{-# INLINE foldSign #-}
+
+-- | Add the digits of a number with their decimal point and the holes in the service track.
+foldDigits ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Layout ->
+  Frame ->
+  Word' ->
+  Int ->
+  r ->
+  m r
+foldDigits add layout frame w n start = case service f of
+  [] -> plainDigits (count - 1) rest start
+  services -> serviceDigits (count - 1) services rest start
+  where
+    f = form w
+    meaning = InWord (content w) n
+    count = Layout.digitCount f (abs n)
+    rest = lowestDigits count (abs n)
+    -- The digits of the rest from place k down to 0.
+    plainDigits k !left !before
+      | k < 0 = pure before
+      | otherwise = do
+        let d = left `quot` Layout.power k
+        ready <- addPoint add layout w n k before
+        next <- addDigit add layout (meaning (Digit d k NoHole False)) d ready
+        plainDigits (k - 1) (left - d * Layout.power k) next
+    serviceDigits k !services !left !before
+      | k < 0 = pure before
+      | otherwise = do
+        let d = left `quot` Layout.power k
+            s = case services of
+              [] -> NoHole
+              now : _ -> now
+            isPunched = isServicePunched frame n s
+            !holes =
+              if isPunched
+                then Symbol.serviceDigit (symbols layout) d
+                else Symbol.digit (symbols layout) d
+        ready <- addPoint add layout w n k before
+        next <-
+          add ready holes (Symbol.digitWeight (symbols layout) d) (meaning (Digit d k s isPunched))
+        serviceDigits (k - 1) (drop 1 services) (left - d * Layout.power k) next
+{-# INLINE foldDigits #-}
+
+-- | Add the decimal point if it comes before the digit in place @k@.
+addPoint ::
+  Monad m =>
+  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  Layout ->
+  Word' ->
+  Int ->
+  Int ->
+  r ->
+  m r
+addPoint add layout w n k before
+  | k == decimals (form w) - 1 =
+    let Symbol.Symbol _ h weight = point layout
+     in add before h weight (InWord (content w) n Point)
+  | otherwise = pure before
+{-# INLINE addPoint #-}
+
+-- | Upper bound for the number of rows of a frame.
+mostRows :: Layout -> Int
+mostRows layout = sum (map most (steps layout))
+  where
+    most step = case step of
+      FixedStep cs -> length cs
+      CheckStep _ -> 1
+      -- Two rows more for a sign and a decimal point.
+      WordStep w _ address -> extent address + 2 + max Layout.mostDigits (digits (form w))
+
+-- | Number made of the lowest @count@ digits of a non-negative number.
+lowestDigits :: Int -> Int -> Int
+lowestDigits count n = if n < Layout.power count then n else n `rem` Layout.power count
+
+-- | Smallest digit that makes a check sum a multiple of @modulus@; 0 if there is none.
+checkDigit :: Layout -> Int -> Int -> Int
+checkDigit layout modulus total =
+  case [d | d <- [0 .. 9], (total + weightOf d) `mod` max 1 modulus == 0] of
+    d : _ -> d
+    [] -> 0
+  where
+    weightOf = Symbol.digitWeight (symbols layout)
+
+-- | True for the word of the leading axis: the one with the most pulses, the first one of several.
+-- True for all words without an axis.
+isLeading :: Layout -> Frame -> Content -> Bool
+isLeading layout frame c = case c of
+  Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]
+  _ -> True
+  where
+    pulses b = abs (ModalState.along b (increment frame))
+    most = maximum (0 : map pulses (axisOrder layout))
+
+-- | True if the service track has a hole beside a digit of the number @n@.
+isServicePunched :: Frame -> Int -> Service -> Bool
+isServicePunched frame n s = case s of
+  MinusHole -> n < 0
+  OrderBit o k -> testBit (fromMaybe 0 (lookup o (orders frame))) k
+  Marker -> True
+  BrakingHole -> braking frame
+  NoHole -> False
