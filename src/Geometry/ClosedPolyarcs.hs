@@ -1,13 +1,17 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Closed walks of lines and arcs as the kernel works on them: one after the other in the same
--- flat arrays, each with its first vertex once more behind its last, so that every segment ends at
--- the next vertex. An arc turns by half a circle at most.
+-- | Closed loops of lines and arcs as the offset kernel works on them: one after the other in the
+-- same flat arrays. After the last segment of a loop its first vertex is repeated, so that every
+-- segment ends at the next vertex. No arc sweeps more than a half circle.
 --
--- Arcs are handled by their chord and bulge alone. The power of a point @p@ with respect to the
--- circle of an arc from @a@ to @b@ is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² − 1)/2β@,
--- which keeps its digits for arcs that are nearly straight, where a centre would lose them.
+-- They are made from several "Geometry.FlatPolyarc"s, each of which is normalised on the way: tiny
+-- segments are omitted, and flat arcs become lines. One set of arrays lets a single bounding-box
+-- tree ("Geometry.Index.SegmentTree") cover all loops.
+--
+-- Arcs are handled by chord and bulge alone. The power of a point @p@ with respect to the circle of
+-- an arc from @a@ to @b@ is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² − 1)/2β@. For an
+-- almost straight arc it keeps its digits, where a centre would lose them.
 module Geometry.ClosedPolyarcs
   ( ClosedPolyarcs (..),
     fromOutlines,
@@ -50,163 +54,204 @@ import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 
+-- | Closed loops. The arrays of vertices are equally long; segment @i@ leads from vertex @i@ to
+-- @i + 1@, unless vertex @i@ is the repeated first vertex of a loop.
 data ClosedPolyarcs = ClosedPolyarcs
-  { -- | where segments begin, in mm
+  { -- | x of the segments' starts, in mm
     xs :: PrimArray Double,
+    -- | y of the segments' starts, in mm
     ys :: PrimArray Double,
-    -- | @tan(sweep/4)@; at most 1 in size
+    -- | @tan(sweep/4)@ of the segments, in [−1, 1]
     bulges :: PrimArray Double,
+    -- | the marks of the segments, as bits
     marks :: PrimArray Word8,
-    -- | the number of the segment that it stems from
+    -- | the index of the input segment from which each segment comes
     sources :: PrimArray Int32,
-    -- | where the walks begin, and where one more would
+    -- | the first vertex of each loop, and the number of all vertices
     heads :: PrimArray Int
   }
 
--- | How many walks there are.
+-- | The number of loops.
 walks :: ClosedPolyarcs -> Int
 walks c = sizeofPrimArray (heads c) - 1
 
--- | The first vertex of a walk.
+-- | The first vertex of a loop.
 first :: ClosedPolyarcs -> Int -> Int
 first c = indexPrimArray (heads c)
 {-# INLINE first #-}
 
--- | The vertex behind a walk's last segment: the copy of its first.
+-- | The vertex after a loop's last segment: the copy of its first vertex.
 behind :: ClosedPolyarcs -> Int -> Int
 behind c w = indexPrimArray (heads c) (w + 1) - 1
 {-# INLINE behind #-}
 
--- | The segment begins where the one before ends, and with its tangent.
+-- | The mark of a segment that starts in the direction in which the previous one ends.
 smooth :: Word8
 smooth = 1
 
--- | No segment: the copy of the first vertex.
+-- | The mark of a loop's repeated first vertex, at which no segment starts.
 copied :: Word8
 copied = 2
 
--- | Goes round a corner.
+-- | The mark of an arc about a corner of the source.
 around :: Word8
 around = 4
 
--- | Leads from the end of one segment over a corner of the source to the next.
+-- | The mark of a segment that connects two offset segments through a corner of the source.
 connecting :: Word8
 connecting = 8
 
--- | The first segment of a walk …
+-- | The mark of the first segment of a loop.
 opening :: Word8
 opening = 16
 
--- | … and its last.
+-- | The mark of the last segment of a loop.
 closing :: Word8
 closing = 32
 
+-- | True when a segment's marks, the second argument, include a mark.
 marked :: Word8 -> Word8 -> Bool
 marked m w = w .&. m /= 0
 {-# INLINE marked #-}
 
--- | The chain of closed outlines. Arcs over half a turn become two; segments shorter than a
--- tolerance in mm are left out, and arcs that rise by no more over their chords are lines. Segments
--- are numbered through all outlines.
+-- Construction ------------------------------------------------------------------------------
+
+-- | The loops of closed polyarcs. Arcs above a half circle are divided into two. Segments no longer
+-- than @tolerance@, in mm, are omitted, and arcs with no larger sagitta become lines. A loop of
+-- fewer than two segments is omitted. The sources count the segments of all inputs.
 fromOutlines :: Double -> [FlatPolyarc] -> ClosedPolyarcs
 fromOutlines tolerance outlines = runST $ do
-  let room = sum (map most outlines)
-  rx <- newPrimArray room
-  ry <- newPrimArray room
-  rb <- newPrimArray room
-  rm <- newPrimArray room
-  rs <- newPrimArray room
-  rh <- newPrimArray (length outlines + 1)
-  let emit !k !x !y !b !source = do
-        writePrimArray rx k x
-        writePrimArray ry k y
-        writePrimArray rb k b
-        writePrimArray rm k 0
-        writePrimArray rs k (fromIntegral (source :: Int) :: Int32)
-      walk !w !k !base rest = case rest of
-        [] -> writePrimArray rh w k >> pure (w, k)
-        FlatPolyarc _ px py pb : more -> do
-          let n = sizeofPrimArray px
-              -- The place from which the next segment begins is the end of the last one that was
-              -- long enough.
-              go !i !k' !x !y
-                | i >= n = pure k'
-                | otherwise = do
-                  let j = if i + 1 == n then 0 else i + 1
-                      x1 = indexPrimArray px j
-                      y1 = indexPrimArray py j
-                      dx = x1 - x
-                      dy = y1 - y
-                      c2 = dx * dx + dy * dy
-                      b = indexPrimArray pb i
-                      rise2 = b * b * c2 / 4
-                  if c2 <= tolerance * tolerance && rise2 <= tolerance * tolerance
-                    then go (i + 1) k' x y
-                    else do
-                      if abs b > 1
-                        then do
-                          -- The highest point of an arc lies to the right of its chord when it goes
-                          -- counter-clockwise.
-                          let half = b / (1 + sqrt (1 + b * b))
-                          emit k' x y half (base + i)
-                          emit
-                            (k' + 1)
-                            (x + 0.5 * (dx + b * dy))
-                            (y + 0.5 * (dy - b * dx))
-                            half
-                            (base + i)
-                          go (i + 1) (k' + 2) x1 y1
-                        else do
-                          emit k' x y (if rise2 <= tolerance * tolerance then 0 else b) (base + i)
-                          go (i + 1) (k' + 1) x1 y1
-              -- Most outlines are taken as they are.
-              asIs = do
-                copyPrimArray rx k px 0 n
-                copyPrimArray ry k py 0 n
-                copyPrimArray rb k pb 0 n
-                setPrimArray rm k n 0
-                number 0
-                pure (k + n)
-              number !i
-                | i >= n = pure ()
-                | otherwise = writePrimArray rs (k + i) (fromIntegral (base + i)) >> number (i + 1)
-          k1 <-
-            if n == 0
-              then pure k
-              else
-                if isPlain tolerance px py pb
-                  then asIs
-                  else go 0 k (indexPrimArray px 0) (indexPrimArray py 0)
-          if k1 - k < 2
-            then walk w k (base + n) more
-            else do
-              x <- readPrimArray rx k
-              y <- readPrimArray ry k
-              emit k1 x y 0 (base + n)
-              writePrimArray rm k opening
-              writePrimArray rm (k1 - 1) closing
-              writePrimArray rm k1 copied
-              writePrimArray rh w k
-              walk (w + 1) (k1 + 1) (base + n) more
-  (count, used) <- walk 0 0 0 outlines
-  when (count == 0) (writePrimArray rh 0 0)
-  finish rx ry rb rm rs rh used count
-  where
-    -- The most that an outline may take: an arc over half a turn counts twice.
-    most o =
-      foldlPrimArray'
-        (\m b -> if abs b > 1 then m + 1 else m)
-        (sizeofPrimArray (FlatPolyarc.bulges o) + 1)
-        (FlatPolyarc.bulges o)
+  let room = sum (map vertexBound outlines)
+  out <-
+    Arrays
+      <$> newPrimArray room
+      <*> newPrimArray room
+      <*> newPrimArray room
+      <*> newPrimArray room
+      <*> newPrimArray room
+      <*> newPrimArray (length outlines + 1)
+  let fill !loop !k !source rest = case rest of
+        [] -> writePrimArray (loopStarts out) loop k >> pure (loop, k)
+        outline : more -> do
+          let source' = source + sizeofPrimArray (FlatPolyarc.xs outline)
+          k' <- writeSegments tolerance out k source outline
+          if k' - k < 2
+            then fill loop k source' more
+            else closeLoop out loop k k' source' >> fill (loop + 1) (k' + 1) source' more
+  (count, used) <- fill 0 0 0 outlines
+  when (count == 0) (writePrimArray (loopStarts out) 0 0)
+  freeze out used count
 
--- | Whether no segment is shorter than a tolerance, no arc flatter, and none over half a turn.
+-- | The largest number of vertices that a polyarc can need: two for each arc above a half circle,
+-- one for each other segment, and the repeated first one.
+vertexBound :: FlatPolyarc -> Int
+vertexBound o =
+  foldlPrimArray'
+    (\m b -> if abs b > 1 then m + 1 else m)
+    (sizeofPrimArray (FlatPolyarc.bulges o) + 1)
+    (FlatPolyarc.bulges o)
+
+-- | The arrays of 'ClosedPolyarcs' while they are written.
+data Arrays s = Arrays
+  { vertexXs :: MutablePrimArray s Double,
+    vertexYs :: MutablePrimArray s Double,
+    vertexBulges :: MutablePrimArray s Double,
+    segmentMarks :: MutablePrimArray s Word8,
+    segmentSources :: MutablePrimArray s Int32,
+    loopStarts :: MutablePrimArray s Int
+  }
+
+-- | Write a vertex: its index, x, y, bulge and source.
+writeVertex :: Arrays s -> Int -> Double -> Double -> Double -> Int -> ST s ()
+writeVertex out !k !x !y !b !source = do
+  writePrimArray (vertexXs out) k x
+  writePrimArray (vertexYs out) k y
+  writePrimArray (vertexBulges out) k b
+  writePrimArray (segmentMarks out) k 0
+  writePrimArray (segmentSources out) k (fromIntegral source)
+{-# INLINE writeVertex #-}
+
+-- | Write the segments of a polyarc from vertex @k@ on, and return the next free vertex. The
+-- sources count from @source@.
+writeSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
+writeSegments tolerance out k source outline@(FlatPolyarc _ px py pb)
+  | sizeofPrimArray px == 0 = pure k
+  | isPlain tolerance px py pb = copySegments out k source outline
+  | otherwise = normaliseSegments tolerance out k source outline
+
+-- | 'writeSegments' of a polyarc that needs no normalisation, as most do.
+copySegments :: Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
+copySegments out !k !source (FlatPolyarc _ px py pb) = do
+  copyPrimArray (vertexXs out) k px 0 n
+  copyPrimArray (vertexYs out) k py 0 n
+  copyPrimArray (vertexBulges out) k pb 0 n
+  setPrimArray (segmentMarks out) k n 0
+  number 0
+  pure (k + n)
+  where
+    n = sizeofPrimArray px
+    number !i
+      | i >= n = pure ()
+      | otherwise =
+        writePrimArray (segmentSources out) (k + i) (fromIntegral (source + i)) >> number (i + 1)
+
+-- | 'writeSegments' of a polyarc with tiny segments, flat arcs or arcs above a half circle. Each
+-- segment starts where the last one that was not omitted ended.
+normaliseSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
+normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
+  go 0 start (indexPrimArray px 0) (indexPrimArray py 0)
+  where
+    !n = sizeofPrimArray px
+    !least = tolerance * tolerance
+    go !i !k !x !y
+      | i >= n = pure k
+      | c2 <= least && sagitta2 <= least = go (i + 1) k x y
+      | abs b > 1 = do
+        -- The highest point of a counter-clockwise arc lies to the right of its chord.
+        let half = b / (1 + sqrt (1 + b * b))
+        writeVertex out k x y half (source + i)
+        writeVertex
+          out
+          (k + 1)
+          (x + 0.5 * (dx + b * dy))
+          (y + 0.5 * (dy - b * dx))
+          half
+          (source + i)
+        go (i + 1) (k + 2) x1 y1
+      | otherwise = do
+        writeVertex out k x y (if sagitta2 <= least then 0 else b) (source + i)
+        go (i + 1) (k + 1) x1 y1
+      where
+        j = if i + 1 == n then 0 else i + 1
+        !x1 = indexPrimArray px j
+        !y1 = indexPrimArray py j
+        !dx = x1 - x
+        !dy = y1 - y
+        !c2 = dx * dx + dy * dy
+        !b = indexPrimArray pb i
+        !sagitta2 = b * b * c2 / 4
+
+-- | Finish a loop whose segments are the vertices from @k@ to before @end@: repeat its first vertex
+-- at @end@ and set the marks.
+closeLoop :: Arrays s -> Int -> Int -> Int -> Int -> ST s ()
+closeLoop out loop k end source = do
+  x <- readPrimArray (vertexXs out) k
+  y <- readPrimArray (vertexYs out) k
+  writeVertex out end x y 0 source
+  writePrimArray (segmentMarks out) k opening
+  writePrimArray (segmentMarks out) (end - 1) closing
+  writePrimArray (segmentMarks out) end copied
+  writePrimArray (loopStarts out) loop k
+
+-- | True when every segment is longer than @tolerance@, every arc has a larger sagitta, and none is
+-- above a half circle.
 isPlain :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
 isPlain !tolerance !px !py !pb =
   go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))
   where
     !n = sizeofPrimArray px
     !least = tolerance * tolerance
-    -- The segment that ends at a vertex.
+    -- The segment from (x, y), with bulge b, to vertex i.
     go !i !x !y !b
       | i >= n = True
       | otherwise =
@@ -217,34 +262,23 @@ isPlain !tolerance !px !py !pb =
               && (b == 0 || abs b <= 1 && b * b * c2 / 4 > least)
               && go (i + 1) x1 y1 (indexPrimArray pb i)
 
--- | The arrays cut to what is used of them.
-finish ::
-  MutablePrimArray s Double ->
-  MutablePrimArray s Double ->
-  MutablePrimArray s Double ->
-  MutablePrimArray s Word8 ->
-  MutablePrimArray s Int32 ->
-  MutablePrimArray s Int ->
-  Int ->
-  Int ->
-  ST s ClosedPolyarcs
-finish rx ry rb rm rs rh used count = do
-  shrinkMutablePrimArray rx used
-  shrinkMutablePrimArray ry used
-  shrinkMutablePrimArray rb used
-  shrinkMutablePrimArray rm used
-  shrinkMutablePrimArray rs used
-  shrinkMutablePrimArray rh (count + 1)
+-- | Freeze the arrays, cut to the used number of vertices and loops.
+freeze :: Arrays s -> Int -> Int -> ST s ClosedPolyarcs
+freeze out used count = do
+  mapM_ (`shrinkMutablePrimArray` used) [vertexXs out, vertexYs out, vertexBulges out]
+  shrinkMutablePrimArray (segmentMarks out) used
+  shrinkMutablePrimArray (segmentSources out) used
+  shrinkMutablePrimArray (loopStarts out) (count + 1)
   ClosedPolyarcs
-    <$> unsafeFreezePrimArray rx
-      <*> unsafeFreezePrimArray ry
-      <*> unsafeFreezePrimArray rb
-      <*> unsafeFreezePrimArray rm
-      <*> unsafeFreezePrimArray rs
-      <*> unsafeFreezePrimArray rh
+    <$> unsafeFreezePrimArray (vertexXs out)
+      <*> unsafeFreezePrimArray (vertexYs out)
+      <*> unsafeFreezePrimArray (vertexBulges out)
+      <*> unsafeFreezePrimArray (segmentMarks out)
+      <*> unsafeFreezePrimArray (segmentSources out)
+      <*> unsafeFreezePrimArray (loopStarts out)
 
--- | An open outline there and back, as a closed one. Its segments keep their numbers on the way
--- there; on the way back, the one that was last of @n@ has the number @n@.
+-- | An open polyarc of @n@ segments as a closed one that runs to its end and back. Segment
+-- @n + i@ is segment @n − 1 − i@ in the opposite direction.
 twoSided :: FlatPolyarc -> FlatPolyarc
 twoSided o@(FlatPolyarc _ px py pb) =
   FlatPolyarc
@@ -260,36 +294,36 @@ twoSided o@(FlatPolyarc _ px py pb) =
         (2 * n)
         (\i -> if i < n then indexPrimArray a i else indexPrimArray b (i - n))
 
--- | The largest coordinate in size: what rounding is measured by.
+-- | The largest absolute value of a coordinate, in mm; rounding errors are proportional to it.
 extent :: [FlatPolyarc] -> Double
 extent = foldl (\m o -> largest (largest m (FlatPolyarc.xs o)) (FlatPolyarc.ys o)) 0
   where
     largest = foldlPrimArray' (\m a -> if abs a > m then abs a else m)
 
--- | Some of the walks.
+-- | The loops with the given indices, in that order.
 only :: [Int] -> ClosedPolyarcs -> ClosedPolyarcs
-only ws c =
+only loops c =
   ClosedPolyarcs
     { xs = gathered (xs c),
       ys = gathered (ys c),
       bulges = gathered (bulges c),
       marks = gathered (marks c),
       sources = gathered (sources c),
-      heads = primArrayFromList (scanl (+) 0 (map size ws))
+      heads = primArrayFromList (scanl (+) 0 (map size loops))
     }
   where
     size w = behind c w + 1 - first c w
     gathered :: Prim a => PrimArray a -> PrimArray a
-    gathered a = mconcat [clonePrimArray a (first c w) (size w) | w <- ws]
+    gathered a = mconcat [clonePrimArray a (first c w) (size w) | w <- loops]
 
--- | A walk as an outline.
+-- | The loop with an index as a closed polyarc.
 closed :: ClosedPolyarcs -> Int -> FlatPolyarc
 closed c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
   where
     cut a = clonePrimArray a (first c w) (behind c w - first c w)
 
--- | Segments that do not hang together, from x, y to x, y with a bulge: the first has the number 0,
--- the next one 2, and so on.
+-- | Unconnected segments, each in a loop of its own that is not closed: the first has index 0, the
+-- next 2, and so on. Each is given by x and y of its start, x and y of its end, and its bulge.
 apart :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
 apart ss =
   ClosedPolyarcs
@@ -301,7 +335,9 @@ apart ss =
       heads = primArrayFromList [2 * k | k <- [0 .. length ss]]
     }
 
--- | The vector from the beginning of a segment to its end.
+-- Segments ----------------------------------------------------------------------------------
+
+-- | The chord of a segment, from its start to its end, passed to a continuation.
 chord :: ClosedPolyarcs -> Int -> (Double -> Double -> r) -> r
 chord c i k =
   let x0 = indexPrimArray (xs c) i
@@ -309,8 +345,8 @@ chord c i k =
    in k (indexPrimArray (xs c) (i + 1) - x0) (indexPrimArray (ys c) (i + 1) - y0)
 {-# INLINE chord #-}
 
--- | The power of a point with respect to an arc's circle: the square of its distance from the
--- centre less that of the radius. In mm².
+-- | The power of a point with respect to an arc's circle: the squared distance from the centre less
+-- the squared radius, in mm².
 power :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - (y1 - y0) * ax)
   where
@@ -325,7 +361,7 @@ power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - 
     by = py - y1
 {-# INLINE power #-}
 
--- | How the power grows at a point: twice the vector from the centre.
+-- | The gradient of 'power' at a point, passed to a continuation: twice the vector from the centre.
 gradient :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 gradient c i px py k =
   k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py - y1 + kappa * (x1 - x0))
@@ -338,30 +374,28 @@ gradient c i px py k =
     kappa = (b * b - 1) / (2 * b)
 {-# INLINE gradient #-}
 
--- | The curvature of a segment, to the left, in 1/mm: with a chord c and a bulge b it is @4·b / ((1
--- + b²)·c)@.
+-- | The curvature of a segment in 1/mm, positive to the left: @4·b / ((1 + b²)·c)@ for a chord c
+-- and a bulge b.
 curvature :: ClosedPolyarcs -> Int -> Double
 curvature c i =
   chord c i $ \dx dy ->
-    let b =
-          indexPrimArray (bulges c) i
+    let b = indexPrimArray (bulges c) i
      in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy))
 {-# INLINE curvature #-}
 
--- | The diameter of an arc's circle.
+-- | The diameter of an arc's circle, in mm.
 diameter :: ClosedPolyarcs -> Int -> Double
 diameter c i =
   chord c i $ \dx dy ->
-    let b =
-          indexPrimArray (bulges c) i
+    let b = indexPrimArray (bulges c) i
      in sqrt (dx * dx + dy * dy) * (1 + b * b) / (2 * abs b)
 {-# INLINE diameter #-}
 
--- | The bulge of the part of a segment between two points on it: for an arc about a centre from
--- which they are seen at
--- @a@ and @b@, @tan(θ/2)@ is @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@, which keeps its
---  digits up to half a turn;
--- and @tan(θ/4) = p / (q + √(p² + q²))@ when @tan(θ/2) = p/q@.
+-- | The bulge of the part of a segment between two points on it.
+--
+-- With the vectors @a@ and @b@ from the arc's centre to the points, @tan(θ/2)@ is
+-- @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@ where that keeps more digits, up to a half
+-- circle. Then @tan(θ/4) = p / (q + √(p² + q²))@ for @tan(θ/2) = p/q@.
 part :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
 part c i px py qx qy
   | b == 0 = 0

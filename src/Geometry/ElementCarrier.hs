@@ -1,4 +1,8 @@
--- | What a contour walks on.
+-- | The carriers of a contour's elements.
+--
+-- An element lies on a line, on a circle with a sense, on a curve, or it is a single point. A
+-- 'Geometry.Carrier.Carrier' is a line or a circle without a sense, which does not suffice here:
+-- fillets and links depend on the direction of travel.
 module Geometry.ElementCarrier
   ( ElementCarrier (..),
     ofSegment,
@@ -7,11 +11,11 @@ module Geometry.ElementCarrier
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..))
 import Data.List.NonEmpty (NonEmpty (..))
-import Geometry.Carrier (Circle (Circle), Line (Line), Sense (..))
+import Geometry.Carrier (Circle (Circle), Line (Line), Sense)
 import Geometry.Carrier qualified as Carrier
-import Geometry.Index.BoundingBox (BoundingBox)
+import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.MeasuredPolyarc (Polyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
@@ -20,38 +24,41 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
+-- | The carrier of an element, with the direction of travel.
 data ElementCarrier
   = OnLine {-# UNPACK #-} Line
   | OnCircle Sense {-# UNPACK #-} Circle
-  | -- | a curve, as far as it goes
+  | -- | a curve from its start to its end
     OnCurve Polyarc
-  | -- | a corner that the contour passes through
+  | -- | a corner through which the contour passes
     AtPoint {-# UNPACK #-} Point
   deriving stock (Eq, Show)
 
--- | The line or the circle of a segment, walked its way.
+-- | The directed line or circle of a segment.
 ofSegment :: Segment -> ElementCarrier
 ofSegment s = case s of
   Straight p q -> OnLine (Line p q)
-  Arc {start, centre, sweep = Rad a} ->
-    OnCircle
-      (if a > 0 then CounterClockwise else Clockwise)
-      (Circle centre (Segment.radius centre start))
+  Arc {start, centre, sweep} ->
+    OnCircle (Carrier.senseOf sweep) (Circle centre (Segment.radius centre start))
 
--- | As much of a shape as can reach into a box, as segments.
+-- | Segments on the carrier that include all of it that lies in a bounding box. A line is cut to
+-- the box with a margin of 1 mm; circles and curves are given whole.
 within :: BoundingBox -> ElementCarrier -> NonEmpty Segment
-within box walked = case walked of
-  OnLine l ->
-    let BoundingBox.BoundingBox left bottom right top = BoundingBox.inflate (Mm 1) box
-        along p = let Mm s = alongLine l p in s
-        marks = [along (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
-        place s = Vec.shift (Vec.scale s (Carrier.direction l)) (Carrier.from l)
-     in Straight (place (minimum marks)) (place (maximum marks)) :| []
-  OnCircle turn circle@(Circle c (Mm r)) ->
-    Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c) :| []
+within box carrier = case carrier of
+  OnLine l -> lineWithin box l :| []
+  OnCircle sense circle@(Circle c (Mm r)) ->
+    Segment.fullCircle sense circle (Vec.shift (Vec.vec r 0) c) :| []
   OnCurve p -> MeasuredPolyarc.segments p
   AtPoint p -> Straight p p :| []
 
--- | How far along a line the foot of a point lies.
+-- | The shortest segment of a line onto which a bounding box, with a margin of 1 mm, projects.
+lineWithin :: BoundingBox -> Line -> Segment
+lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
+  where
+    BoundingBox left bottom right top = BoundingBox.inflate (Mm 1) box
+    corners = [alongLine l (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
+    at (Mm s) = Vec.shift (Vec.scale s (Carrier.direction l)) (Carrier.from l)
+
+-- | The position of a point's foot along a line, in mm from the first point of the line.
 alongLine :: Line -> Point -> Mm
 alongLine l p = Mm (Vec.dot (Carrier.direction l) (Vec.to (Carrier.from l) p))

@@ -1,9 +1,11 @@
--- | Chains of lines and arcs in flat arrays: what the offset kernel reads and writes.
+-- | Polyarcs in flat arrays: the input and output of the offset kernel and of arc fitting.
 --
--- A vertex has its place in mm and the bulge of the segment that begins there, @tan(sweep/4)@: 0
--- for a line, positive for an arc that is walked counter-clockwise, ±1 for half a circle. Arcs of
--- more than half a turn are two segments here, so that each bulge is a small number and each chord
--- has a length.
+-- A vertex has coordinates in mm and the bulge of the segment that starts there, @tan(sweep/4)@: 0
+-- for a line, positive for a counter-clockwise arc, ±1 for a half circle. Arcs above a half circle
+-- are stored as two segments, so that no bulge is large and every chord has a length.
+--
+-- The arrays are unboxed: a vertex takes 24 bytes, a segment in a list 64 to 88. They
+-- are made from a "Geometry.Polyarc", or written vertex by vertex.
 module Geometry.FlatPolyarc
   ( FlatPolyarc (..),
     outline,
@@ -31,8 +33,8 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
--- | The arrays are equally long. A closed outline goes on from its last vertex to its first; an
--- open one ends at its last vertex, whose bulge means nothing.
+-- | Three arrays of equal length. The last segment of a closed polyarc leads from its last vertex
+-- to its first. An open one ends at its last vertex, whose bulge has no meaning.
 data FlatPolyarc = FlatPolyarc
   { ends :: Ends,
     xs :: PrimArray Double,
@@ -41,7 +43,7 @@ data FlatPolyarc = FlatPolyarc
   }
   deriving stock (Eq, Show)
 
--- | From vertices in order: x and y in mm, bulge.
+-- | The polyarc of vertices in order: x and y in mm, and the bulge.
 outline :: Ends -> [(Double, Double, Double)] -> FlatPolyarc
 outline ends vs =
   FlatPolyarc
@@ -51,7 +53,7 @@ outline ends vs =
       bulges = PrimArray.primArrayFromList [b | (_, _, b) <- vs]
     }
 
--- | x and y in mm, bulge; in order.
+-- | The vertices in order: x and y in mm, and the bulge.
 vertices :: FlatPolyarc -> [(Double, Double, Double)]
 vertices o =
   zip3
@@ -59,35 +61,35 @@ vertices o =
     (PrimArray.primArrayToList (ys o))
     (PrimArray.primArrayToList (bulges o))
 
--- | How many segments it has.
+-- | The number of segments.
 size :: FlatPolyarc -> Int
 size o = case ends o of
   Closed -> PrimArray.sizeofPrimArray (xs o)
   Open -> max 0 (PrimArray.sizeofPrimArray (xs o) - 1)
 
--- | The same outline walked the other way; a closed one begins at the same vertex.
+-- | The polyarc in the opposite direction. A closed one keeps its first vertex.
 reverse :: FlatPolyarc -> FlatPolyarc
 reverse o@FlatPolyarc {ends} =
   FlatPolyarc
     { ends,
-      xs = turned (xs o),
-      ys = turned (ys o),
+      xs = reordered (xs o),
+      ys = reordered (ys o),
       bulges = PrimArray.generatePrimArray n bulge
     }
   where
     n = PrimArray.sizeofPrimArray (xs o)
-    turned a = PrimArray.generatePrimArray n (PrimArray.indexPrimArray a . place)
-    place i = case ends of
+    reordered a = PrimArray.generatePrimArray n (PrimArray.indexPrimArray a . old)
+    old i = case ends of
       Closed -> if i == 0 then 0 else n - i
       Open -> n - 1 - i
-    -- The segment behind a vertex is the one that was before it.
+    -- The segment that starts at a vertex is the one that ended there.
     bulge i = case ends of
       Closed -> -(PrimArray.indexPrimArray (bulges o) (n - 1 - i))
       Open -> if i == n - 1 then 0 else -(PrimArray.indexPrimArray (bulges o) (n - 2 - i))
 
--- | The area that a closed outline encloses, in mm²; positive when it is walked counter-clockwise.
--- Of a chord @c@ and an arc that sweeps @s@ over it the part between them is @c²·(s − sin
--- s)/(8·sin²(s/2))@.
+-- | The area that a closed polyarc encloses, in mm²; positive when it is counter-clockwise. It is
+-- the area of the polygon of chords (shoelace formula) and those between arcs and chords:
+-- @c²·(s − sin s)/(8·sin²(s/2))@ for a chord @c@ and a sweep @s@.
 area :: FlatPolyarc -> Double
 area o = folded o $ \x0 y0 x1 y1 b ->
   let ax = x0 - ox
@@ -101,22 +103,22 @@ area o = folded o $ \x0 y0 x1 y1 b ->
     square a = a * a
     between cc b
       | b == 0 = 0
-      -- The series of the formula below, which loses its digits here.
+      -- The first terms of the power series: the formula below cancels for small bulges.
       | abs b < 1e-3 = cc * b / 3 * (1 + b * b / 5)
       | otherwise = let s = 4 * atan b in cc * (s - sin s) / (8 * square (sin (s / 2)))
 
--- | The length of the walk.
+-- | The length along all segments.
 length :: FlatPolyarc -> Mm
 length o = Mm . folded o $ \x0 y0 x1 y1 b ->
   let chord = sqrt ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
    in if b == 0
         then chord
         else
-          let s =
-                4 * atan (abs b)
+          let s = 4 * atan (abs b)
            in if s < 1e-6 then chord * (1 + s * s / 24) else chord * s / (2 * sin (s / 2))
 
--- | The sum of a measure over the segments: of both ends and the bulge.
+-- | The sum of a measure over the segments. Its arguments are x and y of the start, x and y of the
+-- end, and the bulge.
 folded :: FlatPolyarc -> (Double -> Double -> Double -> Double -> Double -> Double) -> Double
 folded o f = go 0 0
   where
@@ -133,16 +135,17 @@ folded o f = go 0 0
               (total + f (at (xs o) i) (at (ys o) i) (at (xs o) j) (at (ys o) j) (at (bulges o) i))
 {-# INLINE folded #-}
 
--- | A contour, and for each segment of the outline the number of the contour's segment, from 0.
+-- | The flat form of a polyarc, and for each of its segments the index of the polyarc's segment,
+-- from 0.
 fromContour :: Polyarc -> (FlatPolyarc, PrimArray Int)
 fromContour (Polyarc ends ss) =
   fromSegments ends (Vector.fromListN (NonEmpty.length ss) (NonEmpty.toList ss))
 
--- | The same of the segments of a contour, of which there is one at least.
+-- | The flat form of a polyarc with at least one segment, given as a vector; and for each of its
+-- segments the index of the vector's segment.
 fromSegments :: Ends -> Vector Segment -> (FlatPolyarc, PrimArray Int)
 fromSegments ends ss = runST $ do
-  -- A long arc takes two.
-  let room = Vector.foldl' (\k s -> if isLong s then k + 2 else k + 1) 1 ss
+  let room = Vector.foldl' (\k s -> if isOverHalf s then k + 2 else k + 1) 1 ss
   px <- PrimArray.newPrimArray room
   py <- PrimArray.newPrimArray room
   pb <- PrimArray.newPrimArray room
@@ -152,11 +155,11 @@ fromSegments ends ss = runST $ do
         PrimArray.writePrimArray py k (Vec.y p)
         PrimArray.writePrimArray pb k b
       put k i s = do
-        vertex k (Segment.start s) (bulge s)
+        vertex k (Segment.start s) (Segment.toBulge s)
         PrimArray.writePrimArray numbers k (i :: Int)
       fill k i
         | i >= Vector.length ss = pure k
-        | isLong s,
+        | isOverHalf s,
           (front, back) <- Segment.cutAt 0.5 s =
           put k i front >> put (k + 1) i back >> fill (k + 2) (i + 1)
         | otherwise = put k i s >> fill (k + 1 :: Int) (i + 1)
@@ -168,19 +171,16 @@ fromSegments ends ss = runST $ do
     Open -> (count + 1) <$ vertex count (Segment.end (Vector.last ss)) 0
   mapM_ (`PrimArray.shrinkMutablePrimArray` used) [px, py, pb]
   PrimArray.shrinkMutablePrimArray numbers count
-  o <-
-    FlatPolyarc ends
-      <$> PrimArray.unsafeFreezePrimArray px
-        <*> PrimArray.unsafeFreezePrimArray py
-        <*> PrimArray.unsafeFreezePrimArray pb
-  (o,) <$> PrimArray.unsafeFreezePrimArray numbers
-  where
-    bulge s = case s of
-      Straight _ _ -> 0
-      Arc {sweep = Rad a} -> tan (a / 4)
-    isLong s = case s of
-      Straight _ _ -> False
-      Arc {sweep = Rad a} -> abs a > pi
+  xs <- PrimArray.unsafeFreezePrimArray px
+  ys <- PrimArray.unsafeFreezePrimArray py
+  bulges <- PrimArray.unsafeFreezePrimArray pb
+  (FlatPolyarc {ends, xs, ys, bulges},) <$> PrimArray.unsafeFreezePrimArray numbers
+
+-- | True of an arc above a half circle, which becomes two segments.
+isOverHalf :: Segment -> Bool
+isOverHalf s = case s of
+  Straight _ _ -> False
+  Arc {sweep = Rad a} -> abs a > pi
 
 -- | The segments in order.
 segments :: FlatPolyarc -> [Segment]
@@ -188,12 +188,6 @@ segments o = map segment [0 .. size o - 1]
   where
     n = PrimArray.sizeofPrimArray (xs o)
     vertex i = Vec.point (PrimArray.indexPrimArray (xs o) i) (PrimArray.indexPrimArray (ys o) i)
+    next i = if i + 1 == n then 0 else i + 1
     segment i =
-      let a = vertex i
-          b = vertex (if i + 1 == n then 0 else i + 1)
-          g = PrimArray.indexPrimArray (bulges o) i
-       in if g == 0
-            then Straight a b
-            else Arc {start = a, end = b, centre = centreOf a b g, sweep = Rad (4 * atan g)}
-    centreOf a b g =
-      Vec.shift (Vec.scale ((1 - g * g) / (4 * g)) (Vec.left (Vec.to a b))) (Vec.between 0.5 a b)
+      Segment.fromBulge (vertex i) (vertex (next i)) (PrimArray.indexPrimArray (bulges o) i)

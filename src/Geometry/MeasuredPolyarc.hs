@@ -1,6 +1,10 @@
--- | Chains of straight lines and arcs that are walked as one thing: what stands for a curve.
+-- | Polyarcs with a table of arc lengths: the chains of lines and arcs that represent curves.
 --
--- A place on a chain is its distance from the beginning along the chain, in mm.
+-- A position on one is its distance from the start along the polyarc, its station, in mm. The table
+-- and the array of segments give a point by its station in logarithmic time, which a list cannot.
+-- They are made from segments or from a "Geometry.FlatPolyarc".
+--
+-- The module also owns intersections and distances of two polyarcs, given as lists of segments.
 module Geometry.MeasuredPolyarc
   ( Polyarc,
     fromSegments,
@@ -12,17 +16,21 @@ module Geometry.MeasuredPolyarc
     length,
     isClosed,
     joints,
+
+    -- * Stations
     at,
     directionAt,
     station,
     stretch,
+
+    -- * Two polyarcs
     meetings,
     gap,
   )
 where
 
 import Base.BinarySearch qualified as BinarySearch
-import Base.Quantity (Mm (..), Rad (..), plus)
+import Base.Quantity (Mm (..), plus, times)
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -38,190 +46,163 @@ import Geometry.Distance qualified as Distance
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.Segment (Segment (Arc, Straight))
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
--- | Segments with a length, each of which ends where the next begins, and the places where they
--- begin.
-data Polyarc = Polyarc {chain :: Vector Segment, stations :: ~(Unboxed.Vector Double)}
+-- | At least one segment, each starting where the previous one ends; and the stations of their
+-- starts and of the end, computed when first needed.
+data Polyarc = Polyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
+-- | The polyarc of segments in order.
 fromSegments :: NonEmpty Segment -> Polyarc
-fromSegments ss = ofChain (Vector.fromList (NonEmpty.toList ss))
+fromSegments ss = fromVector (Vector.fromList (NonEmpty.toList ss))
 
-ofChain :: Vector Segment -> Polyarc
-ofChain chain =
-  Polyarc
-    { chain,
-      stations =
-        Unboxed.scanl'
-          (+)
-          0
-          (Unboxed.convert (Vector.map (\g -> let Mm l = Segment.length g in l) chain))
-    }
-
--- | An open outline with two vertices at least.
-fromOutline :: FlatPolyarc -> Polyarc
-fromOutline o = ofChain (Vector.unfoldrN (n - 1) segment (0, place 0))
+fromVector :: Vector Segment -> Polyarc
+fromVector chain = Polyarc {chain, table = Unboxed.scanl' (+) 0 lengths}
   where
-    n = FlatPolyarc.size o + 1
-    place i =
+    lengths = Unboxed.convert (Vector.map (\s -> let Mm l = Segment.length s in l) chain)
+
+-- | The polyarc of an open flat one with at least two vertices. Consecutive segments share their
+-- points in memory.
+fromOutline :: FlatPolyarc -> Polyarc
+fromOutline flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0))
+  where
+    n = FlatPolyarc.size flat + 1
+    vertex i =
       Vec.point
-        (PrimArray.indexPrimArray (FlatPolyarc.xs o) i)
-        (PrimArray.indexPrimArray (FlatPolyarc.ys o) i)
-    -- Neighbours share their points.
+        (PrimArray.indexPrimArray (FlatPolyarc.xs flat) i)
+        (PrimArray.indexPrimArray (FlatPolyarc.ys flat) i)
     segment (i, p)
       | i + 1 >= n = Nothing
       | otherwise =
-        let q = place (i + 1)
-            s = bent p q (PrimArray.indexPrimArray (FlatPolyarc.bulges o) i)
+        let q = vertex (i + 1)
+            s = Segment.fromBulge p q (PrimArray.indexPrimArray (FlatPolyarc.bulges flat) i)
          in s `seq` Just (s, (i + 1, q))
 
--- | A line, or the arc of a bulge.
-bent :: Point -> Point -> Double -> Segment
-bent p q b
-  | b == 0 = Straight p q
-  | otherwise =
-    Arc
-      { Segment.start = p,
-        Segment.end = q,
-        Segment.centre =
-          Vec.shift
-            (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q)))
-            (Vec.between 0.5 p q),
-        Segment.sweep = Rad (4 * atan b)
-      }
-
--- | In the order of the walk.
+-- | The segments in order.
 segments :: Polyarc -> NonEmpty Segment
 segments p = Vector.head (chain p) :| drop 1 (Vector.toList (chain p))
 
--- | How many segments there are.
+-- | The number of segments.
 count :: Polyarc -> Int
 count = Vector.length . chain
 
+-- | The first point.
 start :: Polyarc -> Point
 start = Segment.start . Vector.head . chain
 
+-- | The last point.
 end :: Polyarc -> Point
 end = Segment.end . Vector.last . chain
 
+-- | The length along all segments.
 length :: Polyarc -> Mm
-length = Mm . Unboxed.last . stations
+length = Mm . Unboxed.last . table
 
--- | The places at which its segments begin, and its end; in mm.
+-- | The stations at which the segments start, and that of the end; in mm.
 joints :: Polyarc -> [Double]
-joints = Unboxed.toList . stations
+joints = Unboxed.toList . table
 
--- | Whether it ends where it begins.
+-- | True when the polyarc ends where it starts, to 'Tolerance.coincident'.
 isClosed :: Polyarc -> Bool
 isClosed p = Vec.near (start p) (end p)
 
--- | The segment that holds a place, and the fraction of its length there.
+-- | The index of the segment that contains a station, and the fraction of its length there.
 locate :: Polyarc -> Mm -> (Int, Double)
-locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - stations p Unboxed.! i) / l)))
+locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - table p Unboxed.! i) / l)))
   where
-    i = BinarySearch.lastBelow (Vector.length (chain p)) s (stations p)
-    l = stations p Unboxed.! (i + 1) - stations p Unboxed.! i
+    i = BinarySearch.lastBelow (Vector.length (chain p)) s (table p)
+    l = table p Unboxed.! (i + 1) - table p Unboxed.! i
 
--- | The point at a place; at the nearer end for a place outside.
+-- | The point at a station; the nearer end for a station outside of the polyarc.
 at :: Polyarc -> Mm -> Point
 at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
 
--- | The direction of the walk at a place, of length 1.
+-- | The direction of travel at a station, of length 1.
 directionAt :: Polyarc -> Mm -> Vec
 directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
 
--- | The place nearest to a point. Linear in the number of segments.
+-- | The station nearest to a point. The time is linear in the number of segments.
 station :: Polyarc -> Point -> Mm
-station p q = Mm (stations p Unboxed.! best + max 0 (min 1 along) * l)
+station p q = Mm (table p Unboxed.! best + Distance.nearestFraction q segment * l)
   where
-    best =
-      fst
-        ( minimumBy
-            (comparing snd)
-            [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))]
-        )
-    s' = chain p Vector.! best
-    Mm l = Segment.length s'
-    along
-      | Segment.spans s' q = Segment.fraction s' q
-      | Vec.distance q (Segment.start s') <= Vec.distance q (Segment.end s') = 0
-      | otherwise = 1
+    best = fst (minimumBy (comparing snd) distances)
+    distances = [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))]
+    segment = chain p Vector.! best
+    Mm l = Segment.length segment
 
--- | The segments from one place to a later one. What is shorter than a point at either end is left
--- out.
+-- | The segments from one station to a later one, the first and the last cut there. A part no
+-- longer than 'Tolerance.coincident' at either end is omitted.
 stretch :: Polyarc -> Mm -> Mm -> [Segment]
 stretch p a b =
-  [ piece i
+  [ part i
     | i <- [i1 .. i2],
-      let Mm l = Segment.length (piece i),
+      let Mm l = Segment.length (part i),
       Mm l > Tolerance.coincident || i1 == i2 && l > 0
   ]
   where
     (i1, t1) = locate p a
     (i2, t2) = locate p b
-    piece i =
+    part i =
       let s = chain p Vector.! i
           front = if i == i2 && t2 < 1 then fst (Segment.cutAt t2 s) else s
        in if i == i1 && t1 > 0
             then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front)
             else front
 
--- | The points that two chains have in common, in the order of the first one. Chains that stand for
--- curves touch when they come as near as both are off; where they touch they may cross twice, and
--- that is one point.
+-- | The intersections of two polyarcs, in the order of the first. Polyarcs that represent curves
+-- differ from them by up to 'Tolerance.curve'. They therefore count as touching when they come
+-- within twice that distance, and two intersections where they touch count as one.
 meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
-meetings a b = case touching (crossings a b) of
+meetings a b = case mergeTouching (crossings a b) of
   [] | closest <- nearest a b, distance closest <= slack -> [place closest]
   ps -> ps
   where
     slack = plus Tolerance.curve Tolerance.curve
     whole = fromSegments a
-    touching ps = case ps of
+    mergeTouching ps = case ps of
       p : q : rest
-        | toOther middle <= slack && Vec.distance p q < touch -> touching (middle : rest)
-        where
-          middle =
-            at whole (let (Mm s, Mm t) = (station whole p, station whole q) in Mm ((s + t) / 2))
-      p : rest -> p : touching rest
+        | middle <- midway p q,
+          toOther middle <= slack && Vec.distance p q < longestTouch ->
+          mergeTouching (middle : rest)
+      p : rest -> p : mergeTouching rest
       [] -> []
+    midway p q = at whole (times 0.5 (plus (station whole p) (station whole q)))
     toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
-    -- Curves that run along one another for longer do not just touch.
-    touch = Mm 0.5
+    -- Curves that stay together for longer overlap rather than touch.
+    longestTouch = Mm 0.5
 
--- | The points where two chains cross, in the order of the first one.
+-- | The points at which two polyarcs cross or touch, in the order of the first.
 crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 crossings a b =
-  apart
-    (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (others s)) (NonEmpty.toList a))
+  distinct
+    (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (closeTo s)) (NonEmpty.toList a))
   where
-    index = BoundingBox.index BoundingBox.ofSegment (NonEmpty.toList b)
-    others s =
-      BoundingBox.within (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment s)) index
+    tree = BoxTree.index BoundingBox.ofSegment (NonEmpty.toList b)
+    closeTo s =
+      BoxTree.within (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment s)) tree
     inOrder s ps = map snd (nubOrd [(Segment.fraction s p, p) | p <- ps])
-    -- Where segments join, both of them have the point; near such a place it may be twice with a
-    -- small error.
-    apart ps = case ps of
+    -- Both segments at a joint give the point there, with different rounding errors.
+    distinct ps = case ps of
       [] -> []
-      p : rest ->
-        p :
-        apart
-          (filter (\q -> Vec.distance p q > plus Tolerance.coincident Tolerance.coincident) rest)
+      p : rest -> p : distinct (filter (\q -> Vec.distance p q > sameWithin) rest)
+    sameWithin = plus Tolerance.coincident Tolerance.coincident
 
--- | The least distance of two chains.
+-- | The least distance of two polyarcs.
 gap :: NonEmpty Segment -> NonEmpty Segment -> Mm
 gap a b = distance (nearest a b)
 
--- | Where two chains come nearest to one another.
+-- | The least distance of two polyarcs, and the point of the first at which it occurs.
 nearest :: NonEmpty Segment -> NonEmpty Segment -> ClosestPoint
 nearest a b =
   fromMaybe
     (Distance.segments (NonEmpty.head a) (NonEmpty.head b))
-    (BoundingBox.closest Distance.segments distance (indexOf a) (indexOf b))
+    (BoxTree.closestPair Distance.segments distance (treeOf a) (treeOf b))
   where
-    indexOf = BoundingBox.index BoundingBox.ofSegment . NonEmpty.toList
+    treeOf = BoxTree.index BoundingBox.ofSegment . NonEmpty.toList

@@ -1,4 +1,9 @@
--- | Contours: chains of segments, open or closed, each ending where the next begins.
+-- | Polyarcs: chains of segments, open or closed. Each segment starts where the previous one ends.
+--
+-- This is the basic representation, a list of segments; contours, toolpaths and frames are built
+-- from it. Three others are made from it where a list is too slow: "Geometry.MeasuredPolyarc" for
+-- positions by arc length, "Geometry.FlatPolyarc" for the offset kernel's input and output, and
+-- "Geometry.ClosedPolyarcs" for the inside of the kernel.
 module Geometry.Polyarc
   ( Polyarc (..),
     Ends (..),
@@ -19,32 +24,35 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
--- | Whether the last segment ends where the first begins.
+-- | Closed when the last segment ends where the first one starts.
 data Ends = Open | Closed
   deriving stock (Eq, Show)
 
--- | Segments in the order of the walk.
+-- | Segments in the direction of travel.
 data Polyarc = Polyarc {ends :: Ends, segments :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
+-- | The sum of the segments' lengths.
 length :: Polyarc -> Mm
 length = total . map Segment.length . NonEmpty.toList . segments
 
--- | The same contour walked the other way; a closed one begins at the same point.
+-- | The polyarc in the opposite direction. A closed one keeps its start point.
 reverse :: Polyarc -> Polyarc
 reverse (Polyarc ends ss) = Polyarc ends (NonEmpty.reverse (fmap Segment.reverse ss))
 
--- | Neighbouring segments in order, with the number of the first from 0.
+-- | All pairs of consecutive segments in order, each with the index of its first segment from 0.
+-- For a closed polyarc the last pair is the last segment and the first.
 joints :: Polyarc -> [(Int, Segment, Segment)]
-joints (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> back)
+joints (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> closing)
   where
     list = NonEmpty.toList ss
-    back = case ends of
+    closing = case ends of
       Open -> []
       Closed -> [NonEmpty.head ss]
 
--- | Let each segment begin exactly where the one before it ends, and a closed contour end where it
--- begins. The gaps are rounding errors.
+-- | Close the gaps that rounding leaves between the segments of a list of things: each segment is
+-- made to start exactly at the end of the previous one, and the last of a closed polyarc to end at
+-- the start of the first. @get@ and @set@ read and replace the segment of a thing.
 chained :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
 chained get set ends (first :| rest) = case rest of
   [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
@@ -53,27 +61,26 @@ chained get set ends (first :| rest) = case rest of
     follow from things = case things of
       [] -> []
       [a] ->
-        [ set
-            (case ends of Open -> (get a) {start = from}; Closed -> closing (get a) {start = from})
-            a
-        ]
+        let s = (get a) {start = from}
+         in [set (case ends of Open -> s; Closed -> closing s) a]
       a : more
         | isAt from (start (get a)) -> a : follow (end (get a)) more
         | otherwise ->
-          let s =
-                (get a) {start = from}
+          let s = (get a) {start = from}
               a' = set s a
            in a' `seq` (a' : follow (end s) more)
-    -- Zeros of either sign are equal, but not the same.
+    -- 0 and −0 are equal but print differently; points with a zero coordinate are always replaced.
     isAt p q = p == q && Vec.x p /= 0 && Vec.y p /= 0
     closing s = s {end = start (get first)}
 {-# INLINE chained #-}
 
--- | The area that a closed contour encloses, in mm²; positive when it is walked counter-clockwise.
+-- | The area that a closed polyarc encloses, in mm²; positive when it is counter-clockwise.
 signedArea :: Polyarc -> Double
 signedArea (Polyarc _ ss) = areaOf id ss
 
--- | The same of anything with segments.
+-- | The signed area, in mm², that the segments of a list of things enclose. It is the sum of the
+-- triangles from the first start point to the chords (shoelace formula) and of the segments between
+-- the arcs and their chords, @r²·(φ − sin φ)/2@.
 areaOf :: (a -> Segment) -> NonEmpty a -> Double
 areaOf get (first :| others) = go 0 first others
   where
@@ -81,10 +88,9 @@ areaOf get (first :| others) = go 0 first others
       [] -> area + part (get a)
       b : more -> let area' = area + part (get a) in area' `seq` go area' b more
     origin = Segment.start (get first)
-    part segment = triangle segment + sector segment
+    part segment = triangle segment + circularSegment segment
     triangle s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2
-    -- The area between an arc and its chord.
-    sector s = case s of
+    circularSegment s = case s of
       Straight _ _ -> 0
       Arc {start, centre, sweep = Rad a} ->
         let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2

@@ -1,32 +1,49 @@
--- | Segments: the straight lines and circular arcs that contours and paths are made of.
+-- | Segments: the straight lines and circular arcs of which polyarcs and toolpaths consist.
+--
+-- The module owns everything that concerns one segment: its construction from a centre or a bulge,
+-- points and directions along it, its carrier, its reversal, division and offset. Distances and
+-- intersections of two segments are in "Geometry.Distance".
 module Geometry.Segment
   ( Segment (..),
+
+    -- * Construction
     arc,
     fullCircle,
+    fromBulge,
+
+    -- * Measures
     length,
+    radius,
+    bulge,
+    toBulge,
+    carrier,
+
+    -- * Along the segment
     at,
     startDirection,
     endDirection,
     directionAt,
-    reverse,
-    cutAt,
     spans,
     fraction,
-    radius,
-    bulge,
+
+    -- * Changed segments
+    reverse,
+    cutAt,
+    offset,
+    offsetRadius,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Geometry.Carrier (Circle (Circle), Sense (..))
+import Geometry.Carrier (Carrier (..), Circle (Circle), Line (Line), Sense (..), Side)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
--- | A straight line or an arc between two points. An arc's sweep is positive counter-clockwise and
--- at most a full turn; both its ends lie on the circle about its centre. The ends are kept as
--- points so that neighbours have exactly the same.
+-- | A straight line or an arc between two points. The sweep of an arc is positive
+-- counter-clockwise and at most 2π in size. Both ends of an arc lie on the circle about its centre;
+-- they are kept as points so that neighbours share exactly the same point.
 data Segment
   = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
   | Arc
@@ -37,32 +54,69 @@ data Segment
       }
   deriving stock (Eq, Ord, Show)
 
--- | The arc about a centre from one point to another in a sense; less than a full turn.
+-- | The arc about a centre from a start to an end in a sense. Its sweep is less than 2π, and 0 when
+-- both ends lie in one direction from the centre.
 arc :: Sense -> Point -> Point -> Point -> Segment
-arc turn centre start end = Arc {start, end, centre, sweep}
+arc sense centre start end = Arc {start, end, centre, sweep}
   where
-    Rad short = Vec.turn (Vec.to centre start) (Vec.to centre end)
-    sweep = Rad $ case turn of
-      CounterClockwise | short < 0 -> short + 2 * pi
-      Clockwise | short > 0 -> short - 2 * pi
-      _ -> short
+    sweep = Carrier.sweepInSense sense (Vec.turn (Vec.to centre start) (Vec.to centre end))
 
--- | A circle walked once, from a point on it.
+-- | A full circle as an arc that starts and ends at a point on it.
 fullCircle :: Sense -> Circle -> Point -> Segment
-fullCircle turn (Circle centre _) start =
-  Arc {start, end = start, centre, sweep = Rad (Carrier.sense turn * 2 * pi)}
+fullCircle sense (Circle centre _) start =
+  Arc {start, end = start, centre, sweep = Rad (Carrier.sense sense * 2 * pi)}
 
--- | The radius of an arc, from its start.
+-- | The segment from a start to an end with a bulge @b = tan(sweep/4)@: a line for 0, else an arc.
+-- Its centre lies at @(1 − b²)/(4·b)@ of the chord to the left of the chord's midpoint.
+fromBulge :: Point -> Point -> Double -> Segment
+fromBulge start end b
+  | b == 0 = Straight start end
+  | otherwise =
+    Arc
+      { start,
+        end,
+        centre = Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) normal) midpoint,
+        sweep = Rad (4 * atan b)
+      }
+  where
+    normal = Vec.left (Vec.to start end)
+    midpoint = Vec.between 0.5 start end
+
+-- | The radius of an arc, by its centre and its start.
 radius :: Point -> Point -> Mm
 radius centre start = Vec.distance centre start
 
--- | The length along the segment.
+-- | The length of the segment.
 length :: Segment -> Mm
 length segment = case segment of
   Straight a b -> Vec.distance a b
   Arc {start, centre, sweep = Rad s} -> let Mm r = radius centre start in Mm (r * abs s)
 
--- | The point at a fraction of the length, from 0 to 1; exactly the ends there.
+-- | The sagitta: the largest distance between the segment and its chord, @r·(1 − cos(φ/2))@ for a
+-- sweep φ of at most 2π.
+bulge :: Segment -> Mm
+bulge segment = case segment of
+  Straight _ _ -> Mm 0
+  Arc {start, centre, sweep = Rad s} ->
+    let Mm r = radius centre start in Mm (2 * r * sin (s / 4) ^ (2 :: Int))
+
+-- | The bulge of the segment, @tan(sweep/4)@; 0 for a line.
+toBulge :: Segment -> Double
+toBulge segment = case segment of
+  Straight _ _ -> 0
+  Arc {sweep = Rad s} -> tan (s / 4)
+
+-- | The line or circle on which the segment lies; nothing for a line between equal points and an
+-- arc without a radius.
+carrier :: Segment -> Maybe Carrier
+carrier segment = case segment of
+  Straight a b -> if a == b then Nothing else Just (LineCarrier (Line a b))
+  Arc {start, centre} ->
+    let r = radius centre start
+     in if r > Mm 0 then Just (CircleCarrier (Circle centre r)) else Nothing
+
+-- | The point at a fraction of the length. Fractions up to 0 give exactly the start, from 1 on
+-- exactly the end.
 at :: Double -> Segment -> Point
 at t segment
   | t <= 0 = start segment
@@ -70,67 +124,51 @@ at t segment
   | otherwise = case segment of
     Straight a b -> Vec.between t a b
     Arc {start = a, end = b, centre, sweep = Rad s}
-      -- About a centre so far away a place would be as inexact as the centre is: the chord from the
-      -- beginning to it is
-      -- @2·r·sin(t·φ/2)@ long, and turned against the whole one by @(t − 1)·φ/2@.
-      | s /= 0 && abs s < flat ->
-        Vec.shift
-          ( Vec.scale
-              (sin (t * s / 2) / sin (s / 2))
-              (Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b))
-          )
-          a
+      | s /= 0 && abs s < flat -> onFlatArc a b s
       | otherwise -> Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre a)) centre
+  where
+    -- A point computed from a distant centre would be as inexact as the centre. The chord from the
+    -- start to the point is @2·r·sin(t·φ/2)@ long and rotated by @(t − 1)·φ/2@ from the full chord.
+    onFlatArc a b s =
+      let share = sin (t * s / 2) / sin (s / 2)
+          chord = Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b)
+       in Vec.shift (Vec.scale share chord) a
 
--- | Arcs of less, in radians, are almost lines: the radius is more than ten thousand times the
--- chord.
+-- | The sweep in radians below which an arc is evaluated from its chord: its radius is more than
+-- ten thousand times the chord.
 flat :: Double
 flat = 1e-4
 
--- | The direction in which the segment sets out, of length 1. The segment has a length.
+-- | The direction of travel at the start, of length 1. The segment must have a length.
 startDirection :: Segment -> Vec
 startDirection segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
-  Arc {start, centre, sweep} -> forward sweep (Vec.to centre start)
+  Arc {start, centre, sweep} -> tangent sweep (Vec.to centre start)
 
--- | The direction in which the segment arrives, of length 1. The segment has a length.
+-- | The direction of travel at the end, of length 1. The segment must have a length.
 endDirection :: Segment -> Vec
 endDirection segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
-  Arc {end, centre, sweep} -> forward sweep (Vec.to centre end)
+  Arc {end, centre, sweep} -> tangent sweep (Vec.to centre end)
 
--- | The direction at a fraction of the length, of length 1. The segment has a length.
+-- | The direction of travel at a fraction of the length, of length 1. The segment must have a
+-- length.
 directionAt :: Double -> Segment -> Vec
 directionAt t segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
-  Arc {centre, sweep} -> forward sweep (Vec.to centre (at t segment))
+  Arc {centre, sweep} -> tangent sweep (Vec.to centre (at t segment))
 
-forward :: Rad -> Vec -> Vec
-forward (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
+-- | The direction of travel on an arc, from the vector that leads from its centre to the point.
+tangent :: Rad -> Vec -> Vec
+tangent (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
 
--- | The same segment walked the other way.
-reverse :: Segment -> Segment
-reverse segment = case segment of
-  Straight a b -> Straight b a
-  Arc {start, end, centre, sweep = Rad s} ->
-    Arc {start = end, end = start, centre, sweep = Rad (-s)}
-
--- | The segment in two at a fraction of its length between 0 and 1.
-cutAt :: Double -> Segment -> (Segment, Segment)
-cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
-  where
-    p = at t segment
-    part a b share = case segment of
-      Straight _ _ -> Straight a b
-      Arc {centre, sweep = Rad s} -> Arc {start = a, end = b, centre, sweep = Rad (s * share)}
-
--- | Whether the foot of a point falls on the segment rather than before or behind it: for an arc,
--- whether the point lies in the sector of the arc.
+-- | True when the foot of a point lies on the segment and not before or after it. For an arc: the
+-- point lies in its sector.
 spans :: Segment -> Point -> Bool
 spans segment p = let t = fraction segment p in t >= 0 && t <= 1
 
--- | Where on the segment a point's foot lies, as a fraction of the length. For an arc the result
--- lies in [0, full turn / sweep).
+-- | The fraction of the length at which the foot of a point lies. It is negative before a line and
+-- above 1 after it; for an arc it lies in [0, 2π/sweep).
 fraction :: Segment -> Point -> Double
 fraction segment p = case segment of
   Straight a b -> let u = Vec.to a b in Vec.dot u (Vec.to a p) / Vec.dot u u
@@ -139,11 +177,44 @@ fraction segment p = case segment of
         along = signum s * t
      in (if along < 0 then along + 2 * pi else along) / abs s
 
--- | The largest distance between the segment and its chord, the sagitta @r·(1 − cos(φ/2))@.
-bulge :: Segment -> Mm
-bulge segment = case segment of
-  Straight _ _ -> Mm 0
-  Arc {start, centre, sweep = Rad s} ->
-    let Mm r =
-          radius centre start
-     in Mm (2 * r * sin (s / 4) ^ (2 :: Int))
+-- | The segment from its end to its start.
+reverse :: Segment -> Segment
+reverse segment = case segment of
+  Straight a b -> Straight b a
+  Arc {start, end, centre, sweep = Rad s} ->
+    Arc {start = end, end = start, centre, sweep = Rad (-s)}
+
+-- | The two parts into which a point at a fraction between 0 and 1 of the length divides the
+-- segment.
+cutAt :: Double -> Segment -> (Segment, Segment)
+cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
+  where
+    p = at t segment
+    part a b share = case segment of
+      Straight _ _ -> Straight a b
+      Arc {centre, sweep = Rad s} -> Arc {start = a, end = b, centre, sweep = Rad (s * share)}
+
+-- | The segment at a distance on a side: the parallel line, or the concentric arc. Nothing for a
+-- segment without a length and for an arc that the offset would shrink to its centre or beyond.
+offset :: Side -> Mm -> Segment -> Maybe Segment
+offset side d@(Mm distance) segment = case segment of
+  Straight a b
+    | a == b -> Nothing
+    | otherwise ->
+      let v = Vec.scale (Carrier.sideSign side * distance) (Vec.left (Vec.unit (Vec.to a b)))
+       in Just (Straight (Vec.shift v a) (Vec.shift v b))
+  Arc {start, end, centre, sweep}
+    | old <= 0 || new <= 0 -> Nothing
+    | otherwise -> Just Arc {start = moved start, end = moved end, centre, sweep}
+    where
+      Mm old = radius centre start
+      Mm new = offsetRadius side d sweep (Mm old)
+      moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
+
+-- | The radius of an arc's offset at a distance on a side: smaller on the side of the centre, and
+-- negative when the offset has passed the centre. The arguments are side, distance, sweep and
+-- radius.
+offsetRadius :: Side -> Mm -> Rad -> Mm -> Mm
+offsetRadius side (Mm d) (Rad s) (Mm r)
+  | signum s == Carrier.sideSign side = Mm (r - d)
+  | otherwise = Mm (r + d)

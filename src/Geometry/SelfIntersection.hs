@@ -1,4 +1,8 @@
--- | Where a contour crosses or touches itself.
+-- | The self-intersections of a polyarc of the part: a report for the user names the first one.
+--
+-- Candidates come from the kernel's bounding-box tree, neighbours are tested separately, and the
+-- exact test is 'Distance.crossings'. The self-intersections of raw offsets, which are data and not
+-- faults, belong to "Offset.SelfIntersection".
 module Geometry.SelfIntersection
   ( selfCrossing,
     crossingOf,
@@ -21,118 +25,123 @@ import Geometry.Distance qualified as Distance
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.SegmentTree qualified as SegmentTree
-import Geometry.Polyarc (Ends (..), Polyarc (..))
+import Geometry.Polyarc (Ends (..), Polyarc (Polyarc))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The first two segments, by number, that cross or touch elsewhere than where they are joined.
+-- | The first two segments of a polyarc, by index, that cross or touch elsewhere than at a common
+-- joint, and the point.
 selfCrossing :: Polyarc -> Maybe (Int, Int, Point)
 selfCrossing (Polyarc ends ss) = crossingOf id ends ss
 
--- | The same of anything with segments.
+-- | 'selfCrossing' for a list of things, by the segment of each.
 crossingOf :: (a -> Segment) -> Ends -> NonEmpty a -> Maybe (Int, Int, Point)
-crossingOf get ends things = case concatMap found (beside <> closeBy ends whole) of
+crossingOf get ends things = case concatMap found (neighbours chain <> closeBy chain) of
   [] -> Nothing
   ps -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) ps)
   where
-    count = NonEmpty.length things
-    whole = Vector.unfoldrN count next (NonEmpty.toList things)
-    next left = case left of
+    chain = Chain {ends, segments = Vector.unfoldrN (NonEmpty.length things) next list}
+    list = NonEmpty.toList things
+    next rest = case rest of
       [] -> Nothing
-      a : rest -> let s = get a in s `seq` Just (s, rest)
-    -- Neighbours, which are joined.
-    beside = alongside 0
-    alongside i
-      | i + 1 < count =
-        if straightOn (whole Vector.! i) (whole Vector.! (i + 1))
-          || lineBends (whole Vector.! i) (whole Vector.! (i + 1))
-          then alongside (i + 1)
-          else (i, i + 1) : alongside (i + 1)
-      | otherwise = [(0, count - 1) | ends == Closed, count > 2]
-    found (i, j)
-      | closes && straightOn other s = []
-      | not (BoundingBox.meets (BoundingBox.ofSegment s) (BoundingBox.ofSegment other)) = []
-      | otherwise =
-        [ (i, j, p)
-          | p <-
-              if null shared
-                then Distance.crossings s other
-                else
-                  retraced s other
-                    <> filter (\q -> not (any (Vec.near q) shared)) (Distance.crossings s other)
-        ]
-      where
-        s = whole Vector.! i
-        other = whole Vector.! j
-        closes = j /= i + 1 && ends == Closed && i == 0 && j == count - 1
-        -- Where the two are joined: behind the first, or where the contour closes.
-        shared =
-          [Segment.end s | j == i + 1] <> [Segment.start s | ends == Closed, i == 0, j == count - 1]
+      a : more -> let s = get a in s `seq` Just (s, more)
+    found (i, j) = [(i, j, p) | p <- crossingsOf chain i j]
 
--- | Segments of a contour that are no neighbours and lie so near to one another that they may
--- touch, by number.
-closeBy :: Ends -> Vector Segment -> [(Int, Int)]
-closeBy ends whole
-  | ClosedPolyarcs.walks chain == 0 = []
+-- | The segments of a polyarc with constant access.
+data Chain = Chain {ends :: Ends, segments :: Vector Segment}
+
+-- | The number of segments.
+count :: Chain -> Int
+count = Vector.length . segments
+
+-- | True when the first segment joins the last at the start of a closed polyarc.
+isClosingPair :: Chain -> Int -> Int -> Bool
+isClosingPair chain i j = ends chain == Closed && i == 0 && j == count chain - 1
+
+-- | Pairs of neighbours that may meet elsewhere than at their joint.
+neighbours :: Chain -> [(Int, Int)]
+neighbours chain = go 0
+  where
+    go i
+      | i + 1 < count chain =
+        let (s, next) = (segments chain Vector.! i, segments chain Vector.! (i + 1))
+            meetOnce = goesStraightOn s next || meetAtCorner s next
+         in if meetOnce then go (i + 1) else (i, i + 1) : go (i + 1)
+      | otherwise = [(0, count chain - 1) | ends chain == Closed, count chain > 2]
+
+-- | The points at which two segments meet, other than their joints.
+crossingsOf :: Chain -> Int -> Int -> [Point]
+crossingsOf chain i j
+  | closes && goesStraightOn other s = []
+  | not (BoundingBox.meets (BoundingBox.ofSegment s) (BoundingBox.ofSegment other)) = []
+  | null joints = crossings
+  | otherwise = retraced s other <> filter (\q -> not (any (Vec.near q) joints)) crossings
+  where
+    s = segments chain Vector.! i
+    other = segments chain Vector.! j
+    crossings = Distance.crossings s other
+    closes = j /= i + 1 && isClosingPair chain i j
+    joints = [Segment.end s | j == i + 1] <> [Segment.start s | isClosingPair chain i j]
+
+-- | Pairs of segments that are not neighbours and whose bounding boxes meet.
+closeBy :: Chain -> [(Int, Int)]
+closeBy chain
+  | ClosedPolyarcs.walks loops == 0 = []
   | otherwise = runST $ do
     pairs <- newSTRef []
-    SegmentTree.pairs boxes (pure True) $ \a b -> do
+    SegmentTree.pairs tree (pure True) $ \a b -> do
       let (i, j) = (number a, number b)
-      when (i >= 0 && j > i + 1 && j < count && not (ends == Closed && i == 0 && j == count - 1)) $
+      when (i >= 0 && j > i + 1 && j < count chain && not (isClosingPair chain i j)) $
         modifySTRef' pairs ((i, j) :)
     readSTRef pairs
   where
-    (outline, numbers) = FlatPolyarc.fromSegments ends whole
-    pieces = sizeofPrimArray numbers
-    count = Vector.length whole
-    chain = ClosedPolyarcs.fromOutlines 0 [outline]
+    (flat, numbers) = FlatPolyarc.fromSegments (ends chain) (segments chain)
+    loops = ClosedPolyarcs.fromOutlines 0 [flat]
     Mm margin = times 2 Tolerance.coincident
-    boxes = SegmentTree.boxes margin chain
-    -- A chain always closes; what closes an open contour is no segment of it.
+    tree = SegmentTree.boxes margin loops
+    -- The kernel closes every polyarc; the segment that closes an open one has no index.
     number k =
-      let i =
-            fromIntegral (indexPrimArray (ClosedPolyarcs.sources chain) k)
-       in if i < pieces then indexPrimArray numbers i else -1
+      let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources loops) k)
+       in if i < sizeofPrimArray numbers then indexPrimArray numbers i else -1
 
--- | Whether of two neighbours that hardly turn the one lies in a cone behind their joint and the
--- other before it.
-straightOn :: Segment -> Segment -> Bool
-straightOn a b =
-  hardlyTurns a
-    && hardlyTurns b
-    && (let (u, v) = (arriving, setting) in abs (Vec.cross u v) <= steepness * Vec.dot u v)
+-- | True when two neighbours sweep little and their directions at the joint differ little. The
+-- first then lies in a cone before the joint and the second in the opposite cone, so they meet only
+-- at the joint.
+goesStraightOn :: Segment -> Segment -> Bool
+goesStraightOn a b =
+  sweepsLittle a && sweepsLittle b && abs (Vec.cross u v) <= steepness * Vec.dot u v
   where
-    -- Directions, not of length 1.
-    arriving = case a of
+    -- These directions are not of length 1.
+    u = case a of
       Straight p q -> Vec.to p q
       Arc {end, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre end))
-    setting = case b of
+    v = case b of
       Straight p q -> Vec.to p q
       Arc {start, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre start))
-    hardlyTurns s = case s of
+    sweepsLittle s = case s of
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
 
--- | Whether two neighbours are lines, not too short for it to be certain, of which the other does
--- not turn back along the one: they meet at their joint alone.
-lineBends :: Segment -> Segment -> Bool
-lineBends a b = case (a, b) of
+-- | True when two neighbours are lines, long enough for certainty, and the second does not run back
+-- along the first: they meet only at their joint.
+meetAtCorner :: Segment -> Segment -> Bool
+meetAtCorner a b = case (a, b) of
   (Straight p q, Straight _ r)
     | u <- Vec.to p q,
       v <- Vec.to q r ->
-      long u && long v && abs (Vec.cross u v) > -(steepness * Vec.dot u v)
+      isLong u && isLong v && abs (Vec.cross u v) > -(steepness * Vec.dot u v)
   _ -> False
   where
-    long v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)
+    isLong v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)
 
--- | Of the cones: the tangent of 0.1.
+-- | The tangent of the cones' half angle, 0.1 rad.
 steepness :: Double
 steepness = 0.10033467208545055
 
--- | A neighbour that runs back along the way it came meets it at its middle.
+-- | The middle of the shorter of two neighbours, when the neighbours run back along each other.
 retraced :: Segment -> Segment -> [Point]
 retraced s other = [middle | Distance.toPoint middle longer <= Tolerance.coincident]
   where

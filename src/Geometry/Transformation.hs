@@ -1,12 +1,16 @@
--- | Similarities of the plane: motions, mirrors, scalings, and what comes of several of them.
+-- | Similarities of the plane: translations, rotations, reflections, scalings and their products.
 module Geometry.Transformation
   ( Transformation,
+
+    -- * Construction
     identity,
     translation,
     rotation,
     reflection,
     scaling,
     after,
+
+    -- * Application
     mirrors,
     point,
     line,
@@ -21,87 +25,108 @@ import Geometry.Carrier (Circle (Circle), Line (Line))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Polyarc (Polyarc (..))
 import Geometry.Segment (Segment (..))
-import Geometry.Vec (Point, Vec)
+import Geometry.Vec (Point, Vec (Vec))
 import Geometry.Vec qualified as Vec
+import Linear.Matrix (M22, (!*), (!*!), (*!!))
+import Linear.V2 (V2 (..))
+import Linear.Vector ((^+^), (^-^))
 
--- | @p ↦ k·R·M·p + t@: a mirror in the x axis or none, a rotation, a factor above zero, a
--- displacement.
+-- | @p ↦ M·p + t@, where M is a multiple of an orthogonal matrix. The scale factor and the
+-- reflection are functions of M. They are kept beside it because they are exact there, while the
+-- determinant of a rotation is 1 only to rounding.
 data Transformation = Transformation
-  { mirrored :: Bool,
-    turned :: Rad,
+  { matrix :: M22 Double,
+    -- | in mm
+    displacement :: V2 Double,
+    -- | above 0
     factor :: Double,
-    displaced :: Vec
+    mirrored :: Bool
   }
   deriving stock (Eq, Show)
 
+-- | The transformation that changes nothing.
 identity :: Transformation
-identity = Transformation False (Rad 0) 1 (Vec.vec 0 0)
+identity = aboutOrigin False (Rad 0) 1
 
+-- | The translation by a vector.
 translation :: Vec -> Transformation
-translation v = identity {displaced = v}
+translation v = identity {displacement = fromVec v}
 
--- | Counter-clockwise about a point.
+-- | The rotation about a point, counter-clockwise when positive.
 rotation :: Rad -> Point -> Transformation
-rotation a = about identity {turned = a}
+rotation a = about (aboutOrigin False a 1)
 
--- | In a line.
+-- | The reflection in a line.
 reflection :: Line -> Transformation
-reflection axis = about identity {mirrored = True, turned = Rad (2 * direction)} (Carrier.from axis)
+reflection axis = about (aboutOrigin True (Rad (2 * direction)) 1) (Carrier.from axis)
   where
     Rad direction = Vec.angle (Carrier.direction axis)
 
--- | By a factor above zero, a point staying where it is.
+-- | The scaling by a positive factor with a fixed point.
 scaling :: Double -> Point -> Transformation
-scaling k = about identity {factor = k}
+scaling k = about (aboutOrigin False (Rad 0) k)
 
--- | A similarity that leaves a point where it is.
+-- | A reflection in the x axis or none, then a rotation about the origin, then a scaling.
+aboutOrigin :: Bool -> Rad -> Double -> Transformation
+aboutOrigin mirrored (Rad a) factor =
+  Transformation {matrix = factor *!! orthogonal, displacement = V2 0 0, factor, mirrored}
+  where
+    (c, s) = (cos a, sin a)
+    orthogonal
+      | mirrored = V2 (V2 c s) (V2 s (-c))
+      | otherwise = V2 (V2 c (-s)) (V2 s c)
+
+-- | The transformation with the same matrix that has a point as its fixed point.
 about :: Transformation -> Point -> Transformation
-about s p = s {displaced = Vec.to (point s p) p}
+about t p = t {displacement = fromPoint p ^-^ (matrix t !* fromPoint p)}
 
--- | The first one behind the second.
+-- | The product of two transformations: the second one is applied first.
 after :: Transformation -> Transformation -> Transformation
 after b a =
   Transformation
-    { mirrored = mirrored a /= mirrored b,
-      turned = Rad (if mirrored b then angleB - angleA else angleB + angleA),
-      factor = factor a * factor b,
-      displaced = Vec.add (vector b (displaced a)) (displaced b)
+    { matrix = matrix b !*! matrix a,
+      displacement = apply b (displacement a),
+      factor = factor b * factor a,
+      mirrored = mirrored b /= mirrored a
     }
-  where
-    Rad angleA = turned a
-    Rad angleB = turned b
 
--- | Whether left becomes right.
+-- | True when the transformation exchanges left and right.
 mirrors :: Transformation -> Bool
 mirrors = mirrored
 
-vector :: Transformation -> Vec -> Vec
-vector s v = Vec.scale (factor s) (Vec.rotate (turned s) (if mirrored s then flipped v else v))
-  where
-    flipped u = Vec.vec (Vec.dot u (Vec.vec 1 0)) (-Vec.dot u (Vec.vec 0 1))
+apply :: Transformation -> V2 Double -> V2 Double
+apply t v = (matrix t !* v) ^+^ displacement t
 
+fromPoint :: Point -> V2 Double
+fromPoint p = V2 (Vec.x p) (Vec.y p)
+
+fromVec :: Vec -> V2 Double
+fromVec (Vec x y) = V2 x y
+
+-- | The image of a point.
 point :: Transformation -> Point -> Point
-point s p = Vec.shift (displaced s) (Vec.shift (vector s (Vec.to origin p)) origin)
-  where
-    origin = Vec.point 0 0
+point t p = let V2 x y = apply t (fromPoint p) in Vec.point x y
 
+-- | The image of a line, with the direction of travel.
 line :: Transformation -> Line -> Line
-line s (Line p q) = Line (point s p) (point s q)
+line t (Line p q) = Line (point t p) (point t q)
 
+-- | The image of a circle.
 circle :: Transformation -> Circle -> Circle
-circle s (Circle c (Mm r)) = Circle (point s c) (Mm (factor s * r))
+circle t (Circle c (Mm r)) = Circle (point t c) (Mm (factor t * r))
 
--- | A mirrored arc changes its sense.
+-- | The image of a segment. A reflection reverses the sense of an arc.
 segment :: Transformation -> Segment -> Segment
-segment s g = case g of
-  Straight a b -> Straight (point s a) (point s b)
+segment t s = case s of
+  Straight a b -> Straight (point t a) (point t b)
   Arc {start, end, centre, sweep = Rad sweep} ->
     Arc
-      { start = point s start,
-        end = point s end,
-        centre = point s centre,
-        sweep = Rad (if mirrored s then -sweep else sweep)
+      { start = point t start,
+        end = point t end,
+        centre = point t centre,
+        sweep = Rad (if mirrored t then -sweep else sweep)
       }
 
+-- | The image of a polyarc.
 contour :: Transformation -> Polyarc -> Polyarc
-contour s (Polyarc ends segments) = Polyarc ends (fmap (segment s) segments)
+contour t (Polyarc ends segments) = Polyarc ends (fmap (segment t) segments)

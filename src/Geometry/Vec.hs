@@ -1,7 +1,9 @@
--- | Points and vectors of the plane, in millimetres.
+-- | Points and vectors of the plane, in millimetres, and their operations.
 --
--- A point is a place, a vector a displacement; only the differences of points are
--- vectors. Both are two bare numbers: there are millions of them.
+-- A point is a position and a vector a displacement; only differences of points are vectors. Both
+-- are flat records of two doubles, not @V2 Double@ of the library @linear@: a program has millions
+-- of them, and a flat record is unpacked into the data that contains it (docs/dependencies.md has
+-- the figures). What is polymorphic or three-dimensional uses @linear@.
 module Geometry.Vec
   ( Point (..),
     Vec (..),
@@ -37,7 +39,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Prelude hiding (negate)
 import Prelude qualified
 
--- | A place; components in mm.
+-- | A position; coordinates in mm.
 data Point = Point Double Double
   deriving stock (Eq, Ord, Show)
 
@@ -45,62 +47,73 @@ data Point = Point Double Double
 data Vec = Vec Double Double
   deriving stock (Eq, Ord, Show)
 
+-- | The point with coordinates x and y.
 point :: Double -> Double -> Point
 point = Point
 
+-- | The vector with components along x and y.
 vec :: Double -> Double -> Vec
 vec = Vec
 
+-- | The first coordinate of a point, in mm.
 x :: Point -> Double
 x (Point px _) = px
 
+-- | The second coordinate of a point, in mm.
 y :: Point -> Double
 y (Point _ py) = py
 
--- | The displacement from one point to another.
+-- | The displacement from the first point to the second.
 to :: Point -> Point -> Vec
 to (Point ax ay) (Point bx by) = Vec (bx - ax) (by - ay)
 
--- | A point displaced.
+-- | A point displaced by a vector.
 shift :: Vec -> Point -> Point
 shift (Vec vx vy) (Point px py) = Point (px + vx) (py + vy)
 
+-- | The sum of two vectors.
 add :: Vec -> Vec -> Vec
 add (Vec ax ay) (Vec bx by) = Vec (ax + bx) (ay + by)
 
+-- | The multiple of a vector.
 scale :: Double -> Vec -> Vec
 scale k (Vec ax ay) = Vec (k * ax) (k * ay)
 
+-- | The opposite vector.
 negate :: Vec -> Vec
 negate = scale (-1)
 
+-- | The scalar product, in mm² for two displacements.
 dot :: Vec -> Vec -> Double
 dot (Vec ax ay) (Vec bx by) = ax * bx + ay * by
 
--- | Positive when the second vector points to the left of the first.
+-- | The z component of the vector product, in mm² for two displacements. It is positive when the
+-- second vector points to the left of the first.
 cross :: Vec -> Vec -> Double
 cross (Vec ax ay) (Vec bx by) = ax * by - ay * bx
 
+-- | The length of a vector, in mm for a displacement.
 norm :: Vec -> Double
 norm v = sqrt (dot v v)
 
--- | The direction of a vector that is not zero.
+-- | The vector of length 1 in the same direction. The zero vector gives components that are no
+-- numbers.
 unit :: Vec -> Vec
 unit v = scale (1 / norm v) v
 
--- | The vector turned by 90° counter-clockwise.
+-- | The vector rotated by 90° counter-clockwise: the left normal, as long as the vector.
 left :: Vec -> Vec
 left (Vec ax ay) = Vec (Prelude.negate ay) ax
 
--- | The vector turned counter-clockwise.
+-- | The vector rotated by an angle, counter-clockwise when positive.
 rotate :: Rad -> Vec -> Vec
 rotate (Rad a) v = add (scale (cos a) v) (scale (sin a) (left v))
 
--- | The vector of a length in a direction, the angle counter-clockwise from the x axis.
+-- | The vector with a length and an angle, which counts counter-clockwise from the x axis.
 polar :: Mm -> Rad -> Vec
 polar (Mm r) (Rad a) = vec (r * cos a) (r * sin a)
 
--- | The direction of a vector, in (−π, π].
+-- | The angle of a vector from the x axis, in (−π, π].
 angle :: Vec -> Rad
 angle (Vec vx vy) = Rad (atan2 vy vx)
 
@@ -108,18 +121,19 @@ angle (Vec vx vy) = Rad (atan2 vy vx)
 turn :: Vec -> Vec -> Rad
 turn a b = Rad (atan2 (cross a b) (dot a b))
 
+-- | The distance between two points.
 distance :: Point -> Point -> Mm
 distance a b = Mm (norm (to a b))
 
--- | The point at a fraction of the way.
+-- | The linear interpolation between two points: the first at 0, the second at 1.
 between :: Double -> Point -> Point -> Point
 between t a b = shift (scale t (to a b)) a
 
--- | Whether two points are one point.
+-- | True of two points no further apart than 'Tolerance.coincident'.
 near :: Point -> Point -> Bool
 near a b = distance a b <= Tolerance.coincident
 
--- | A point as a person writes it, with at most so many decimals.
+-- | A point in the notation of a part program, rounded to at most @decimals@ decimals.
 written :: Int -> Point -> Text
 written decimals p =
   "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"

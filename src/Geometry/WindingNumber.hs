@@ -1,4 +1,4 @@
--- | How often closed chains of segments go round a point, and with that what lies inside them.
+-- | Winding numbers of closed chains of segments, and with them the interior.
 module Geometry.WindingNumber
   ( about,
     encloses,
@@ -13,23 +13,24 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | How often closed chains go round a point, counter-clockwise; the order of the segments does not
--- matter. Any number for a point on one of them.
+-- | The winding number of closed chains of segments about a point, counter-clockwise positive. The
+-- order of the segments does not matter. For a point on a segment the number is arbitrary.
 --
--- The chords go round it by the sum of the angles under which they are seen; an arc goes round what
--- lies between it and its chord once more than the chord does.
+-- It is that of the chords, the sum of the angles that they subtend, corrected by each arc that has
+-- the point between itself and its chord.
 about :: Foldable f => Point -> f Segment -> Int
-about p chains = round (seen / (2 * pi)) + extra
+about p segments = round (angles / (2 * pi)) + corrections
   where
-    (seen, extra) = foldl add (0, 0) chains
+    (angles, corrections) = foldl add (0, 0) segments
     add (angle, count) s =
-      let angle' = angle + chord s in angle' `seq` (angle', count + bow s) :: (Double, Int)
-    chord s = case s of
+      let angle' = angle + subtended s
+       in angle' `seq` (angle', count + correction s) :: (Double, Int)
+    subtended s = case s of
       _ | Vec.norm (from s) == 0 || Vec.norm (to s) == 0 -> 0
-      -- The arc tells on which side of its chord it goes past a point on that.
+      -- For a point on the chord, the arc decides on which side of the point the chord passes.
       Arc {sweep = Rad w} | side s == 0 && Vec.dot (from s) (to s) < 0 -> signum w * pi
       _ -> let Rad t = Vec.turn (from s) (to s) in t
-    bow s = case s of
+    correction s = case s of
       Straight _ _ -> 0
       Arc {start = a, end = b, centre, sweep = Rad w}
         | Vec.distance centre p >= Segment.radius centre a -> 0
@@ -39,9 +40,9 @@ about p chains = round (seen / (2 * pi)) + extra
         | otherwise -> 0
     from = Vec.to p . start
     to = Vec.to p . end
-    -- Both ask for the side of the chord, and get the same answer.
+    -- The side of the chord must be computed identically in both places.
     side s = Vec.cross (from s) (to s)
 
--- | Whether a point lies inside a closed contour, whichever way that is walked.
+-- | True when a point lies inside a closed polyarc of either sense.
 encloses :: Polyarc -> Point -> Bool
 encloses contour p = about p (Polyarc.segments contour) /= 0

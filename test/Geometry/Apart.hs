@@ -1,29 +1,42 @@
--- | Distances by other means than the program's, for the judges of laws: from an arc by the angle
--- from its middle. In mm.
+-- | Reference distances for the judges of laws, in mm. They are computed with the vectors and
+-- matrices of @linear@, and the distance from an arc by the angle from its middle, so that they
+-- have nothing in common with the formulas of "Geometry.Distance".
 module Geometry.Apart
   ( apart,
     away,
+    vector,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Rad (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Linear (V2 (..), crossZ, distance, dot, quadrance, (!*), (*^), (^+^), (^-^))
 
--- | The distance from a segment to a point, from an arc by the angle from its middle.
+-- | The distance from a segment to a point.
 apart :: Segment -> Point -> Double
-apart s p = case s of
-  Straight a b ->
-    let u = Vec.to a b
-        t = max 0 (min 1 (Vec.dot u (Vec.to a p) / Vec.dot u u))
-     in away p (Vec.between t a b)
-  Arc {start, end, centre, sweep = Rad a}
-    | abs off <= abs a / 2 -> abs (away centre p - away centre start)
-    | otherwise -> min (away p start) (away p end)
+apart s point = case s of
+  Straight start end ->
+    let (a, b) = (vector start, vector end)
+        chord = b ^-^ a
+        t = max 0 (min 1 (dot chord (p ^-^ a) / quadrance chord))
+     in distance p (a ^+^ (t *^ chord))
+  Arc {start, end, centre, sweep = Rad sweep}
+    | abs angle <= abs sweep / 2 -> abs (away centre point - away centre start)
+    | otherwise -> min (away point start) (away point end)
     where
-      middle = Vec.rotate (Rad (a / 2)) (Vec.to centre start)
-      Rad off = Vec.turn middle (Vec.to centre p)
+      c = vector centre
+      middle = rotation (sweep / 2) !* (vector start ^-^ c)
+      angle = atan2 (crossZ middle (p ^-^ c)) (dot middle (p ^-^ c))
+  where
+    p = vector point
+    rotation a = V2 (V2 (cos a) (-(sin a))) (V2 (sin a) (cos a))
 
+-- | The distance of two points.
 away :: Point -> Point -> Double
-away a b = let Mm d = Vec.distance a b in d
+away a b = distance (vector a) (vector b)
+
+-- | The coordinates of a point.
+vector :: Point -> V2 Double
+vector p = V2 (Vec.x p) (Vec.y p)

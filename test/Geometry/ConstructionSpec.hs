@@ -1,7 +1,8 @@
--- | Intersections, tangents and fillets: each is checked by what defines it.
+-- | Intersections, tangents and fillets against the conditions that define them.
 module Geometry.ConstructionSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Geometry.Apart (away)
 import Geometry.Carrier (Circle (Circle), Line (..), Sense (..))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Construction.Fillet (Fillet (..))
@@ -27,22 +28,22 @@ spec = do
               gap
                 > 0
                   .&&. property
-                    (abs (max (apart c1 c2 - r1 - r2) (abs (r1 - r2) - apart c1 c2) - gap) < 1e-9)
+                    (abs (max (away c1 c2 - r1 - r2) (abs (r1 - r2) - away c1 c2) - gap) < 1e-9)
             Touching p -> on a p .&&. on b p
-            Crossing p q -> conjoin [on a p, on b p, on a q, on b q, property (apart p q > 0)]
+            Crossing p q -> conjoin [on a p, on b p, on a q, on b q, property (away p q > 0)]
             CrossingOnce _ -> property False
             Same -> property False
     it
-      "lie on both curves, be one of them as good as a line (catches places that are measured from \
-      \a centre far away)"
+      "lie on both curves, even if one of them is almost a line (catches points that are computed \
+      \from a distant centre)"
       $ property $
         forAll ((,,) <$> circle <*> choose (4, 8) <*> choose (-0.9, 0.9)) $
           \(b@(Circle c (Mm r)), power, share) ->
             forAll (choose (0, 2 * pi)) $ \angle ->
               let far = 10 ** power
-                  away = Vec.shift (Vec.polar (Mm (far + share * r)) (Rad angle)) c
-                  a = Circle away (Mm far)
-                  near p = abs (apart c p - r) < 1e-9 && abs (apart away p - far) < 1e-6
+                  distant = Vec.shift (Vec.polar (Mm (far + share * r)) (Rad angle)) c
+                  a = Circle distant (Mm far)
+                  near p = abs (away c p - r) < 1e-9 && abs (away distant p - far) < 1e-6
                in conjoin
                     [ counterexample (show (p, q)) (near p && near q)
                       | (one, other) <- [(a, b), (b, a)],
@@ -63,16 +64,16 @@ spec = do
                 property (Vec.dot (Carrier.direction l) (Vec.to p q) > 0)
               ]
           _ -> property True
-    it "of coincident, touching and concentric circles are told apart" $ do
+    it "distinguish coincident, touching and concentric circles" $ do
       let c r = Circle (Vec.point 1 2) (Mm r)
       Intersection.circles (c 5) (c 5) `shouldBe` Same
       Intersection.circles (c 5) (c 7) `shouldBe` Apart (Mm 2)
       Intersection.circles (c 5) (Circle (Vec.point 9 2) (Mm 3)) `shouldBe` Touching (Vec.point 6 2)
       Intersection.circles (c 5) (Circle (Vec.point 3 2) (Mm 3)) `shouldBe` Touching (Vec.point 6 2)
   describe "tangents" $ do
-    it "touch both circles in the direction of the walk (catches a tangent on the wrong side)" $
+    it "touch both circles in the direction of travel (catches a tangent on the wrong side)" $
       property $
-        forAll ((,,,) <$> turn <*> circle <*> turn <*> circle) $ \(t1, a, t2, b) ->
+        forAll ((,,,) <$> sense <*> circle <*> sense <*> circle) $ \(t1, a, t2, b) ->
           case TangentLine.directed (t1, a) (t2, b) of
             Nothing -> property (noTangent (t1, a) (t2, b))
             Just l ->
@@ -84,45 +85,45 @@ spec = do
         `shouldBe` [4, 2, 0]
   describe "fillets" $
     it
-      "touch both neighbours in the direction of the walk, at their radius (catches an arc on the \
+      "touch both neighbours in the direction of travel, at their radius (catches an arc on the \
       \wrong side)"
       $ property $
-        forAll ((,,,) <$> choose (0.5, 30) <*> turn <*> walked <*> walked) $ \(r, t, a, b) ->
+        forAll ((,,,) <$> choose (0.5, 30) <*> sense <*> carrier <*> carrier) $ \(r, t, a, b) ->
           let found = Fillet.between (Mm r) t a b
            in classify (null found) "none" $
                 conjoin
                   [ conjoin
                       [ counterexample
                           "radius"
-                          ( abs (apart middle start - r) < 1e-6
-                              && abs (apart middle end - r) < 1e-6
+                          ( abs (away middle start - r) < 1e-6
+                              && abs (away middle end - r) < 1e-6
                           ),
                         touches a start (Segment.startDirection arc),
                         touches b end (Segment.endDirection arc)
                       ]
                     | Fillet {middle, start, end} <- found,
                       let arc = Segment.arc t middle start end,
-                      apart start end > 1e-3
+                      away start end > 1e-3
                   ]
 
--- | The point lies on the element, and the element runs in this direction there.
+-- | The point lies on the carrier, and the direction of travel there is as given.
 touches :: ElementCarrier -> Point -> Vec -> Property
 touches w p direction = case w of
   OnLine l -> onLine l p .&&. same (Carrier.direction l)
   OnCircle t c@(Circle m _) ->
     on c p .&&. same (Vec.unit (Vec.scale (Carrier.sense t) (Vec.left (Vec.to m p))))
-  AtPoint q -> property (apart p q < 1e-6)
+  AtPoint q -> property (away p q < 1e-6)
   OnCurve _ -> property False
   where
     same d = counterexample (show (direction, d)) (Vec.dot d direction > 1 - 1e-6)
 
--- | The circles overlap as walked: the signed radii are further apart than the centres.
+-- | The signed radii differ by more than the distance of the centres: there is no tangent.
 noTangent :: (Sense, Circle) -> (Sense, Circle) -> Bool
 noTangent (t1, Circle c1 (Mm r1)) (t2, Circle c2 (Mm r2)) =
-  apart c1 c2 <= abs (Carrier.sense t1 * r1 - Carrier.sense t2 * r2) + 1e-6
+  away c1 c2 <= abs (Carrier.sense t1 * r1 - Carrier.sense t2 * r2) + 1e-6
 
 on :: Circle -> Point -> Property
-on (Circle c (Mm r)) p = counterexample (show (apart c p, r)) (abs (apart c p - r) < 1e-6)
+on (Circle c (Mm r)) p = counterexample (show (away c p, r)) (abs (away c p - r) < 1e-6)
 
 onLine :: Line -> Point -> Property
 onLine l p = let Mm d = Carrier.signedDistance l p in counterexample (show d) (abs d < 1e-6)
@@ -133,17 +134,14 @@ point = Vec.point <$> choose (-40, 40) <*> choose (-40, 40)
 circle :: Gen Circle
 circle = Circle <$> point <*> (Mm <$> oneof [choose (0.01, 1), choose (1, 40)])
 
-turn :: Gen Sense
-turn = elements [Clockwise, CounterClockwise]
+sense :: Gen Sense
+sense = elements [Clockwise, CounterClockwise]
 
 line :: Gen Line
 line = do
   a <- point
-  b <- point `suchThat` (\q -> apart a q > 1)
+  b <- point `suchThat` (\q -> away a q > 1)
   pure (Line a b)
 
-walked :: Gen ElementCarrier
-walked = oneof [OnLine <$> line, OnCircle <$> turn <*> circle]
-
-apart :: Point -> Point -> Double
-apart a b = let Mm d = Vec.distance a b in d
+carrier :: Gen ElementCarrier
+carrier = oneof [OnLine <$> line, OnCircle <$> sense <*> circle]

@@ -1,7 +1,8 @@
--- | Distances in closed form against distances from many points.
+-- | Distances in closed form against distances between many sampled points.
 module Geometry.DistanceSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Geometry.Apart (away)
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (..))
@@ -19,7 +20,7 @@ spec = do
     $ property $
       forAll ((,) <$> point <*> segment) $ \(p, s) ->
         let Mm d = Distance.toPoint p s
-            sampled = minimum [apart p q | q <- samples 2000 s]
+            sampled = minimum [away p q | q <- samples 2000 s]
          in counterexample (show (d, sampled)) (d <= sampled + 1e-9 && sampled <= d + step 2000 s)
   it
     "segment to segment: no pair of samples is nearer, one is nearly as near (catches a common \
@@ -27,7 +28,7 @@ spec = do
     $ property $
       forAll ((,) <$> segment <*> segment) $ \(a, b) ->
         let ClosestPoint (Mm d) p = Distance.segments a b
-            sampled = minimum [apart q r | q <- samples 150 a, r <- samples 150 b]
+            sampled = minimum [away q r | q <- samples 150 a, r <- samples 150 b]
             Mm there = Distance.toPoint p b
          in counterexample
               (show (d, sampled, there))
@@ -36,8 +37,8 @@ spec = do
                   && abs (there - d) < 1e-6
               )
   it
-    "uncovered: inside the stretches it names the others are further than the reach, outside them \
-    \not (catches a missing boundary)"
+    "uncovered: inside the sections of the answer the others are further than the reach, outside \
+    \they are not (catches a missing boundary)"
     $ property $
       forAll ((,,) <$> segment <*> resize 6 (listOf segment) <*> choose (0.5, 30)) $
         \(s, others, reach) ->
@@ -52,16 +53,16 @@ spec = do
                     let t = fromIntegral k / 200
                 ]
   it
-    "uncovered: of a circle, at no distance, all that a stroke on it leaves free (catches ends \
+    "uncovered: of a circle, at a reach of 0, all that an arc on it does not cover (catches ends \
     \that bound nothing)"
     $ property $
       forAll ((,,,) <$> point <*> choose (1, 40) <*> choose (0, 3) <*> choose (0.1, 3)) $
         \(c, r, from, turned) ->
           let at a = Vec.shift (Vec.polar (Mm r) (Rad a)) c
               circle = Arc {start = at 0, end = at 0, centre = c, sweep = Rad (2 * pi)}
-              stroke =
+              covering =
                 Arc {start = at from, end = at (from + turned), centre = c, sweep = Rad turned}
-              gaps = Distance.uncovered (Mm 0) [stroke] circle
+              gaps = Distance.uncovered (Mm 0) [covering] circle
            in conjoin
                 [ counterexample
                     (show (a, gaps))
@@ -95,9 +96,6 @@ segment = oneof [straight, arc]
 samples :: Int -> Segment -> [Point]
 samples n s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
 
--- | How far samples lie apart.
+-- | The distance between neighbouring samples.
 step :: Int -> Segment -> Double
 step n s = let Mm l = Segment.length s in l / fromIntegral n
-
-apart :: Point -> Point -> Double
-apart a b = let Mm d = Vec.distance a b in d

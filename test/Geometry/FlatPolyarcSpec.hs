@@ -1,4 +1,4 @@
--- | Outlines: area, length, and the way back.
+-- | Flat polyarcs: area, length and reversal.
 module Geometry.FlatPolyarcSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -12,8 +12,8 @@ import Test.Hspec
 import Test.QuickCheck
 
 spec :: Spec
-spec = describe "an outline" $ do
-  it "of a circle has its area and length, however it is cut" $
+spec = describe "a flat polyarc" $ do
+  it "of a circle has its area and length, however it is divided" $
     property . forAll (choose (2, 60)) $ \k -> forAll (choose (0.1, 10)) $ \r ->
       let o =
             Generate.Outline.loop
@@ -28,7 +28,7 @@ spec = describe "an outline" $ do
                 && abs (l - 2 * pi * r) < 1e-11 * r
             )
   it
-    "walked back has the negative area and the same length (catches a bulge of the wrong segment)"
+    "reversed has the negative area and the same length (catches a bulge of the wrong segment)"
     $ property . forAll Generate.Outline.problem $ \c ->
       conjoin
         [ counterexample
@@ -38,11 +38,11 @@ spec = describe "an outline" $ do
             )
           | o <- Generate.Outline.outlines c
         ]
-  it "walked back twice is itself" $
+  it "reversed twice is itself" $
     property . forAll Generate.Outline.open $ \c ->
       map (FlatPolyarc.reverse . FlatPolyarc.reverse) (Generate.Outline.outlines c)
         === map lastless (Generate.Outline.outlines c)
-  it "of a contour is as long, and passes the same places (catches an arc cut at the wrong place)" $
+  it "of a polyarc is as long (catches an arc divided at the wrong point)" $
     property . forAll Generate.closedCase $ \c ->
       let contour = Generate.contour c
           (o, numbers) = FlatPolyarc.fromContour contour
@@ -57,11 +57,8 @@ spec = describe "an outline" $ do
     near :: Double -> Double -> Property
     near a b = counterexample (show (a, b)) (abs (a - b) < 1e-9 * (1 + abs a + abs b))
     plus (Mm a) (Mm b) = Mm (a + b)
-    -- The last bulge of an open outline means nothing.
-    lastless o =
-      FlatPolyarc.outline
-        (FlatPolyarc.ends o)
-        ( let vs =
-                FlatPolyarc.vertices o
-           in case reverse vs of (x, y, _) : rest -> reverse ((x, y, 0) : rest); [] -> []
-        )
+    -- The last bulge of an open polyarc has no meaning.
+    lastless o = FlatPolyarc.outline (FlatPolyarc.ends o) (withoutLast (FlatPolyarc.vertices o))
+    withoutLast vs = case reverse vs of
+      (x, y, _) : rest -> reverse ((x, y, 0) : rest)
+      [] -> []

@@ -1,4 +1,4 @@
--- | Lines and arcs: places along them.
+-- | Points along lines and arcs.
 module Geometry.SegmentSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -12,12 +12,12 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   it
-    "places on very flat arcs are the same from either end (catches a place about a centre that is \
-    \far away)"
+    "points on very flat arcs are the same from either end (catches a point computed from a \
+    \distant centre)"
     $ forAll flatArc $ \arc -> forAll share $ \t ->
       Vec.distance (Segment.at t arc) (Segment.at (1 - t) (Segment.reverse arc)) `atMost` Mm 1e-11
   it
-    "places on very flat arcs are as high above the chord as an arc is (catches a line instead of \
+    "points on very flat arcs are as high above the chord as an arc is (catches a line instead of \
     \the arc)"
     $ forAll flatArc $ \arc -> forAll share $ \t -> case arc of
       Arc {start, end, sweep = Rad s} ->
@@ -30,23 +30,17 @@ spec = do
 atMost :: Mm -> Mm -> Property
 atMost d most = counterexample (show d) (d <= most)
 
--- | An arc between two places, of less than a ten-thousandth, about a centre up to many kilometres
--- away.
+-- | An arc between two points that sweeps less than 10⁻⁴; its centre is up to many kilometres away.
 flatArc :: Gen Segment
 flatArc = do
-  start <- place
-  end <- place `suchThat` (\p -> Vec.distance start p > Mm 0.1)
+  start <- point
+  end <- point `suchThat` (\p -> Vec.distance start p > Mm 0.1)
   size <- choose (-9, -4.1)
-  sense <- elements [1, -1]
-  let s = sense * 10 ** size
-      centre =
-        Vec.shift
-          (Vec.scale (1 / (2 * tan (s / 2))) (Vec.left (Vec.to start end)))
-          (Vec.between 0.5 start end)
-  pure Arc {start, end, centre, sweep = Rad s}
+  sign <- elements [1, -1]
+  pure (Segment.fromBulge start end (tan (sign * 10 ** size / 4)))
 
-place :: Gen Point
-place = Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
+point :: Gen Point
+point = Vec.point <$> choose (-100, 100) <*> choose (-100, 100)
 
 share :: Gen Double
 share = choose (0, 1)

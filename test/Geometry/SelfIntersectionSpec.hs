@@ -1,4 +1,4 @@
--- | The laws of contours that cross themselves.
+-- | Laws of the self-intersections of a polyarc.
 module Geometry.SelfIntersectionSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -8,6 +8,7 @@ import Data.Maybe (isJust)
 import Geometry.Distance qualified as Distance
 import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
 import Geometry.SelfIntersection qualified as SelfIntersection
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -17,8 +18,8 @@ import Test.QuickCheck
 spec :: Spec
 spec = describe "a contour" $ do
   it
-    "crosses itself where two of its segments do that are not joined (catches boxes without what \
-    \an arc bulges, and the way back of an open one)"
+    "crosses itself where two of its segments do that are not neighbours (catches bounding boxes \
+    \without an arc's sagitta, and the closing segment of an open one)"
     $ property $
       forAll contour $ \c ->
         let found = SelfIntersection.selfCrossing c
@@ -37,8 +38,8 @@ spec = describe "a contour" $ do
             (i < j && all (\k -> Distance.toPoint p (segments c NonEmpty.!! k) <= Mm 1e-6) [i, j])
         Nothing -> property True
   it
-    "of two lines crosses itself where the second turns back along the first, and at no other \
-    \angle (catches a way back that is taken for a bend)"
+    "of two lines crosses itself where the second runs back along the first, and at no other \
+    \angle (catches a reversal that is taken for a corner)"
     $ property $
       forAll
         ( (,,,)
@@ -54,7 +55,7 @@ spec = describe "a contour" $ do
            in isJust (SelfIntersection.selfCrossing (Polyarc Open (Straight p q :| [Straight q r])))
                 === (away == 0)
 
--- | The places where segments meet that are not joined, pair by pair.
+-- | The points at which segments that are not neighbours meet, pair by pair.
 meetings :: Polyarc -> [Point]
 meetings (Polyarc ends ss) =
   [ p
@@ -66,7 +67,7 @@ meetings (Polyarc ends ss) =
   where
     numbered = zip [0 ..] (NonEmpty.toList ss)
 
--- | Lines and arcs from place to place, most of them a little further to the right each time.
+-- | Lines and arcs through points, most of which lie a little further to the right each time.
 contour :: Gen Polyarc
 contour = do
   n <- choose (3, 60)
@@ -78,10 +79,7 @@ contour = do
   ss <- mapM (uncurry bent) (zip ps (drop 1 ps) <> [(q, Vec.point 0 0) | closed])
   pure (Polyarc (if closed then Closed else Open) (NonEmpty.fromList ss))
 
--- | A line, or an arc of any size up to nearly a circle.
+-- | A line, or an arc with a sweep up to 254°.
 bent :: Point -> Point -> Gen Segment
-bent p q = do
-  b <- frequency [(1, pure 0), (3, choose (-0.5, 0.5)), (1, choose (-2, 2))]
-  let centre =
-        Vec.shift (Vec.scale ((1 - b * b) / (4 * b)) (Vec.left (Vec.to p q))) (Vec.between 0.5 p q)
-  pure (if b == 0 then Straight p q else Arc {start = p, end = q, centre, sweep = Rad (4 * atan b)})
+bent p q =
+  Segment.fromBulge p q <$> frequency [(1, pure 0), (3, choose (-0.5, 0.5)), (1, choose (-2, 2))]

@@ -1,5 +1,5 @@
--- | Fillets: arcs of a given radius and sense that lead from one walked element to another
--- and touch both in the direction of the walk.
+-- | Fillets: arcs of a given radius and sense that lead from one element's carrier to another and
+-- are tangent to both in the direction of travel.
 module Geometry.Construction.Fillet
   ( Fillet (..),
     between,
@@ -8,86 +8,84 @@ where
 
 import Base.Quantity (Mm (..), minus, plus)
 import Data.List.NonEmpty qualified as NonEmpty
-import Geometry.Carrier (Circle (..), Sense (..))
+import Geometry.Carrier (Carrier (..), Circle (..), Sense (..))
 import Geometry.Carrier qualified as Carrier
-import Geometry.Construction.CarrierIntersection (Carrier (..))
-import Geometry.Construction.CarrierIntersection qualified as CarrierIntersection
+import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Distance qualified as Distance
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.ElementCarrier qualified as ElementCarrier
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.MeasuredPolyarc (Polyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
+import Geometry.Segment (Segment)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | An arc by its centre and its ends.
+-- | A fillet by its centre, its start and its end.
 data Fillet = Fillet {middle :: Point, start :: Point, end :: Point}
   deriving stock (Eq, Show)
 
--- | All fillets of a radius and a sense: at most two between lines and circles.
+-- | All fillets of a radius and sense from the first carrier to the second. Between lines and
+-- circles there are at most two. On a curve, a fillet must touch within the segment from whose
+-- carrier it was constructed.
 between :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
-between radius turn a b = case (a, b) of
+between radius sense a b = case (a, b) of
   (OnCurve p, OnCurve q) ->
-    apart
+    distinct
       [ f
-        | (s, g) <- pairs p q,
-          f <- simple (ElementCarrier.ofSegment s) (ElementCarrier.ofSegment g),
-          start f `on` s,
-          end f `on` g
+        | (s, g) <- closePairs radius p q,
+          f <- fillets (ElementCarrier.ofSegment s) (ElementCarrier.ofSegment g),
+          start f `isOn` s,
+          end f `isOn` g
       ]
   (OnCurve p, _) ->
-    apart
-      [ f
-        | s <- NonEmpty.toList (MeasuredPolyarc.segments p),
-          f <- simple (ElementCarrier.ofSegment s) b,
-          start f `on` s
-      ]
+    distinct
+      [f | s <- segmentsOf p, f <- fillets (ElementCarrier.ofSegment s) b, start f `isOn` s]
   (_, OnCurve q) ->
-    apart
-      [ f
-        | g <- NonEmpty.toList (MeasuredPolyarc.segments q),
-          f <- simple a (ElementCarrier.ofSegment g),
-          end f `on` g
-      ]
-  _ -> simple a b
+    distinct [f | g <- segmentsOf q, f <- fillets a (ElementCarrier.ofSegment g), end f `isOn` g]
+  _ -> fillets a b
   where
-    simple = ofPair radius turn
-    on p s = Distance.toPoint p s <= Tolerance.coincident
-    -- Segments near enough to be touched by one circle.
-    pairs p q =
-      let index =
-            BoundingBox.index BoundingBox.ofSegment (NonEmpty.toList (MeasuredPolyarc.segments q))
-       in [ (s, g)
-            | s <- NonEmpty.toList (MeasuredPolyarc.segments p),
-              g <-
-                BoundingBox.within
-                  (BoundingBox.inflate (plus radius radius) (BoundingBox.ofSegment s))
-                  index
-          ]
-    -- A fillet that touches where two segments of a curve join is found from both.
-    apart fs = case fs of
-      [] -> []
-      f : rest ->
-        f : apart (filter (\g -> Vec.distance (middle f) (middle g) > Tolerance.sameFillet) rest)
+    fillets = ofPair radius sense
+    isOn p s = Distance.toPoint p s <= Tolerance.coincident
+
+segmentsOf :: Polyarc -> [Segment]
+segmentsOf = NonEmpty.toList . MeasuredPolyarc.segments
+
+-- | The pairs of segments of two curves that are close enough for one circle to touch both.
+closePairs :: Mm -> Polyarc -> Polyarc -> [(Segment, Segment)]
+closePairs radius p q = [(s, g) | s <- segmentsOf p, g <- BoxTree.within (around s) tree]
+  where
+    tree = BoxTree.index BoundingBox.ofSegment (segmentsOf q)
+    around s = BoundingBox.inflate (plus radius radius) (BoundingBox.ofSegment s)
+
+-- | The fillets without duplicates: one that touches where two segments of a curve join is found
+-- from both.
+distinct :: [Fillet] -> [Fillet]
+distinct fillets = case fillets of
+  [] -> []
+  f : rest -> f : distinct (filter (differs f) rest)
+  where
+    differs f g = Vec.distance (middle f) (middle g) > Tolerance.sameFillet
 
 -- | The fillets between two lines or circles.
 ofPair :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
-ofPair radius turn a b =
+ofPair radius sense a b =
   [ Fillet {middle = c, start, end}
-    | Just la <- [locus radius turn a],
-      Just lb <- [locus radius turn b],
-      c <- CarrierIntersection.common la lb,
-      Just start <- [touch radius turn a c],
-      Just end <- [touch radius turn b c]
+    | Just locusA <- [locus radius sense a],
+      Just locusB <- [locus radius sense b],
+      c <- Intersection.common locusA locusB,
+      Just start <- [touch radius sense a c],
+      Just end <- [touch radius sense b c]
   ]
 
--- | Where the centre of an arc can lie that touches an element in its direction.
+-- | The locus of the centres of arcs that are tangent to a carrier in its direction of travel.
 locus :: Mm -> Sense -> ElementCarrier -> Maybe Carrier
-locus radius@(Mm r) turn walked = case walked of
-  OnLine l -> Just (LineCarrier (Carrier.parallelAt (Mm (Carrier.sense turn * r)) l))
+locus radius@(Mm r) sense carrier = case carrier of
+  OnLine l -> Just (LineCarrier (Carrier.parallelAt (Mm (Carrier.sense sense * r)) l))
   OnCircle t (Circle c rc)
-    | t /= turn -> Just (CircleCarrier (Circle c (plus rc radius)))
+    | t /= sense -> Just (CircleCarrier (Circle c (plus rc radius)))
     | gap <= Tolerance.coincident -> Nothing
     | otherwise -> Just (CircleCarrier (Circle c gap))
     where
@@ -95,14 +93,14 @@ locus radius@(Mm r) turn walked = case walked of
   OnCurve _ -> Nothing
   AtPoint _ -> Nothing
 
--- | Where an arc about a centre touches the element.
+-- | The point at which an arc about a centre touches a carrier.
 touch :: Mm -> Sense -> ElementCarrier -> Point -> Maybe Point
-touch radius turn walked c = case walked of
+touch radius sense carrier c = case carrier of
   OnLine l -> Just (Carrier.foot l c)
   OnCircle t (Circle o rc@(Mm r)) ->
     Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
     where
       -- The smaller circle lies inside; a fillet around the circle touches it on the far side.
-      side = if t == turn && radius > rc then -1 else 1
+      side = if t == sense && radius > rc then -1 else 1
   OnCurve _ -> Nothing
   AtPoint _ -> Nothing

@@ -1,6 +1,9 @@
 -- | Intersections of lines and circles in closed form.
 module Geometry.Construction.Intersection
   ( Intersection (..),
+    points,
+    carriers,
+    common,
     lines,
     lineCircle,
     circles,
@@ -8,25 +11,48 @@ module Geometry.Construction.Intersection
 where
 
 import Base.Quantity (Mm (..))
-import Geometry.Carrier (Circle (..), Line (..))
+import Geometry.Carrier (Carrier (..), Circle (..), Line (..))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (lines)
 
--- | How two curves lie to one another.
+-- | The position of two carriers relative to each other.
 data Intersection
-  = -- | they miss one another by this much
+  = -- | no common point; the least distance between them
     Apart Mm
   | Touching Point
   | Crossing Point Point
   | CrossingOnce Point
-  | -- | they are the same curve
+  | -- | the same carrier, to 'Tolerance.coincident'
     Same
   deriving stock (Eq, Show)
 
--- | Two lines. Parallel ones are apart by their distance.
+-- | The common points, as far as they are finitely many.
+points :: Intersection -> [Point]
+points intersection = case intersection of
+  Apart _ -> []
+  Same -> []
+  Touching p -> [p]
+  CrossingOnce p -> [p]
+  Crossing p q -> [p, q]
+
+-- | The intersection of two carriers. For a line and a circle, in either order, the points come in
+-- the order of the line.
+carriers :: Carrier -> Carrier -> Intersection
+carriers a b = case (a, b) of
+  (LineCarrier l, LineCarrier m) -> lines l m
+  (LineCarrier l, CircleCarrier c) -> lineCircle l c
+  (CircleCarrier c, LineCarrier l) -> lineCircle l c
+  (CircleCarrier c, CircleCarrier d) -> circles c d
+
+-- | The common points of two carriers; none when the carriers are the same.
+common :: Carrier -> Carrier -> [Point]
+common a b = points (carriers a b)
+
+-- | The intersection of two lines. Lines whose directions have a sine of at most
+-- 'Tolerance.parallel' between them count as parallel.
 lines :: Line -> Line -> Intersection
 lines a b
   | abs sine > Tolerance.parallel = CrossingOnce (Vec.shift (Vec.scale t u) (from a))
@@ -39,7 +65,8 @@ lines a b
     t = Vec.cross (Vec.to (from a) (from b)) v / sine
     Mm h = Carrier.signedDistance a (from b)
 
--- | A line and a circle. The first of two points comes first along the line.
+-- | The intersection of a line and a circle. Two points come in the order of the line. They touch
+-- when the centre is as far from the line as the radius, to 'Tolerance.coincident'.
 lineCircle :: Line -> Circle -> Intersection
 lineCircle l (Circle c (Mm r))
   | abs (abs h - r) <= tolerance = Touching foot
@@ -52,8 +79,8 @@ lineCircle l (Circle c (Mm r))
     half = sqrt ((r - abs h) * (r + abs h))
     along s = Vec.shift (Vec.scale s (Carrier.direction l)) foot
 
--- | Two circles. The first of two points lies to the left of the way from centre to centre.
--- Of concentric circles the difference of the radii is the gap.
+-- | The intersection of two circles. The first of two points lies to the left of the direction from
+-- the first centre to the second. Concentric circles are apart by the difference of their radii.
 circles :: Circle -> Circle -> Intersection
 circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
   | d <= tolerance && abs (r1 - r2) <= tolerance = Same
@@ -66,11 +93,11 @@ circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
     Mm tolerance = Tolerance.coincident
     Mm d = Vec.distance c1 c2
     e = Vec.unit (Vec.to c1 c2)
-    -- From the centre of the smaller circle: the other one may be as good as a line, and its centre
-    -- far away.
-    (from, onwards, small, large) =
+    -- Points are computed from the centre of the smaller circle: the larger one may be almost a
+    -- line, with a distant centre.
+    (origin, towards, small, large) =
       if r1 <= r2 then (c1, e, r1, r2) else (c2, Vec.scale (-1) e, r2, r1)
-    -- Where the common chord meets the line of centres.
+    -- The distance along the line of centres at which the common chord crosses it.
     a = ((d - large) * (d + large) + small * small) / (2 * d)
     half = sqrt (max 0 ((small - a) * (small + a)))
-    at s h = Vec.shift (Vec.add (Vec.scale s onwards) (Vec.scale h (Vec.left e))) from
+    at s h = Vec.shift (Vec.add (Vec.scale s towards) (Vec.scale h (Vec.left e))) origin

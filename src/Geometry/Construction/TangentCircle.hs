@@ -1,5 +1,5 @@
--- | Constructions of the drawing board: lines and circles that touch others or go through points.
--- Each gives all its answers; which one is meant is for the caller to choose.
+-- | Constructions of lines and circles that touch others or pass through points. Each gives all
+-- solutions; the caller chooses.
 module Geometry.Construction.TangentCircle
   ( Touched (..),
     touchingLines,
@@ -9,10 +9,8 @@ module Geometry.Construction.TangentCircle
 where
 
 import Base.Quantity (Mm (..), minus, plus)
-import Geometry.Carrier (Circle (..), Line (..), Sense (..))
+import Geometry.Carrier (Carrier (..), Circle (..), Line (..), Sense (..))
 import Geometry.Carrier qualified as Carrier
-import Geometry.Construction.CarrierIntersection (Carrier (..))
-import Geometry.Construction.CarrierIntersection qualified as CarrierIntersection
 import Geometry.Construction.Intersection (Intersection (..))
 import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Construction.TangentLine qualified as TangentLine
@@ -20,41 +18,46 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | What a circle of a given radius goes through or touches.
+-- | A condition on a circle of a given radius.
 data Touched
   = Through Point
   | LeftOf Line
   | RightOf Line
-  | -- | from outside
+  | -- | both lie outside each other
     OutsideOf Circle
-  | -- | one inside the other
+  | -- | one lies inside the other
     InsideOf Circle
   deriving stock (Eq, Show)
 
--- | The directed lines that touch two circles from the one to the other; a circle of radius 0 is a
--- point. The senses are those in which a circle may be passed: counter-clockwise, it lies to the
--- left.
+-- | The directed lines that touch the first circle and then the second. A circle of radius 0 is a
+-- point. Each circle comes with the senses that it may have; a counter-clockwise circle lies to the
+-- left of the line.
 touchingLines :: ([Sense], Circle) -> ([Sense], Circle) -> [Line]
-touchingLines (ts, a) (us, b) =
-  distinct [l | t <- senses a ts, u <- senses b us, Just l <- [TangentLine.directed (t, a) (u, b)]]
+touchingLines (sensesA, a) (sensesB, b) =
+  distinct
+    [ l
+      | senseA <- relevant a sensesA,
+        senseB <- relevant b sensesB,
+        Just l <- [TangentLine.directed (senseA, a) (senseB, b)]
+    ]
   where
-    -- A point has no sides.
-    senses (Circle _ r) list = if r <= Tolerance.coincident then take 1 list else list
+    -- A point lies on the line, not to one side of it.
+    relevant (Circle _ r) senses = if r <= Tolerance.coincident then take 1 senses else senses
     distinct ls = case ls of
       [] -> []
-      l : rest -> l : distinct (filter (different l) rest)
-    different l m = not (Vec.near (from l) (from m) && Vec.near (to l) (to m))
+      l : rest -> l : distinct (filter (differs l) rest)
+    differs l m = not (Vec.near (from l) (from m) && Vec.near (to l) (to m))
 
--- | The circles of a radius that touch two things: at most two.
+-- | The circles of a radius that meet two conditions: at most two.
 circles :: Mm -> Touched -> Touched -> [Circle]
 circles r a b =
   [ Circle c r
-    | Just la <- [locus r a],
-      Just lb <- [locus r b],
-      c <- CarrierIntersection.common la lb
+    | Just locusA <- [locus r a],
+      Just locusB <- [locus r b],
+      c <- Intersection.common locusA locusB
   ]
 
--- | Where the centre may lie.
+-- | The locus of the centres of circles of a radius that meet a condition.
 locus :: Mm -> Touched -> Maybe Carrier
 locus r@(Mm radius) touched = case touched of
   Through p -> Just (CircleCarrier (Circle p r))
@@ -67,7 +70,7 @@ locus r@(Mm radius) touched = case touched of
     where
       gap = max (minus rc r) (minus r rc)
 
--- | The circle through three points, unless they lie on one line.
+-- | The circle through three points; nothing when they lie on a line or two of them coincide.
 through :: Point -> Point -> Point -> Maybe Circle
 through p q s
   | Vec.near p q || Vec.near q s || Vec.near p s = Nothing

@@ -1,4 +1,4 @@
--- | Common tangents of circles, and the lines from a point that touch a circle.
+-- | Common tangents of circles, and tangents from a point to a circle.
 module Geometry.Construction.TangentLine
   ( directed,
     all,
@@ -12,32 +12,32 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Prelude hiding (all)
 
--- | The common tangent that leaves the first circle and reaches the second in the directions in
--- which they are walked, from touching point to touching point. A circle of radius 0 is a point.
--- There is none when one circle lies in the other, or when circles walked in opposite senses
+-- | The common tangent from the first circle to the second, from tangent point to tangent point,
+-- that leaves the first and reaches the second in their senses. A circle of radius 0 is a point.
+-- There is no tangent when one circle lies in the other, nor when circles of opposite senses
 -- overlap.
 --
--- With signed radii ρ (positive counter-clockwise) the tangent has the left normal n with
--- n·(c₂ − c₁) = ρ₂ − ρ₁, and touches at cᵢ − ρᵢ n.
+-- With signed radii ρ, positive counter-clockwise, the tangent's left normal n satisfies
+-- @n·(c₂ − c₁) = ρ₂ − ρ₁@, and the tangent points are @cᵢ − ρᵢ·n@.
 directed :: (Sense, Circle) -> (Sense, Circle) -> Maybe Line
-directed (t1, Circle c1 (Mm r1)) (t2, Circle c2 (Mm r2))
+directed (sense1, Circle c1 (Mm r1)) (sense2, Circle c2 (Mm r2))
   | d <= tolerance || d - abs (rho2 - rho1) <= 0 || len <= tolerance = Nothing
   | otherwise = Just (Line (touch c1 rho1) (touch c2 rho2))
   where
     Mm tolerance = Tolerance.coincident
     Mm d = Vec.distance c1 c2
-    rho1 = Carrier.sense t1 * r1
-    rho2 = Carrier.sense t2 * r2
+    rho1 = Carrier.sense sense1 * r1
+    rho2 = Carrier.sense sense2 * r2
     len = sqrt ((d - (rho2 - rho1)) * (d + (rho2 - rho1)))
     e = Vec.unit (Vec.to c1 c2)
     u = Vec.add (Vec.scale (len / d) e) (Vec.scale ((rho1 - rho2) / d) (Vec.left e))
     touch c rho = Vec.shift (Vec.scale (-rho) (Vec.left u)) c
 
--- | All common tangents, at most four, with the senses of the circles that they join.
+-- | All common tangents from the first circle to the second, at most four, with the senses of both.
 all :: Circle -> Circle -> [(Sense, Sense, Line)]
 all a b =
-  [ (t1, t2, line)
-    | t1 <- [minBound .. maxBound],
-      t2 <- [minBound .. maxBound],
-      Just line <- [directed (t1, a) (t2, b)]
+  [ (sense1, sense2, line)
+    | sense1 <- [minBound .. maxBound],
+      sense2 <- [minBound .. maxBound],
+      Just line <- [directed (sense1, a) (sense2, b)]
   ]

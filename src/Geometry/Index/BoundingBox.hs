@@ -1,4 +1,5 @@
--- | Boxes parallel to the axes, and an index of things by their boxes.
+-- | Bounding boxes: rectangles parallel to the axes. "Geometry.Index.BoxTree" is an index of things
+-- by their boxes.
 module Geometry.Index.BoundingBox
   ( BoundingBox (..),
     ofSegment,
@@ -7,6 +8,7 @@ module Geometry.Index.BoundingBox
     inflate,
     meets,
     distance,
+    apart,
     atLeast,
     Index,
     index,
@@ -25,17 +27,18 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The points between two corners.
+-- | The rectangle between two corners, edges included; in mm.
 data BoundingBox = BoundingBox {left :: Double, bottom :: Double, right :: Double, top :: Double}
   deriving stock (Eq, Show)
 
--- | The smallest box that holds some points, of which there is at least the first.
+-- | The smallest box that contains a point and a list of further points.
 ofPoints :: Point -> [Point] -> BoundingBox
 ofPoints p ps = foldl (\box q -> box `union` single q) (single p) ps
   where
     single q = BoundingBox (Vec.x q) (Vec.y q) (Vec.x q) (Vec.y q)
 
--- | A box that holds a segment; for an arc its chord's box grown by the sagitta, or the circle's.
+-- | A box that contains a segment. For an arc below half a circle it is the box of the chord,
+-- enlarged by the sagitta, else that of the full circle: neither is the smallest.
 ofSegment :: Segment -> BoundingBox
 ofSegment segment = case segment of
   Straight a b ->
@@ -48,25 +51,42 @@ ofSegment segment = case segment of
     | abs s < pi -> inflate (Segment.bulge segment) (ofPoints start [end])
     | otherwise -> inflate (Segment.radius centre start) (ofPoints centre [])
 
+-- | The smallest box that contains two boxes.
 union :: BoundingBox -> BoundingBox -> BoundingBox
 union (BoundingBox l b r t) (BoundingBox l' b' r' t') =
   BoundingBox (min l l') (min b b') (max r r') (max t t')
 
--- | Grown on all sides.
+-- | The box enlarged by a margin on all four sides.
 inflate :: Mm -> BoundingBox -> BoundingBox
 inflate (Mm d) (BoundingBox l b r t) = BoundingBox (l - d) (b - d) (r + d) (t + d)
 
--- | Whether two boxes have a point in common.
+-- | True when two boxes have a point in common.
 meets :: BoundingBox -> BoundingBox -> Bool
 meets (BoundingBox l b r t) (BoundingBox l' b' r' t') = l <= r' && l' <= r && b <= t' && b' <= t
 
--- | No point of a box has a smaller distance from something, by the distances of points from it:
--- that of the middle of the box less half of its diagonal.
+-- | A lower bound of a distance over all points of a box: the distance at the box's middle less
+-- half of its diagonal. @distanceTo@ is the distance of a point from some fixed set.
 atLeast :: (Point -> Mm) -> BoundingBox -> Mm
 atLeast distanceTo (BoundingBox l b r t) =
   minus
     (distanceTo (Vec.point ((l + r) / 2) ((b + t) / 2)))
     (Mm (Vec.norm (Vec.vec (r - l) (t - b)) / 2))
+
+-- | The distance between two boxes, 0 when they meet.
+apart :: BoundingBox -> BoundingBox -> Mm
+apart (BoundingBox l b r t) (BoundingBox l' b' r' t') =
+  Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
+  where
+    gap low high low' high' = max 0 (max (low' - high) (low - high'))
+
+-- | The distance of a point from a box, 0 inside it.
+distance :: Point -> BoundingBox -> Mm
+distance p (BoundingBox l b r t) =
+  Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))
+  where
+    outside low c high = max 0 (max (low - c) (c - high))
+
+-- Replaced by Geometry.Index.BoxTree -----------------------------------------------------------
 
 -- | Things in the order in which they were given, with the boxes of their groups: the order of a
 -- contour is a good order in space.
@@ -162,17 +182,3 @@ closest measure distanceOf = go Nothing
       | apart (around a) (around b) <= apart (around a') (around b') = go (go best a b) a' b'
       | otherwise = go (go best a' b') a b
     size (BoundingBox l b r t) = (r - l) + (t - b)
-
--- | The distance of two boxes, none if they meet.
-apart :: BoundingBox -> BoundingBox -> Mm
-apart (BoundingBox l b r t) (BoundingBox l' b' r' t') =
-  Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
-  where
-    gap low high low' high' = max 0 (max (low' - high) (low - high'))
-
--- | The distance of a point from a box, none inside.
-distance :: Point -> BoundingBox -> Mm
-distance p (BoundingBox l b r t) =
-  Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))
-  where
-    outside low c high = max 0 (max (low - c) (c - high))

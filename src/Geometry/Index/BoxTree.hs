@@ -1,20 +1,34 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Things by their boxes in flat arrays: a box for each, for each eight of them, for each eight of
--- those, and so on. The order in which they are given is the order of a contour or of a walk, and
--- that is a good order in space as a rule: nothing is sorted unless it is asked for.
+-- | A bounding-box tree: an index of things by their bounding boxes.
+--
+-- It is a packed R-tree in flat arrays: one array for the boxes of the things, one for the boxes of
+-- each eight of those, and so on up to a single box. Only 'byPlace' sorts the things: they usually
+-- come in the order of a contour or toolpath, where neighbours are close in space.
+--
+-- This is the tree for things of any type. "Geometry.Index.SegmentTree" is the one for the
+-- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs': it computes the lowest boxes from those
+-- arrays and excludes pairs by direction, which only consecutive segments allow.
 module Geometry.Index.BoxTree
   ( BoxTree,
+
+    -- * Construction
     index,
     indexOf,
     byPlace,
+
+    -- * Contents
+    toList,
+    foldl',
+    size,
+    around,
+
+    -- * Queries
     within,
     each,
     select,
     closest,
-    toList,
-    foldl',
-    size,
+    closestPair,
   )
 where
 
@@ -32,31 +46,34 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 
--- | The things in order; four numbers for each box: left, bottom, right, top.
+-- | Things in order, with their boxes; four numbers for each box: left, bottom, right, top.
 data BoxTree a = BoxTree
   { things :: Vector a,
     -- | the boxes of the things
     lowest :: PrimArray Double,
-    -- | all levels, the highest one first
+    -- | all levels, the highest first
     levels :: [PrimArray Double]
   }
 
--- | So many boxes have one about them.
+-- | The number of boxes that one box of the next level contains.
 fan :: Int
 fan = 8
 
--- | Build an index, in a time that grows with the number of things.
+-- Construction ------------------------------------------------------------------------------
+
+-- | Build a tree of a list by the box of each thing; linear in the number of things.
 index :: (a -> BoundingBox) -> [a] -> BoxTree a
 index box list = indexed box (Vector.fromList list)
 
--- | The same, where it is known how many they are: their array is made at once instead of growing.
--- Of more things the first ones count.
+-- | Build a tree of the first @count@ things of a list. It is faster than 'index', because the
+-- array is allocated once.
 indexOf :: Int -> (a -> BoundingBox) -> [a] -> BoxTree a
-indexOf most box list = indexed box (Vector.fromListN most list)
+indexOf count box list = indexed box (Vector.fromListN count list)
 
--- | The same for things whose order is none in space, such as the rounds of a pocket, each of which
--- lies about the next: sorted by the middles of their boxes, in columns of as many things as a
--- column is wide in boxes. The time has a logarithm more.
+-- | Build a tree of things whose order means nothing in space, such as the loops of a pocket, each
+-- of which surrounds the next. It sorts them by sort-tile-recursive packing: into columns by the
+-- middles of their boxes, each column by height, with as many things in a column as the column is
+-- boxes wide. The time is @n·log n@.
 byPlace :: (a -> BoundingBox) -> [a] -> BoxTree a
 byPlace box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -76,31 +93,31 @@ indexed box things = BoxTree {things, lowest, levels = reverse (grow lowest)}
       Vector.iforM_ things (\i a -> put numbers i (box a))
       pure numbers
     grow level
-      | count level <= 1 = [level]
+      | boxCount level <= 1 = [level]
       | otherwise = level : grow (above level)
 
--- | How many boxes a level has.
-count :: PrimArray Double -> Int
-count level = PrimArray.sizeofPrimArray level `quot` 4
+-- | The number of boxes of a level.
+boxCount :: PrimArray Double -> Int
+boxCount level = PrimArray.sizeofPrimArray level `quot` 4
 
--- | The boxes about those of a level.
+-- | The next higher level: a box around each eight boxes of a level.
 above :: PrimArray Double -> PrimArray Double
 above level = PrimArray.runPrimArray $ do
-  let higher = (count level + fan - 1) `quot` fan
   numbers <- PrimArray.newPrimArray (4 * higher)
-  forM_
-    [0 .. higher - 1]
-    ( \i ->
-        put
-          numbers
-          i
-          (about (fan * i + 1) (min (count level) (fan * (i + 1))) (boxAt level (fan * i)))
-    )
+  forM_ [0 .. higher - 1] (\i -> put numbers i (boxAbove i))
   pure numbers
   where
-    about k end b
+    higher = (boxCount level + fan - 1) `quot` fan
+    boxAbove i = unions (fan * i + 1) (childrenEnd level i) (boxAt level (fan * i))
+    unions k end b
       | k >= end = b
-      | otherwise = about (k + 1) end (BoundingBox.union b (boxAt level k))
+      | otherwise = unions (k + 1) end (BoundingBox.union b (boxAt level k))
+
+-- | The end of the boxes of a level that belong to a box of the next higher level. They start at
+-- 'fan' times its number.
+childrenEnd :: PrimArray Double -> Int -> Int
+childrenEnd level i = min (boxCount level) (fan * (i + 1))
+{-# INLINE childrenEnd #-}
 
 put :: PrimMonad m => MutablePrimArray (PrimState m) Double -> Int -> BoundingBox -> m ()
 put numbers i (BoundingBox l b r t) = do
@@ -116,163 +133,204 @@ boxAt level i = BoundingBox (at 0) (at 1) (at 2) (at 3)
     at j = PrimArray.indexPrimArray level (4 * i + j)
 {-# INLINE boxAt #-}
 
+-- Contents ----------------------------------------------------------------------------------
+
+-- | All things in order.
+toList :: BoxTree a -> [a]
+toList = Vector.toList . things
+
+-- | A strict left fold over all things in order.
+foldl' :: (b -> a -> b) -> b -> BoxTree a -> b
+foldl' with b = Vector.foldl' with b . things
+{-# INLINE foldl' #-}
+
+-- | The number of things.
+size :: BoxTree a -> Int
+size = Vector.length . things
+
+-- | The box around all things. That of an empty tree meets no other box.
+around :: BoxTree a -> BoundingBox
+around tree = case levels tree of
+  top : _ | boxCount top > 0 -> boxAt top 0
+  _ -> BoundingBox (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)
+
+-- Boxes that meet a box ---------------------------------------------------------------------
+
 -- | All things whose boxes meet a box, in order.
 within :: BoundingBox -> BoxTree a -> [a]
 within (BoundingBox l b r t) =
   select (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 {-# INLINE within #-}
 
--- | For each of some others, by its box, all things whose boxes meet that and for which something
--- holds of both, in order. Others that lie beside one another are asked for together: the boxes of
--- a few things are looked at one by one.
+-- | All things whose boxes satisfy a predicate, in order. A box that contains one that satisfies
+-- the predicate must satisfy it too.
+select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
+select holds tree = selectWith (Vector.unsafeIndex (things tree)) holds tree
+{-# INLINE select #-}
+
+-- | The indices of all things whose boxes meet a box, in order.
+indicesWithin :: BoundingBox -> BoxTree a -> [Int]
+indicesWithin (BoundingBox l b r t) =
+  selectWith id (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
+
+-- | The images of the selected things' indices, in order.
+selectWith :: (Int -> b) -> (BoundingBox -> Bool) -> BoxTree a -> [b]
+selectWith make holds tree = case levels tree of
+  [] -> []
+  top : below -> go top below 0 (boxCount top - 1) []
+  where
+    -- The boxes of a level from the last, @i@, down to @first@, put in front of the rest of the
+    -- result. The list is built from its end, so nothing is left unevaluated.
+    go level below first i rest
+      | i < first = rest
+      | holds (boxAt level i) = case below of
+        [] -> go level below first (i - 1) (make i : rest)
+        next : lower ->
+          let found = go next lower (fan * i) (childrenEnd next i - 1) rest
+           in go level below first (i - 1) found
+      | otherwise = go level below first (i - 1) rest
+{-# INLINE selectWith #-}
+
+-- Many boxes at once ------------------------------------------------------------------------
+
+-- | For each element of a list: all things whose boxes meet its box and that satisfy a predicate
+-- with it, in order. Consecutive elements with adjacent boxes share one descent of the tree: the
+-- things of the box around them all are tested one by one.
 each :: (b -> BoundingBox) -> (b -> a -> Bool) -> BoxTree a -> [b] -> [[a]]
-each boxOf holds n = start
+each boxOf holds tree = start
   where
     start others = case others of
       [] -> []
-      b : rest -> let box = boxOf b in gather (1 :: Int) (sizeOf box) box [box] [b] rest
-    -- So many lie within a box, the last one first; the smallest has so much size.
-    gather known least all' boxes found rest = case rest of
+      b : rest -> let box = boxOf b in gather (1 :: Int) (halfPerimeter box) box [box] [b] rest
+    -- The members of a group in reverse, with their boxes, the box around all of them, their
+    -- count, and the least half perimeter of their boxes.
+    gather count least whole boxes members rest = case rest of
       b : more
-        | known < together,
+        | count < groupSize,
           box <- boxOf b,
-          both <- BoundingBox.union all' box,
-          smaller <- min least (sizeOf box),
-          sizeOf both <= widest * smaller ->
-          gather (known + 1) smaller both (box : boxes) (b : found) more
-      _ ->
-        let ranks =
-              ranksWithin all' n
-         in answer
-              ( if null (drop fewAtMost ranks)
-                  then \box b ->
-                    among box b ranks
-                  else \box b -> filter (holds b) (within box n)
-              )
-              boxes
-              found
-              (start rest)
-    answer ask boxes found behind = case (boxes, found) of
-      (box : boxes', b : found') ->
-        let a =
-              ask box b
-         in a `seq` answer ask boxes' found' (a : behind)
-      _ -> behind
-    among box b ranks = case ranks of
-      [] -> []
-      i : more
-        | BoundingBox.meets box (boxAt (lowest n) i),
-          a <- Vector.unsafeIndex (things n) i,
-          holds b a ->
-          let as =
-                among box b more
-           in as `seq` (a : as)
-        | otherwise -> among box b more
-    sizeOf (BoundingBox l b r t) = (r - l) + (t - b)
+          both <- BoundingBox.union whole box,
+          smaller <- min least (halfPerimeter box),
+          halfPerimeter both <= groupExtent * smaller ->
+          gather (count + 1) smaller both (box : boxes) (b : members) more
+      _ -> answers (query (indicesWithin whole tree)) boxes members (start rest)
+    query indices
+      | null (drop groupLimit indices) = \box b -> among tree (holds b) box indices
+      | otherwise = \box b -> filter (holds b) (within box tree)
 {-# INLINE each #-}
 
--- | So many boxes are asked for together, if the box about them is no larger than so many times
--- each.
-together :: Int
-together = 8
+-- | The answers to a group's queries in front of the rest of the result; the group is in reverse.
+answers :: (BoundingBox -> b -> [a]) -> [BoundingBox] -> [b] -> [[a]] -> [[a]]
+answers query boxes members rest = case (boxes, members) of
+  (box : boxes', b : members') ->
+    let found = query box b in found `seq` answers query boxes' members' (found : rest)
+  _ -> rest
+{-# INLINEABLE answers #-}
 
-widest :: Double
-widest = 8
-
--- | No more than so many things are looked at one by one.
-fewAtMost :: Int
-fewAtMost = 128
-
--- | The places of all things whose boxes meet a box, in order.
-ranksWithin :: BoundingBox -> BoxTree a -> [Int]
-ranksWithin (BoundingBox l b r t) =
-  selectRanks (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
-
--- | All things for whose boxes something holds, in order. It holds for a box that holds one for
--- which it does.
-select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
-select holds n = selectWith (Vector.unsafeIndex (things n)) holds n
-{-# INLINE select #-}
-
-selectRanks :: (BoundingBox -> Bool) -> BoxTree a -> [Int]
-selectRanks = selectWith id
-{-# INLINE selectRanks #-}
-
--- | What is made of the places of those things.
-selectWith :: (Int -> b) -> (BoundingBox -> Bool) -> BoxTree a -> [b]
-selectWith make holds n = case levels n of
-  [] -> []
-  top : below -> go top below 0 (count top - 1) []
+-- | The things, of those with some indices, whose boxes meet a box and that satisfy a predicate.
+among :: BoxTree a -> (a -> Bool) -> BoundingBox -> [Int] -> [a]
+among tree holds box = go
   where
-    -- Those of a level from one down to another, before the rest: nothing is put off.
-    go level below begin i rest
-      | i < begin = rest
-      | holds (boxAt level i) = case below of
-        [] -> go level below begin (i - 1) (make i : rest)
-        next : lower ->
-          go
-            level
-            below
-            begin
-            (i - 1)
-            (go next lower (fan * i) (min (count next) (fan * (i + 1)) - 1) rest)
-      | otherwise = go level below begin (i - 1) rest
-{-# INLINE selectWith #-}
+    go indices = case indices of
+      [] -> []
+      i : more
+        | BoundingBox.meets box (boxAt (lowest tree) i),
+          a <- Vector.unsafeIndex (things tree) i,
+          holds a ->
+          let rest = go more in rest `seq` (a : rest)
+        | otherwise -> go more
+{-# INLINE among #-}
 
--- | The thing nearest to a point; of several the first. Its distance is that of its box or more,
--- but for 'Tolerance.coincident': distances of lines, arcs and boxes are computed in different
--- ways, and each is rounded.
+halfPerimeter :: BoundingBox -> Double
+halfPerimeter (BoundingBox l b r t) = (r - l) + (t - b)
+
+-- | The largest number of boxes in a group of 'each'.
+groupSize :: Int
+groupSize = 8
+
+-- | The largest ratio of the half perimeter of the box around a group to the least one in it.
+groupExtent :: Double
+groupExtent = 8
+
+-- | The largest number of things that are tested one by one for each member of a group.
+groupLimit :: Int
+groupLimit = 128
+
+-- Nearest things ----------------------------------------------------------------------------
+
+-- | The thing nearest to a point and its distance; of several, the first. The distance of a thing
+-- must be at least that of its box, less 'Tolerance.coincident': both are rounded.
+--
+-- This is branch and bound. A first descent through the nearest boxes gives the bound.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
-closest distanceTo p n = case levels n of
+closest distanceTo p tree = case levels tree of
   [] -> Nothing
-  top : below -> go top below 0 (count top) Nothing
+  top : below -> go top below 0 (boxCount top) Nothing
     where
-      -- Among those of a level from one up to another, if better than the best so far. No more is
-      -- looked at than has to be: first comes what is behind the nearest box.
-      bound0 = guess top below 0 (count top)
+      bound0 = guess top below 0 (boxCount top)
+      -- The boxes of a level from @i@ to before @end@, given the best thing so far.
       go level below' i end best
         | i >= end = best
         | away level i > maybe bound0 fst best = go level below' (i + 1) end best
-        | otherwise = case below' of
-          [] ->
-            let a =
-                  Vector.unsafeIndex (things n) i
-             in go level below' (i + 1) end (better a (distanceTo a) best)
-          next : lower ->
-            go
-              level
-              below'
-              (i + 1)
-              end
-              (go next lower (fan * i) (min (count next) (fan * (i + 1))) best)
+        | otherwise = go level below' (i + 1) end $ case below' of
+          [] -> let a = Vector.unsafeIndex (things tree) i in better a (distanceTo a) best
+          next : lower -> go next lower (fan * i) (childrenEnd next i) best
       better a d best = case best of
         Nothing -> if d <= bound0 then Just (d, a) else Nothing
         Just (e, _) -> if d < e then Just (d, a) else best
       guess level below' i end
         | i >= end = Mm (1 / 0)
-        | otherwise =
-          let k = nearestBox level i end
-           in case below' of
-                [] -> distanceTo (Vector.unsafeIndex (things n) k)
-                next : lower -> guess next lower (fan * k) (min (count next) (fan * (k + 1)))
+        | otherwise = case below' of
+          [] -> distanceTo (Vector.unsafeIndex (things tree) k)
+          next : lower -> guess next lower (fan * k) (childrenEnd next k)
+        where
+          k = nearestBox level i end
       nearestBox level i end =
-        fst
-          ( List.foldl'
-              (\(k, d) j -> let e = away level j in if e < d then (j, e) else (k, d))
-              (i, away level i)
-              [i + 1 .. end - 1]
-          )
+        fst (List.foldl' (nearerBox level) (i, away level i) [i + 1 .. end - 1])
+      nearerBox level (k, d) j = let e = away level j in if e < d then (j, e) else (k, d)
       away level i = minus (BoundingBox.distance p (boxAt level i)) Tolerance.coincident
 
--- | All things in order.
-toList :: BoxTree a -> [a]
-toList = Vector.toList . things
+-- | A subtree: its box, and either a thing or the subtrees below.
+data Node a = Leaf BoundingBox a | Branch BoundingBox ~[Node a]
 
--- | All things in order, one after the other; there is no list of them.
-foldl' :: (b -> a -> b) -> b -> BoxTree a -> b
-foldl' with b = Vector.foldl' with b . things
-{-# INLINE foldl' #-}
+-- | The nodes of a tree at the top, at most one.
+roots :: BoxTree a -> [Node a]
+roots tree = case levels tree of
+  [] -> []
+  top : below -> nodes top below 0 (boxCount top)
+  where
+    nodes level below i end = map (node level below) [i .. end - 1]
+    node level below i = case below of
+      [] -> Leaf (boxAt level i) (Vector.unsafeIndex (things tree) i)
+      next : lower -> Branch (boxAt level i) (nodes next lower (fan * i) (childrenEnd next i))
 
--- | How many there are.
-size :: BoxTree a -> Int
-size = Vector.length . things
+nodeBox :: Node a -> BoundingBox
+nodeBox node = case node of
+  Leaf box _ -> box
+  Branch box _ -> box
+
+-- | The measure of two things, one of each tree, with the least distance; of several, any of them.
+-- @distanceOf@ takes the distance from a measure. It must be at least that of the things' boxes,
+-- less 'Tolerance.coincident'.
+--
+-- This is branch and bound on pairs of nodes. It divides the node with the larger box and visits
+-- nearer pairs first.
+closestPair :: (a -> b -> c) -> (c -> Mm) -> BoxTree a -> BoxTree b -> Maybe c
+closestPair measure distanceOf one other =
+  List.foldl' (\best (a, b) -> go best a b) Nothing [(a, b) | a <- roots one, b <- roots other]
+  where
+    go best a b
+      | Just c <- best,
+        minus (BoundingBox.apart (nodeBox a) (nodeBox b)) Tolerance.coincident > distanceOf c =
+        best
+      | otherwise = case (a, b) of
+        (Leaf _ s, Leaf _ t) -> better best (measure s t)
+        (Branch p as, Branch q bs)
+          | halfPerimeter p > halfPerimeter q -> nearestFirst best [(a', b) | a' <- as]
+          | otherwise -> nearestFirst best [(a, b') | b' <- bs]
+        (Branch _ as, Leaf _ _) -> nearestFirst best [(a', b) | a' <- as]
+        (Leaf _ _, Branch _ bs) -> nearestFirst best [(a, b') | b' <- bs]
+    nearestFirst best = List.foldl' (\best' (a, b) -> go best' a b) best . sortOn boxDistance
+    boxDistance (a, b) = BoundingBox.apart (nodeBox a) (nodeBox b)
+    better best c = case best of
+      Just b | distanceOf b <= distanceOf c -> best
+      _ -> Just c

@@ -2,20 +2,30 @@
 {-# LANGUAGE MagicHash #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Boxes around segments in the order of the walk: a box round each run of eight consecutive ones,
--- one round eight such boxes, and so on. A walk's own order is a good order in the plane, so
--- nothing is sorted. Single segments have their boxes computed when they are asked for, which costs
--- less than to keep them.
+-- | The bounding-box tree of the offset kernel, over the segments of 'ClosedPolyarcs'.
 --
--- A run that goes forward in some direction all along its way does not meet itself. So every box
--- knows in which of eight directions all that it holds goes forward.
+-- It is a packed R-tree in flat arrays: a box around each run of eight consecutive segments, one
+-- around each eight such boxes, and so on. Consecutive segments are close in space, so nothing is
+-- sorted. The boxes of single segments are computed when needed, which costs less than storing
+-- them.
+--
+-- A chain that advances in a fixed direction throughout does not meet itself. Each box therefore
+-- stores in which of eight directions all that it contains advances, and the search for pairs skips
+-- such a box and two such neighbours.
+--
+-- The tree for things of any type is "Geometry.Index.BoxTree". It would store the boxes of single
+-- segments, and cannot know about directions.
 module Geometry.Index.SegmentTree
   ( SegmentTree,
     boxes,
+
+    -- * Boxes
     leaf,
     whole,
     run,
     behind,
+
+    -- * Queries
     pairs,
     around,
   )
@@ -30,31 +40,39 @@ import GHC.Exts (Double (D#), Int (I#), uncheckedIShiftRL#, (>=##))
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | The chain and the margin of its boxes in mm. Of the boxes, level after level: least x, least y,
--- largest x, largest y; the directions; and where each level begins and how many boxes it has.
+-- | The levels are stored one after the other, the lowest first.
 data SegmentTree = SegmentTree
   { chain :: ClosedPolyarcs,
+    -- | in mm; every box is enlarged by it
     margin :: Double,
+    -- | of each box: least x, least y, largest x, largest y
     sides :: PrimArray Double,
-    ways :: PrimArray Word8,
+    -- | of each box: the directions in which its content advances, as bits
+    directions :: PrimArray Word8,
+    -- | the first box of each level
     begins :: PrimArray Int,
+    -- | the number of boxes of each level
     counts :: PrimArray Int,
+    -- | the level that consists of one box
     highest :: Int
   }
 
--- | So many segments, or boxes, are in a box.
+-- | The number of segments, or of boxes, in one box.
 fan :: Int
 fan = 8
 
--- | The box of a segment: least x, least y, largest x, largest y.
+-- Boxes -------------------------------------------------------------------------------------
+
+-- | The box of a segment with the margin, passed to a continuation: least x, least y, largest x,
+-- largest y.
 leaf :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 leaf bs i k = segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
   where
     m = margin bs
 {-# INLINE leaf #-}
 
--- | The box of a segment without a margin. An arc of half a turn or less lies in the parallelogram
--- over its chord that its highest point touches.
+-- | The box of a segment without the margin. An arc up to a half circle lies in the parallelogram
+-- on its chord whose other side is tangent to it.
 segmentBox :: ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBox c i k = k lx ly hx hy
   where
@@ -71,31 +89,32 @@ segmentBox c i k = k lx ly hx hy
     !hy = most y0 y1 + most 0 oy
 {-# INLINE segmentBox #-}
 
--- | 1 where the first number is no smaller, 0 else, without a branch.
+-- | 1 when the first number is at least the second, else 0; without a branch.
 reaches :: Double -> Double -> Int
 reaches (D# a) (D# b) = I# (a >=## b)
 {-# INLINE reaches #-}
 
--- | Whether there is a segment of this number, and not the copy of a first vertex.
+-- | True when a segment starts at a vertex: it is not the repeated first vertex of a loop.
 present :: ClosedPolyarcs -> Int -> Bool
 present c i =
   not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))
 {-# INLINE present #-}
 
--- | The box of the run of eight to which a segment belongs.
+-- | The box of the run of eight segments to which a segment belongs, passed to a continuation.
 run :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 run bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE run #-}
 
--- | The segment that begins the next run.
+-- | The first segment of the next run.
 behind :: Int -> Int
 behind i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE behind #-}
 
--- | The box of everything.
+-- | The box around all segments, passed to a continuation.
 whole :: SegmentTree -> (Double -> Double -> Double -> Double -> r) -> r
 whole bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
+-- | The stored box with an index, passed to a continuation.
 boxAt :: PrimArray Double -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 boxAt a k next =
   next
@@ -105,71 +124,94 @@ boxAt a k next =
     (indexPrimArray a (4 * k + 3))
 {-# INLINE boxAt #-}
 
--- | The boxes of a chain, each wider by a margin in mm on every side.
+-- Construction ------------------------------------------------------------------------------
+
+-- | Build the tree of all segments with a margin in mm.
 boxes :: Double -> ClosedPolyarcs -> SegmentTree
 boxes !m !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       lowest = max 1 ((n + fan - 1) `quot` fan)
-      levels = sizes lowest
-      total = sum levels
-  cs <- newPrimArray (4 * total)
-  ws <- newPrimArray total
-  let put !k !lx !ly !hx !hy !w = do
-        writePrimArray cs (4 * k) lx
-        writePrimArray cs (4 * k + 1) ly
-        writePrimArray cs (4 * k + 2) hx
-        writePrimArray cs (4 * k + 3) hy
-        writePrimArray ws k (fromIntegral (w :: Int))
-      runs !k
-        | fan * k >= n = pure ()
-        | otherwise = do
-          let a = fan * k
-              e = min (n - 1) (a + fan)
-              x = indexPrimArray (ClosedPolyarcs.xs c) a
-              y = indexPrimArray (ClosedPolyarcs.ys c) a
-              w = if a + fan < n then headings m c a e else 0
-          runBox c a e x y x y $ \lx ly hx hy -> put k (lx - m) (ly - m) (hx + m) (hy + m) w
-          runs (k + 1)
-      -- From one level, where it begins and how many boxes it has, to the next.
-      up !o !count
-        | count == 1 = pure ()
-        | otherwise = do
-          let count' = (count + fan - 1) `quot` fan
-              node !k
-                | k >= count' = pure ()
-                | otherwise = do
-                  let e = o + min count (fan * k + fan)
-                      gather !i !lx !ly !hx !hy !w
-                        | i >= e = put (o + count + k) lx ly hx hy w
-                        | otherwise = do
-                          a <- readPrimArray cs (4 * i)
-                          b <- readPrimArray cs (4 * i + 1)
-                          a' <- readPrimArray cs (4 * i + 2)
-                          b' <- readPrimArray cs (4 * i + 3)
-                          w' <- readPrimArray ws i
-                          gather
-                            (i + 1)
-                            (least lx a)
-                            (least ly b)
-                            (most hx a')
-                            (most hy b')
-                            (w .&. fromIntegral w')
-                  gather (o + fan * k) far far (-far) (-far) everyWay
-                  node (k + 1)
-          node 0
-          up (o + count) count'
-  when (n == 0) $ put 0 far far (-far) (-far) 0
-  runs 0
-  up 0 lowest
+      levels = levelSizes lowest
+  out <- Boxes <$> newPrimArray (4 * sum levels) <*> newPrimArray (sum levels)
+  when (n == 0) $ putBox out 0 far far (-far) (-far) 0
+  writeRuns m c out
+  writeLevels out 0 lowest
+  let Boxes sides directions = out
   SegmentTree c m
-    <$> unsafeFreezePrimArray cs
-      <*> unsafeFreezePrimArray ws
+    <$> unsafeFreezePrimArray sides
+      <*> unsafeFreezePrimArray directions
       <*> pure (primArrayFromList (scanl (+) 0 levels))
       <*> pure (primArrayFromList levels)
       <*> pure (length levels - 1)
-  where
-    sizes count = if count == 1 then [1] else count : sizes ((count + fan - 1) `quot` fan)
 
+-- | The numbers of boxes of all levels, from the lowest.
+levelSizes :: Int -> [Int]
+levelSizes count
+  | count == 1 = [1]
+  | otherwise = count : levelSizes ((count + fan - 1) `quot` fan)
+
+-- | The sides and directions of boxes while they are written.
+data Boxes s = Boxes (MutablePrimArray s Double) (MutablePrimArray s Word8)
+
+-- | Write a box with an index and its directions.
+putBox :: Boxes s -> Int -> Double -> Double -> Double -> Double -> Int -> ST s ()
+putBox (Boxes sides directions) !k !lx !ly !hx !hy !w = do
+  writePrimArray sides (4 * k) lx
+  writePrimArray sides (4 * k + 1) ly
+  writePrimArray sides (4 * k + 2) hx
+  writePrimArray sides (4 * k + 3) hy
+  writePrimArray directions k (fromIntegral w)
+{-# INLINE putBox #-}
+
+-- | Write the lowest level: the boxes of the runs.
+writeRuns :: Double -> ClosedPolyarcs -> Boxes s -> ST s ()
+writeRuns !m !c !out = go 0
+  where
+    !n = sizeofPrimArray (ClosedPolyarcs.xs c)
+    go !k
+      | fan * k >= n = pure ()
+      | otherwise = do
+        let a = fan * k
+            e = min (n - 1) (a + fan)
+            x = indexPrimArray (ClosedPolyarcs.xs c) a
+            y = indexPrimArray (ClosedPolyarcs.ys c) a
+            w = if a + fan < n then headings m c a e else 0
+        runBox c a e x y x y $ \lx ly hx hy -> putBox out k (lx - m) (ly - m) (hx + m) (hy + m) w
+        go (k + 1)
+
+-- | Write all levels above the one that starts at box @start@ and has @count@ boxes.
+writeLevels :: Boxes s -> Int -> Int -> ST s ()
+writeLevels out@(Boxes sides directions) !start !count
+  | count == 1 = pure ()
+  | otherwise = node 0
+  where
+    !higher = (count + fan - 1) `quot` fan
+    node !k
+      | k >= higher = writeLevels out (start + count) higher
+      | otherwise = do
+        let first = start + fan * k
+            end = start + min count (fan * k + fan)
+        gather k end first far far (-far) (-far) allDirections
+        node (k + 1)
+    gather !k !e !i !lx !ly !hx !hy !w
+      | i >= e = putBox out (start + count + k) lx ly hx hy w
+      | otherwise = do
+        lx' <- readPrimArray sides (4 * i)
+        ly' <- readPrimArray sides (4 * i + 1)
+        hx' <- readPrimArray sides (4 * i + 2)
+        hy' <- readPrimArray sides (4 * i + 3)
+        w' <- readPrimArray directions i
+        gather
+          k
+          e
+          (i + 1)
+          (least lx lx')
+          (least ly ly')
+          (most hx hx')
+          (most hy hy')
+          (w .&. fromIntegral w')
+
+-- | Larger than any coordinate.
 far :: Double
 far = 1e300
 
@@ -179,7 +221,7 @@ most a b = if a > b then a else b
 {-# INLINE least #-}
 {-# INLINE most #-}
 
--- | Extend a box over the vertices and arcs of the segments from one to before another one.
+-- | A box extended by the segments from @a@ to before @e@, passed to a continuation.
 runBox ::
   ClosedPolyarcs ->
   Int ->
@@ -206,15 +248,15 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
         y = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
 {-# INLINE runBox #-}
 
--- | Of eight directions those in which all segments from one to before another one go forward, of
--- the two that are next to the way from the first vertex to the last. As a set of bits. Each
--- segment goes forward by so much more than the margin that those before and behind it cannot meet.
+-- | The directions, of eight, in which all segments from @a@ to before @e@ advance, as bits. Only
+-- the two next to the direction from the first vertex to the last are tested. Every segment must
+-- advance so far beyond the margin @m@ that its predecessors and successors cannot meet it.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
     !ux = indexPrimArray (ClosedPolyarcs.xs c) e - indexPrimArray (ClosedPolyarcs.xs c) a
     !uy = indexPrimArray (ClosedPolyarcs.ys c) e - indexPrimArray (ClosedPolyarcs.ys c) a
-    -- The nearest diagonal, and the nearest axis.
+    -- The nearest diagonal and the nearest axis.
     !sx = if ux > 0 then 1 else -1
     !sy = if uy > 0 then 1 else -1
     !level = abs ux > abs uy
@@ -230,8 +272,7 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
         ClosedPolyarcs.chord c i $ \dx dy ->
           go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        -- The directions at both ends of an arc, as long as the chord or longer, on either side of
-        -- it.
+        -- The lesser advance of the tangents at both ends, at least as long as the chord.
         let co = 1 - b * b
             si = 2 * b
             forward px py = co * (px * dx + py * dy) - abs (si * (px * dy - py * dx))
@@ -245,30 +286,33 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
       | ux > 0 = if uy > 0 then 16 else 32
       | otherwise = if uy > 0 then 64 else 128
 
-everyWay :: Int
-everyWay = 255
+-- | The bits of all eight directions.
+allDirections :: Int
+allDirections = 255
 
--- | Visit every two segments whose boxes overlap and that may meet, the earlier one first, as long
--- as the test allows.
+-- Pairs -------------------------------------------------------------------------------------
+
+-- | Visit all pairs of segments that may meet and whose boxes overlap, the earlier segment first,
+-- as long as @continues@ is true.
 pairs :: SegmentTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
-pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highest} goesOn visit = do
-  -- Of some runs the boxes of the segments, each run in the slot of its number's last digit or in a
-  -- spare one; and the runs.
+pairs bs@SegmentTree {chain = c, margin = m, sides, directions, highest} continues visit = do
+  -- The boxes of the segments of some runs, each run in the slot of its number modulo 'fan' or in a
+  -- spare slot; and which run each slot holds.
   near <- Near <$> newPrimArray (answer + 1) <*> newPrimArray answer
   held <- newPrimArray (fan + 1)
   setPrimArray held 0 (fan + 1) (-1)
   let !grid = gridOf bs
-      -- What is in a box of a level, and in two different boxes of one.
+      -- Visit the pairs inside box @a@ of level @l@, and those between its boxes @a@ and @b@.
       within !l !a
-        | way (at l + a) /= 0 = pure ()
+        | direction (at l + a) /= 0 = pure ()
         | l == 0 =
           load (slot a) a >> amongThem near (slot a) >> found near
             >>= visits (fan * a) (fan * slot a) (fan * a) (fan * slot a)
         | otherwise = do
-          more <- goesOn
+          more <- continues
           when more (among (l - 1) a)
       between !l !a !b
-        | b == a + 1 && way (at l + a) .&. way (at l + b) /= 0 = pure ()
+        | b == a + 1 && direction (at l + a) .&. direction (at l + b) /= 0 = pure ()
         | l == 0 = do
           load (slot a) a
           boxAt
@@ -289,8 +333,8 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
             found near >>= visits (fan * a) (fan * slot a) (fan * b) (fan * other)
         | otherwise =
           boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
-      -- The boxes of a level that are in one above; those from i to e, and those that are in
-      -- another one above.
+      -- Visit the pairs of the boxes of level @l@ inside box @a@ of the next level; those of boxes
+      -- @i@ to before @e@ with the boxes inside box @b@ of the next level.
       among !l !a = go (fan * a)
         where
           !e = min (size l) (fan * a + fan)
@@ -309,14 +353,14 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
         | otherwise =
           when (overlaps sides (at l + j) lx ly hx hy) (between l i j)
             >> follow l i (j + 1) e lx ly hx hy
-      -- Have the boxes of a run's segments in a slot.
+      -- Fill slot @s@ with the boxes of run @r@, unless it holds them already.
       load !s !r = do
         r' <- readPrimArray held s
         when (r' /= r) $ do
           writePrimArray held s r
           fill bs grid near s r
-      -- Of the segments of two runs, from those on whose boxes are in these places, the ones that a
-      -- set says.
+      -- Visit the pairs in a set. The segments count from @a@ and @b@, their boxes from @p@ and
+      -- @q@.
       visits !a !p !b !q !set
         | set == 0 = pure ()
         | otherwise = do
@@ -328,52 +372,55 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, ways, begins, counts, highes
           visits a p b q (set .&. (set - 1))
   within highest 0
   where
-    at l = indexPrimArray begins l
-    size l = indexPrimArray counts l
-    way k = indexPrimArray ways k
+    at l = indexPrimArray (begins bs) l
+    size l = indexPrimArray (counts bs) l
+    direction k = indexPrimArray directions k
     slot r = r .&. (fan - 1)
 {-# INLINE pairs #-}
 
--- | A grid of 2²⁹ steps over the box of everything: half the steps in a mm, and half of what is
--- added to coordinates in steps. Both coordinates of a corner go into one word. The bits above both
--- of them are set in a largest corner: where a least corner is taken from it, those stay that
--- belong to coordinates in which it is no larger.
+-- | A grid of 2²⁹ steps over the box of all segments: half the number of steps in 1 mm, and half of
+-- what is added to x and y in steps.
+--
+-- A corner is a word that contains both coordinates in steps. Above each of them is one bit more.
+-- It is set in the upper corner of a box; when a lower corner is subtracted, the bit of a
+-- coordinate remains set where the lower one is not the larger.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
--- | Coordinates begin so far above 0 that no rounding takes one below it.
+-- | The grid of a tree. Coordinates are far enough above 0 for rounding not to make one negative.
 gridOf :: SegmentTree -> Grid
 gridOf bs = whole bs $ \lx ly hx hy ->
   let w = most (hx - lx) (hy - ly)
       steps = if w > 0 then 268435456 / w else 0
    in Grid {halfSteps = steps, addX = 134217728 - steps * lx, addY = 134217728 - steps * ly}
 
--- | A coordinate in steps.
+-- | A coordinate in mm, converted to steps.
 stepX, stepY :: Grid -> Double -> Double
 stepX g x = 2 * (x * halfSteps g + addX g)
 stepY g y = 2 * (y * halfSteps g + addY g)
 {-# INLINE stepX #-}
 {-# INLINE stepY #-}
 
--- | The corners of a box from its sides in steps, rounded away from its middle.
+-- | The lower and the upper corner of a box from coordinates in steps, rounded outwards.
 least', largest' :: Double -> Double -> Int
 least' x y = truncate x .|. truncate y `unsafeShiftL` 32
 largest' x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsafeShiftL` 32
 {-# INLINE least' #-}
 {-# INLINE largest' #-}
 
--- | The least and the largest corners of boxes, in slots of eight; behind the least ones a set of
--- them, as bits.
+-- | The lower and the upper corners of boxes, in slots of eight. After the lower ones comes a set
+-- of boxes or pairs, as bits: the answer of the last query.
 data Near s = Near (MutablePrimArray s Int) (MutablePrimArray s Int)
 
--- | The set that was found last, and where it is.
+-- | The set that the last query found.
 found :: Near s -> ST s Int
 found (Near lows _) = readPrimArray lows answer
 {-# INLINE found #-}
 
+-- | The index of the answer in the lower corners.
 answer :: Int
 answer = fan * (fan + 1)
 
--- | Whether two boxes overlap by more than a step of the grid.
+-- | True when two boxes overlap by more than a step of the grid.
 surely :: Near s -> Int -> Int -> ST s Bool
 surely (Near lows highs) !p !q = do
   low <- readPrimArray lows p
@@ -384,8 +431,8 @@ surely (Near lows highs) !p !q = do
     apart = 0x0000000300000003
 {-# INLINE surely #-}
 
--- | The same of the boxes of two segments to within rounding: twice the boxes, from middle and
--- width, good to a few units in the last place, which are much less than the margin.
+-- | True when the boxes of two segments overlap, to a few units in the last place, which are far
+-- below the margin. All coordinates are doubled.
 exactly :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 exactly !m !c !i !j =
   twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
@@ -408,8 +455,8 @@ exactly !m !c !i !j =
     {-# INLINE twice #-}
 {-# NOINLINE exactly #-}
 
--- | Write the corners of the boxes of a run's segments into a slot. What is no segment overlaps
--- nothing.
+-- | Write the corners of the boxes of run @r@ into slot @s@. A vertex at which no segment starts
+-- gets a box that overlaps none.
 fill :: SegmentTree -> Grid -> Near s -> Int -> Int -> ST s ()
 fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r =
   go (fan * s) begin (stepsX begin) (stepsY begin)
@@ -437,7 +484,7 @@ fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !low
           then put k (least' (cx - wx) (cy - wy)) (largest' (cx + wx) (cy + wy))
           else none k
         go (k + 1) (i + 1) x' y'
-    -- A chain ends with no segment.
+    -- No segment starts at the last vertex.
     rest !k
       | k >= fan * s + fan = pure ()
       | otherwise = none k >> rest (k + 1)
@@ -447,7 +494,7 @@ fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !low
       writePrimArray highs k high
 {-# NOINLINE fill #-}
 
--- | 1 where the box at a place overlaps one that has these corners, 0 else, without a branch.
+-- | 1 when box @k@ overlaps the box with these corners, else 0; without a branch.
 touches :: MutablePrimArray s Int -> MutablePrimArray s Int -> Int -> Int -> Int -> ST s Int
 touches lows highs !k !low !high = do
   low' <- readPrimArray lows k
@@ -460,7 +507,7 @@ shiftRL :: Int -> Int -> Int
 shiftRL (I# a) (I# k) = I# (uncheckedIShiftRL# a k)
 {-# INLINE shiftRL #-}
 
--- | Which boxes of a slot overlap a box: a bit for each of them.
+-- | Find the boxes of slot @s@ that overlap a box: bit @i@ is box @i@ of the slot.
 against :: Near s -> Int -> Int -> Int -> ST s ()
 against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
   where
@@ -472,13 +519,11 @@ against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
         go (k - 1) (set + set + hit)
 {-# NOINLINE against #-}
 
--- | Which two boxes of a slot overlap, as a set of bits: eight times the first one's number and the
--- second one's.
+-- | Find the overlapping pairs in slot @s@: bit @8·i + j@ is the pair of its boxes @i@ and @j@.
 amongThem :: Near s -> Int -> ST s ()
 amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
   where
-    -- Few numbers are at hand in the loop, so that all of them stay in the processor: slots begin
-    -- at multiples of eight.
+    -- The loop uses few variables, so that all stay in registers. Slots start at multiples of 8.
     first !k !set = do
       low <- readPrimArray lows k
       high <- readPrimArray highs k
@@ -493,7 +538,7 @@ amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
       second (k .|. (fan - 1)) 0
 {-# NOINLINE amongThem #-}
 
--- | The same of two slots, for some of the boxes of the first one.
+-- | Find the overlapping pairs of the boxes @some@, a set, of slot @s@ with those of slot @other@.
 overlapping :: Near s -> Int -> Int -> Int -> ST s ()
 overlapping (Near !lows !highs) !s !some !other = first some 0
   where
@@ -514,7 +559,7 @@ overlapping (Near !lows !highs) !s !some !other = first some 0
         second end 0
 {-# NOINLINE overlapping #-}
 
--- | Whether a box overlaps another one. Without a branch up to the answer.
+-- | True when stored box @k@ overlaps a box. The comparison has no branch before its result.
 overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
 overlaps a k lx ly hx hy =
   boxAt
@@ -523,7 +568,9 @@ overlaps a k lx ly hx hy =
     (\px py qx qy -> reaches hx px .&. reaches qx lx .&. reaches hy py .&. reaches qy ly /= 0)
 {-# INLINE overlaps #-}
 
--- | Gather over the segments whose boxes overlap a box, in order.
+-- Segments in a box -------------------------------------------------------------------------
+
+-- | A strict left fold over the segments whose boxes overlap a box, in order.
 around :: SegmentTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
 around SegmentTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
   go highest 0 start

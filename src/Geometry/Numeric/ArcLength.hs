@@ -1,9 +1,9 @@
--- | How far along a curve its parameter leads: the integral of the speed, kept as a table.
+-- | Arc length as a function of a curve's parameter: the integral of the speed, as a table.
 --
--- The stretches between the places where the speed may jump are halved until each piece's speed is
--- a polynomial of degree 7 through the eight nodes of Gauss and Legendre, to 'Tolerance.arcLength'.
--- The table holds that polynomial in Legendre's form; over a whole piece its integral is Gauss's
--- quadrature, within a piece it is known in closed form.
+-- The intervals between parameters at which the speed may jump are bisected into panels, until the
+-- speed on each panel is a polynomial of degree 7 through the eight Gauss–Legendre nodes, to
+-- 'Tolerance.arcLength'. The table holds its Legendre coefficients. Over a whole panel the integral
+-- is Gauss–Legendre quadrature; up to a parameter within the panel it is a closed formula.
 module Geometry.Numeric.ArcLength
   ( ArcLength,
     measured,
@@ -20,44 +20,46 @@ import Data.Vector.Unboxed qualified as Unboxed
 import Geometry.Numeric.RootFinding qualified as RootFinding
 import Geometry.Tolerance qualified as Tolerance
 
+-- | The table of a curve.
 data ArcLength = ArcLength
-  { -- | where each piece begins, in the curve's parameter, and where the last one ends
+  { -- | the parameters at which the panels start, and that of the end
     starts :: Vector Double,
-    -- | how long the curve is up to there, in mm
+    -- | the arc lengths there, in mm
     lengths :: Vector Double,
-    -- | the coefficients of each piece's speed, in mm over the piece, eight a piece
+    -- | the Legendre coefficients of the speed on each panel, eight for each, in mm per half panel
     speeds :: Vector Double
   }
 
--- | What is measured tells a ruler from another; two of one curve are equal, and computing them is
--- left until they are read.
+-- | All tables are equal: a table is a cache that belongs to a curve, is determined by it, and
+-- should not be computed for a comparison.
 instance Eq ArcLength where
   _ == _ = True
 
+-- | The name alone, so that showing a curve does not compute its table.
 instance Show ArcLength where
   show _ = "Ruler"
 
--- | A piece: where it begins, its width in the parameter, and the coefficients of its speed over
--- the piece.
-data Piece = Piece Double Double (Vector Double)
+-- | A panel: its start and width in the parameter, and the Legendre coefficients of the speed.
+data Panel = Panel Double Double (Vector Double)
 
--- | The ruler of a speed (mm for 1 of the parameter, not negative) between the first and the last
--- of these places, in rising order; the speed is smooth between neighbours. It is never asked for
--- at the places themselves.
+-- | The table for a speed in mm per unit of the parameter, not negative. @breaks@ are the ends of
+-- the curve and the parameters between at which the speed may jump, in ascending order; the speed
+-- is never evaluated there.
 measured :: (Double -> Double) -> [Double] -> ArcLength
 measured speed breaks = ArcLength {starts, lengths, speeds}
   where
-    pieces = concat (zipWith (measuredBetween speed 0) breaks (drop 1 breaks))
-    starts = Unboxed.fromList ([u | Piece u _ _ <- pieces] <> take 1 (reverse breaks))
-    lengths = Unboxed.scanl' (+) 0 (Unboxed.fromList [2 * Unboxed.head cs | Piece _ _ cs <- pieces])
-    speeds = Unboxed.concat [cs | Piece _ _ cs <- pieces]
+    panels = concat (zipWith (measuredBetween speed 0) breaks (drop 1 breaks))
+    starts = Unboxed.fromList ([u | Panel u _ _ <- panels] <> take 1 (reverse breaks))
+    lengths = Unboxed.scanl' (+) 0 (Unboxed.fromList [2 * Unboxed.head cs | Panel _ _ cs <- panels])
+    speeds = Unboxed.concat [cs | Panel _ _ cs <- panels]
 
--- | The pieces between two places. A speed that is no number ends the halving too.
-measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Piece]
+-- | The panels between two parameters. A speed that is infinite or not a number ends the bisection
+-- as well.
+measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Panel]
 measuredBetween speed depth a b
   | b <= a = []
-  | missed <= allowed || isNaN missed || isInfinite missed || depth >= deepest =
-    [Piece a (b - a) cs]
+  | truncation <= allowed || isNaN truncation || isInfinite truncation || depth >= deepest =
+    [Panel a (b - a) cs]
   | otherwise =
     measuredBetween speed (depth + 1) a middle <> measuredBetween speed (depth + 1) middle b
   where
@@ -70,77 +72,69 @@ measuredBetween speed depth a b
         ( \k ->
             Unboxed.sum (Unboxed.imap (\i f -> f * (analysis Unboxed.! (k * count + i))) sampled)
         )
-    missed = abs (cs Unboxed.! (count - 2)) + abs (cs Unboxed.! (count - 1))
+    truncation = abs (cs Unboxed.! (count - 2)) + abs (cs Unboxed.! (count - 1))
     Mm finest = Tolerance.arcLength
     allowed = max finest (Tolerance.arcLengthShare * Unboxed.head cs)
     deepest = 16 :: Int
 
--- | The whole length.
+-- | The length of the whole curve.
 total :: ArcLength -> Mm
-total ruler = Mm (Unboxed.last (lengths ruler))
+total table = Mm (Unboxed.last (lengths table))
 
--- | The length up to a parameter.
+-- | The arc length from the start to a parameter.
 lengthTo :: ArcLength -> Double -> Mm
-lengthTo ruler u
-  | Unboxed.null (speeds ruler) || u <= Unboxed.head (starts ruler) = Mm 0
-  | u >= Unboxed.last (starts ruler) = total ruler
-  | otherwise = Mm (lengths ruler Unboxed.! p + run)
+lengthTo table u
+  | Unboxed.null (speeds table) || u <= Unboxed.head (starts table) = Mm 0
+  | u >= Unboxed.last (starts table) = total table
+  | otherwise = Mm (lengths table Unboxed.! p + run)
   where
-    p = lastBelow u (starts ruler)
-    (from, width) = extent ruler p
-    (run, _) = within ruler p (2 * (u - from) / width - 1)
+    p = lastBelow u (starts table)
+    (from, width) = extent table p
+    (run, _) = within table p (2 * (u - from) / width - 1)
 
--- | The parameter up to which the curve has a length.
+-- | The parameter at which the arc length from the start has a value.
 parameterAt :: ArcLength -> Mm -> Double
-parameterAt ruler (Mm s)
-  | Unboxed.null (speeds ruler) || s <= 0 = Unboxed.head (starts ruler)
-  | Mm s >= total ruler = Unboxed.last (starts ruler)
-  | otherwise =
-    from
-      + 0.5
-        * width
-        * ( 1
-              + RootFinding.zero
-                (\x -> let (run, speed) = within ruler p x in (run - missing, speed))
-                (-1)
-                1
-          )
+parameterAt table (Mm s)
+  | Unboxed.null (speeds table) || s <= 0 = Unboxed.head (starts table)
+  | Mm s >= total table = Unboxed.last (starts table)
+  | otherwise = from + 0.5 * width * (1 + RootFinding.zero excess (-1) 1)
   where
-    p = lastBelow s (lengths ruler)
-    (from, width) = extent ruler p
-    missing = s - lengths ruler Unboxed.! p
+    p = lastBelow s (lengths table)
+    (from, width) = extent table p
+    excess x = let (run, speed) = within table p x in (run - missing, speed)
+    missing = s - lengths table Unboxed.! p
 
--- | Where a piece begins, and its width in the parameter.
+-- | The start of a panel and its width, in the parameter.
 extent :: ArcLength -> Int -> (Double, Double)
-extent ruler p =
-  let from = starts ruler Unboxed.! p in (from, starts ruler Unboxed.! (p + 1) - from)
+extent table p =
+  let from = starts table Unboxed.! p in (from, starts table Unboxed.! (p + 1) - from)
 
--- | The number of the last of these, in rising order, that is not above a number; never that of the
--- very last one.
+-- | The index of the last element, but for the very last, that is not above a value; the elements
+-- are ascending.
 lastBelow :: Double -> Vector Double -> Int
 lastBelow v sorted = BinarySearch.lastBelow (Unboxed.length sorted - 1) v sorted
 
--- | The length from a piece's beginning to a place in it, from −1 to 1, and the speed there (in mm
--- over a half).
--- @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre's polynomials.
+-- | The arc length from the start of a panel to a position in it, from −1 to 1, and the speed there
+-- in mm per half panel. It uses @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre polynomials.
 within :: ArcLength -> Int -> Double -> (Double, Double)
-within ruler p x = go 1 1 x (c 0 * (x + 1)) (c 0)
+within table p x = go 1 1 x (c 0 * (x + 1)) (c 0)
   where
-    c k = speeds ruler Unboxed.! (p * count + k)
+    c k = speeds table Unboxed.! (p * count + k)
     go :: Int -> Double -> Double -> Double -> Double -> (Double, Double)
-    go k before own run speed
+    go k previous current run speed
       | k >= count = (run, speed)
       | otherwise =
-        go (k + 1) own behind (run + c k * (behind - before) / (2 * n + 1)) (speed + c k * own)
+        let run' = run + c k * (next - previous) / (2 * n + 1)
+         in go (k + 1) current next run' (speed + c k * current)
       where
         n = fromIntegral k
-        behind = ((2 * n + 1) * x * own - n * before) / (n + 1)
+        next = ((2 * n + 1) * x * current - n * previous) / (n + 1)
 
--- | How many nodes a piece has.
+-- | The number of nodes on a panel.
 count :: Int
 count = 8
 
--- | The nodes of Gauss and Legendre, the zeros of @P_8@, by Newton's steps.
+-- | The Gauss–Legendre nodes, the zeros of @P_8@, by Newton's method.
 nodes :: Vector Double
 nodes =
   Unboxed.generate
@@ -149,8 +143,8 @@ nodes =
   where
     improved x = let (p, slope) = legendre count x in x - p / slope
 
--- | What a sample at a node adds to a coefficient: @(2k + 1)/2·w_i·P_k(x_i)@ with the weight
--- @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@.
+-- | The contribution of a sample at node i to coefficient k, @(2k + 1)/2·w_i·P_k(x_i)@ with the
+-- weight @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@; at index @8·k + i@.
 analysis :: Vector Double
 analysis = Unboxed.concat [Unboxed.map (weight k) nodes | k <- [0 .. count - 1]]
   where
@@ -159,14 +153,13 @@ analysis = Unboxed.concat [Unboxed.map (weight k) nodes | k <- [0 .. count - 1]]
           (p, _) = legendre k x
        in (fromIntegral k + 0.5) * 2 / ((1 - x * x) * slope * slope) * p
 
--- | Legendre's polynomial and its slope, between −1 and 1.
+-- | The Legendre polynomial @P_n@ and its derivative, for arguments between −1 and 1.
 legendre :: Int -> Double -> (Double, Double)
 legendre n x = go 0 0 1
   where
-    go k before own
-      | k >= n = (own, fromIntegral n * (before - x * own) / (1 - x * x))
+    go k previous current
+      | k >= n = (current, fromIntegral n * (previous - x * current) / (1 - x * x))
       | otherwise =
-        go
-          (k + 1)
-          own
-          (((2 * fromIntegral k + 1) * x * own - fromIntegral k * before) / (fromIntegral k + 1))
+        let i = fromIntegral k
+            next = ((2 * i + 1) * x * current - i * previous) / (i + 1)
+         in go (k + 1) current next

@@ -1,12 +1,13 @@
--- | Truncated power series: what a function of a parameter is near one place, as the coefficients
--- of
--- @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order. Sums, products, roots and sines of
---  functions are worked
--- out on the coefficients, so that derivatives of whatever is composed of them are exact but for
--- rounding.
+-- | Truncated power series: the Taylor coefficients of a function of a parameter at one of its
+-- values, @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order.
 --
--- The k-th coefficient is the k-th derivative divided by k!. What comes of two series is as long as
--- the shorter one.
+-- Sums, products, quotients, powers and sines are computed on the coefficients (Knuth, TAOCP 2,
+-- section 4.7). The derivatives of everything composed of them are therefore exact but for
+-- rounding. Coefficient k is the k-th derivative divided by k!. An operation on two series gives
+-- one as long as the shorter.
+--
+-- There is no 'Num' instance: a number in 'fromInteger' has no order, and one of order 0 would
+-- truncate every series that it meets.
 module Geometry.Numeric.PowerSeries
   ( PowerSeries,
     constant,
@@ -36,60 +37,66 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
 import Prelude hiding (subtract)
 
--- | At least one coefficient.
+-- | The coefficients from order 0 on, at least one.
 newtype PowerSeries = PowerSeries (Vector Double)
   deriving stock (Eq, Show)
 
--- | The same everywhere, up to an order.
+-- | The series of a constant, up to order @n@.
 constant :: Int -> Double -> PowerSeries
 constant n c = PowerSeries (Unboxed.generate (n + 1) (\k -> if k == 0 then c else 0))
 
--- | Four coefficients, up to an order; those behind them are zero.
+-- | The series of a cubic polynomial by its coefficients from the constant on, up to order @n@.
 ofFour :: Int -> Double -> Double -> Double -> Double -> PowerSeries
 ofFour n a b c d =
   PowerSeries (Unboxed.generate (n + 1) (\case 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
 
--- | The first coefficients, up to an order; those that are not named are zero.
+-- | The series with the given first coefficients, up to order @n@; the others are 0.
 fromList :: Int -> [Double] -> PowerSeries
 fromList n cs = PowerSeries (Unboxed.fromListN (n + 1) (take (n + 1) (cs <> repeat 0)))
 
+-- | The coefficients from order 0 on.
 coefficients :: PowerSeries -> [Double]
 coefficients (PowerSeries a) = Unboxed.toList a
 
--- | The number of the last coefficient.
+-- | The order of the last coefficient.
 order :: PowerSeries -> Int
 order (PowerSeries a) = Unboxed.length a - 1
 
--- | The value at the place itself.
+-- | The value of the function, coefficient 0.
 value :: PowerSeries -> Double
 value = coefficient 0
 
--- | A coefficient by its number from 0; zero beyond the order.
+-- | The coefficient of an order from 0 on; 0 beyond the order of the series.
 coefficient :: Int -> PowerSeries -> Double
 coefficient k (PowerSeries a)
   | k < Unboxed.length a = Unboxed.unsafeIndex a k
   | otherwise = 0
 
+-- | The sum of two series.
 add :: PowerSeries -> PowerSeries -> PowerSeries
 add (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.zipWith (+) a b)
 
+-- | The first series less the second.
 subtract :: PowerSeries -> PowerSeries -> PowerSeries
 subtract (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.zipWith (-) a b)
 
+-- | The multiple of a series.
 scale :: Double -> PowerSeries -> PowerSeries
 scale k (PowerSeries a) = PowerSeries (Unboxed.map (k *) a)
 
--- | A constant added.
+-- | The sum of a constant and a series.
 plusConstant :: Double -> PowerSeries -> PowerSeries
 plusConstant c (PowerSeries a) = PowerSeries (Unboxed.imap (\k v -> if k == 0 then c + v else v) a)
 
+-- | The product, the Cauchy product of the coefficients.
 multiply :: PowerSeries -> PowerSeries -> PowerSeries
 multiply (PowerSeries a) (PowerSeries b) =
   PowerSeries (Unboxed.generate n (\k -> summed 0 k (\j -> at a j * at b (k - j))))
   where
     n = min (Unboxed.length a) (Unboxed.length b)
 
--- | The quotient: @q_k = (a_k − Σ_{j≥1} b_j·q_{k−j}) / b_0@. The divisor is not zero at the place.
+-- | The quotient: @q_k = (a_k − Σ_{j≥1} b_j·q_{k−j}) / b_0@. The value of the
+-- divisor must not be 0.
 divide :: PowerSeries -> PowerSeries -> PowerSeries
 divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
   where
@@ -97,7 +104,7 @@ divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
     next q =
       let k = Unboxed.length q in (at a k - summed 1 k (\j -> at b j * at q (k - j))) / at b 0
 
--- | A real power of a series that is above zero at the place. From @w·p′ = α·w′·p@ for @p = w^α@:
+-- | A real power of a series with a positive value. From @w·p′ = α·w′·p@ for @p = w^α@:
 -- @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
 power :: Double -> PowerSeries -> PowerSeries
 power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w) next)
@@ -113,18 +120,20 @@ power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w)
       | alpha == -0.5 = 1 / sqrt v
       | otherwise = v ** alpha
 
+-- | The sine of a series in radians.
 sine :: PowerSeries -> PowerSeries
 sine a = let (s, _) = circular a in s
 
+-- | The cosine of a series in radians.
 cosine :: PowerSeries -> PowerSeries
 cosine a = let (_, c) = circular a in c
 
--- | The tangent, where the cosine is not zero.
+-- | The tangent of a series in radians whose cosine is not 0.
 tangent :: PowerSeries -> PowerSeries
 tangent a = let (s, c) = circular a in divide s c
 
--- | Sine and cosine together: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@, @c_k = −Σ_{j≥1} j·a_j·s_{k−j} /
--- k@.
+-- | The sine and the cosine: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@ and
+-- @c_k = −Σ_{j≥1} j·a_j·s_{k−j} / k@.
 circular :: PowerSeries -> (PowerSeries, PowerSeries)
 circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unboxed.map snd both))
   where
@@ -137,23 +146,23 @@ circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unb
                 / fromIntegral k
          in (weighted snd, negate (weighted fst))
 
--- | The derivative, one order less. Of a series of order 0 nothing is known; that has the
--- derivative 0.
+-- | The derivative, one order less. For a series of order 0, whose derivative is unknown, it is 0.
 derivative :: PowerSeries -> PowerSeries
 derivative (PowerSeries a)
   | Unboxed.length a <= 1 = PowerSeries (Unboxed.singleton 0)
   | otherwise = PowerSeries (Unboxed.imap (\k v -> fromIntegral (k + 1) * v) (Unboxed.drop 1 a))
 
--- | The integral that has this value at the place, one order more.
+-- | The integral with value @c@, one order more.
 integral :: Double -> PowerSeries -> PowerSeries
 integral c (PowerSeries a) =
   PowerSeries (Unboxed.cons c (Unboxed.imap (\k v -> v / fromIntegral (k + 1)) a))
 
--- | A polynomial, its coefficients from the constant on, of a series.
+-- | The value of a polynomial for a series, by Horner's method. Its coefficients count from the
+-- constant on.
 polynomial :: [Double] -> PowerSeries -> PowerSeries
 polynomial cs a = foldr (\c rest -> plusConstant c (multiply rest a)) (constant (order a) 0) cs
 
--- | A sum over the numbers from the first to the last.
+-- | The sum of @f@ over the integers from @from@ to @to@.
 summed :: Int -> Int -> (Int -> Double) -> Double
 summed from to f = go 0 from
   where
@@ -162,7 +171,7 @@ summed from to f = go 0 from
       | otherwise = go (acc + f j) (j + 1)
 {-# INLINE summed #-}
 
--- Every index in this module is below both lengths by the bounds of its loop.
+-- | The unchecked element. The bounds of each loop in this module keep its index in range.
 at :: Vector Double -> Int -> Double
 at = Unboxed.unsafeIndex
 {-# INLINE at #-}

@@ -1,4 +1,4 @@
--- | The flat index against looking at everything.
+-- | Queries of the bounding-box tree against tests of all things one by one.
 module Geometry.Index.BoxTreeSpec (spec) where
 
 import Base.Quantity (Mm (..), plus)
@@ -9,6 +9,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Test.Hspec
@@ -16,23 +17,23 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  it "finds what meets a box, all of it and in order (catches the last group that is not full)" $
+  it "finds all things whose boxes meet a box, in order (catches the last group that is not full)" $
     property $
       forAll ((,) <$> boxes <*> box) $ \(things, b) ->
         map fst (BoxTree.within b (BoxTree.index snd things))
           === [i | (i, b') <- things, BoundingBox.meets b' b]
   it
-    "tells each of many boxes what it would be told alone (catches things that only the boxes \
-    \beside it meet, and one that is asked for twice)"
+    "answers each of many boxes as if it were alone (catches things that meet only the boxes \
+    \beside it, and one that is found twice)"
     $ property $
       forAll ((,) <$> boxes <*> oneof [boxes, alike]) $ \(things, others) ->
-        let n = BoxTree.index snd things
+        let tree = BoxTree.index snd things
             holds (i, _) (k, _) = (i + k) `mod` 3 /= (0 :: Int)
-         in map (map fst) (BoxTree.each snd holds n others)
-              === [[fst t | t <- BoxTree.within b n, holds o t] | o@(_, b) <- others]
+         in map (map fst) (BoxTree.each snd holds tree others)
+              === [[fst t | t <- BoxTree.within b tree, holds o t] | o@(_, b) <- others]
   it
-    "finds what is nearest to a point, of several the first (catches a group left out by the bound \
-    \of another)"
+    "finds the thing nearest to a point, of several the first (catches a group that is excluded by \
+    \the bound of another)"
     $ property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
         let distanceTo (_, b) = BoundingBox.distance p b
@@ -45,11 +46,11 @@ spec = do
               _ -> let t = minimumBy (comparing distanceTo) things in Just (distanceTo t, fst t)
          in found === wanted
   it
-    "gives the nearest of its things, of several the first (catches a box that seems further off \
-    \than what is in it)"
+    "finds the segment nearest to a point, of several the first (catches a box that seems further \
+    \away than its content)"
     $ property $
       forAll
-        ((,,) <$> oneof [Curve.open, Curve.closed] <*> choose (-150, 150) <*> choose (-150, 150))
+        ((,,) <$> curve <*> choose (-150, 150) <*> choose (-150, 150))
         $ \(ss, x, y) ->
           let p = Vec.point x y
               numbered = zip [0 :: Int ..] ss
@@ -58,8 +59,8 @@ spec = do
            in BoxTree.closest away p (BoxTree.index (BoundingBox.ofSegment . snd) numbered)
                 === Just (away nearest, nearest)
   it
-    "finds it though distances are rounded otherwise than those of boxes (catches a thing that is \
-    \passed over because its box seems further away than it)"
+    "finds it although distances are rounded differently from those of boxes (catches a thing that \
+    \is excluded because its box seems further away)"
     $ property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
         forAll (vectorOf (length things) (choose (-1e-9, 0))) $ \slips ->
@@ -74,7 +75,7 @@ spec = do
                 _ -> let (d, (i, _)) = minimumBy (comparing fst) slipped in Just (d, i)
            in found === wanted
   it
-    "sorted by place it holds the same things, each once, and finds one that is as near (catches a \
+    "contains the same things when they are sorted, and finds one that is as near (catches a \
     \column that is left out)"
     $ property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
@@ -82,10 +83,22 @@ spec = do
             distanceOf = fmap fst . BoxTree.closest (BoundingBox.distance p . snd) p
          in (sort (map fst (BoxTree.toList sorted)), distanceOf sorted)
               === (map fst things, distanceOf (BoxTree.index snd things))
-  it "gives everything back in order (catches a level taken for the things)" $
+  it "lists all things in order (catches a level taken for the things)" $
     property $
       forAll boxes $ \things ->
         map fst (BoxTree.toList (BoxTree.index snd things)) === map fst things
+  it
+    "finds the closest pair of two trees (catches a nearer pair in a box that is further away)"
+    $ property $
+      forAll ((,) <$> curve <*> curve) $ \(ss, others) ->
+        let tree = BoxTree.index BoundingBox.ofSegment
+            found =
+              BoxTree.closestPair Distance.segments Distance.distance (tree ss) (tree others)
+         in fmap Distance.distance found
+              === Just (minimum [Distance.distance (Distance.segments s o) | s <- ss, o <- others])
+
+curve :: Gen [Segment]
+curve = oneof [Curve.open, Curve.closed]
 
 point :: Gen Point
 point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
@@ -94,20 +107,18 @@ box :: Gen BoundingBox
 box = do
   p <- point
   w <- choose (0, 20)
-  -- Some touch, to whole millimetres.
+  -- Boxes in whole millimetres often touch.
   whole <- arbitrary
   let b = BoundingBox.inflate (Mm w) (BoundingBox.ofPoints p [])
       rounded x = fromIntegral (round x :: Int)
+      BoundingBox left bottom right top = b
   pure
     ( if whole
-        then
-          let BoundingBox l c r t =
-                b
-           in BoundingBox (rounded l) (rounded c) (rounded r) (rounded t)
+        then BoundingBox (rounded left) (rounded bottom) (rounded right) (rounded top)
         else b
     )
 
--- | Some beside one another, and then some elsewhere.
+-- | Several groups of boxes that are close to each other.
 alike :: Gen [(Int, BoundingBox)]
 alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
   where
@@ -115,7 +126,7 @@ alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
       (\a b w -> BoundingBox.inflate (Mm w) (BoundingBox.ofPoints (Vec.shift (Vec.vec a b) p) []))
         <$> choose (-3, 3) <*> choose (-3, 3) <*> choose (0, 4)
 
--- | Along a walk, as contours are.
+-- | Numbered boxes; the numbers of them make trees of one to four levels.
 boxes :: Gen [(Int, BoundingBox)]
 boxes = do
   n <- oneof [choose (0, 20), choose (60, 70), choose (500, 600)]

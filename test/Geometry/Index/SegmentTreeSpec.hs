@@ -1,14 +1,15 @@
--- | Boxes round the runs of a chain: what they let through.
+-- | The pair search of the kernel's bounding-box tree against a test of all pairs.
 module Geometry.Index.SegmentTreeSpec (spec) where
 
 import Control.Monad.ST (runST)
 import Data.Primitive.MutVar (modifyMutVar', newMutVar, readMutVar)
-import Data.Primitive.PrimArray (indexPrimArray, primArrayFromList, sizeofPrimArray)
+import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
+import Geometry.FlatPolyarc (FlatPolyarc)
+import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Index.SegmentTree qualified as SegmentTree
 import Geometry.Polyarc (Ends (..))
 import Offset.SegmentIntersection (Visitor (..))
@@ -17,36 +18,36 @@ import Test.Hspec
 import Test.QuickCheck hiding (tolerance)
 
 spec :: Spec
-spec = describe "boxes of a chain" $ do
-  it "let all pairs through that meet (catches a run that is taken for one that goes forward)" $
+spec = describe "the pair search of a tree" $ do
+  it "finds all pairs that meet (catches a run that is taken for one that advances)" $
     withMaxSuccess 1000 . forAll outlines $ \os ->
       let c = ClosedPolyarcs.fromOutlines tolerance os
-          everywhere = meetings Every c
-       in cover 40 (Set.size everywhere > 1) "that meet"
-            . cover 20 (ClosedPolyarcs.walks c > 1) "several walks"
-            $ meetings Boxed c === everywhere
+          expected = meetings AllPairs c
+       in cover 40 (Set.size expected > 1) "that meet"
+            . cover 20 (ClosedPolyarcs.walks c > 1) "several loops"
+            $ meetings FoundByTree c === expected
 
--- | Which pairs of segments are looked at.
-data Looked = Every | Boxed
+-- | The pairs of segments that are tested.
+data Candidates = AllPairs | FoundByTree
 
--- | What is told of the meetings of these pairs.
-meetings :: Looked -> ClosedPolyarcs -> Set (Int, Int)
-meetings looked c = runST $ do
-  found <- newMutVar Set.empty
-  let tell i j = modifyMutVar' found (Set.insert (i, j))
+-- | The pairs, of the candidates, that meet.
+meetings :: Candidates -> ClosedPolyarcs -> Set (Int, Int)
+meetings candidates c = runST $ do
+  pairs <- newMutVar Set.empty
+  let record i j = modifyMutVar' pairs (Set.insert (i, j))
       visit =
         SegmentIntersection.meet
           tolerance
           c
           Visitor
-            { crossing = \i _ j _ _ _ _ -> tell i j,
-              resting = tell,
-              touching = \i j _ _ -> tell i j
+            { crossing = \i _ j _ _ _ _ -> record i j,
+              resting = record,
+              touching = \i j _ _ -> record i j
             }
-  case looked of
-    Every -> sequence_ [visit i j | i <- segments, j <- segments, i < j]
-    Boxed -> SegmentTree.pairs (SegmentTree.boxes tolerance c) (pure True) visit
-  readMutVar found
+  case candidates of
+    AllPairs -> sequence_ [visit i j | i <- segments, j <- segments, i < j]
+    FoundByTree -> SegmentTree.pairs (SegmentTree.boxes tolerance c) (pure True) visit
+  readMutVar pairs
   where
     segments =
       [ i
@@ -61,27 +62,22 @@ meetings looked c = runST $ do
 tolerance :: Double
 tolerance = 1e-11
 
--- | One or more: long ways that wind and come back to themselves, scattered vertices, and such on a
--- grid.
+-- | One to three closed polyarcs: long winding ones, and ones with scattered vertices, on a grid or
+-- not.
 outlines :: Gen [FlatPolyarc]
 outlines = do
-  walks <- elements [1, 1, 2, 3]
-  vectorOf walks (oneof [winding, scattered, onGrid])
+  loops <- elements [1, 1, 2, 3]
+  vectorOf loops (oneof [winding, scattered, onGrid])
   where
-    outline vs =
-      FlatPolyarc
-        Closed
-        (primArrayFromList [x | (x, _, _) <- vs])
-        (primArrayFromList [y | (_, y, _) <- vs])
-        (primArrayFromList [b | (_, _, b) <- vs])
-    -- Steps that turn little by little, so that whole runs go forward.
+    outline = FlatPolyarc.outline Closed
+    -- Directions change little from step to step, so that whole runs advance.
     winding = do
       n <- choose (3, 300 :: Int)
       turns <- vectorOf n (choose (-0.3, 0.35))
       bulges <- vectorOf n bulge
       let headings = scanl (+) 0 turns
-          places = scanl (\(x, y) a -> (x + cos a, y + sin a)) (0, 0) headings
-      pure (outline (zipWith (\(x, y) b -> (x, y, b)) places bulges))
+          points = scanl (\(x, y) a -> (x + cos a, y + sin a)) (0, 0) headings
+      pure (outline (zipWith (\(x, y) b -> (x, y, b)) points bulges))
     scattered =
       choose (3, 40 :: Int) >>= \n ->
         outline <$> vectorOf n ((,,) <$> choose (-5, 5) <*> choose (-5, 5) <*> bulge)

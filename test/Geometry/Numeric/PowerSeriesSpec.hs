@@ -1,4 +1,4 @@
--- | Power series against identities of functions and against derivatives found by differences.
+-- | Power series against identities of functions.
 module Geometry.Numeric.PowerSeriesSpec (spec) where
 
 import Geometry.Numeric.PowerSeries (PowerSeries)
@@ -77,11 +77,11 @@ series = do
   n <- choose (1, 6)
   PowerSeries.fromList n <$> vectorOf (n + 1) (choose (-1.5, 1.5))
 
--- | Above zero at the place, and as long as any other.
+-- | A series with a positive value, as long as any other.
 positive :: Gen PowerSeries
 positive = PowerSeries.plusConstant 2.5 . PowerSeries.fromList 6 <$> vectorOf 7 (choose (-1, 1))
 
--- | Equal as far as both are known.
+-- | Equal up to the lesser order, to 10⁻⁹.
 alike :: PowerSeries -> PowerSeries -> Property
 alike a b = conjoin (zipWith near (PowerSeries.coefficients a) (PowerSeries.coefficients b))
   where
