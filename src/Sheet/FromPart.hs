@@ -345,7 +345,7 @@ swivelling at curve made leans
     marks = Curve.along curve (Vector.fromList bevels)
     differs (p, b) =
       let Mm s =
-            MeasuredPolyarc.station (Curve.laid curve) p
+            MeasuredPolyarc.station (Curve.approximation curve) p
           Rad slack = Tolerance.bevel
        in abs (b - between s marks) > 2 * slack
     between s known = case known of
