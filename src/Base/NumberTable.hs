@@ -9,7 +9,7 @@ module Base.NumberTable
     cells,
     joined,
     arranged,
-    picked,
+    selectRows,
   )
 where
 
@@ -84,8 +84,8 @@ arranged columns rows =
         cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
 
 -- | Some of the rows, by their numbers from 0.
-picked :: [Int] -> NumberTable -> NumberTable
-picked ks rows =
+selectRows :: [Int] -> NumberTable -> NumberTable
+selectRows ks rows =
   (fromList [(place rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks])
     { width =
         width rows

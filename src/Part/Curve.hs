@@ -1,4 +1,7 @@
 -- | Tables and curves as values of a program.
+--
+-- A curve is exact. Where a contour runs along it, a polyarc within 'Tolerance.curve' takes its
+-- place. This module makes that polyarc and carries the columns of the curve's table along.
 module Part.Curve
   ( PartTable (..),
     points,
@@ -12,8 +15,8 @@ module Part.Curve
     transformed,
     track,
     along,
-    abscissas,
-    piecesOf,
+    xRange,
+    spansOfSections,
   )
 where
 
@@ -42,7 +45,7 @@ import Geometry.Transformation (Transformation)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | Rows of x, y and the columns with these names, in mm, radians and minutes.
+-- | Rows of x and y in mm, and of columns with these names in units of mm, radians and minutes.
 data PartTable = PartTable {rows :: NumberTable, names :: [Name]}
   deriving stock (Eq, Show)
 
@@ -51,29 +54,29 @@ points :: PartTable -> Vector Point
 points PartTable {rows} = Vector.unfoldrExactN (NumberTable.count rows) next 0
   where
     next k =
-      let p =
-            Vec.point (NumberTable.cell rows k 0) (NumberTable.cell rows k 1)
+      let p = Vec.point (NumberTable.cell rows k 0) (NumberTable.cell rows k 1)
        in p `seq` (p, k + 1)
 
--- | The columns beside x and y.
+-- | The columns after x and y, with their names.
 columns :: PartTable -> [(Name, Vector Double)]
 columns PartTable {rows, names} =
   [ (n, Vector.generate (NumberTable.count rows) (\k -> NumberTable.cell rows k i))
     | (i, n) <- zip [2 ..] names
   ]
 
--- | A curve as it is defined, exactly; the columns of its table; the pieces that were chosen for
--- it, if they were; and the chain of arcs within 'Tolerance.curve' that stands for it where it is
--- walked.
+-- | An exact curve.
 data PartCurve = PartCurve
   { exact :: Exact.Curve,
-    fields :: [(Name, Vector Double)],
+    -- | the columns of its table, with their names: a number for every row
+    tableColumns :: [(Name, Vector Double)],
+    -- | the sections that were fitted to its table, if any
     fitting :: Maybe Fitting,
-    laid :: ~Polyarc
+    -- | lines and arcs within 'Tolerance.curve' of it
+    approximation :: ~Polyarc
   }
   deriving stock (Eq, Show)
 
--- | The pieces through a table, and by how much they miss its rows.
+-- | Sections fitted to a table's points, and their deviations from these.
 data Fitting = Fitting
   { pieces :: NonEmpty Section.Section,
     misses :: [SectionFit.Deviation],
@@ -83,24 +86,28 @@ data Fitting = Fitting
 
 -- | A curve with the columns of its table.
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
-curve fields fitting exact =
-  PartCurve {exact, fields, fitting, laid = arcsAlong Tolerance.curve exact}
+curve tableColumns fitting exact =
+  PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
 
--- | Arcs and lines that stay within a distance of a curve; its own where it has no others and no
--- kinks between its corners.
+-- | Arcs and lines within a tolerance of a curve. A curve that consists of arcs and lines keeps
+-- them, with its small kinks smoothed; a cubic spline is fitted by 'CubicFit', any other curve by
+-- 'ParametricFit'.
 arcsAlong :: Mm -> Exact.Curve -> Polyarc
 arcsAlong tolerance exact =
-  case (Exact.chain exact, Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact) of
+  case (Exact.chain exact, cubics) of
     (Just segments, _) -> MeasuredPolyarc.fromSegments (PolyarcFit.smoothed tolerance segments)
     (Nothing, Just (off, xs, ys)) ->
       MeasuredPolyarc.fromOutline (CubicFit.approximate (minus tolerance off) xs ys)
     (Nothing, Nothing) ->
       MeasuredPolyarc.fromSegments (sconcat (ParametricFit.approximate tolerance (track exact)))
+  where
+    cubics = Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact
 
--- | A curve without a table.
+-- | A curve without columns.
 plain :: Exact.Curve -> PartCurve
 plain = curve [] Nothing
 
+-- | A curve as a function of its parameter, for 'ParametricFit'.
 track :: Exact.Curve -> ParametricCurve
 track c =
   ParametricCurve
@@ -116,81 +123,90 @@ track c =
         u : us -> u :| us
     }
 
--- | Where it begins and ends.
+-- | The first and the last point.
 ends :: PartCurve -> [Point]
 ends c = [Exact.start (exact c), Exact.end (exact c)]
 
--- | Walked the other way; the columns go with it.
+-- | A curve in the opposite direction, with its columns.
 reversed :: PartCurve -> PartCurve
 reversed c =
-  curve [(n, Exact.backwards (exact c) vs) | (n, vs) <- fields c] Nothing (Exact.reversed (exact c))
+  curve
+    [(n, Exact.backwards (exact c) vs) | (n, vs) <- tableColumns c]
+    Nothing
+    (Exact.reversed (exact c))
 
--- | The columns keep their values: they are dimensions of the part.
+-- | The image of a curve. The columns keep their values: they are dimensions of the part.
 transformed :: Transformation -> PartCurve -> PartCurve
-transformed s c = curve (fields c) Nothing (Exact.transformed s (exact c))
+transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
--- | Bevels for the rows of a curve's table, along the chain that stands for the curve: places on
--- the chain in mm and the angles there in radians, so near to one another that between them an
--- angle goes evenly, within 'Tolerance.bevel'.
+-- | The values of a column of angles along a curve's polyarc: stations in mm and angles in radians,
+-- rising. Linear interpolation between two neighbours is within 'Tolerance.bevel' of the column.
 along :: PartCurve -> Vector Double -> [(Double, Double)]
-along c values = (0, at 0) : concat (zipWith between stations (drop 1 stations))
+along c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
-    stations = MeasuredPolyarc.joints (laid c)
+    stations = MeasuredPolyarc.joints (approximation c)
     column = Exact.column (exact c) values
-    -- The chain and the curve differ in length by nothing that tells.
-    at s = Exact.columnAt (exact c) column (Exact.alongTo (exact c) (Mm (s * whole / chain)))
+    -- Stations are scaled: the polyarc and the curve differ little in length.
+    angleAt s = Exact.columnAt (exact c) column (Exact.alongTo (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
-    Mm chain = MeasuredPolyarc.length (laid c)
-    -- In steps that rows cannot hide in.
-    between a b =
+    Mm total = MeasuredPolyarc.length (approximation c)
+    -- First steps small enough for every row to be seen.
+    sampled a b =
       let count = max 1 (ceiling ((b - a) / stride)) :: Int
           marks = [a + (b - a) * fromIntegral k / fromIntegral count | k <- [0 .. count]]
-       in concat (zipWith (\p q -> halved (12 :: Int) (p, at p) (q, at q)) marks (drop 1 marks))
-    stride = max 0.1 (chain / (8 * fromIntegral (max 1 (Vector.length values))))
-    halved tries (a, x) (b, y)
-      | tries <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
+       in concat (zipWith (halved (12 :: Int)) (map point marks) (map point (drop 1 marks)))
+    point s = (s, angleAt s)
+    stride = max 0.1 (total / (8 * fromIntegral (max 1 (Vector.length values))))
+    -- Bisects until the angles at a half and a quarter of the step are those of a straight line.
+    halved depth (a, x) (b, y)
+      | depth <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
         [(b, y)]
-      | otherwise = halved (tries - 1) (a, x) (m, z) <> halved (tries - 1) (m, z) (b, y)
+      | otherwise = halved (depth - 1) (a, x) (m, z) <> halved (depth - 1) (m, z) (b, y)
       where
         m = (a + b) / 2
-        z = at m
-        z' = at ((a + m) / 2)
+        z = angleAt m
+        z' = angleAt ((a + m) / 2)
     Rad slack = Tolerance.bevel
 
--- | The least and the greatest x that a curve comes to, by the chain of arcs that stands for it.
-abscissas :: Exact.Curve -> (Mm, Mm)
-abscissas c = (Mm (minimum xs), Mm (maximum xs))
+-- | The least and the greatest x of a curve, by its polyarc.
+xRange :: Exact.Curve -> (Mm, Mm)
+xRange c = (Mm (minimum xs), Mm (maximum xs))
   where
-    chain = laid (plain c)
+    polyarc = approximation (plain c)
     xs =
-      Vec.x (MeasuredPolyarc.start chain) :
-      concatMap (map Vec.x . farthest) (NonEmpty.toList (MeasuredPolyarc.segments chain))
-    farthest s = case s of
+      Vec.x (MeasuredPolyarc.start polyarc) :
+      concatMap (map Vec.x . extremes) (NonEmpty.toList (MeasuredPolyarc.segments polyarc))
+    extremes s = case s of
       Segment.Straight _ q -> [q]
       Segment.Arc {Segment.start = p, Segment.end = q, Segment.centre = m} ->
-        let Mm r =
-              Segment.radius m p
+        let Mm r = Segment.radius m p
          in q : filter (Segment.spans s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
 
--- | Pieces as a curve, with the parameters of the rows on it.
-piecesOf :: Vector Point -> NonEmpty Section.Section -> (NonEmpty SpanShape, Vector Double)
-piecesOf rows chosen = (fmap piece chosen, Vector.imap station rows)
+-- | Sections as spans of a curve, with the parameters of the rows on it: the number of the span
+-- from 0, and the share of the span up to the row.
+spansOfSections :: Vector Point -> NonEmpty Section.Section -> (NonEmpty SpanShape, Vector Double)
+spansOfSections rows sections = (fmap spanOf sections, Vector.imap parameter rows)
   where
-    piece p = case (Section.formula p, Section.segment p) of
-      (Section.Polynomial a b c, Nothing) ->
-        Quadratic a b c (Vec.x (Section.from p)) (Vec.x (Section.to p))
-      (_, Just s) -> case s of
-        Segment.Straight a b -> Line a b
-        Segment.Arc {} -> Circular s
-      (Section.Circle _ _, Nothing) -> Line (Section.from p) (Section.to p)
-    numbered = zip [0 :: Int ..] (NonEmpty.toList chosen)
-    station k q = case [(i, p) | (i, p) <- numbered, k + 1 <= Section.final p] of
-      (i, p) : _ -> fromIntegral i + share p q
-      [] -> fromIntegral (length chosen)
-    share p q
-      | Vec.x q == Vec.x (Section.from p) = 0
-      | Vec.x q == Vec.x (Section.to p) = 1
-      | otherwise = case Section.segment p of
-        Just s@Segment.Arc {} ->
-          Segment.fraction s (Vec.point (Vec.x q) (Section.height p (Vec.x q)))
-        _ -> (Vec.x q - Vec.x (Section.from p)) / (Vec.x (Section.to p) - Vec.x (Section.from p))
+    numbered = zip [0 :: Int ..] (NonEmpty.toList sections)
+    parameter k q = case [(i, s) | (i, s) <- numbered, k + 1 <= Section.final s] of
+      (i, s) : _ -> fromIntegral i + share s q
+      [] -> fromIntegral (length sections)
+
+spanOf :: Section.Section -> SpanShape
+spanOf s = case (Section.formula s, Section.segment s) of
+  (Section.Polynomial a b c, Nothing) ->
+    Quadratic a b c (Vec.x (Section.from s)) (Vec.x (Section.to s))
+  (_, Just segment) -> case segment of
+    Segment.Straight a b -> Line a b
+    Segment.Arc {} -> Circular segment
+  (Section.Circle _ _, Nothing) -> Line (Section.from s) (Section.to s)
+
+-- | The parameter of a row's x on a section, from 0 to 1.
+share :: Section.Section -> Point -> Double
+share s q
+  | Vec.x q == Vec.x (Section.from s) = 0
+  | Vec.x q == Vec.x (Section.to s) = 1
+  | otherwise = case Section.segment s of
+    Just arc@Segment.Arc {} ->
+      Segment.fraction arc (Vec.point (Vec.x q) (Section.height s (Vec.x q)))
+    _ -> (Vec.x q - Vec.x (Section.from s)) / (Vec.x (Section.to s) - Vec.x (Section.from s))

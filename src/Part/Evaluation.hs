@@ -1,5 +1,6 @@
--- | Computations on a program's values: they may find mistakes, or depend on one that is reported
--- already, and they take a limited number of steps.
+-- | The monad of evaluation. A computation yields a value, or mistakes; it fails without a mistake
+-- when it depends on one that is already reported. It takes a limited number of steps, so that
+-- every evaluation ends.
 module Part.Evaluation
   ( Eval,
     run,
@@ -19,14 +20,14 @@ import Data.Either (fromLeft)
 import GHC.Exts (oneShot)
 import Part.Error (Error (..), ValueFact (..))
 
--- | What is done with some steps left.
+-- | A computation: a function of the steps left.
 newtype Eval a = Eval (Int -> Outcome a)
 
--- | The steps then left, and what was found; or the mistakes, none when they are reported already.
+-- | The steps left, and the value or the mistakes; no mistakes when they are already reported.
 data Outcome a = Found Int a | Failed Int [Error]
 
--- | One by its steps. It is run once, as the compiler is told: then it makes no function of it
--- first.
+-- | A computation from its function of steps. 'oneShot' promises GHC that the function is called
+-- once, so that no closure is allocated for it.
 steps :: (Int -> Outcome a) -> Eval a
 steps f = Eval (oneShot f)
 {-# INLINE steps #-}
@@ -53,23 +54,25 @@ instance Monad Eval where
     Failed left' errors -> Failed left' errors
   {-# INLINE (>>=) #-}
 
--- | Run with so many steps; tell how many are left.
+-- | Runs a computation with a number of steps; yields its result and the steps left.
 run :: Int -> Eval a -> (Either [Error] a, Int)
 run fuel (Eval e) = case e fuel of
   Found left a -> (Right a, left)
   Failed left errors -> (Left errors, left)
 
+-- | Fails with one mistake.
 mistake :: ValueFact -> Eval a
 mistake fact = mistakes [Error fact []]
 
+-- | Fails with these mistakes.
 mistakes :: [Error] -> Eval a
 mistakes errors = Eval (`Failed` errors)
 
--- | What this depends on is missing because of a mistake that is reported already.
+-- | Fails because of a mistake that is already reported.
 absent :: Eval a
 absent = mistakes []
 
--- | All of them, with the mistakes of all of them.
+-- | Runs all computations, even after a failure, and fails with the mistakes of all of them.
 gather :: Traversable t => t (Eval a) -> Eval (t a)
 gather evals = do
   results <- traverse tried evals
@@ -82,26 +85,28 @@ gather evals = do
       Failed left' errors -> Found left' (Left errors)
 {-# INLINEABLE gather #-}
 
--- | What is found for each of some things, one behind the other, with the mistakes of all of them.
+-- | Runs a computation for each item, even after a failure, and concatenates the results. Fails
+-- with the mistakes of all of them. Takes stack for none of the items, unlike 'gather'.
 collect :: (a -> Eval [b]) -> [a] -> Eval [b]
-collect find things = Eval (among [] things)
+collect find items = Eval (collecting [] items)
   where
-    among found rest left = case rest of
+    collecting found rest left = case rest of
       [] -> Found left (reverse found)
       a : more ->
         let Eval e = find a
          in case e left of
-              Found left' bs -> among (foldl (flip (:)) found bs) more left'
-              Failed left' errors -> without [errors] more left'
-    without errors rest left = case rest of
+              Found left' bs -> collecting (foldl (flip (:)) found bs) more left'
+              Failed left' errors -> failing [errors] more left'
+    failing errors rest left = case rest of
       [] -> Failed left (concat (reverse errors))
       a : more ->
         let Eval e = find a
          in case e left of
-              Found left' _ -> without errors more left'
-              Failed left' new -> without (new : errors) more left'
+              Found left' _ -> failing errors more left'
+              Failed left' new -> failing (new : errors) more left'
 
--- | Take steps. When there are none left, that is reported once; below zero it is reported already.
+-- | Takes a number of steps. Fails when too few are left: the first time with a mistake, and then,
+-- with the count below 0, without one.
 spend :: Region -> Int -> Eval ()
 spend region wanted = steps $ \left -> case () of
   _
@@ -110,11 +115,11 @@ spend region wanted = steps $ \left -> case () of
     | otherwise -> Found (left - wanted) ()
 {-# INLINE spend #-}
 
--- | A program may take so many steps.
+-- | The number of steps that a program may take.
 mostSteps :: Int
 mostSteps = 5000000
 
--- | Note through which call of a function a mistake came.
+-- | Adds the region of a function call to the mistakes that occur in it.
 inCall :: Region -> Eval a -> Eval a
 inCall region (Eval e) = steps $ \left -> case e left of
   Found left' a -> Found left' a

@@ -1,4 +1,6 @@
--- | Values of the language while a program is evaluated, and the evaluation of expressions.
+-- | Evaluation of expressions, and the names that they use.
+--
+-- Types are checked before, so a value of another type than the one needed is a bug of partc.
 module Part.Expression
   ( Value (..),
     Environment (..),
@@ -18,10 +20,11 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.NumberTable qualified as NumberTable
 import Base.Quantity (Mm (..))
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region)
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Argument (..), Expr, Expr_ (..), Operator (..))
+import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -43,47 +46,33 @@ import Part.Part (outline)
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | The definitions so far. Names without a value depend on a mistake that is already reported.
+-- | The definitions so far. A name without a value depends on a mistake that is already reported.
 data Environment = Environment
   { values :: Map Name Value,
-    -- | with the local names where they were defined
+    -- | the local names at a function's definition, its parameters and its body
     functions :: Map Name (Map Name Value, NonEmpty Name, Expr),
+    -- | parameters of functions and variables of repetitions
     locals :: Map Name Value
   }
   deriving stock (Show)
 
+-- | The environment at the start of a program.
 empty :: Environment
 empty = Environment Map.empty Map.empty Map.empty
 
--- | With a name that is known only here.
+-- | Binds a local name.
 bind :: Name -> Value -> Environment -> Environment
 bind name v env = env {locals = Map.insert name v (locals env)}
 
--- | The value of an expression.
+-- | The value of an expression. Every node of it takes one step.
 evaluate :: Environment -> Expr -> Eval Value
 evaluate env (Located region e) =
   Evaluation.spend region 1 *> case e of
     Number x -> pure (Quantity x)
     Variable name ->
-      maybe
-        Evaluation.absent
-        pure
-        (firstOf (Map.lookup name (locals env)) (Map.lookup name (values env)))
-    Apply name arguments -> case Map.lookup name (functions env) of
-      Nothing -> Evaluation.absent
-      Just (around, parameters, body) -> do
-        vs <- traverse (evaluate env) arguments
-        Evaluation.inCall
-          region
-          ( evaluate
-              env
-                { locals =
-                    Map.union
-                      (Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs)))
-                      around
-                }
-              body
-          )
+      maybe Evaluation.absent pure (Map.lookup name (locals env) <|> Map.lookup name (values env))
+    Apply name arguments ->
+      maybe Evaluation.absent (call env region arguments) (Map.lookup name (functions env))
     Builtin builtin arguments -> traverse argument arguments >>= Builtin.apply region builtin
     Negate inner -> evaluate env inner >>= Builtin.binary region Multiply (Quantity (-1))
     Not inner -> TruthValue . not . isTrue <$> evaluate env inner
@@ -97,11 +86,11 @@ evaluate env (Located region e) =
       a <- number <$> evaluate env low
       b <- number <$> evaluate env high
       by <- maybe (pure 1) (fmap number . evaluate env) step
-      range a b by
+      range region a b by
     If c a b -> evaluate env c >>= \v -> evaluate env (if isTrue v then a else b)
     Pair x y -> do
-      a <- numberOf x
-      b <- numberOf y
+      a <- coordinate env x
+      b <- coordinate env y
       Value.spatial region (Vec.vec a b)
     Triple x y z -> do
       a <- number <$> evaluate env x
@@ -113,43 +102,53 @@ evaluate env (Located region e) =
       vs <- items <$> evaluate env list
       ListValue . Vector.fromList <$> traverse (\v -> evaluate (bind name v env) inner) vs
   where
-    -- Most coordinates are numbers as they are written.
-    numberOf x = case x of
-      Located at (Number c) -> c <$ Evaluation.spend at 1
-      _ -> number <$> evaluate env x
-    firstOf a b = case a of
-      Just _ -> a
-      Nothing -> b
     argument a = case a of
       Given x -> Value.Plain <$> evaluate env x
       Chosen choice x -> Value.Choosing choice <$> evaluate env x
       Ranked rank -> pure (Value.Ranking rank)
-    range a b by
-      | by == 0 = Evaluation.mistake (StepOfZero region)
-      | otherwise = do
-        let count = floor ((b - a) / by + Tolerance.equal) + 1 :: Integer
-        Evaluation.spend region (fromInteger (max 0 (min 100000000 count)))
-        pure
-          ( ListValue
-              ( Vector.generate
-                  (max 0 (fromInteger count))
-                  (\k -> Quantity (a + fromIntegral k * by))
-              )
-          )
 
--- | A checked number.
+-- | A call of a function: its body with the local names of its definition and with its arguments.
+call ::
+  Environment ->
+  Region ->
+  NonEmpty Expr ->
+  (Map Name Value, NonEmpty Name, Expr) ->
+  Eval Value
+call env region arguments (definitionLocals, parameters, body) = do
+  vs <- traverse (evaluate env) arguments
+  let given = Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs))
+  Evaluation.inCall region (evaluate env {locals = Map.union given definitionLocals} body)
+
+-- | A coordinate. Most are literals, which need no call of 'evaluate'.
+coordinate :: Environment -> Expr -> Eval Double
+coordinate env x = case x of
+  Located at (Number c) -> c <$ Evaluation.spend at 1
+  _ -> number <$> evaluate env x
+
+-- | The numbers from a limit to another in equal steps; empty when the steps lead away from the
+-- second limit.
+range :: Region -> Double -> Double -> Double -> Eval Value
+range region a b by
+  | by == 0 = Evaluation.mistake (StepOfZero region)
+  | otherwise = do
+    let count = floor ((b - a) / by + Tolerance.equal) + 1 :: Integer
+        item k = Quantity (a + fromIntegral k * by)
+    Evaluation.spend region (fromInteger (max 0 (min 100000000 count)))
+    pure (ListValue (Vector.generate (max 0 (fromInteger count)) item))
+
+-- | The number of a checked value.
 number :: Value -> Double
 number v = case v of
   Quantity x -> x
   _ -> bug "a value that is no number where a number was checked"
 
--- | A checked point.
+-- | The point of a checked value.
 point :: Value -> Point
 point v = case v of
-  Spatial p -> Value.place p
+  Spatial p -> Value.fromOrigin p
   _ -> bug "a value that is no point where a point was checked"
 
--- | A checked truth.
+-- | The truth of a checked value.
 isTrue :: Value -> Bool
 isTrue v = case v of
   TruthValue b -> b
@@ -161,14 +160,15 @@ items v = case v of
   ListValue vs -> Vector.toList vs
   _ -> bug "a value that is no list where a list was checked"
 
--- | A value for a reader; the dimension is that of its quantities.
+-- | A value in words, for editors and reports; its quantities have this dimension. Empty for a
+-- transformation.
 written :: Dimension -> Value -> Text
 written dimension v = case v of
   Quantity x ->
     let unit = Dimension.unitWord dimension
      in Decimal.short 6 (x / Dimension.defaultUnit dimension)
           <> (if unit == "" then "" else " " <> unit)
-  Spatial p -> Vec.written 4 (Value.place p)
+  Spatial p -> Vec.written 4 (Value.fromOrigin p)
   SpaceValue p (Mm z) -> Vec.written 4 p <> " at height " <> Decimal.mm (Mm z)
   TruthValue b -> if b then "true" else "false"
   CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.written 4 c

@@ -1,4 +1,8 @@
--- | The places where a link can join two walked elements.
+-- | The joints that a link can make between two neighbouring elements of a contour: intersection,
+-- smooth transition, common tangent, fillet, chamfer.
+--
+-- Candidates are independent of the other links of the contour; 'Part.LinkSolver' chooses among
+-- them.
 module Part.LinkCandidate
   ( Link (..),
     Joint (..),
@@ -11,8 +15,7 @@ import Base.Quantity (Mm (..), Rad (..), plus)
 import Base.Region (Located (..))
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
-import Data.Text (Text)
-import Geometry.Carrier (Circle (Circle), Sense (..))
+import Geometry.Carrier (Circle (Circle), Line, Sense (..))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Construction.Fillet qualified as Fillet
 import Geometry.Construction.Intersection (Intersection (..))
@@ -20,27 +23,32 @@ import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Construction.TangentLine qualified as TangentLine
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.ElementCarrier qualified as ElementCarrier
+import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.MeasuredPolyarc (Polyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point)
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
-import Part.Error (Joined (..), ValueFact (..))
+import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (..))
 
 -- | A link with its values.
 data Link
-  = Meet (Maybe Point)
-  | -- | at this point, where the elements of a contour follow one another
+  = -- | the intersection nearest to the point, if there is one
+    Meet (Maybe Point)
+  | -- | at this point, between the elements of a contour that is an element itself
     Fixed Point
   | Smooth
   | Tangent
-  | Fillet Sense Mm
-  | Chamfer Mm
+  | -- | the sense and the radius of the arc
+    Fillet Sense Mm
+  | -- | the length that it cuts off each neighbour
+    Chamfer Mm
   deriving stock (Eq, Show)
 
--- | Where the walk leaves one element and enters the next, and what lies between.
+-- | The point that ends one element, the point that begins the next, and the segment between them.
 data Joint = Joint
   { leave :: {-# UNPACK #-} Point,
     enter :: {-# UNPACK #-} Point,
@@ -52,227 +60,254 @@ data Joint = Joint
 through :: Point -> Joint
 through p = Joint p p Nothing
 
--- | All joints that a link can make of its neighbours. The points are the ends that the neighbours
--- have of their own: one of them decides where two curves meet in two points.
-candidates :: Joined -> [Point] -> Link -> Either ValueFact (NonEmpty Joint)
+-- | A joint by a straight segment.
+straight :: Point -> Point -> Joint
+straight p q = Joint p q (Just (Straight p q))
+
+-- | All joints that a link can make between its neighbours, fillets in the order of their length.
+-- The points are the neighbours' own ends: one of them decides between two intersections.
+candidates :: Neighbours -> [Point] -> Link -> Either ContourFault (NonEmpty Joint)
 candidates j own link = case link of
   Meet near -> (:| []) <$> meet j own near
   Fixed p -> Right (through p :| [])
   Smooth -> (:| []) <$> smooth j
   Tangent -> (:| []) <$> tangent j
-  Fillet turn r -> fillet j turn r
+  Fillet sense r -> fillet j sense r
   Chamfer d -> (:| []) <$> chamfer j own d
 
-shapes :: Joined -> (ElementCarrier, ElementCarrier)
+shapes :: Neighbours -> (ElementCarrier, ElementCarrier)
 shapes j = (value (before j), value (after j))
 
--- | The intersection. Of several the one nearest to the point given; without one, the one that is
--- an end of a neighbour.
-meet :: Joined -> [Point] -> Maybe Point -> Either ValueFact Joint
+-- Intersections
+
+-- | The intersection. Of several, the one nearest to the point given; without such a point, the one
+-- that is an own end of a neighbour.
+meet :: Neighbours -> [Point] -> Maybe Point -> Either ContourFault Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
-    | Vec.near p q -> Left (SameCurve j)
-    | otherwise -> Right (Joint p q (Just (Straight p q)))
-  (AtPoint p, b) -> on p b
-  (a, AtPoint q) -> on q a
-  (OnCurve c, b) -> ofCurve (MeasuredPolyarc.segments c) (ElementCarrier.within (extent c) b)
-  (a, OnCurve c) -> ofCurve (ElementCarrier.within (extent c) a) (MeasuredPolyarc.segments c)
+    | Vec.near p q -> Left (NotLinked j SameCurve)
+    | otherwise -> Right (straight p q)
+  (AtPoint p, b) -> pointOn j p b
+  (a, AtPoint q) -> pointOn j q a
+  (OnCurve c, b) -> polyarcs (MeasuredPolyarc.segments c) (ElementCarrier.within (extent c) b)
+  (a, OnCurve c) -> polyarcs (ElementCarrier.within (extent c) a) (MeasuredPolyarc.segments c)
   (OnLine l, OnLine m) -> case Intersection.lines l m of
-    Apart gap -> Left (ParallelLines j gap)
+    Apart gap -> Left (NotLinked j (ParallelLines gap))
     Same | Vec.near (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
-    meeting -> points meeting
-  (OnLine l, OnCircle _ c) -> points (Intersection.lineCircle l c)
-  (OnCircle _ c, OnLine l) -> points (Intersection.lineCircle l c)
-  (OnCircle _ c, OnCircle _ d) -> points (Intersection.circles c d)
+    meeting -> common meeting
+  (OnLine l, OnCircle _ c) -> common (Intersection.lineCircle l c)
+  (OnCircle _ c, OnLine l) -> common (Intersection.lineCircle l c)
+  (OnCircle _ c, OnCircle _ d) -> common (Intersection.circles c d)
   where
-    on p shape =
-      let gap =
-            distanceTo shape p
-       in if gap <= slack shape then Right (through p) else Left (NoMeeting j gap)
-    -- The chain that stands for a curve is off by so much.
-    slack shape = case shape of
+    common meeting = case meeting of
+      Apart gap -> Left (NotLinked j (NoMeeting gap))
+      Same -> Left (NotLinked j SameCurve)
+      Touching p -> Right (through p)
+      CrossingOnce p -> Right (through p)
+      Crossing p q -> choose j own near Tolerance.coincident [p, q]
+    polyarcs a b = case MeasuredPolyarc.meetings a b of
+      [] -> Left (NotLinked j (NoMeeting (MeasuredPolyarc.gap a b)))
+      [p] -> Right (through p)
+      ps -> choose j own near Tolerance.nearTie ps
+
+-- | One of several intersections. Distances within the tolerance are a tie.
+choose :: Neighbours -> [Point] -> Maybe Point -> Mm -> [Point] -> Either ContourFault Joint
+choose j own near (Mm tolerance) ps =
+  through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
+    (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
+    (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
+    _ -> Left (NotLinked j (AmbiguousMeeting ps))
+  where
+    distance a b = let Mm d = Vec.distance a b in d
+
+-- | A joint at a point that lies on its neighbour. The polyarc of a curve deviates from the curve
+-- by up to 'Tolerance.curve'.
+pointOn :: Neighbours -> Point -> ElementCarrier -> Either ContourFault Joint
+pointOn j p carrier
+  | gap <= slack = Right (through p)
+  | otherwise = Left (NotLinked j (NoMeeting gap))
+  where
+    gap = distanceTo carrier p
+    slack = case carrier of
       OnCurve _ -> plus Tolerance.curve Tolerance.coincident
       OnLine _ -> Tolerance.coincident
       OnCircle _ _ -> Tolerance.coincident
       AtPoint _ -> Tolerance.coincident
-    points meeting = case meeting of
-      Apart gap -> Left (NoMeeting j gap)
-      Same -> Left (SameCurve j)
-      Touching p -> Right (through p)
-      CrossingOnce p -> Right (through p)
-      Crossing p q -> choose Tolerance.coincident [p, q]
-    ofCurve a b = case MeasuredPolyarc.meetings a b of
-      [] -> Left (NoMeeting j (MeasuredPolyarc.gap a b))
-      [p] -> Right (through p)
-      ps -> choose Tolerance.nearTie ps
-    extent c =
-      foldl
-        (\box s -> BoundingBox.union box (BoundingBox.ofSegment s))
-        (BoundingBox.ofPoints (MeasuredPolyarc.start c) [])
-        (MeasuredPolyarc.segments c)
-    choose (Mm tolerance) ps =
-      through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
-        (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
-        (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
-        _ -> Left (AmbiguousMeeting j ps)
-    distance a b = let Mm d = Vec.distance a b in d
 
--- | How far a point lies from an element's curve.
+extent :: Polyarc -> BoundingBox
+extent c =
+  foldl
+    (\box s -> BoundingBox.union box (BoundingBox.ofSegment s))
+    (BoundingBox.ofPoints (MeasuredPolyarc.start c) [])
+    (MeasuredPolyarc.segments c)
+
+-- | The distance of a point from an element's carrier.
 distanceTo :: ElementCarrier -> Point -> Mm
-distanceTo shape p = case shape of
+distanceTo carrier p = case carrier of
   OnLine l -> let Mm d = Carrier.signedDistance l p in Mm (abs d)
   OnCircle _ (Circle c (Mm r)) -> let Mm d = Vec.distance c p in Mm (abs (d - r))
   OnCurve c -> Vec.distance p (MeasuredPolyarc.at c (MeasuredPolyarc.station c p))
   AtPoint q -> Vec.distance p q
 
--- | The point where neighbours that touch go over into one another.
-smooth :: Joined -> Either ValueFact Joint
+-- Smooth transitions
+
+-- | The point where two neighbours touch in the same direction.
+smooth :: Neighbours -> Either ContourFault Joint
 smooth j = case shapes j of
-  (OnLine l, OnLine m)
-    | Vec.dot (Carrier.direction l) (Carrier.direction m) > 0 -> case Intersection.lines l m of
-      Same ->
-        Right
-          ( through
-              (if Vec.near (Carrier.to l) (Carrier.from m) then Carrier.to l else Carrier.from m)
-          )
-      Apart gap -> Left (NotSmooth j gap)
-      _ -> meet j [] Nothing
-    | otherwise -> Left (TurnsBack j)
-  (OnLine l, OnCircle turn c) -> lineCircle l turn c
-  (OnCircle turn c, OnLine l) -> lineCircle l turn c
-  (OnCircle t1 c1, OnCircle t2 c2) -> circles (t1, c1) (t2, c2)
+  (OnLine l, OnLine m) -> smoothLines j l m
+  (OnLine l, OnCircle sense c) -> smoothLineCircle j l sense c
+  (OnCircle sense c, OnLine l) -> smoothLineCircle j l sense c
+  (OnCircle s c, OnCircle t d) -> smoothCircles j (s, c) (t, d)
   (AtPoint _, _) -> meet j [] Nothing
   (_, AtPoint _) -> meet j [] Nothing
   (OnCurve c, b) ->
-    let (p, u) =
-          (MeasuredPolyarc.end c, MeasuredPolyarc.directionAt c (MeasuredPolyarc.length c))
-     in goesOn (p, u) (sidedBy b p)
+    let p = MeasuredPolyarc.end c
+     in smoothEnds j (p, MeasuredPolyarc.directionAt c (MeasuredPolyarc.length c)) (facing b p)
   (a, OnCurve c) ->
-    let (q, v) =
-          (MeasuredPolyarc.start c, MeasuredPolyarc.directionAt c (Mm 0))
-     in goesOn (sidedBy a q) (q, v)
+    let q = MeasuredPolyarc.start c
+     in smoothEnds j (facing a q) (q, MeasuredPolyarc.directionAt c (Mm 0))
+
+-- | A smooth transition of lines, which lie on one another and have the same direction.
+smoothLines :: Neighbours -> Line -> Line -> Either ContourFault Joint
+smoothLines j l m
+  | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j TurnsBack)
+  | otherwise = case Intersection.lines l m of
+    Same | Vec.near (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
+    Same -> Right (through (Carrier.from m))
+    Apart gap -> Left (NotLinked j (NotSmooth gap))
+    _ -> meet j [] Nothing
+
+-- | A smooth transition between an end with its direction and a start with its direction. Curves
+-- come from measured points, so 'Tolerance.smoothGap' and 'Tolerance.smoothTurn' are allowed.
+smoothEnds :: Neighbours -> (Point, Vec) -> (Point, Vec) -> Either ContourFault Joint
+smoothEnds j (p, u) (q, v)
+  | Vec.distance p q > Tolerance.smoothGap =
+    Left (NotLinked j (NotSmooth (Vec.distance p q)))
+  | abs angle > pi / 2 = Left (NotLinked j TurnsBack)
+  | abs angle > allowed = Left (NotLinked j (Kinked (Rad (abs angle))))
+  | otherwise = Right (Joint p q Nothing)
+  where
+    Rad angle = Vec.turn u v
+    Rad allowed = Tolerance.smoothTurn
+
+-- | The point of an element nearest to a point, and the element's direction there.
+facing :: ElementCarrier -> Point -> (Point, Vec)
+facing carrier p = case carrier of
+  OnLine l -> (Carrier.foot l p, Carrier.direction l)
+  OnCircle sense (Circle c (Mm r)) ->
+    let out = Vec.unit (Vec.to c p)
+     in (Vec.shift (Vec.scale r out) c, Vec.scale (Carrier.sense sense) (Vec.left out))
+  OnCurve c ->
+    let s = MeasuredPolyarc.station c p
+     in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
+  AtPoint q -> (q, Vec.unit (Vec.to q p))
+
+smoothLineCircle :: Neighbours -> Line -> Sense -> Circle -> Either ContourFault Joint
+smoothLineCircle j l sense (Circle c (Mm r))
+  | abs (abs h - r) <= tolerance && signum h /= Carrier.sense sense =
+    Left (NotLinked j TurnsBack)
+  | otherwise = touching j (abs h - r) (Carrier.foot l c)
+  where
+    Mm h = Carrier.signedDistance l c
+    Mm tolerance = Tolerance.coincident
+
+-- | Circles of one sense touch from inside, circles of different senses from outside.
+smoothCircles :: Neighbours -> (Sense, Circle) -> (Sense, Circle) -> Either ContourFault Joint
+smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
+  | distance <= tolerance = Left (NotLinked j SameCurve)
+  | s == t && outerGap <= tolerance || s /= t && innerGap <= tolerance =
+    Left (NotLinked j TurnsBack)
+  | s == t = touching j innerGap (towards (if r >= q then r else -r))
+  | otherwise = touching j outerGap (towards r)
+  where
+    Mm distance = Vec.distance c d
+    Mm tolerance = Tolerance.coincident
+    outerGap = abs (distance - r - q)
+    innerGap = abs (distance - abs (r - q))
+    towards x = Vec.shift (Vec.scale x (Vec.unit (Vec.to c d))) c
+
+-- | A joint at a point of contact, for neighbours with this gap between them.
+touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
+touching j gap p
+  | abs gap <= tolerance = Right (through p)
+  | otherwise = Left (NotLinked j (NotSmooth (Mm (abs gap))))
   where
     Mm tolerance = Tolerance.coincident
-    -- Curves come from measured points: a small gap and a small turn are theirs.
-    goesOn (p, u) (q, v)
-      | Vec.distance p q > Tolerance.smoothGap = Left (NotSmooth j (Vec.distance p q))
-      | abs turned > pi / 2 = Left (TurnsBack j)
-      | abs turned > smooth' = Left (Kinked j (Rad (abs turned)))
-      | otherwise = Right (Joint p q Nothing)
-      where
-        Rad turned = Vec.turn u v
-        Rad smooth' = Tolerance.smoothTurn
-    -- The point of an element that faces a point, and its direction there.
-    sidedBy shape p = case shape of
-      OnLine l -> (Carrier.foot l p, Carrier.direction l)
-      OnCircle turn (Circle c (Mm r)) ->
-        let out =
-              Vec.unit (Vec.to c p)
-         in (Vec.shift (Vec.scale r out) c, Vec.scale (Carrier.sense turn) (Vec.left out))
-      OnCurve c ->
-        let s =
-              MeasuredPolyarc.station c p
-         in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
-      AtPoint q -> (q, Vec.unit (Vec.to q p))
-    touching gap p
-      | abs gap <= tolerance = Right (through p)
-      | otherwise = Left (NotSmooth j (Mm (abs gap)))
-    lineCircle l turn (Circle c (Mm r))
-      | abs (abs h - r) <= tolerance && signum h /= Carrier.sense turn = Left (TurnsBack j)
-      | otherwise = touching (abs h - r) (Carrier.foot l c)
-      where
-        Mm h = Carrier.signedDistance l c
-    circles (t1, Circle c1 (Mm r1)) (t2, Circle c2 (Mm r2))
-      | d <= tolerance = Left (SameCurve j)
-      | t1 == t2 && outerGap <= tolerance || t1 /= t2 && innerGap <= tolerance = Left (TurnsBack j)
-      | t1 == t2 = touching innerGap (along (if r1 >= r2 then r1 else -r1))
-      | otherwise = touching outerGap (along r1)
-      where
-        Mm d = Vec.distance c1 c2
-        outerGap = abs (d - r1 - r2)
-        innerGap = abs (d - abs (r1 - r2))
-        along s = Vec.shift (Vec.scale s (Vec.unit (Vec.to c1 c2))) c1
+
+-- Inserted segments
 
 -- | The common tangent that fits the senses. A point counts as a circle of radius 0.
-tangent :: Joined -> Either ValueFact Joint
+tangent :: Neighbours -> Either ContourFault Joint
 tangent j = case shapes j of
-  (OnLine _, _) -> Left (TangentNeedsCircles j)
-  (_, OnLine _) -> Left (TangentNeedsCircles j)
-  (OnCurve _, _) -> Left (TangentNeedsCircles j)
-  (_, OnCurve _) -> Left (TangentNeedsCircles j)
-  (OnCircle t1 c1, OnCircle t2 c2) -> between (t1, c1) (t2, c2)
+  (OnLine _, _) -> Left (NotLinked j TangentNeedsCircles)
+  (_, OnLine _) -> Left (NotLinked j TangentNeedsCircles)
+  (OnCurve _, _) -> Left (NotLinked j TangentNeedsCircles)
+  (_, OnCurve _) -> Left (NotLinked j TangentNeedsCircles)
+  (OnCircle s c, OnCircle t d) -> between (s, c) (t, d)
   (AtPoint p, OnCircle t c) -> between (t, Circle p (Mm 0)) (t, c)
   (OnCircle t c, AtPoint p) -> between (t, c) (t, Circle p (Mm 0))
   (AtPoint _, AtPoint _) -> meet j [] Nothing
   where
-    between a@(_, c1@(Circle p1 _)) b@(_, c2@(Circle p2 _))
-      | Vec.near p1 p2 =
+    between a@(_, c@(Circle p _)) b@(_, d@(Circle q _))
+      | Vec.near p q =
         Left
-          (if Intersection.circles c1 c2 == Same then CoincidentTangent j else ConcentricTangent j)
+          ( NotLinked
+              j
+              (if Intersection.circles c d == Same then CoincidentTangent else ConcentricTangent)
+          )
       | otherwise = case TangentLine.directed a b of
-        Just l ->
-          Right
-            ( Joint
-                (Carrier.from l)
-                (Carrier.to l)
-                (Just (Straight (Carrier.from l) (Carrier.to l)))
-            )
+        Just l -> Right (straight (Carrier.from l) (Carrier.to l))
         Nothing ->
-          Left
-            (NoTangent j [sense t1 <> " then " <> sense t2 | (t1, t2, _) <- TangentLine.all c1 c2])
+          Left (NotLinked j (NoCommonTangent [(s, t) | (s, t, _) <- TangentLine.all c d]))
 
-sense :: Sense -> Text
-sense turn = case turn of
-  Clockwise -> "cw"
-  CounterClockwise -> "ccw"
-
--- | The arcs of a radius and a sense, the nearer ones first.
-fillet :: Joined -> Sense -> Mm -> Either ValueFact (NonEmpty Joint)
-fillet j turn r = case shapes j of
-  (AtPoint _, _) -> Left (FilletAtPoint j)
-  (_, AtPoint _) -> Left (FilletAtPoint j)
-  (a, b) -> case sortOn length' (map joint (Fillet.between r turn a b)) of
-    [] -> Left (NoFillet j r Nothing)
+-- | The arcs of a radius and a sense, the shorter ones first.
+fillet :: Neighbours -> Sense -> Mm -> Either ContourFault (NonEmpty Joint)
+fillet j sense r = case shapes j of
+  (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
+  (_, AtPoint _) -> Left (NotLinked j FilletAtPoint)
+  (a, b) -> case sortOn arcLength (map joint (Fillet.between r sense a b)) of
+    [] -> Left (NotLinked j (NoFillet r Nothing))
     first : rest -> Right (first :| rest)
   where
     joint f =
       Joint
         (Fillet.start f)
         (Fillet.end f)
-        (Just (Segment.arc turn (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
-    length' = fmap Segment.length . inserted
+        (Just (Segment.arc sense (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
+    arcLength = fmap Segment.length . inserted
 
--- | A straight line between the points at a distance along each neighbour from their intersection.
-chamfer :: Joined -> [Point] -> Mm -> Either ValueFact Joint
+-- | A straight segment between the points at a distance along each neighbour from their
+-- intersection.
+chamfer :: Neighbours -> [Point] -> Mm -> Either ContourFault Joint
 chamfer j own (Mm d) = case shapes j of
-  (AtPoint _, _) -> Left (FilletAtPoint j)
-  (_, AtPoint _) -> Left (FilletAtPoint j)
+  (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
+  (_, AtPoint _) -> Left (NotLinked j FilletAtPoint)
   (a, b) -> do
     Joint {leave = corner} <- meet j own Nothing
-    reaches (before j) (-d) corner
-    reaches (after j) d corner
-    let p = along a (-d) corner
-        q = along b d corner
-    Right (Joint p q (Just (Straight p q)))
+    checkReach j (before j) (-d) corner
+    checkReach j (after j) d corner
+    Right (straight (along a (-d) corner) (along b d corner))
+
+-- | Fails for an open curve that is too short for a signed distance from one of its points.
+checkReach :: Neighbours -> Located ElementCarrier -> Double -> Point -> Either ContourFault ()
+checkReach j (Located region carrier) distance p = case carrier of
+  OnCurve c
+    | not (MeasuredPolyarc.isClosed c), target < -tolerance -> tooShort (-target)
+    | not (MeasuredPolyarc.isClosed c), target > l + tolerance -> tooShort (target - l)
+    where
+      Mm s = MeasuredPolyarc.station c p
+      Mm l = MeasuredPolyarc.length c
+      Mm tolerance = Tolerance.coincident
+      target = s + distance
+  _ -> Right ()
   where
-    -- A curve has to be as long as the chamfer takes from it.
-    reaches (Located region shape) s p = case shape of
-      OnCurve c
-        | not (MeasuredPolyarc.isClosed c),
-          t < -tolerance ->
-          Left (Overrun region shape (Mm (-t)) [link j] Nothing)
-        | not (MeasuredPolyarc.isClosed c),
-          t > l + tolerance ->
-          Left (Overrun region shape (Mm (t - l)) [link j] Nothing)
-        where
-          Mm at = MeasuredPolyarc.station c p
-          Mm l = MeasuredPolyarc.length c
-          Mm tolerance = Tolerance.coincident
-          t = at + s
-      _ -> Right ()
-    along shape s p = case shape of
-      OnLine l -> Vec.shift (Vec.scale s (Carrier.direction l)) p
-      OnCircle turn (Circle c (Mm r)) ->
-        Vec.shift (Vec.rotate (Rad (Carrier.sense turn * s / r)) (Vec.to c p)) c
-      OnCurve c -> let Mm t = MeasuredPolyarc.station c p in MeasuredPolyarc.at c (Mm (t + s))
-      AtPoint q -> q
+    tooShort overlap = Left (Overrun region carrier (Mm overlap) [link j] Nothing)
+
+-- | The point of an element at a signed distance from one of its points.
+along :: ElementCarrier -> Double -> Point -> Point
+along carrier s p = case carrier of
+  OnLine l -> Vec.shift (Vec.scale s (Carrier.direction l)) p
+  OnCircle sense (Circle c (Mm r)) ->
+    Vec.shift (Vec.rotate (Rad (Carrier.sense sense * s / r)) (Vec.to c p)) c
+  OnCurve c -> let Mm t = MeasuredPolyarc.station c p in MeasuredPolyarc.at c (Mm (t + s))
+  AtPoint q -> q

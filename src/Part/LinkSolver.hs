@@ -1,9 +1,8 @@
--- | From walked elements and links to the segments of a contour.
+-- | The segments of a contour from its elements and links.
 --
--- Every link has a few places where it can join its neighbours (two fillets, one
--- intersection …). Of all combinations in which every element is walked forwards, the one
--- that makes the whole contour shortest is taken, by dynamic programming along the
--- contour.
+-- Every link has a few joints with its neighbours (two fillets, one intersection …). Dynamic
+-- programming along the contour chooses the combination with the shortest contour among those in
+-- which no element runs backwards. A tie is reported, not decided.
 module Part.LinkSolver
   ( LinkedElement (..),
     Link (..),
@@ -19,8 +18,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (catMaybes, listToMaybe, mapMaybe)
-import Data.Maybe qualified as Maybe
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Carrier (Circle (Circle), Line (Line))
 import Geometry.Carrier qualified as Carrier
@@ -35,171 +33,165 @@ import Geometry.SelfIntersection qualified as SelfIntersection
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (Neighbours))
+import Part.ContourError qualified as ContourError
 import Part.Curve (PartCurve)
-import Part.Error (Joined (Joined), ValueFact (..))
-import Part.Error qualified as Error
 import Part.LinkCandidate (Joint (..), Link (..))
 import Part.LinkCandidate qualified as LinkCandidate
 import Part.Part (Element (Element, continues, origin, segment), Finish, plainFinish)
 
--- | An element, its place, the ends that it has of its own, what is asked on it, and the link
--- behind it with its place.
+-- | An element of a contour, and the link to the element after it.
 data LinkedElement = LinkedElement
-  { place :: Region,
-    shape :: ElementCarrier,
-    begins :: Maybe Point,
-    stops :: Maybe Point,
+  { elementRegion :: Region,
+    carrier :: ElementCarrier,
+    -- | the start and the end of the element itself; a circle has none
+    ownStart :: Maybe Point,
+    ownEnd :: Maybe Point,
     finish :: Finish,
-    -- | how far its surface leans: places along it in mm with angles in radians, rising; one holds
-    -- all along
+    -- | the bevels of its surface: stations in mm, rising, and angles in radians; a single one
+    -- holds everywhere
     bevel :: [(Double, Double)],
-    -- | the curve that it is, exactly
-    source :: Maybe PartCurve,
+    -- | the exact curve, if the element is one
+    sourceCurve :: Maybe PartCurve,
+    -- | the link, and its region
     link :: Maybe (Region, Link)
   }
   deriving stock (Eq, Show)
 
--- | The elements of a contour that stands at a region, or all that is wrong with it.
-solve :: Region -> Ends -> NonEmpty LinkedElement -> Either (NonEmpty ValueFact) (NonEmpty Element)
-solve region ends walks = case attempt region ends walks of
+-- | The segments of a contour with the region of its name, or all its faults. Links that fail by
+-- themselves are reported together; other faults alone.
+solve ::
+  Region ->
+  Ends ->
+  NonEmpty LinkedElement ->
+  Either (NonEmpty ContourFault) (NonEmpty Element)
+solve region ends linked = case attempt region ends linked of
   Right elements -> Right elements
   Left found ->
-    Left
-      ( fmap
-          (withLargest region ends walks)
-          (Maybe.fromMaybe (found :| []) (NonEmpty.nonEmpty nonMeeting))
-      )
+    let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked ends linked))
+     in Left (fmap (withLargest region ends linked) faults)
+
+-- | The links that cannot join their neighbours. Reported once are a link that several repetitions
+-- share, and links there and back between the same two elements.
+unlinked :: Ends -> NonEmpty LinkedElement -> [ContourFault]
+unlinked ends linked = case linked of
+  _ :| [] -> []
+  first :| rest ->
+    let neighbours = zip (first : rest) (rest <> [first | ends == Closed])
+        faults = [(linkRegion a b, f) | (a, b) <- neighbours, Left f <- [jointsOf a b]]
+     in map snd (nubOrdOn pairOf (nubOrdOn fst faults))
   where
-    -- Links that fail whatever the others do; in a repetition, and there and back between two
-    -- elements, one of them is enough.
-    pairOf (at, f) = case Error.joined' f of
-      Just (Joined _ (Located a _) (Located b _)) -> (min a b, max a b)
-      Nothing -> (at, at)
-    nonMeeting = case walks of
-      _ :| [] -> []
-      first :| rest ->
-        map
-          snd
-          ( nubOrdOn
-              pairOf
-              ( nubOrdOn
-                  fst
-                  [ (linkPlace a b, f)
-                    | (a, b) <- zip (first : rest) (rest <> [first | ends == Closed]),
-                      Left f <- [jointsOf a b]
-                  ]
-              )
-          )
+    pairOf (at, f) = case f of
+      NotLinked (Neighbours _ (Located a _) (Located b _)) _ -> (min a b, max a b)
+      _ -> (at, at)
 
--- | Say of a fillet that does not fit the largest that does.
-withLargest :: Region -> Ends -> NonEmpty LinkedElement -> ValueFact -> ValueFact
-withLargest region ends walks fact = case fact of
-  NoFillet j r _ -> NoFillet j r (largestFillet region ends walks [Error.link j])
-  Overrun at w by links _ -> Overrun at w by links (largestFillet region ends walks links)
-  _ -> fact
+-- | Adds the largest radius that fits to the fault of a fillet.
+withLargest :: Region -> Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
+withLargest region ends linked fault = case fault of
+  NotLinked j (NoFillet r _) ->
+    NotLinked j (NoFillet r (largestFillet region ends linked [ContourError.link j]))
+  Overrun at shape overlap links _ ->
+    Overrun at shape overlap links (largestFillet region ends linked links)
+  _ -> fault
 
--- | The largest radius that one of some fillets may have, the others staying as they are; or else
--- all that have its radius together.
+-- | The largest radius that one of the fillets with these regions may have while the others keep
+-- theirs; otherwise the largest that all fillets of its radius may have together.
 largestFillet :: Region -> Ends -> NonEmpty LinkedElement -> [Region] -> Maybe Mm
-largestFillet region ends walks links =
-  listToMaybe (mapMaybe (uncurry search) (map alone given <> map together given))
+largestFillet region ends linked links =
+  listToMaybe (mapMaybe (uncurry bisected) (map alone given <> map together given))
   where
     given =
       [ (at, r)
-        | LinkedElement {link = Just (at, Fillet _ r)} <- NonEmpty.toList walks,
+        | LinkedElement {link = Just (at, Fillet _ r)} <- NonEmpty.toList linked,
           at `elem` links
       ]
     alone (at, r) = (r, \at' _ -> at' == at)
     together (_, r) = (r, \_ r' -> r' == r)
-    search (Mm r) chosen =
+    bisected (Mm r) chosen =
       listToMaybe
-        [ grown chosen low (2 * low)
+        [ bisect chosen low (2 * low)
           | low <- takeWhile (> smallest) (drop 1 (iterate (/ 2) r)),
             fits chosen low
         ]
     Mm smallest = Tolerance.smallestFillet
-    -- Between a radius that fits and one that does not.
-    grown chosen low high
+    bisect chosen low high
       | high - low <= low * 1e-9 = Mm low
-      | fits chosen middle = grown chosen middle high
-      | otherwise = grown chosen low middle
+      | fits chosen middle = bisect chosen middle high
+      | otherwise = bisect chosen low middle
       where
         middle = (low + high) / 2
-    fits chosen r = case attempt region ends (fmap (with chosen r) walks) of
+    fits chosen r = case attempt region ends (fmap (with chosen r) linked) of
       Right _ -> True
       Left _ -> False
     with chosen r w = case link w of
-      Just (at, Fillet turn r') | chosen at r' -> w {link = Just (at, Fillet turn (Mm r))}
+      Just (at, Fillet sense r') | chosen at r' -> w {link = Just (at, Fillet sense (Mm r))}
       _ -> w
 
-attempt :: Region -> Ends -> NonEmpty LinkedElement -> Either ValueFact (NonEmpty Element)
-attempt region ends walks = do
-  chosen <- case (ends, walks) of
+-- | The segments of a contour, or the first fault.
+attempt ::
+  Region ->
+  Ends ->
+  NonEmpty LinkedElement ->
+  Either ContourFault (NonEmpty Element)
+attempt region ends linked = do
+  chosen <- case (ends, linked) of
     (Closed, only :| []) -> lone only
-    (Closed, _) -> closed walks
-    (Open, LinkedElement {place, shape = OnCurve c} :| [])
-      | MeasuredPolyarc.isClosed c ->
-        Left (ClosedCurve place)
-    (Open, _) -> open walks
-  elements <- maybe (Left nothingLeft) Right (NonEmpty.nonEmpty (filter long chosen))
+    (Closed, _) -> closed linked
+    (Open, LinkedElement {elementRegion, carrier = OnCurve c} :| [])
+      | MeasuredPolyarc.isClosed c -> Left (ClosedCurve elementRegion)
+    (Open, _) -> open linked
+  elements <- maybe (Left (NoLength region)) Right (NonEmpty.nonEmpty (filter isLong chosen))
   let contour = Polyarc.chained segment (\s e -> e {segment = s}) ends elements
+      originOf i = origin (contour NonEmpty.!! i)
   case SelfIntersection.crossingOf segment ends contour of
     Just (i, j, p) ->
-      Left
-        ( CrossesItself
-            region
-            (origin (contour NonEmpty.!! i))
-            (origin (contour NonEmpty.!! j))
-            p
-            (any hasFillet walks)
-        )
+      Left (CrossesItself region (originOf i) (originOf j) p (any hasFillet linked))
     Nothing -> Right contour
   where
-    long e = Segment.length (segment e) > Tolerance.coincident
-    nothingLeft = NoLength region
+    isLong e = Segment.length (segment e) > Tolerance.coincident
     hasFillet w = case link w of
       Just (_, Fillet _ _) -> True
       _ -> False
 
--- | A closed contour of one element: a circle, from its rightmost point.
-lone :: LinkedElement -> Either ValueFact [Element]
-lone w@LinkedElement {place, shape, link} = case (shape, link) of
+-- | A closed contour of one element: a circle, from its rightmost point, or a closed curve.
+lone :: LinkedElement -> Either ContourFault [Element]
+lone w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
-  (OnCircle turn circle@(Circle c (Mm r)), Nothing) ->
-    Right (marked w (Mm 0) [Segment.fullCircle turn circle (Vec.shift (Vec.vec r 0) c)])
+  (OnCircle sense circle@(Circle c (Mm r)), Nothing) ->
+    Right (marked w (Mm 0) [Segment.fullCircle sense circle (Vec.shift (Vec.vec r 0) c)])
   (OnCurve c, Nothing)
     | MeasuredPolyarc.isClosed c ->
-      Right (roundly (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
+      Right (continuedRound (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
   (OnCurve c, Just (at, _)) | MeasuredPolyarc.isClosed c -> Left (LinkOfLoneCircle at)
-  (OnCurve _, _) -> Left (LoneElement place shape)
-  (OnLine _, _) -> Left (LoneElement place shape)
-  (AtPoint _, _) -> Left (LoneElement place shape)
+  (OnCurve _, _) -> Left (LoneElement elementRegion carrier)
+  (OnLine _, _) -> Left (LoneElement elementRegion carrier)
+  (AtPoint _, _) -> Left (LoneElement elementRegion carrier)
 
--- | The elements of a closed curve, of which the first goes on with the last if there is no corner.
-roundly :: [Element] -> [Element]
-roundly elements = case elements of
+-- | The elements of a closed curve; the first one continues the last one unless there is a corner.
+continuedRound :: [Element] -> [Element]
+continuedRound elements = case elements of
   first : rest@(_ : _)
-    | smoothly (segment (last rest)) (segment first) ->
+    | isSmooth (segment (last rest)) (segment first) ->
       first {continues = True} : rest
   _ -> elements
 
--- | Whether one segment goes over into another without a corner.
-smoothly :: Segment -> Segment -> Bool
-smoothly a b =
+-- | Tells whether a segment continues another without a corner.
+isSmooth :: Segment -> Segment -> Bool
+isSmooth a b =
+  -- The sine of the angle excludes most corners, and costs less than the angle.
   Rad (abs (Vec.cross u v)) <= times 2 Tolerance.smoothAngle
-    && (let Rad turned = Vec.turn u v in Rad (abs turned) <= Tolerance.smoothAngle)
+    && (let Rad angle = Vec.turn u v in Rad (abs angle) <= Tolerance.smoothAngle)
   where
-    -- Most corners turn by an angle whose sine tells already.
     u = Segment.endDirection a
     v = Segment.startDirection b
 
--- | An open contour runs from the first point of its first element to the last one of its last.
-open :: NonEmpty LinkedElement -> Either ValueFact [Element]
-open walks = do
-  begin <- endOf begins first
-  end <- endOf stops final
+-- | An open contour, from the start of its first element to the end of its last.
+open :: NonEmpty LinkedElement -> Either ContourFault [Element]
+open linked = do
+  begin <- ownPoint ownStart first
+  end <- ownPoint ownEnd final
   case link final of
-    Just (at, _) -> Left (LinkAtEnd at (place first))
+    Just (at, _) -> Left (LinkAtEnd at (elementRegion first))
     Nothing -> Right ()
   case directly list begin Nothing (LinkCandidate.through end) of
     Just elements -> Right elements
@@ -208,173 +200,205 @@ open walks = do
       route <- decided =<< shortest list begin Nothing [LinkCandidate.through end] joints
       Right (elementsOf list begin Nothing route)
   where
-    list = NonEmpty.toList walks
-    first = NonEmpty.head walks
-    final = NonEmpty.last walks
-    endOf side walk = maybe (Left (NoEnd (place walk) (shape walk))) Right (side walk)
+    list = NonEmpty.toList linked
+    first = NonEmpty.head linked
+    final = NonEmpty.last linked
+    ownPoint side w = maybe (Left (NoEnd (elementRegion w) (carrier w))) Right (side w)
 
--- | A closed contour begins where its last link reaches its first element.
-closed :: NonEmpty LinkedElement -> Either ValueFact [Element]
-closed walks
-  | Right (c :| []) <- jointsOf (NonEmpty.last walks) (NonEmpty.head walks),
-    Just elements <- directly (NonEmpty.toList walks) (enter c) (inserted c) c =
+-- | A closed contour, from the point where its last link reaches its first element.
+closed :: NonEmpty LinkedElement -> Either ContourFault [Element]
+closed linked
+  | Right (c :| []) <- jointsOf (NonEmpty.last linked) (NonEmpty.head linked),
+    Just elements <- directly (NonEmpty.toList linked) (enter c) (inserted c) c =
     Right elements
-  | otherwise = selected walks
+  | otherwise = closedByShortest linked
 
--- | The same where some link joins its neighbours in several places, or something is wrong.
-selected :: NonEmpty LinkedElement -> Either ValueFact [Element]
-selected walks = do
+-- | A closed contour with several joints to choose from, or with a fault. Solves it for every joint
+-- of the last link.
+closedByShortest :: NonEmpty LinkedElement -> Either ContourFault [Element]
+closedByShortest linked = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
-  closing <- jointsOf (NonEmpty.last walks) first
+  closing <- jointsOf final first
   let attempts =
         [(c, shortest list (enter c) (inserted c) [c] joints) | c <- NonEmpty.toList closing]
       routes = [(c, r) | (c, Right r) <- attempts]
   case sortOn (cost . snd) routes of
-    [] -> Left (minimumBy (comparing gravity) [f | (_, Left f) <- attempts])
+    [] -> Left (minimumBy (comparing overlapOf) [f | (_, Left f) <- attempts])
     (c, route) : others ->
       case [o | (o, r) <- others, cost r <= plus (cost route) Tolerance.sameLength] of
-        o : _ | Just fact <- tie (joinedBetween (NonEmpty.last walks) first) [c, o] -> Left fact
+        o : _ | Just fault <- tie (neighboursOf final first) [c, o] -> Left fault
         _ -> elementsOf list (enter c) (inserted c) <$> decided route
   where
-    list = NonEmpty.toList walks
-    first = NonEmpty.head walks
-    -- Of several failures the smallest overrun is the most telling.
-    gravity fact = case fact of
-      Overrun _ _ by _ _ -> by
+    list = NonEmpty.toList linked
+    first = NonEmpty.head linked
+    final = NonEmpty.last linked
+    -- The smallest overrun among several faults is the most helpful.
+    overlapOf fault = case fault of
+      Overrun _ _ overlap _ _ -> overlap
       _ -> Mm 0
 
--- | The places where two neighbours can be joined.
-jointsOf :: LinkedElement -> LinkedElement -> Either ValueFact (NonEmpty Joint)
+-- | All joints of two neighbours.
+jointsOf :: LinkedElement -> LinkedElement -> Either ContourFault (NonEmpty Joint)
 jointsOf a b =
   LinkCandidate.candidates
-    (joinedBetween a b)
-    (catMaybes [stops a, begins b])
+    (neighboursOf a b)
+    (catMaybes [ownEnd a, ownStart b])
     (maybe (Meet Nothing) snd (link a))
 
--- | Two neighbours and the link between them, for a report.
-joinedBetween :: LinkedElement -> LinkedElement -> Joined
-joinedBetween a b =
-  Joined (linkPlace a b) (Located (place a) (shape a)) (Located (place b) (shape b))
+neighboursOf :: LinkedElement -> LinkedElement -> Neighbours
+neighboursOf a b =
+  Neighbours
+    (linkRegion a b)
+    (Located (elementRegion a) (carrier a))
+    (Located (elementRegion b) (carrier b))
 
--- | Where the link between two neighbours stands.
-linkPlace :: LinkedElement -> LinkedElement -> Region
-linkPlace a b = maybe (place b) fst (link a)
+-- | The region of the link between two neighbours; without a link, the region of the second one.
+linkRegion :: LinkedElement -> LinkedElement -> Region
+linkRegion a b = maybe (elementRegion b) fst (link a)
 
--- | A way through the links so far: its length, the joints with the last one first, and the choice
--- between it and another of the same length, if there is one.
-data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe ValueFact}
+-- Dynamic programming
 
--- | The shortest way from a point on the first element through all links; the last link is given
--- by its candidates.
+-- | A choice of joints up to a link: the length of the contour so far, the joints with the last one
+-- first, and the fault that it has an equally long alternative.
+data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe ContourFault}
+
+-- | The constants of one run of the dynamic programming: the segment before the first element, and
+-- all elements.
+data Stage = Stage {previous :: Maybe Segment, allElements :: [LinkedElement]}
+
+-- | The shortest route from a point on the first element through all links, given by their joints,
+-- to one of the final joints. The segment inserted before the first element is given, too.
 shortest ::
   [LinkedElement] ->
   Point ->
   Maybe Segment ->
   [Joint] ->
   [NonEmpty Joint] ->
-  Either ValueFact Route
-shortest walks begin before final joints =
-  go walks [(begin, Route (Mm 0) [] Nothing)] (map NonEmpty.toList joints <> [final])
+  Either ContourFault Route
+shortest linked begin before final joints =
+  go linked [(begin, Route (Mm 0) [] Nothing)] (map NonEmpty.toList joints <> [final])
   where
+    stage = Stage {previous = before, allElements = linked}
     go ws states layers = case (ws, layers) of
       (w : rest, layer : more) -> do
-        next <- advance w (listToMaybe rest) states layer
+        next <- advance stage w (listToMaybe rest) states layer
         go rest next more
       _ -> Right (minimumBy (comparing cost) (map snd states))
-    -- Most links join their neighbours in one place.
-    advance w next [state] [joint] = case extend before w state joint of
-      Left by -> Left (overrun w by next)
-      Right route -> Right [(enter joint, route)]
-    advance w next states candidates = do
-      let ways joint = [extend before w state joint | state <- states]
-          reached = [(joint, sortOn cost [r | Right r <- ways joint]) | joint <- candidates]
-      case [(joint, best, others) | (joint, best : others) <- reached] of
-        [] -> Left (overrun w (minimum [by | joint <- candidates, Left by <- ways joint]) next)
-        fine -> Right [(enter joint, weighed best others) | (joint, best, others) <- fine]
-    -- Of two ways of one length to the same joint either will do, but not without asking.
-    weighed best others = case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
-      o : _
-        | Just (j, a, b) <-
-            firstDifference
-              (reverse (taken best))
-              (reverse (taken o))
-              (zipWith joinedBetween walks (drop 1 walks)),
-          Just fact <- tie j [a, b] ->
-          best {ambiguous = Just fact}
-      _ -> best
-    overrun w by next =
-      Overrun
-        (place w)
-        (shape w)
-        by
-        (catMaybes [fst <$> link w, linkPlace w <$> next] <> linkBefore w)
-        Nothing
-    linkBefore w =
+
+-- | Extends routes, each with the point that it has reached on an element, to every joint at the
+-- end of the element. Keeps the shortest route to each joint. The next element is for the report
+-- only.
+advance ::
+  Stage ->
+  LinkedElement ->
+  Maybe LinkedElement ->
+  [(Point, Route)] ->
+  [Joint] ->
+  Either ContourFault [(Point, Route)]
+advance stage w next states joints = case (states, joints) of
+  -- Most links join their neighbours at one point.
+  ([state], [joint]) -> case extend (previous stage) w state joint of
+    Left overlap -> Left (overrun stage w overlap next)
+    Right route -> Right [(enter joint, route)]
+  _ -> do
+    let extended joint = [extend (previous stage) w state joint | state <- states]
+        reached = [(joint, sortOn cost [r | Right r <- extended joint]) | joint <- joints]
+    case [(joint, best, others) | (joint, best : others) <- reached] of
+      [] ->
+        let overlaps = [overlap | joint <- joints, Left overlap <- extended joint]
+         in Left (overrun stage w (minimum overlaps) next)
+      sound -> Right [(enter joint, noted stage best others) | (joint, best, others) <- sound]
+
+-- | Notes the fault of a tie in the shortest of several routes to one joint.
+noted :: Stage -> Route -> [Route] -> Route
+noted stage best others =
+  case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
+    o : _
+      | Just (j, a, b) <- firstDifference (reverse (taken best)) (reverse (taken o)) links,
+        Just fault <- tie j [a, b] ->
+        best {ambiguous = Just fault}
+    _ -> best
+  where
+    links = zipWith neighboursOf (allElements stage) (drop 1 (allElements stage))
+
+-- | The fault of an element that is too short for the links at its ends.
+overrun :: Stage -> LinkedElement -> Mm -> Maybe LinkedElement -> ContourFault
+overrun stage w overlap next =
+  Overrun
+    (elementRegion w)
+    (carrier w)
+    overlap
+    (catMaybes [fst <$> link w, linkRegion w <$> next] <> linksBefore)
+    Nothing
+  where
+    linked = allElements stage
+    linksBefore =
       [ at
-        | (a, b) <- zip walks (drop 1 walks <> take 1 walks),
-          place b == place w,
+        | (a, b) <- zip linked (drop 1 linked <> take 1 linked),
+          elementRegion b == elementRegion w,
           Just (at, _) <- [link a]
       ]
 
--- | A way without another of the same length.
-decided :: Route -> Either ValueFact Route
+-- | A route without an equally long alternative.
+decided :: Route -> Either ContourFault Route
 decided route = maybe (Right route) Left (ambiguous route)
 
--- | The first link at which two ways part.
-firstDifference :: [Joint] -> [Joint] -> [Joined] -> Maybe (Joined, Joint, Joint)
+-- | The first link at which two routes differ, and their joints there.
+firstDifference :: [Joint] -> [Joint] -> [Neighbours] -> Maybe (Neighbours, Joint, Joint)
 firstDifference as bs js = case (as, bs, js) of
   (a : as', b : bs', j : js')
     | a == b -> firstDifference as' bs' js'
     | otherwise -> Just (j, a, b)
   _ -> Nothing
 
-tie :: Joined -> [Joint] -> Maybe ValueFact
+-- | The fault of equally long contours by two fillets.
+tie :: Neighbours -> [Joint] -> Maybe ContourFault
 tie j choice = case mapMaybe inserted choice of
-  segments@(_ : _ : _) -> Just (AmbiguousFillet j [centre | Arc {centre} <- segments])
+  segments@(_ : _ : _) ->
+    Just (NotLinked j (AmbiguousFillet [centre | Arc {centre} <- segments]))
   _ -> Nothing
 
--- | Walk an element from where a way has come to a joint, and along what the joint inserts; or how
--- far that would be backwards. What was walked before the first joint is given.
+-- | Extends a route from a point of an element along the element to a joint, and along the segment
+-- that the joint inserts. Yields the overlap when the element would run backwards.
 extend :: Maybe Segment -> LinkedElement -> (Point, Route) -> Joint -> Either Mm Route
 extend before w (at, Route c js choice) joint
-  | along < Mm 0 = Left (let Mm by = along in Mm (-by))
-  | otherwise =
-    Right
-      ( Route
-          (plus c (plus along (maybe (Mm 0) Segment.length (inserted joint))))
-          (joint : js)
-          choice
-      )
+  | along < Mm 0 = Left (let Mm x = along in Mm (-x))
+  | otherwise = Right (Route (plus c (plus along insertedLength)) (joint : js) choice)
   where
-    along = walked (shape w) (arrival before js) (inserted joint) at (leave joint)
+    along = lengthOn (carrier w) (arrival before js) (inserted joint) at (leave joint)
+    insertedLength = maybe (Mm 0) Segment.length (inserted joint)
 
--- | What was walked right before an element.
+-- | The segment inserted right before an element.
 arrival :: Maybe Segment -> [Joint] -> Maybe Segment
 arrival before js = case js of
   [] -> before
   j : _ -> inserted j
 
--- | How far it is along an element from one of its points to another; negative when it would
--- be backwards along a line.
-walked :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> Mm
-walked shape before behind a b = case shape of
+-- Segments along elements
+
+-- | The length along an element from one of its points to another; negative backwards. The segments
+-- inserted before and after the element are given.
+lengthOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> Mm
+lengthOn shape before after a b = case shape of
   OnLine l
     | Vec.near a b -> Mm 0
     | otherwise -> Mm (Vec.dot (Carrier.direction l) (Vec.to a b))
-  OnCircle _ _ -> total (map Segment.length (stretch shape before behind a b))
+  OnCircle _ _ -> total (map Segment.length (segmentsOn shape before after a b))
   OnCurve c -> let (Mm from, Mm to) = stations c a b in Mm (to - from)
   AtPoint _ -> Mm 0
 
--- | The segment along an element between two of its points. A circle that is entered where it is
--- left is walked once round (a contour that does not walk an element at all would be the shortest),
--- unless a straight line goes by it: circles in a row, joined by tangents.
-stretch :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
-stretch shape before behind a b = case shape of
+-- | The segments along an element from one of its points to another.
+--
+-- A circle that is left where it is entered gives a full circle: otherwise a contour that avoids
+-- the circle would be the shortest. But it gives nothing where straight segments before and after
+-- it have about the same direction: circles in a row, joined by tangents.
+segmentsOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
+segmentsOn shape before after a b = case shape of
   OnLine (Line _ _) -> [Straight a b | not (Vec.near a b)]
-  OnCircle turn circle@(Circle c _)
-    | Vec.near a b && goesBy -> []
-    | Vec.near a b -> [Segment.fullCircle turn circle a]
-    | otherwise -> [Segment.arc turn c a b]
+  OnCircle sense circle@(Circle c _)
+    | Vec.near a b && passesBy -> []
+    | Vec.near a b -> [Segment.fullCircle sense circle a]
+    | otherwise -> [Segment.arc sense c a b]
   OnCurve c
     | to > MeasuredPolyarc.length c ->
       MeasuredPolyarc.stretch c from (MeasuredPolyarc.length c)
@@ -384,13 +408,13 @@ stretch shape before behind a b = case shape of
       (from, to) = stations c a b
   AtPoint _ -> []
   where
-    goesBy = case (before, behind) of
+    passesBy = case (before, after) of
       (Just (Straight p q), Just (Straight s t)) ->
         Vec.dot (Vec.unit (Vec.to p q)) (Vec.unit (Vec.to s t)) > 0.5
       _ -> False
 
--- | Where on a curve the walk enters and where it leaves; on a closed one, that may be in the next
--- round.
+-- | The stations of two points on a curve. On a closed curve, the second one may lie beyond the
+-- curve's length.
 stations :: Polyarc -> Point -> Point -> (Mm, Mm)
 stations c a b
   | MeasuredPolyarc.isClosed c && (to <= from || Vec.near a b) =
@@ -403,43 +427,49 @@ stations c a b
         then MeasuredPolyarc.length c
         else MeasuredPolyarc.station c b
 
--- | The place on a curve at which the walk enters it.
-begun :: ElementCarrier -> Point -> Point -> Mm
-begun shape a b = case shape of
+-- | The station on a curve from which its segments between two points start; 0 for other elements.
+entryStation :: ElementCarrier -> Point -> Point -> Mm
+entryStation shape a b = case shape of
   OnCurve c -> fst (stations c a b)
   OnLine _ -> Mm 0
   OnCircle _ _ -> Mm 0
   AtPoint _ -> Mm 0
 
--- | The segments of one element from a place on it, cut where its bevel is known. Those that go on
--- smoothly on the same curve are marked.
+-- | The segments of one element from a station on, cut at the stations of its bevels. Segments that
+-- continue one another smoothly are marked.
 marked :: LinkedElement -> Mm -> [Segment] -> [Element]
-marked LinkedElement {place, shape, finish, bevel} (Mm from) whole = case whole of
+marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = case whole of
   [] -> []
   first : rest | null bevel -> unbevelled False first rest
-  _ -> zipWith3 element ss (False : zipWith smoothly ss (drop 1 ss)) (zip marks (drop 1 marks))
+  _ -> zipWith3 element cuts (False : isContinued) (zip marks (drop 1 marks))
   where
     unbevelled continues s rest =
-      let e = Element s place finish continues isCurve Nothing in e `seq` (e : behind s rest)
-    behind s rest = case rest of
+      let e = Element s elementRegion finish continues isCurve Nothing
+       in e `seq` (e : continued s rest)
+    continued s rest = case rest of
       [] -> []
-      next : more -> unbevelled (smoothly s next) next more
+      next : more -> unbevelled (isSmooth s next) next more
     element s continues (a, b) =
-      Element s place finish continues isCurve ((,) <$> leaning angles a <*> leaning angles b)
-    (isCurve, round') = case shape of
+      let bevels = (,) <$> interpolated angles a <*> interpolated angles b
+       in Element s elementRegion finish continues isCurve bevels
+    (isCurve, closedLength) = case carrier of
       OnCurve c ->
         (True, if MeasuredPolyarc.isClosed c then Just (MeasuredPolyarc.length c) else Nothing)
       OnLine _ -> (False, Nothing)
       OnCircle _ _ -> (False, Nothing)
       AtPoint _ -> (False, Nothing)
-    -- A closed curve may be walked on into its next round.
-    angles = Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [round'], (s, a) <- drop 1 bevel])
-    ss =
-      if Map.size angles > 1 then concat (zipWith (cutAtKeys angles) (along whole) whole) else whole
-    marks = along ss
-    along = scanl (\s g -> let Mm l = Segment.length g in s + l) from
+    -- The stations of a closed curve may exceed its length.
+    angles =
+      Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [closedLength], (s, a) <- drop 1 bevel])
+    cuts =
+      if Map.size angles > 1
+        then concat (zipWith (cutAtKeys angles) (stationsOf whole) whole)
+        else whole
+    isContinued = zipWith isSmooth cuts (drop 1 cuts)
+    marks = stationsOf cuts
+    stationsOf = scanl (\s g -> let Mm l = Segment.length g in s + l) from
 
--- | A segment that begins at a place, cut at the places of a table.
+-- | Cuts a segment that starts at a station at the stations of a table.
 cutAtKeys :: Map Double a -> Double -> Segment -> [Segment]
 cutAtKeys table from s = case Map.lookupGT (from + least) table of
   Just (at, _)
@@ -451,58 +481,60 @@ cutAtKeys table from s = case Map.lookupGT (from + least) table of
     Mm l = Segment.length s
     Mm least = Tolerance.coincident
 
--- | The angle at a place along an element, from those at some places.
-leaning :: Map Double Double -> Double -> Maybe Double
-leaning angles s = case (Map.lookupLE s angles, Map.lookupGE s angles) of
+-- | Linear interpolation in a table; outside of it, its nearest value.
+interpolated :: Map Double Double -> Double -> Maybe Double
+interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
   (Just (a, x), Just (b, y)) -> Just (if b > a then x + (y - x) * (s - a) / (b - a) else x)
   (Just (_, x), Nothing) -> Just x
   (Nothing, Just (_, y)) -> Just y
   (Nothing, Nothing) -> Nothing
 
--- | The elements from a point on the first one to a joint behind the last one, if every link
--- between joins its neighbours in one place alone and none is walked backwards: then there is
--- nothing to choose. What was walked right before them is given. Joints are found anew for the
--- elements: that takes less time than to keep all of them.
+-- | The elements from a point on the first one to a joint after the last one, if every link between
+-- them has one joint and none of them runs backwards. The segment before them is given.
+--
+-- The joints are computed twice: that takes less time than keeping all of them.
 directly :: [LinkedElement] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
-directly walks begin before final
-  | sound walks begin = Just (from walks begin before)
+directly linked begin before final
+  | allForwards linked begin = Just (from linked begin before)
   | otherwise = Nothing
   where
-    sound ws at = case ws of
+    allForwards ws at = case ws of
       [] -> True
       w : rest -> case jointTo w rest of
-        Just joint -> forwards (shape w) at (leave joint) && sound rest (enter joint)
+        Just joint -> isForwards (carrier w) at (leave joint) && allForwards rest (enter joint)
         Nothing -> False
-    from ws at came = case ws of
+    from ws at previous' = case ws of
       w : rest
         | Just joint <- jointTo w rest ->
-          between w at came joint <> from rest (enter joint) (inserted joint)
+          between w at previous' joint <> from rest (enter joint) (inserted joint)
       _ -> []
     jointTo w rest = case rest of
       [] -> Just final
       next : _ -> case jointsOf w next of
         Right (joint :| []) -> Just joint
         _ -> Nothing
-    -- Along a circle or to a point no way is backwards.
-    forwards w a b = case w of
+    isForwards w a b = case w of
       OnCircle _ _ -> True
       AtPoint _ -> True
-      OnLine _ -> walked w Nothing Nothing a b >= Mm 0
-      OnCurve _ -> walked w Nothing Nothing a b >= Mm 0
+      OnLine _ -> lengthOn w Nothing Nothing a b >= Mm 0
+      OnCurve _ -> lengthOn w Nothing Nothing a b >= Mm 0
 
--- | The segments of one element from a point on it to a joint, and what that inserts.
+-- | The segments of one element from a point on it to a joint, and the segment that the joint
+-- inserts.
 between :: LinkedElement -> Point -> Maybe Segment -> Joint -> [Element]
-between w@LinkedElement {place, shape, link} at came joint =
-  marked w (begun shape at (leave joint)) (stretch shape came (inserted joint) at (leave joint))
-    <> [ Element s (maybe place fst link) plainFinish False False Nothing
+between w@LinkedElement {elementRegion, carrier, link} at before joint =
+  marked w (entryStation carrier at (leave joint)) segments
+    <> [ Element s (maybe elementRegion fst link) plainFinish False False Nothing
          | Just s <- [inserted joint]
        ]
-
--- | The segments of a way.
-elementsOf :: [LinkedElement] -> Point -> Maybe Segment -> Route -> [Element]
-elementsOf walks begin before route = go walks begin before (reverse (taken route))
   where
-    go ws at came js = case (ws, js) of
+    segments = segmentsOn carrier before (inserted joint) at (leave joint)
+
+-- | The segments of a contour by a route.
+elementsOf :: [LinkedElement] -> Point -> Maybe Segment -> Route -> [Element]
+elementsOf linked begin before route = go linked begin before (reverse (taken route))
+  where
+    go ws at previous' js = case (ws, js) of
       (w : rest, joint : more) ->
-        between w at came joint <> go rest (enter joint) (inserted joint) more
+        between w at previous' joint <> go rest (enter joint) (inserted joint) more
       _ -> []

@@ -1,4 +1,7 @@
--- | The evaluated part: exact geometry, with the place in the program that each piece came from.
+-- | The evaluated part: contours and operations as exact geometry in mm, with the regions of the
+-- program that they come from.
+--
+-- Nothing here depends on a machine. The part has no toolpaths: those are the next stage's.
 module Part.Part
   ( Part (..),
     Contour (..),
@@ -60,113 +63,111 @@ import Geometry.Vec (Point)
 import Part.Curve (Fitting, PartCurve)
 import Part.LinkCandidate (Link)
 
--- | What the program says, computed.
+-- | An evaluated program.
 data Part = Part
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
-    -- | where the cutter stands before the first frame
+    -- | the cutter's position before the first frame
     start :: Maybe (Located SpacePoint),
-    -- | the cutter in the spindle then
+    -- | the cutter in the spindle before the first frame
     firstCutter :: Maybe Cutter,
     contours :: [Contour],
     -- | in the order of the tape
     operations :: [Operation],
-    -- | the curves of pieces that were chosen for a table, by their names
+    -- | the curves of sections that were fitted to a table, with their names
     fittings :: [(Located Name, Fitting)],
-    -- | the values of the definitions by the places of their names, for a reader
+    -- | the values of the definitions in words, with the regions of their names
     readings :: [(Region, Text)]
   }
   deriving stock (Eq, Show)
 
--- | A contour of the part with the elements that it was walked on.
+-- | A contour of the part.
 data Contour = Contour
   { contourName :: Located Name,
     ends :: Ends,
+    -- | segments, each of which begins where the one before it ends
     elements :: NonEmpty Element,
-    -- | as it was written; nothing when it was turned or moved since
+    -- | the elements as written; empty after a transformation or a reversal
     legs :: [ContourElement]
   }
   deriving stock (Eq, Show)
 
--- | One element of a contour as it was written: what was walked, exactly if it is a curve; what is
--- asked on it; the link behind it.
+-- | An element of a contour as written.
 data ContourElement = ContourElement
   { spot :: Region,
     shape :: ElementCarrier,
+    -- | the exact curve, if the element is one
     source :: Maybe PartCurve,
     asked :: Finish,
+    -- | the link to the element after it
     link :: Maybe Link
   }
   deriving stock (Eq, Show)
 
--- | A segment, the element or the link of the program that it came from, and what is asked on it.
+-- | A segment of a contour.
 data Element = Element
   { segment :: Segment,
+    -- | the region of the element or of the link that it comes from
     origin :: Region,
     finish :: Finish,
-    -- | it goes on, without a corner, with the curve of the element before: one of the arcs that a
-    -- curve is replaced by
+    -- | it continues the curve of the segment before it without a corner
     continues :: Bool,
-    -- | it is one of the arcs that a curve is replaced by
+    -- | it is one of the arcs and lines that approximate a curve
     ofCurve :: Bool,
-    -- | how far its surface leans from the axis of the tool at its beginning and its end, in
-    -- radians, if it is said
+    -- | the bevels of the surface at its start and its end: angles from the axis of the tool in
+    -- radians
     bevel :: Maybe (Double, Double)
   }
   deriving stock (Eq, Show)
 
--- | What is asked on one element.
+-- | The modifiers of one element.
 data Finish = Finish
-  { -- | instead of the feed of the statement
+  { -- | replaces the feed of the statement
     ownFeed :: Maybe (Located Feed),
     -- | slow down at its end
     slow :: Bool,
-    -- | what is left on it besides what the pass leaves
+    -- | added to the allowance of the pass
     allowance :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Nothing out of the ordinary.
+-- | The finish of an element without modifiers.
 plainFinish :: Finish
 plainFinish = Finish {ownFeed = Nothing, slow = False, allowance = Mm 0}
 
--- | Elements in groups, each of which is one curve.
+-- | Groups segments that continue one another: each group is one line, arc or smooth curve.
 runs :: [Element] -> [NonEmpty Element]
 runs es = case es of
   [] -> []
   e : rest -> let (same, others) = span continues rest in (e :| same) : runs others
 
--- | A contour walked the other way. An element then continues the one that continued it.
+-- | A contour in the opposite direction. A segment then continues the segment that continued it.
 backwards :: Contour -> Contour
 backwards c =
-  c
-    { elements =
-        NonEmpty.reverse
-          (snd (mapAccumR turned (continues (NonEmpty.head (elements c))) (elements c))),
-      legs = []
-    }
+  c {elements = NonEmpty.reverse (snd (mapAccumR reversed first (elements c))), legs = []}
   where
-    turned next e =
+    first = continues (NonEmpty.head (elements c))
+    reversed next e =
       ( continues e,
         e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next}
       )
 
--- | The bare geometry of a contour.
+-- | The segments of a contour as a polyarc. Strict, so that the polyarc does not retain the
+-- elements.
 outline :: Contour -> Polyarc.Polyarc
 outline contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where
     first :| others = elements contour
-    -- A segment that waited to be taken out of its element would need as much room again.
     segmentsOf es = case es of
       [] -> []
       e : rest -> let s = segment e in s `seq` (s : segmentsOf rest)
 
--- | A place and the height above the top of the part; negative in the material.
+-- | A point, and its height above the top of the part: negative in the material.
 data SpacePoint = SpacePoint {plane :: Point, height :: Mm}
   deriving stock (Eq, Show)
 
--- | What the machine is to do.
+-- | An operation of the machine.
 data Operation
   = Mill (Located Milling)
   | Pocket (Located Pocketing)
@@ -176,96 +177,96 @@ data Operation
   | Command (Located Command)
   deriving stock (Eq, Show)
 
--- | A contour to be milled or turned.
+-- | The milling or turning of a contour.
 data Milling = Milling
   { contour :: Contour,
     work :: Work,
     side :: Located Side,
     -- | of the cutter, or of the nose of a turning tool
     radius :: Mm,
-    -- | of a blade, the diameter of the wheel that swivels it
+    -- | of a blade: the diameter of the wheel that swivels it
     gear :: Maybe Mm,
     tolerance :: Accuracy,
     feed :: Located Feed,
     approach :: [Stop],
     retract :: [Stop],
-    -- | the heights of the passes, downwards; none when the cutter stays at the height at which it
-    -- stands
+    -- | the heights of the passes, from the highest one; empty when the cutter keeps its height
     levels :: [Mm],
-    -- | the height at which nothing is in the way
+    -- | the height at which nothing is in the way of the cutter
     clearance :: Maybe Mm,
     plunge :: Maybe (Located Feed),
     leadIn :: Maybe (LeadForm, Mm),
     leadOut :: Maybe (LeadForm, Mm),
-    -- | what each pass leaves standing
+    -- | the material that each pass leaves
     allowances :: NonEmpty Mm,
     corners :: Corners,
     sense :: Maybe (Located CutSense),
-    -- | of the spindle
+    -- | the sense of the spindle
     spin :: Sense,
-    -- | where it is asked that the control keeps the cutter beside the contour; else the compiler
-    -- does
+    -- | the region that asks for cutter compensation by the control; without it, the compiler
+    -- computes the offset
     byControl :: Maybe Region,
     rest :: RestPolicy
   }
   deriving stock (Eq, Show)
 
--- | What is done where the cutter cannot reach: into a corner, a concave radius smaller than its
--- own, a gap narrower than itself.
+-- | The treatment of rest material: corners, concave radii below the cutter's radius, gaps narrower
+-- than the cutter.
 data RestPolicy
-  = -- | there is no path
+  = -- | an error: there is no toolpath
     Refused
-  | -- | the material stays, and a warning tells of it
+  | -- | a warning: the material remains
     Allowed
   deriving stock (Eq, Show)
 
 -- | A closed contour whose inside is cleared.
 data Pocketing = Pocketing
-  { -- corners, and no compensation by the control
-
-    -- | the outline, milled inside, with the ways, depths, allowances and feeds of the whole
-    -- pocket. It has no leads, round
+  { -- | the outline, milled inside, with the linking moves, depths, allowances and feeds of the
+    -- whole pocket. It has no leads, round corners, and no compensation by the control
     wall :: Milling,
-    -- | closed contours inside it, apart from it and from one another, that stay standing
+    -- | closed contours inside the outline, apart from it and from one another, that remain
     islands :: [Contour],
-    -- | how far the passes lie apart: above zero, at most the diameter of the cutter
+    -- | the stepover: above 0, at most the diameter of the cutter
     apart :: Mm
   }
   deriving stock (Eq, Show)
 
+-- | The kind of machining along a contour.
 data Work = Milled | Turned
   deriving stock (Eq, Ord, Show)
 
 -- | The chord error allowed.
 data Accuracy
-  = -- | chords between points of the path
+  = -- | in both directions, for chords between points of the toolpath
     OnPath Mm
-  | -- | chords within a band: so far into the material, so far out of it
+  | -- | into the material, and out of it
     Band Mm Mm
   deriving stock (Eq, Show)
 
--- | How far chords may go into the material, and how far out of it.
+-- | The chord error allowed into the material, and out of it.
 deepest :: Accuracy -> (Mm, Mm)
 deepest accuracy = case accuracy of
   OnPath d -> (d, d)
   Band a b -> (a, b)
 
--- | Holes, one after the other.
+-- | Holes, in the order of drilling.
 data Drilling = Drilling
   { holes :: NonEmpty (Located Point),
     -- | of the drill
     drillRadius :: Mm,
-    -- | the height of the bottom, below zero
+    -- | the height of the bottom, below 0
     bottom :: Mm,
+    -- | the height of moves between the holes
     clear :: Mm,
-    -- | the most of it before the drill is drawn out
+    -- | the largest depth before the drill is retracted
     pecked :: Maybe Mm,
     drillFeed :: Located Feed
   }
   deriving stock (Eq, Show)
 
+-- | An auxiliary function of the machine.
 data Command
-  = -- | in a sense, at a speed in turns a minute
+  = -- | a sense, and a speed in turns a minute
     SpindleOn Sense (Maybe Double)
   | SpindleOff
   | CoolantTo Switch
@@ -274,30 +275,31 @@ data Command
     ChangeTool Int Cutter
   deriving stock (Eq, Show)
 
--- | A tool, and its radius where it cuts.
+-- | A tool, and its radius where it touches the part.
 data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
   deriving stock (Eq, Show)
 
+-- | The kind of a tool.
 data CutterKind
-  = -- | upright
+  = -- | with an upright flank
     MillingCutter
-  | -- | with a flank that leans, narrowest at the tip …
+  | -- | with a conical flank, narrowest at the tip
     ConeCutter
-  | -- | … or widest
+  | -- | with a conical flank, widest at the tip
     DovetailCutter
-  | -- | swivels as it goes along, by a wheel of this diameter
+  | -- | swivels along the contour, driven by a wheel of this diameter
     BladeCutter Mm
   | DrillingCutter
   | TurningCutter
   deriving stock (Eq, Show)
 
--- | A point to go to; without a height it is that at which the cutter stands.
+-- | A point to move to; without a height the cutter keeps its own.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 
--- | How fast.
+-- | The speed of a move.
 data Pace
   = Rapid
-  | -- | the feed and the place that sets it
+  | -- | a feed, with the region that sets it
     At (Located Feed)
   deriving stock (Eq, Show)

@@ -1,5 +1,4 @@
--- | Tables, and the recalculations that make a piece of a part out of a curve (Kolsanova, sections
--- 2 and 5).
+-- | Tables, and pieces: curves recalculated by ciphers and joggled (Kolsanova, sections 2 and 5).
 module Part.Piece
   ( table,
     piece,
@@ -8,7 +7,6 @@ module Part.Piece
 where
 
 import Base.Crash (bug)
-import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
@@ -41,39 +39,41 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Curve (PartCurve (..), PartTable (..))
 import Part.Curve qualified as Curve
+import Part.CurveError (CurveFault (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
+import Part.Parameter qualified as Parameter
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | The rows of a table.
+-- | The rows of a table. Literal rows take no steps: their count is bounded by the text.
 table :: Environment -> Columns -> Eval PartTable
 table env (Columns names written) = do
-  found <- Evaluation.collect (fmap pure . evaluated) written
-  pure PartTable {rows = NumberTable.joined (2 + length names) found, names = map fst names}
+  parts <- Evaluation.collect (fmap pure . evaluated) written
+  pure PartTable {rows = NumberTable.joined (2 + length names) parts, names = map fst names}
   where
     evaluated cells = case cells of
-      Numbers rows -> rows <$ Evaluation.collect (number rows) [0 .. NumberTable.count rows - 1]
+      Numbers rows -> rows <$ Evaluation.collect (reachable rows) [0 .. NumberTable.count rows - 1]
       Written at es -> do
         vs <- traverse (fmap Expression.number . Expression.evaluate env) es
         NumberTable.fromList [(at, PrimArray.primArrayFromList vs)]
           <$ mapM_ (Value.within at) (take 2 vs)
-    -- Numbers take no steps: there are no more than were written.
-    number :: NumberTable -> Int -> Eval [()]
-    number rows k = do
+    reachable :: NumberTable -> Int -> Eval [()]
+    reachable rows k = do
       let at = NumberTable.place rows k
       Value.within at (NumberTable.cell rows k 0)
       [] <$ Value.within at (NumberTable.cell rows k 1)
 
--- | A curve recalculated by ciphers, one after the other, and joggled, to one side of the walk.
+-- | A curve recalculated by ciphers, from the left one to the right one, and then joggled, to a
+-- side of its direction.
 piece :: Environment -> PartCurve -> [Cipher] -> Located Side -> [Joggle] -> Eval PartCurve
 piece env base ciphers (Located _ side) joggles = do
   ciphered <- foldM (recalculated env base side') (exact base) ciphers
   joggled <- foldM (joggledBy env side') ciphered joggles
-  pure (Curve.curve (fields base) Nothing joggled)
+  pure (Curve.curve (tableColumns base) Nothing joggled)
   where
     side' = case side of
       LeftSide -> Carrier.LeftOf
@@ -82,8 +82,10 @@ piece env base ciphers (Located _ side) joggles = do
       Inside -> bug "a piece inside a curve"
       On -> bug "a piece on a curve"
 
--- | One cipher. Columns give a value for every row of the table, which goes along the curve as the
--- points do.
+-- Ciphers
+
+-- | A curve shifted by one cipher. A column has a value for every row of the base's table; it
+-- follows the rows from curve to curve.
 recalculated ::
   Environment ->
   PartCurve ->
@@ -93,18 +95,18 @@ recalculated ::
   Eval Exact.Curve
 recalculated env base side lower (Located at cipher) = do
   distance <- case cipher of
-    Constant h mu -> fixed h >>= square mu . Exact.Constant
+    Constant h mu -> lengthIn h >>= square mu . Exact.Constant
     Pointwise h mu -> column h >>= square mu . Exact.Pointwise
     Bevelled mu height delta ->
-      Exact.Bevelled <$> bevels mu <*> column height <*> maybe (pure (Mm 0)) fixed delta
+      Exact.Bevelled <$> bevels mu <*> column height <*> maybe (pure (Mm 0)) lengthIn delta
     Growing h1 h2 mu span' -> do
-      from <- fixed h1
-      to <- fixed h2
+      from <- lengthIn h1
+      to <- lengthIn h2
       between <- traverse ends span'
       square mu (Exact.Growing Growth {from, to, between})
   shiftedBy at side distance lower
   where
-    fixed e = do
+    lengthIn e = do
       x <- Expression.number <$> Expression.evaluate env e
       Mm x <$ Value.within (region e) x
     column e = Exact.column lower <$> alongRows env base e
@@ -115,21 +117,25 @@ recalculated env base side lower (Located at cipher) = do
     ends (p, q) = do
       a <- parameter p
       b <- parameter q
-      if a < b then pure (a, b) else Evaluation.mistake (GrowthEnds at)
+      if a < b then pure (a, b) else mistake (GrowthEnds at)
     parameter e = (\v -> Exact.nearest (Expression.point v) lower) <$> Expression.evaluate env e
 
--- | The values of an expression at the rows of a curve's table.
+mistake :: CurveFault -> Eval a
+mistake = Evaluation.mistake . InCurve
+
+-- | The values of an expression at the rows of a curve's table. An expression without the table's
+-- columns is evaluated once.
 alongRows :: Environment -> PartCurve -> Expr -> Eval (Vector Double)
 alongRows env base e
   | mentions names e = Vector.fromList <$> Evaluation.gather (map atRow [0 .. count - 1])
   | otherwise = Vector.replicate count . Expression.number <$> Expression.evaluate env e
   where
-    names = map fst (fields base)
+    names = map fst (tableColumns base)
     count = Exact.rowCount (exact base)
-    atRow k = Expression.number <$> Expression.evaluate (foldl (bound k) env (fields base)) e
+    atRow k = Expression.number <$> Expression.evaluate (foldl (bound k) env (tableColumns base)) e
     bound k env' (n, values) = Expression.bind n (Quantity (values Vector.! k)) env'
 
--- | Whether one of some names stands in an expression.
+-- | Tells whether an expression uses one of some names.
 mentions :: [Name] -> Expr -> Bool
 mentions names (Located _ e) = case e of
   Number _ -> False
@@ -152,94 +158,98 @@ mentions names (Located _ e) = case e of
       Checked.Chosen _ x -> again x
       Checked.Ranked _ -> False
 
--- | A shift, if it tears no corner open and does not fold the curve.
+-- | A shifted curve; fails when the shift tears a corner open or folds the curve.
 shiftedBy :: Region -> Carrier.Side -> Distance -> Exact.Curve -> Eval Exact.Curve
 shiftedBy at side distance lower = do
-  let corners = Exact.corners lower
-      whole = Exact.shifted side distance lower
-  -- A curve that is put together stays together.
-  case [u | u <- corners, torn whole u > Tolerance.curve] of
-    u : _ -> Evaluation.mistake (ShiftsCorner at (Exact.at lower u) (turnAt u))
+  let whole = Exact.shifted side distance lower
+  case [u | u <- Exact.corners lower, gapAt whole u > Tolerance.curve] of
+    u : _ -> mistake (ShiftsCorner at (Exact.at lower u) (cornerAngle u))
     [] -> pure ()
   case Cusp.fold whole of
-    Just f -> Evaluation.mistake (Folds at (Cusp.place f) (Cusp.asked f) (Cusp.largest f))
+    Just f -> mistake (Folds at (Cusp.place f) (Cusp.asked f) (Cusp.largest f))
     Nothing -> pure whole
   where
-    torn whole u
-      | u <= 0 =
-        Vec.distance
-          (Exact.placeFrom Exact.Before whole (Exact.domain whole))
-          (Exact.placeFrom Exact.After whole 0)
-      | otherwise =
-        Vec.distance (Exact.placeFrom Exact.Before whole u) (Exact.placeFrom Exact.After whole u)
-    turnAt u =
-      let Rad a =
-            Vec.turn
-              (Exact.tangentFrom Exact.Before lower u)
-              (Exact.tangentFrom Exact.After lower u)
+    cornerAngle u =
+      let before = Exact.tangentFrom Exact.Before lower u
+          after = Exact.tangentFrom Exact.After lower u
+          Rad a = Vec.turn before after
        in Rad (abs a)
 
--- | A joggle between two coordinates of the curve (Kolsanova, control stops 15074 and 14174).
+-- | The gap of a curve at a parameter; at 0, between its end and its start.
+gapAt :: Exact.Curve -> Double -> Mm
+gapAt whole u = Vec.distance before (Exact.placeFrom Exact.After whole (max 0 u))
+  where
+    before = Exact.placeFrom Exact.Before whole (if u <= 0 then Exact.domain whole else u)
+
+-- Joggles
+
+-- | A curve with a joggle between two of its x coordinates (Kolsanova, control stops 15074 and
+-- 14174).
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
-  a <- coordinate from
-  b <- coordinate to
-  when (a == b) (Evaluation.mistake (JoggleNowhere at))
-  deep <- lengthOf depth
-  r <- lengthOf radius
+  a <- parameterAtX env lower from
+  b <- parameterAtX env lower to
+  when (a == b) (mistake (JoggleNowhere at))
+  d <- joggleMeasure env depth
+  r <- joggleMeasure env radius
   let joggle =
         ShiftDistance.Joggle
           { ShiftDistance.begins = min a b,
             ShiftDistance.ends = max a b,
-            ShiftDistance.depth = deep,
+            ShiftDistance.depth = d,
             ShiftDistance.radius = r
           }
   case Exact.joggled joggle lower of
-    Left Exact.DeepJoggle -> Evaluation.mistake (JoggleDepth (region radius) r (times 0.5 deep))
-    Left (Exact.LongJoggle _ there) ->
-      Evaluation.mistake (JoggleRadius (region radius) r there (largest deep there))
-    Left _ -> Evaluation.mistake (JoggleNowhere at)
+    Left Exact.DeepJoggle -> mistake (JoggleDepth (region radius) r (times 0.5 d))
+    Left (Exact.LongJoggle _ available) ->
+      mistake (JoggleRadius (region radius) r available (largestRadius d available))
+    Left _ -> mistake (JoggleNowhere at)
     Right distance -> shiftedBy at side distance lower
-  where
-    coordinate e = do
-      x <- Expression.number <$> Expression.evaluate env e
-      case Exact.atX x lower of
-        [u] -> pure u
-        us ->
-          Evaluation.mistake
-            (JoggleCoordinate (region e) (Mm x) (map (Exact.at lower) us) (Curve.abscissas lower))
-    lengthOf e = do
-      x <- Expression.number <$> Expression.evaluate env e
-      when
-        (x <= 0)
-        (Evaluation.mistake (NotPositive (region e) "a measure of a joggle" (Decimal.mm (Mm x))))
-      Mm x <$ Value.within (region e) x
-    -- Two ramps of @√(d·(4r − d))@ take all of the length.
-    largest deep there =
-      let r =
-            Mm
-              ( (let Mm l = there in l * l / 4) / (4 * (let Mm d = deep in d))
-                  + (let Mm d = times 0.25 deep in d)
-              )
-       in if over r deep > 0.5 then Just r else Nothing
 
--- | How far the surface of an element leans, along the chain that stands for its curve.
+-- | The parameter of a curve's only point with an x coordinate.
+parameterAtX :: Environment -> Exact.Curve -> Expr -> Eval Double
+parameterAtX env lower e = do
+  x <- Expression.number <$> Expression.evaluate env e
+  case Exact.atX x lower of
+    [u] -> pure u
+    us ->
+      let points = map (Exact.at lower) us
+       in mistake (JoggleCoordinate (region e) (Mm x) points (Curve.xRange lower))
+
+-- | The depth or the radius of a joggle, above 0.
+joggleMeasure :: Environment -> Expr -> Eval Mm
+joggleMeasure env e = do
+  x <- Expression.number <$> Expression.evaluate env e
+  when (x <= 0) (Evaluation.mistake (NotPositive (region e) Parameter.JoggleMeasure x))
+  Mm x <$ Value.within (region e) x
+
+-- | The largest radius r of a joggle of depth d within a length: its two ramps of √(d·(4r − d))
+-- then take all of the length. Nothing when the radius would not be above half of the depth.
+largestRadius :: Mm -> Mm -> Maybe Mm
+largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothing
+  where
+    r = Mm ((l * l / 4) / (4 * d) + 0.25 * d)
+
+-- Bevels
+
+-- | The bevels of an element's surface along its polyarc: stations in mm and angles in radians. A
+-- line or a circle has one bevel.
 bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do
     a <- Expression.number <$> Expression.evaluate env e
-    when (abs a >= steepest) (Evaluation.mistake (SteepBevel (region e) Nothing (Rad a)))
+    when (abs a >= steepest) (mistake (SteepBevel (region e) Nothing (Rad a)))
     pure [(0, a)]
   Just c -> Curve.along c <$> (alongRows env c e >>= upright c e)
 
--- | Bevels of less than a right angle.
+-- | Bevels at the rows of a curve's table; fails for one that is not below a right angle.
 upright :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
 upright c e values = case find ((>= steepest) . abs . snd) (zip [1 ..] (Vector.toList values)) of
-  Just (k, a) ->
-    Evaluation.mistake
-      (SteepBevel (region e) (if mentions (map fst (fields c)) e then Just k else Nothing) (Rad a))
+  Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))
   Nothing -> pure values
+  where
+    byRow = mentions (map fst (tableColumns c)) e
 
--- | No bevel comes nearer to a right angle, in radians.
+-- | The limit of a bevel, in radians: just below a right angle.
 steepest :: Double
 steepest = pi / 2 - 1e-6

@@ -1,5 +1,5 @@
--- | What has to hold of the contours of a pocket: all of them are closed, and the islands lie
--- inside the outline and apart from it and from one another.
+-- | Checks of a pocket's contours: all of them are closed; the islands lie inside the outline,
+-- apart from it and from one another.
 module Part.PocketCheck
   ( misfits,
     halfWidth,
@@ -10,9 +10,10 @@ where
 import Base.Name (Name)
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
-import Data.List (nubBy)
+import Data.List (find, nubBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (mapMaybe)
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -25,39 +26,43 @@ import Part.Part (Contour (..), Ends (..))
 import Part.Part qualified as Part
 import Part.PocketError (PocketMisfit (..))
 
--- | A contour, and where the statement names it.
-data Named = Named {place :: Region, contour :: Contour}
+-- | A contour, and the region in the statement that names it.
+data Named = Named {mention :: Region, contour :: Contour}
 
--- | Why a pocket of this outline and these islands cannot be.
+-- | The faults of a pocket with this outline and these islands. Contours are compared only when all
+-- of them are closed.
 misfits :: Named -> [Named] -> [PocketMisfit]
-misfits outline islands = case filter isOpen (outline : islands) of
-  [] -> map met meetings <> [f | k <- loose, Just f <- [astray k]]
-  open -> [OpenContour (place n) (nameOf n) (placeOf n) | n <- open]
+misfits outline islands = case filter isOpen numbered of
+  [] -> map meets meetings <> mapMaybe (misplaced outline islands) apart
+  open -> [OpenContour (mention n) (nameOf n) (definition n) | (_, n) <- open]
   where
-    isOpen n = ends (contour n) == Open
     numbered = zip [0 ..] (outline : islands)
+    isOpen (_, n) = ends (contour n) == Open
     meetings = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
-    met (i, j, p) =
-      let (a, b) = (named j, named i) in Meets (place a) (nameOf a) (nameOf b) (i == 0) p
+    meets (i, j, p) =
+      let (a, b) = (named j, named i) in Meets (mention a) (nameOf a) (nameOf b) (i == 0) p
     named i = (outline : islands) !! i
-    -- Of islands that meet something it is said already.
-    loose =
-      [(k, n) | (k, n) <- drop 1 numbered, k `notElem` concat [[i, j] | (i, j, _) <- meetings]]
-    -- An island meets nothing, so all of it lies where its beginning lies.
-    astray (k, n)
-      | not (WindingNumber.encloses (Part.outline (contour outline)) (beginning n)) =
-        Just (Outside (place n) (nameOf n) (nameOf outline))
-      | otherwise =
-        case [ m
-               | (l, m) <- drop 1 numbered,
-                 l /= k,
-                 BoundingBox.meets (boxOf n) (boxOf m),
-                 WindingNumber.encloses (Part.outline (contour m)) (beginning n)
-             ] of
-          m : _ -> Just (InIsland (place n) (nameOf n) (nameOf m))
-          [] -> Nothing
+    -- An island that meets another contour is already reported.
+    apart = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` met]
+    met = concat [[i, j] | (i, j, _) <- meetings]
 
--- | Where elements of two of some numbered contours cross or touch: the lower number first.
+-- | The fault of an island, with its number from 1, that meets no other contour. The whole of it
+-- lies where its start lies.
+misplaced :: Named -> [Named] -> (Int, Named) -> Maybe PocketMisfit
+misplaced outline islands (k, island)
+  | not (encloses outline) = Just (Outside (mention island) (nameOf island) (nameOf outline))
+  | otherwise = InIsland (mention island) (nameOf island) . nameOf <$> find encloses others
+  where
+    others =
+      [ other
+        | (l, other) <- zip [1 ..] islands,
+          l /= k,
+          BoundingBox.meets (boxOf island) (boxOf other)
+      ]
+    encloses n = WindingNumber.encloses (Part.outline (contour n)) (startOf island)
+
+-- | The common points of two numbered contours, one for each pair of segments, with the lower
+-- number first.
 crossings :: [(Int, Named)] -> [(Int, Int, Point)]
 crossings numbered =
   [ (i, j, p)
@@ -75,20 +80,20 @@ segments :: Named -> [Segment]
 segments n = NonEmpty.toList (Polyarc.segments (Part.outline (contour n)))
 
 boxOf :: Named -> BoundingBox
-boxOf n =
-  let s :| more =
-        fmap BoundingBox.ofSegment (Polyarc.segments (Part.outline (contour n)))
-   in foldl BoundingBox.union s more
+boxOf n = foldl BoundingBox.union first others
+  where
+    first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.outline (contour n)))
 
--- | No place in the contour lies further from it.
+-- | An upper bound for the distance of a point inside a contour from the contour: half of the
+-- shorter side of its bounding box.
 halfWidth :: Named -> Mm
 halfWidth n = let BoundingBox.BoundingBox l b r t = boxOf n in Mm (min (r - l) (t - b) / 2)
 
-beginning :: Named -> Point
-beginning n = Segment.start (Part.segment (NonEmpty.head (elements (contour n))))
+startOf :: Named -> Point
+startOf n = Segment.start (Part.segment (NonEmpty.head (elements (contour n))))
 
 nameOf :: Named -> Name
-nameOf n = let Located _ name = contourName (contour n) in name
+nameOf n = value (contourName (contour n))
 
-placeOf :: Named -> Region
-placeOf n = let Located there _ = contourName (contour n) in there
+definition :: Named -> Region
+definition n = region (contourName (contour n))

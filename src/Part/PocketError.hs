@@ -1,4 +1,4 @@
--- | What can be wrong with the contours of a pocket and the distance of its passes.
+-- | Faults of a pocket: its contours, and the stepover of its passes.
 module Part.PocketError
   ( PocketMisfit (..),
     toReport,
@@ -9,28 +9,27 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), times)
 import Base.Region (Region)
-import Data.Text (Text)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), quote, report)
-import Report.Report qualified as Report
+import Part.ErrorText (at)
+import Report.Report (Label (..), Report (..), quote)
 
--- | The place in the statement comes first.
+-- | A fault of a pocket; the region in the statement comes first.
 data PocketMisfit
-  = -- | an open contour as the outline or an island: its name, where it is defined
+  = -- | an open contour as the outline or an island: its name, and the region of its definition
     OpenContour Region Name Region
-  | -- | an island that does not lie inside the outline: both names
+  | -- | an island that lies outside of the outline: the names of both
     Outside Region Name Name
-  | -- | an island that lies inside another one: both names
+  | -- | an island that lies inside another one: the names of both
     InIsland Region Name Name
-  | -- | an island that crosses or touches another contour of its pocket: both names, whether that
-    -- is the outline, where
+  | -- | an island that crosses or touches another contour of its pocket: the names of both, whether
+    -- the other one is the outline, and the point
     Meets Region Name Name Bool Point
-  | -- | passes that lie further apart than the diameter of the cutter
+  | -- | a stepover above the diameter of the cutter: both
     StepTooWide Region Mm Mm
   deriving stock (Eq, Show)
 
--- | The words for it.
+-- | The report of a fault.
 toReport :: PocketMisfit -> Report
 toReport misfit = case misfit of
   OpenContour region (Name name) there ->
@@ -52,29 +51,25 @@ toReport misfit = case misfit of
       { message = ["All of " <> quote other <> " stays standing already."],
         hints = ["Leave one of them out. A hollow in an island is a pocket of its own."]
       }
-  Meets region (Name name) (Name other) isOutline p ->
-    ( at
-        region
-        "E0358"
-        ( "the island "
-            <> quote name
-            <> " meets "
-            <> (if isOutline then "the outline of the pocket" else "the island " <> quote other)
-        )
-    )
+  Meets region (Name name) (Name outline) True p ->
+    (at region "E0358" ("the island " <> quote name <> " meets the outline of the pocket"))
       { message =
           [ "They cross or touch at "
               <> Vec.written 4 p
-              <> (if isOutline then "; the outline is " <> quote other <> "." else ".")
+              <> "; the outline is "
+              <> quote outline
+              <> "."
           ],
         hints =
-          [ if isOutline
-              then "What is joined to the wall is a part of the outline: draw the outline round it."
-              else "Draw islands that grow together as one contour."
-          ]
+          ["What is joined to the wall is a part of the outline: draw the outline round it."]
       }
-  StepTooWide region apart diameter ->
-    (at region "E0359" ("passes " <> Decimal.mm apart <> " apart leave material between them"))
+  Meets region (Name name) (Name other) False p ->
+    (at region "E0358" ("the island " <> quote name <> " meets the island " <> quote other))
+      { message = ["They cross or touch at " <> Vec.written 4 p <> "."],
+        hints = ["Draw islands that grow together as one contour."]
+      }
+  StepTooWide region stepover diameter ->
+    (at region "E0359" ("passes " <> Decimal.mm stepover <> " apart leave material between them"))
       { message =
           [ "The cutter has a diameter of "
               <> Decimal.mm diameter
@@ -83,6 +78,3 @@ toReport misfit = case misfit of
         hints =
           ["A usual step is half of the diameter: step " <> Decimal.mm (times 0.5 diameter) <> "."]
       }
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Report.Error code (InSource region)

@@ -1,4 +1,5 @@
--- | Machining and all that belongs to it, transformed.
+-- | Transformations of operations. The contours, the points and the sides change; cutters, heights
+-- and distances do not.
 module Part.Transformation
   ( operation,
   )
@@ -10,13 +11,12 @@ import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Part.Part
 
--- | An operation on the part transformed: its contour and its ways change, the cutter and the
--- heights do not.
+-- | The image of an operation. A mirror swaps the left and the right side.
 operation :: Transformation -> Operation -> Operation
 operation s o = case o of
   Mill (Located at m) -> Mill (Located at (milling m))
   Pocket (Located at p) ->
-    Pocket (Located at p {wall = milling (wall p), islands = map shape (islands p)})
+    Pocket (Located at p {wall = milling (wall p), islands = map image (islands p)})
   Drill (Located at d) ->
     Drill (Located at d {holes = fmap (fmap (Transformation.point s)) (holes d)})
   Travel stops -> Travel (NonEmpty.map stop stops)
@@ -24,18 +24,15 @@ operation s o = case o of
   where
     milling m =
       m
-        { contour = shape (contour m),
-          side = fmap swapped (side m),
+        { contour = image (contour m),
+          side = fmap mirrored (side m),
           approach = map stop (approach m),
           retract = map stop (retract m)
         }
     stop p = p {place = fmap (Transformation.point s) (place p)}
-    shape c =
-      c
-        { elements = fmap (\e -> e {segment = Transformation.segment s (segment e)}) (elements c),
-          legs = []
-        }
-    swapped side'
+    image c = c {elements = fmap moved (elements c), legs = []}
+    moved e = e {segment = Transformation.segment s (segment e)}
+    mirrored side'
       | Transformation.mirrors s = case side' of
         LeftSide -> RightSide
         RightSide -> LeftSide

@@ -1,7 +1,13 @@
--- | What can be wrong with the numbers of a sheet.
+-- | Mistakes in the numbers of an input sheet.
 module Sheet.Error
   ( Error (..),
     NumberPosition (..),
+    GeneralFault (..),
+    ApproachFault (..),
+    RetractFault (..),
+    CipherFault (..),
+    Expected (..),
+    LinkNumber (..),
     PieceMisfit (..),
     toReport,
   )
@@ -20,190 +26,306 @@ import Report.Report
     quote,
     report,
   )
-import Sheet.Sheet (address, generalWords, mostArrays)
+import Sheet.Sheet (address, generalCount, maxArrays)
 
--- | A number of the sheet: where it stands, and the how-manieth it is, from 1.
+-- | The position of a number of the sheet: its region, and its number from 1.
 data NumberPosition = NumberPosition {site :: Region, number :: Int}
   deriving stock (Eq, Ord, Show)
 
+-- | A mistake; the position where it shows comes first.
 data Error
   = -- | a word that is no number
     NotANumber NumberPosition Text
-  | -- | the general data end too early: the word at which they do, or the last one, and how many
-    -- there are
+  | -- | too few general data: the count of numbers before this position
     GeneralShort NumberPosition Int
-  | -- | a number of the general data that cannot be: what it is, what it has to be
-    GeneralWrong NumberPosition Text Text
-  | -- | the points of the approach: where it shows, and how
-    ApproachShifted NumberPosition Text
-  | -- | the points behind an array: where it shows, and how
-    OnwardShifted NumberPosition Text
-  | -- | a cipher that the system does not have, and why
-    CipherUnknown NumberPosition Text
-  | -- | data that do not fit the cipher: where it shows, the cipher, what it asks
+  | GeneralWrong NumberPosition GeneralFault
+  | -- | points of the approach that are shifted
+    ApproachShifted NumberPosition ApproachFault
+  | -- | points after an array that are shifted
+    RetractShifted NumberPosition RetractFault
+  | CipherUnknown NumberPosition CipherFault
+  | -- | data that do not fit the cipher, and the position of the cipher
     PieceMisfit NumberPosition NumberPosition PieceMisfit
-  | -- | one array more than there may be begins here
+  | -- | the first array beyond 'maxArrays'
     TooManyArrays NumberPosition
-  | -- | the sheet ends where something else is expected: its last word, what is expected
-    EndMissing NumberPosition Text
-  | -- | behind the end mark of a piece there is no link or no allowance
-    LinkMissing NumberPosition Text
-  | -- | numbers behind the end of the program
+  | -- | a sheet that ends too early, at its last word
+    EndMissing NumberPosition Expected
+  | -- | no number after the end mark of a piece
+    LinkMissing NumberPosition LinkNumber
+  | -- | a number after the end of the program
     BehindTheEnd NumberPosition
-  | -- | the way to the pieces ends with a feed at which nothing can be cut
+  | -- | the rapid feed at the last point before an array
     NoWorkingFeed NumberPosition
   deriving stock (Eq, Ord, Show)
 
--- | How a piece does not fit its cipher.
+-- | A fault of the general data.
+data GeneralFault
+  = ProductCipherNotWhole
+  | PartCipherNotWhole
+  | ProgramNotWhole
+  | DiameterNotPositive
+  | ToleranceNotPositive
+  | NegativeGear
+  | NegativeHeight
+  | -- | a dimension of a cone, for a swivelling blade
+    BladeWithCone
+  | HeightWithoutBevel
+  | UnknownSide
+  | -- | a word at an unused address
+    UnusedWord
+  deriving stock (Eq, Ord, Show)
+
+-- | A fault of the points of the approach.
+data ApproachFault
+  = SignInApproach
+  | ApproachFeedNotPositive
+  | NoApproachPoint
+  | -- | a count of numbers that is no multiple of four
+    ApproachCount Int
+  deriving stock (Eq, Ord, Show)
+
+-- | A fault of the points after an array.
+data RetractFault = NegativeFeed | NoLastFeed | NotACoordinate
+  deriving stock (Eq, Ord, Show)
+
+-- | A fault of a cipher.
+data CipherFault
+  = CipherNotWhole
+  | MarkInsteadOfCipher
+  | SignInsteadOfCipher
+  | UnknownDigit Char
+  | -- | a minus sign before a cipher whose first distance has a sign
+    SignTwice
+  deriving stock (Eq, Ord, Show)
+
+-- | A part of the sheet that is missing at its end.
+data Expected
+  = PieceOrLastFeed
+  | MarkAfterApproach
+  | MarkAfterPiece
+  | LinkOfPiece
+  | AllowanceOfPiece
+  deriving stock (Eq, Ord, Show)
+
+-- | A number after the end mark of a piece.
+data LinkNumber = LinkNumber | AllowanceNumber
+  deriving stock (Eq, Ord, Show)
+
+-- | The reason why the data of a piece do not fit its cipher.
 data PieceMisfit
-  = -- | so many numbers before the points, for each point, behind the points, for each point once
-    -- more; so many are there
+  = -- | the counts of numbers that the cipher asks for: before the points, for each point, after
+    -- the points, again for each point; and the count of numbers of the piece
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew
-  | -- | the flag is another number
+  | -- | a flag that is neither 0 nor 1
     FlagOff
-  | -- | a sign without a number among the data
+  | -- | a sign without a number
     LoneSign
   deriving stock (Eq, Ord, Show)
 
--- | The words for it.
+-- | The report of a mistake.
 toReport :: Error -> Report
 toReport err = case err of
-  NotANumber spot text ->
-    (at spot "E0901" (quote text <> " is not a number"))
-      { message = [counted spot],
+  NotANumber position text ->
+    (at position "E0901" (quote text <> " is not a number"))
+      { message = [counted position],
         hints = wordHint text
       }
-  GeneralShort spot have ->
+  GeneralShort position count ->
     ( at
-        spot
+        position
         "E0902"
         ( "the general data are incomplete: "
-            <> Decimal.whole have
+            <> Decimal.whole count
             <> " of "
-            <> Decimal.whole generalWords
+            <> Decimal.whole generalCount
             <> " numbers"
         )
     )
-      { message = [counted spot, "The addresses 0070 to 0107 hold the general data."],
+      { message = [counted position, "The addresses 0070 to 0107 hold the general data."],
         hints = ["Write 0 for what is not used."]
       }
-  GeneralWrong spot what needed ->
-    (at spot "E0903" (what <> " cannot be this number"))
-      { message = [counted spot, needed],
-        hints = ["Is a number of the general data left out or doubled before this one?"]
-      }
-  ApproachShifted spot how ->
-    (at spot "E0904" "the points of the approach are shifted")
-      { message = [counted spot, how, stop "13555"],
+  GeneralWrong position fault ->
+    let (subject, needed) = generalTexts fault
+     in (at position "E0903" (subject <> " cannot be this number"))
+          { message = [counted position, needed],
+            hints = ["Is a number of the general data left out or doubled before this one?"]
+          }
+  ApproachShifted position fault ->
+    (at position "E0904" "the points of the approach are shifted")
+      { message = [counted position, approachText fault, stop "13555"],
         hints =
           [ "Each point has x, y, z and a feed above 0; -0 closes them. Look for a number that is \
             \missing or written twice."
           ]
       }
-  OnwardShifted spot how ->
-    (at spot "E0905" "the points behind the array are shifted")
-      { message = [counted spot, how, stop "13570"],
+  RetractShifted position fault ->
+    (at position "E0905" "the points behind the array are shifted")
+      { message = [counted position, retractText fault, stop "13570"],
         hints =
           [ "Each point has x, y, z and a feed. -0 closes them before the next array; the feed 0 \
             \ends the program."
           ]
       }
-  CipherUnknown spot why ->
-    (at spot "E0906" "there is no such cipher")
-      { message = [counted spot, why, stop "14441"],
+  CipherUnknown position fault ->
+    (at position "E0906" "there is no such cipher")
+      { message = [counted position, cipherText fault, stop "14441"],
         hints =
           [ "A cipher is made of the digits 1, 2, 4 and 6, in the order in which the curve is \
             \recalculated; 0 leaves it as it is."
           ]
       }
-  PieceMisfit spot opened misfit -> misfitReport spot opened misfit
-  TooManyArrays spot ->
-    (at spot "E0908" ("more than " <> Decimal.whole mostArrays <> " arrays"))
-      { message = [counted spot, stop "10746"],
+  PieceMisfit position cipher misfit -> misfitReport position cipher misfit
+  TooManyArrays position ->
+    (at position "E0908" ("more than " <> Decimal.whole maxArrays <> " arrays"))
+      { message = [counted position, stop "10746"],
         hints = ["Make two programs of it."]
       }
-  EndMissing spot expected ->
-    (at spot "E0909" ("the sheet ends before " <> expected))
-      { message = [counted spot],
+  EndMissing position expected ->
+    (at position "E0909" ("the sheet ends before " <> expectedText expected))
+      { message = [counted position],
         hints =
           [ "Pieces and points of approach are closed by -0; the feed 0 of its last point ends a \
             \program."
           ]
       }
-  LinkMissing spot expected ->
-    (at spot "E0910" ("here stands no " <> expected))
-      { message = [counted spot],
+  LinkMissing position missing ->
+    (at position "E0910" ("here stands no " <> linkNumberText missing))
+      { message = [counted position],
         hints =
-          [ "Behind the -0 of a piece stand two numbers: its link (+R, -R, + or -, and 0 at the end \
-            \of an array), and its allowance."
+          [ "Behind the -0 of a piece stand two numbers: its link (+R, -R, + or -, and 0 at the \
+            \end of an array), and its allowance."
           ]
       }
-  BehindTheEnd spot ->
-    (at spot "E0911" "the program has ended before this number")
-      { message = [counted spot, "The feed 0 ends a program."],
+  BehindTheEnd position ->
+    (at position "E0911" "the program has ended before this number")
+      { message = [counted position, "The feed 0 ends a program."],
         hints = ["Give the point before it a feed if the program goes on."]
       }
-  NoWorkingFeed spot ->
-    (at spot "E0912" "the pieces would be cut in rapid")
+  NoWorkingFeed position ->
+    (at position "E0912" "the pieces would be cut in rapid")
       { message =
-          [ counted spot,
+          [ counted position,
             "A feed holds from its point on; that of the last point before an array is the feed of \
             \its pieces."
           ],
         hints = ["Write the feed of the pieces here."]
       }
 
+-- | The name of a number of the general data, and its range.
+generalTexts :: GeneralFault -> (Text, Text)
+generalTexts fault = case fault of
+  ProductCipherNotWhole -> ("the cipher of the product", nineDigits)
+  PartCipherNotWhole -> ("the cipher of the part", nineDigits)
+  ProgramNotWhole -> ("the number of the program", nineDigits)
+  DiameterNotPositive -> ("the diameter of the tool", "It is above 0.")
+  ToleranceNotPositive -> ("the tolerance", "It is above 0.")
+  NegativeGear -> ("the diameter of the wheel", "It is 0 or above.")
+  NegativeHeight -> ("the height of the cone", "It is 0 or above.")
+  BladeWithCone -> ("a cone's dimension", "A tool is a swivelling blade or a cone, not both.")
+  HeightWithoutBevel -> ("the height of the cone", "A tool without a bevel is no cone.")
+  UnknownSide ->
+    ( "the side of the tool",
+      "It is 1, left of the walk, -1, right of it, or 0, on the pieces themselves."
+    )
+  UnusedWord ->
+    ("a word that is not used", "The addresses 0101 to 0107 are not used and hold 0.")
+  where
+    nineDigits = "It is a whole number of at most nine digits."
+
+approachText :: ApproachFault -> Text
+approachText fault = case fault of
+  SignInApproach -> "A sign without a number is no coordinate and no feed."
+  ApproachFeedNotPositive -> "This feed is not above 0."
+  NoApproachPoint -> "There is no point at all."
+  ApproachCount count ->
+    "Before this -0 stand "
+      <> Decimal.whole count
+      <> " numbers, which is no whole number of points."
+
+retractText :: RetractFault -> Text
+retractText fault = case fault of
+  NegativeFeed -> "This feed is below 0."
+  NoLastFeed -> "The sheet ends here, and no feed was 0."
+  NotACoordinate -> "Here no coordinate and no feed stands."
+
+cipherText :: CipherFault -> Text
+cipherText fault = case fault of
+  CipherNotWhole -> "A cipher is a whole number of at most nine digits."
+  MarkInsteadOfCipher -> "Here stands an end mark; a piece begins with its cipher."
+  SignInsteadOfCipher -> "Here stands a sign without a number; a piece begins with its cipher."
+  UnknownDigit digit -> "It has the digit " <> Text.singleton digit <> "."
+  SignTwice ->
+    "The sign before the first distance says the side; a cipher has a minus sign only where there \
+    \is no such distance."
+
+expectedText :: Expected -> Text
+expectedText expected = case expected of
+  PieceOrLastFeed -> "a piece, or the feed 0 of the last point"
+  MarkAfterApproach -> "the -0 behind the points of the approach"
+  MarkAfterPiece -> "the -0 behind a piece"
+  LinkOfPiece -> "the link of a piece"
+  AllowanceOfPiece -> "the allowance of a piece"
+
+linkNumberText :: LinkNumber -> Text
+linkNumberText missing = case missing of
+  LinkNumber -> "link"
+  AllowanceNumber -> "allowance"
+
 misfitReport :: NumberPosition -> NumberPosition -> PieceMisfit -> Report
-misfitReport spot opened misfit =
-  (at spot "E0907" ("the data of the piece do not fit its cipher" <> short))
-    { others = [Label (site opened) "the cipher of the piece"],
-      message = [counted spot, long, stop "14623"],
+misfitReport position cipher misfit =
+  (at position "E0907" ("the data of the piece do not fit its cipher" <> short))
+    { others = [Label (site cipher) "the cipher of the piece"],
+      message = [counted position, long, stop "14623"],
       hints = ["Look for a number that is missing or written twice, and for a 0 with a minus sign."]
     }
   where
-    (short, long) = case misfit of
-      CountOff before each behind again have ->
-        ( "",
+    (short, long) = misfitTexts misfit
+
+-- | The end of the title, and the message.
+misfitTexts :: PieceMisfit -> (Text, Text)
+misfitTexts misfit = case misfit of
+  CountOff before each after again count ->
+    let asked =
+          [numbers before <> " before the points" | before > 0]
+            <> [numbers each <> " for each point"]
+            <> [numbers after <> " behind them" | after > 0]
+            <> [numbers again <> " more for each point" | again > 0]
+            <> ["the flag of the feed"]
+     in ( "",
           "It asks "
-            <> Text.intercalate
-              ", "
-              ( [numbers before <> " before the points" | before > 0]
-                  <> [numbers each <> " for each point"]
-                  <> [numbers behind <> " behind them" | behind > 0]
-                  <> [numbers again <> " more for each point" | again > 0]
-                  <> ["the flag of the feed"]
-              )
+            <> Text.intercalate ", " asked
             <> "; there are "
-            <> Decimal.whole have
+            <> Decimal.whole count
             <> " numbers, which is no whole number of points."
         )
-      PointsFew -> (": fewer than two points", "A curve needs two points at least.")
-      FlagOff ->
-        ( ": the flag of the feed is neither 0 nor 1",
-          "The last number before -0 is the flag: 1 slows down at the end of the piece, 0 does not."
-        )
-      LoneSign ->
-        ( ": a sign without a number",
-          "A sign alone is a link, which stands behind the -0 of a piece."
-        )
+  PointsFew -> (": fewer than two points", "A curve needs two points at least.")
+  FlagOff ->
+    ( ": the flag of the feed is neither 0 nor 1",
+      "The last number before -0 is the flag: 1 slows down at the end of the piece, 0 does not."
+    )
+  LoneSign ->
+    ( ": a sign without a number",
+      "A sign alone is a link, which stands behind the -0 of a piece."
+    )
+  where
     numbers n = if n == 1 then "1 number" else Decimal.whole n <> " numbers"
 
 at :: NumberPosition -> ReportCode -> Text -> Report
-at spot code = report Error code (InSource (site spot))
+at position code = report Error code (InSource (site position))
 
--- | Which number it is.
+-- | The sentence with the number and the address of a position.
 counted :: NumberPosition -> Text
-counted spot =
+counted position =
   "This is number "
-    <> Decimal.whole (number spot)
+    <> Decimal.whole (number position)
     <> " of the sheet, at the address "
-    <> address (number spot)
+    <> address (number position)
     <> "."
 
 stop :: Text -> Text
-stop number' = "The Minsk-22 system stopped here with " <> number' <> "."
+stop code = "The Minsk-22 system stopped here with " <> code <> "."
 
 wordHint :: Text -> [Text]
 wordHint text

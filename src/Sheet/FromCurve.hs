@@ -1,4 +1,4 @@
--- | A curve with its recalculations as a piece of a sheet.
+-- | A curve with its recalculations as a piece of an input sheet. Refuses curves without a cipher.
 module Sheet.FromCurve
   ( piece,
     degreesOf,
@@ -12,7 +12,7 @@ import Base.Result (Result (..))
 import Data.Foldable (toList)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Maybe (isJust, listToMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
@@ -26,64 +26,62 @@ import Numeric (showEFloat)
 import Part.Part (Finish)
 import Part.Part qualified as Part
 import Sheet.Sheet
-import Sheet.Unsupported (Unfit (..))
+import Sheet.Unsupported (CipherFault (..), PieceFault (..), Unfit (..))
 import Text.Read (readMaybe)
 
--- | One shift: 1 to the left of the walk, -1 to the right; whether its distance is square to the
--- surface; the distance.
-data Shift = Shift {sign :: Double, square :: Maybe (Vector Double), distance :: Distance}
+-- | One shift of a curve.
+data Shift = Shift
+  { -- | 1 to the left of the curve's direction, -1 to the right
+    sign :: Double,
+    -- | the bevels at the points, if the distance is square to the surface
+    square :: Maybe (Vector Double),
+    distance :: Distance
+  }
 
--- | The piece that is walked at a place, if there is one.
+-- | The piece of a curve that is an element with this region and this finish.
 piece :: Region -> Curve.Curve -> Finish -> Result w Unfit Piece
 piece at curve finish = do
-  base <- pointsOf at (Curve.base curve)
-  let shifts = map shiftOf (Curve.layers curve)
-      sides = if sideSign shifts < 0 then RightSide else LeftSide
-      turned = map (turnedTo (sideSign shifts)) shifts
-  mapM_ (plain at) turned
-  surface <- surfaceOf at (Vector.length base) turned
+  points <- pointsOf at (Curve.base curve)
+  mapM_ (checkShift at) shifts
+  surfaces <- surfaceOf at (Vector.length points) shifts
+  let withSurfaces = maybe (repeat Nothing) (map Just) surfaces
   rows <-
     maybe
-      (refused (NoPiece at "a curve of no points" ""))
+      (refused (NoPiece at NoPoints))
       pure
-      ( NonEmpty.nonEmpty
-          (zipWith row (Vector.toList base) (maybe (repeat Nothing) (map Just) surface))
-      )
+      (NonEmpty.nonEmpty (zipWith row (Vector.toList points) withSurfaces))
   let cipher =
-        map recalculation turned <> [Bevelled | not (any isBevelled turned), Just _ <- [surface]]
+        map recalculation shifts <> [Bevelled | not (any isBevelled shifts), isJust surfaces]
   pure
     Piece
-      { towards = here (if null cipher then LeftSide else sides),
+      { towards = here (if not (null cipher) && side < 0 then RightSide else LeftSide),
         cipher = here cipher,
         rows,
         slow = here (Part.slow finish),
         allowance = let Mm a = Part.allowance finish in here a
       }
   where
+    original = map shiftOf (Curve.layers curve)
+    side = sideSign original
+    shifts = map (onSide side) original
     row p s = PointRow {px = here (Vec.x p), py = here (Vec.y p), surface = s}
     isBevelled s = case distance s of
       ShiftDistance.Bevelled {} -> True
       _ -> False
 
+-- | A value without a region of its own.
 here :: a -> Located a
 here = Located (Region 0 0)
 
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | The points of a natural spline, or of a straight line from one to another.
+-- | The points of a natural spline, or the two points of a straight line.
 pointsOf :: Region -> Base.Base -> Result w Unfit (Vector Vec.Point)
 pointsOf at base = case Base.method base of
   Base.Spline Base.Natural -> pure points
   Base.Polyline | Vector.length points == 2 -> pure points
-  _ ->
-    refused
-      ( NoPiece
-          at
-          "this curve"
-          "The curve of a piece is a spline through the points of a table, or a polyline through \
-          \two points."
-      )
+  _ -> refused (NoPiece at OtherCurve)
   where
     points = Vector.map Base.place (Base.rows base)
 
@@ -101,8 +99,8 @@ shiftOf (side, distance) = case distance of
       Carrier.LeftOf -> 1
       Carrier.RightOf -> -1
 
--- | The side to which the distances of a piece count: that of its first distance before the points;
--- where that is nothing or 0, the side of the first shift.
+-- | The side to which the distances of a piece count, as a sign: the side of its first distance
+-- before the points. Without such a distance, or with 0, the side of the first shift.
 sideSign :: [Shift] -> Double
 sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
@@ -113,9 +111,9 @@ sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf 
       ShiftDistance.Growing Growth {from = Mm h} -> Just h
       _ -> Nothing
 
--- | The same shift as one to another side.
-turnedTo :: Double -> Shift -> Shift
-turnedTo wanted s
+-- | A shift with the opposite distance if it is to the other side than the one wanted.
+onSide :: Double -> Shift -> Shift
+onSide wanted s
   | wanted == sign s = s
   | otherwise = s {sign = wanted, distance = opposite (distance s)}
   where
@@ -128,79 +126,46 @@ turnedTo wanted s
       ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
       ShiftDistance.Joggled j -> ShiftDistance.Joggled j
     minus (Mm h) = Mm (negate h)
-    -- Only the values are read.
+    -- Only the values of a column are used here.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
 
--- | What a sheet has no numbers for.
-plain :: Region -> Shift -> Result w Unfit ()
-plain at s = case distance s of
-  ShiftDistance.Bevelled _ _ (Mm delta)
-    | delta /= 0 ->
-      refused
-        ( NoCipher
-            at
-            "its 4 has an allowance"
-            "Write the allowance behind the element: allowance 0.5"
-        )
-  ShiftDistance.Growing Growth {between = Just _} ->
-    refused
-      ( NoCipher
-          at
-          "its 1 changes between two points"
-          "On a sheet the distance changes along the whole piece: make pieces of the parts."
-      )
-  ShiftDistance.Joggled _ ->
-    refused
-      (NoCipher at "it has a joggle" "Keep the program as it is, or make pieces of the parts.")
-  ShiftDistance.Square _ inner -> plain at s {distance = inner}
+-- | Refuses a shift without numbers on a sheet.
+checkShift :: Region -> Shift -> Result w Unfit ()
+checkShift at s = case distance s of
+  ShiftDistance.Bevelled _ _ (Mm delta) | delta /= 0 -> refused (NoCipher at AllowanceOfFour)
+  ShiftDistance.Growing Growth {between = Just _} -> refused (NoCipher at GrowthBetweenPoints)
+  ShiftDistance.Joggled _ -> refused (NoCipher at HasJoggle)
+  ShiftDistance.Square _ inner -> checkShift at s {distance = inner}
   ShiftDistance.Bevelled {} -> pure ()
   ShiftDistance.Growing _ -> pure ()
   ShiftDistance.Constant _ -> pure ()
   ShiftDistance.Pointwise _ -> pure ()
 
--- | The bevel and the height at every point, if a recalculation looks at them.
+-- | The surface at every point, given their count; nothing when no recalculation uses the bevel.
+-- Refuses bevels and heights that differ between recalculations.
 surfaceOf :: Region -> Int -> [Shift] -> Result w Unfit (Maybe [Surface])
 surfaceOf at count shifts
-  | null leans = pure Nothing
-  | different leans =
-    refused
-      ( NoCipher
-          at
-          "its bevels differ from one recalculation to another"
-          "On a sheet a point has one bevel."
-      )
-  | different heights =
-    refused
-      (NoCipher at "its heights differ from one 4 to another" "On a sheet a point has one height.")
-  | any (\s -> null (square s) && needsSquare (distance s)) shifts =
-    refused
-      ( NoCipher
-          at
-          "a distance is not square to the surface"
-          "On a sheet, distances of a piece with a bevel are square to the surface: 2(h, mu)."
-      )
-  | otherwise =
-    pure
-      ( Just
-          ( zipWith
-              (\m h -> Surface {mu = here (degreesOf m), flange = here h})
-              (concatMap toList (take 1 leans))
-              (concatMap toList (take 1 heights) <> replicate count 0)
-          )
-      )
+  | null bevels = pure Nothing
+  | areDifferent bevels = refused (NoCipher at DifferentBevels)
+  | areDifferent heights = refused (NoCipher at DifferentHeights)
+  | any isNotSquare shifts = refused (NoCipher at DistanceNotSquare)
+  | otherwise = pure (Just (zipWith surfaceAt bevelsAtPoints heightsAtPoints))
   where
     bevelled =
       [ (Column.values mu, Column.values h)
         | Shift {distance = ShiftDistance.Bevelled mu h _} <- shifts
       ]
-    leans = [mu | Shift {square = Just mu} <- shifts] <> map fst bevelled
+    bevels = [mu | Shift {square = Just mu} <- shifts] <> map fst bevelled
     heights = map snd bevelled
-    different list = case list of
+    bevelsAtPoints = concatMap toList (take 1 bevels)
+    heightsAtPoints = concatMap toList (take 1 heights) <> replicate count 0
+    surfaceAt m h = Surface {mu = here (degreesOf m), flange = here h}
+    areDifferent list = case list of
       [] -> False
       x : xs -> any (/= x) xs
-    needsSquare d = case d of
+    isNotSquare s = case distance s of
       ShiftDistance.Bevelled {} -> False
-      _ -> True
+      _ -> null (square s)
 
 recalculation :: Shift -> Recalculation
 recalculation s = case distance s of
@@ -214,7 +179,7 @@ recalculation s = case distance s of
     nonEmptyOf :: Vector Double -> Maybe (NonEmpty Double)
     nonEmptyOf = NonEmpty.nonEmpty . Vector.toList
 
--- | The shortest number of degrees that is this angle in radians.
+-- | The shortest decimal number of degrees that is exactly this angle in radians.
 degreesOf :: Double -> Double
 degreesOf angle = case [d | k <- [0 .. 16], Just d <- [rounded k], d * (pi / 180) == angle] of
   d : _ -> d

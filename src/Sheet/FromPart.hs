@@ -1,4 +1,5 @@
--- | An evaluated part as a sheet: every milled contour an array of pieces, every stop a point.
+-- | An evaluated part as an input sheet: every milled contour becomes an array of pieces, every
+-- stop a point. Refuses all that a sheet has no numbers for.
 module Sheet.FromPart
   ( fromPart,
   )
@@ -10,6 +11,7 @@ import Base.Quantity (Feed (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Checked.Syntax qualified as Checked
+import Control.Monad (unless, when)
 import Data.Foldable (toList)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -30,37 +32,43 @@ import Part.Part qualified as Part
 import Sheet.FromCurve (here)
 import Sheet.FromCurve qualified as FromCurve
 import Sheet.Sheet
-import Sheet.Unsupported (Unfit (..))
+import Sheet.Unsupported
+  ( CipherFault (..),
+    Feature (..),
+    FeedFault (..),
+    LinkFeature (..),
+    PathFault (..),
+    PieceFault (..),
+    SharedSetting (..),
+    Unfit (..),
+  )
 
 -- | The sheet of a part, or all that does not fit one. The program tells the dimensions of a cone,
--- which the part no longer knows.
+-- of which the part keeps only the radius.
 fromPart :: Checked.Program -> Part -> Result w Unfit Sheet
 fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
-  (_, Left e) -> Result [] [e] Nothing
-  (Nothing, _) -> Result [] [NoWay Nothing "the program does not say where the tool stands"] Nothing
-  (Just _, Right ([], _)) -> Result [] [NoWay Nothing "the program mills nothing"] Nothing
-  (Just (Located _ spot), Right (one : more, final)) ->
-    checkCount (one : more)
+  (_, Left e) -> refused e
+  (Nothing, _) -> refused (NoPath NoStart)
+  (Just _, Right ([], _)) -> refused (NoPath NothingMilled)
+  (Just (Located _ startPoint), Right (one : more, final)) ->
+    mapM_ (refused . ManyArrays . region') (take 1 (drop maxArrays (one : more)))
       *> ( build
              <$> generalData written part (fmap milled (one :| more))
-               <*> wayOf spot (one : more) final
+               <*> pathOf startPoint (one : more) final
                <*> traverse (arrayOf . milled) (one :| more)
          )
   where
-    build general (approach, onwards) arrays' =
-      case NonEmpty.zipWith (\a w -> a {onward = w}) arrays' onwards of
+    build general (approach, retracts) arrays' =
+      case NonEmpty.zipWith (\a points -> a {onward = points}) arrays' retracts of
         a :| as -> Sheet {general, approach, first = a, others = as}
-    checkCount list = case drop mostArrays list of
-      [] -> pure ()
-      r : _ -> refused (ManyArrays (region' r))
 
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | A contour that is milled, and the stops before it.
+-- | A milled contour, and the stops before it.
 data Run = Run {stops :: [Part.Stop], region' :: Region, milled :: (Region, Milling)}
 
--- | The contours, and the stops behind the last one.
+-- | The milled contours, and the stops after the last one.
 runsOf :: [Part.Operation] -> Either Unfit ([Run], [Part.Stop])
 runsOf = go []
   where
@@ -69,26 +77,20 @@ runsOf = go []
       Part.Travel ss : rest -> go (before <> toList ss) rest
       Part.Mill (Located at m) : rest -> do
         (runs, final) <- go (Part.retract m) rest
-        Right
-          ( Run
-              { stops = before <> Part.approach m,
-                region' = keyword at,
-                milled = (keyword at, m)
-              } :
-            runs,
-            final
-          )
-      Part.Pocket (Located at _) : _ -> Left (NoNumbers at "the clearing of a pocket")
-      Part.Drill (Located at _) : _ -> Left (NoNumbers at "drilling")
-      Part.Command (Located at c) : _ -> Left (NoNumbers at (commandName c))
-    commandName c = case c of
-      Part.SpindleOn _ _ -> "a command to the spindle"
-      Part.SpindleOff -> "a command to the spindle"
-      Part.CoolantTo _ -> "a command to the coolant"
-      Part.Auxiliary _ -> "an auxiliary command"
-      Part.ChangeTool _ _ -> "a second tool"
+        let region' = keyword at
+            run = Run {stops = before <> Part.approach m, region', milled = (region', m)}
+        Right (run : runs, final)
+      Part.Pocket (Located at _) : _ -> Left (NoNumbers at PocketClearing)
+      Part.Drill (Located at _) : _ -> Left (NoNumbers at DrillingHoles)
+      Part.Command (Located at c) : _ -> Left (NoNumbers at (commandFeature c))
+    commandFeature c = case c of
+      Part.SpindleOn _ _ -> SpindleCommand
+      Part.SpindleOff -> SpindleCommand
+      Part.CoolantTo _ -> CoolantCommand
+      Part.Auxiliary _ -> AuxiliaryCommand
+      Part.ChangeTool _ _ -> SecondTool
 
--- | The first word of a statement that mills or turns.
+-- | The region of a statement's keyword: @mill@ or @turn@.
 keyword :: Region -> Region
 keyword (Region a b) = Region a (min b (a + 4))
 
@@ -96,11 +98,11 @@ keyword (Region a b) = Region a (min b (a + 4))
 
 generalData :: Checked.Program -> Part -> NonEmpty (Region, Milling) -> Result w Unfit General
 generalData written part ((at, one) :| more) = do
-  mapM_ differs more
+  mapM_ checkShared more
   side <- sideOf (Part.side one)
   tolerance <- case Part.tolerance one of
     Part.OnPath (Mm t) -> pure t
-    Part.Band _ _ -> refused (NoNumbers at "a tolerance that differs inside and outside")
+    Part.Band _ _ -> refused (NoNumbers at BandTolerance)
   pure
     General
       { productCipher = here product',
@@ -116,22 +118,23 @@ generalData written part ((at, one) :| more) = do
   where
     (product', part') = fromMaybe (0, 0) (titleNumbers =<< Part.title part)
     (d, b, h) = toolOf written (Part.radius one)
-    differs (place, m) = do
-      same place "tool" (Part.radius m == Part.radius one && Part.gear m == Part.gear one)
-      same place "tolerance" (Part.tolerance m == Part.tolerance one)
-      same place "side of the walk" (value (Part.side m) == value (Part.side one))
-    same place what holds = if holds then pure () else refused (TwoOfOne place what)
+    checkShared (place, m) = do
+      same place SharedTool (Part.radius m == Part.radius one && Part.gear m == Part.gear one)
+      same place SharedTolerance (Part.tolerance m == Part.tolerance one)
+      same place SharedSide (value (Part.side m) == value (Part.side one))
+    same place setting isSame = unless isSame (refused (TwoOfOne place setting))
 
 sideOf :: Located Part.Side -> Result w Unfit (Located (Maybe Side))
 sideOf (Located at side) = case side of
   Part.LeftSide -> pure (here (Just LeftSide))
   Part.RightSide -> pure (here (Just RightSide))
   Part.On -> pure (here Nothing)
-  Part.Outside -> refused (NoNumbers at "the outside of a contour")
-  Part.Inside -> refused (NoNumbers at "the inside of a contour")
+  Part.Outside -> refused (NoNumbers at OutsideOfContour)
+  Part.Inside -> refused (NoNumbers at InsideOfContour)
 
--- | Diameter, bevel in degrees and height of the tool: those of the program's cone, if it touches
--- at this radius. Without a bevel it is a cylinder.
+-- | Diameter, bevel in degrees and height of the tool: the dimensions of the program's cone, if it
+-- touches the part at this radius; otherwise those of a cylinder. A cone without a bevel is a
+-- cylinder.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
@@ -167,71 +170,83 @@ wholeNumber :: Text -> Maybe Double
 wholeNumber text =
   if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.amount text else Nothing
 
--- The way
+-- The toolpath between the arrays
 
--- | The points up to the first array, and those behind each: where the tool stands at first, the
--- runs, the stops behind the last one.
-wayOf ::
+-- | The points up to the first array, and the points after each array: given the starting position,
+-- the milled contours, and the stops after the last one.
+pathOf ::
   Part.SpacePoint ->
   [Run] ->
   [Part.Stop] ->
   Result w Unfit (NonEmpty Waypoint, NonEmpty (NonEmpty Waypoint))
-wayOf spot runs final = do
+pathOf startPoint runs final = do
   feeds <- traverse feedOfRun runs
   before <- traverse (traverse paced . stops) runs
   after <- traverse paced final
-  case (runs, before, feeds) of
-    (_, first' : rest, f : fs) -> do
-      let z0 = let Mm z = Part.height spot in z
-          (z1, begin) = walk z0 [] first'
-          approach = points (Vec.x (Part.plane spot), Vec.y (Part.plane spot), z0) begin f
-      mapM_
-        (refused . unheighted)
-        [ s
-          | Run {milled = (_, m)} : _ <- [runs],
-            Just _ <- [Part.gear m],
-            s <- concatMap stops (drop 1 runs) <> final,
-            Nothing <- [Part.level s]
-        ]
-      onwards <- behind z1 f (zip3 (map region' runs) (rest <> [after]) (map Just fs <> [Nothing]))
+  case (before, feeds) of
+    (firstStops : rest, f : fs) -> do
+      let Mm z = Part.height startPoint
+          (z', approachPoints) = located z firstStops
+          origin = (Vec.x (Part.plane startPoint), Vec.y (Part.plane startPoint), z)
+      checkHeights runs final
+      retracts <-
+        retractsOf z' f (zip3 (map region' runs) (rest <> [after]) (map Just fs <> [Nothing]))
       maybe
-        (refused (NoWay Nothing "the program mills nothing"))
-        (pure . (approach,))
-        (NonEmpty.nonEmpty onwards)
-    _ -> refused (NoWay Nothing "the program mills nothing")
+        (refused (NoPath NothingMilled))
+        (pure . (waypoints origin approachPoints f,))
+        (NonEmpty.nonEmpty retracts)
+    _ -> refused (NoPath NothingMilled)
+
+-- | Refuses points without a height after the first contour of a swivelling blade, which changes
+-- its height.
+checkHeights :: [Run] -> [Part.Stop] -> Result w Unfit ()
+checkHeights runs final = case runs of
+  Run {milled = (_, Part.Milling {Part.gear = Just _})} : others' ->
+    mapM_
+      (refused . NoPath . NoHeight . region . Part.place)
+      [s | s <- concatMap stops others' <> final, Nothing <- [Part.level s]]
+  _ -> pure ()
+
+type Position = (Double, Double, Double)
+
+-- | Stops with their positions, from a height on, and the height of the last one. A stop without a
+-- height keeps the one before it.
+located :: Double -> [(Part.Stop, Double)] -> (Double, [(Position, Double)])
+located z list = case list of
+  [] -> (z, [])
+  (s, pace) : rest ->
+    let z' = maybe z (\(Mm h) -> h) (Part.level s)
+        p = value (Part.place s)
+        (final, others') = located z' rest
+     in (final, ((Vec.x p, Vec.y p, z'), pace) : others')
+
+-- | Points from a position on. A waypoint has the feed at which the next point is reached; the last
+-- one has the feed given.
+waypoints :: Position -> [(Position, Double)] -> Double -> NonEmpty Waypoint
+waypoints from list final = case list of
+  [] -> waypoint from final :| []
+  (next, pace) : rest -> waypoint from pace NonEmpty.<| waypoints next rest final
   where
-    unheighted s =
-      NoWay
-        (Just (region (Part.place s)))
-        "a swivelling blade leaves its height, and this point does not say one"
-    walk z done list = case list of
-      [] -> (z, reverse done)
-      (s, pace) : rest ->
-        let z' = maybe z (\(Mm h) -> h) (Part.level s)
-            p = value (Part.place s)
-         in walk z' (((Vec.x p, Vec.y p, z'), pace) : done) rest
-    points at list feed' = case list of
-      [] -> waypoint at feed' :| []
-      (next, pace) : rest -> waypoint at pace NonEmpty.<| points next rest feed'
-    behind z f list = case list of
-      [] -> pure []
-      (at, ss, onto) : rest -> case walk z [] ss of
-        (z', (place, pace) : others') -> do
-          if pace == f
-            then pure ()
-            else
-              refused
-                ( NoFeed
-                    (maybe at (region . Part.place . fst) (listToMaybe ss))
-                    "the tool leaves a contour at another feed than that of the contour"
-                    "On a sheet a feed holds from a point on: go to the first point behind a \
-                    \contour at the contour's feed, and from there as you like."
-                )
-          (points place others' (fromMaybe 0 onto) :) <$> behind z' (fromMaybe 0 onto) rest
-        (_, []) -> refused (NoWay (Just at) "behind this contour the tool goes to no point")
     waypoint (a, b, c) f = Waypoint {x = here a, y = here b, z = here c, feed = here f}
 
--- | A stop and the feed at which it is reached.
+-- | The points after each array, given the height and the feed of the first one. For each array:
+-- its region, the stops after it, and the feed of the next array.
+retractsOf ::
+  Double ->
+  Double ->
+  [(Region, [(Part.Stop, Double)], Maybe Double)] ->
+  Result w Unfit [NonEmpty Waypoint]
+retractsOf z f list = case list of
+  [] -> pure []
+  (at, ss, nextFeed) : rest -> case located z ss of
+    (z', (position, pace) : others') -> do
+      let leaving = maybe at (region . Part.place . fst) (listToMaybe ss)
+      when (pace /= f) (refused (NoFeed leaving LeavingFeed))
+      let f' = fromMaybe 0 nextFeed
+      (waypoints position others' f' :) <$> retractsOf z' f' rest
+    (_, []) -> refused (NoPath (NoRetract at))
+
+-- | A stop and the feed at which it is reached, mm\/min.
 paced :: Part.Stop -> Result w Unfit (Part.Stop, Double)
 paced s = case Part.pace s of
   Part.Rapid -> pure (s, rapidFeed)
@@ -240,38 +255,24 @@ paced s = case Part.pace s of
 feedOfRun :: Run -> Result w Unfit Double
 feedOfRun = plainFeed . Part.feed . snd . milled
 
+-- | A feed below 'rapidFeed'.
 plainFeed :: Located Feed -> Result w Unfit Double
 plainFeed (Located at (Feed f))
-  | f >= rapidFeed =
-    refused (NoFeed at "a feed of 9999 mm/min or more" "On a sheet 9999 means rapid.")
+  | f >= rapidFeed = refused (NoFeed at FeedTooHigh)
   | otherwise = pure f
 
 -- Arrays
 
--- | The pieces of a contour, and what is asked of its milling; the way on is still open.
+-- | The pieces of a contour. The points after them are still missing.
 arrayOf :: (Region, Milling) -> Result w Unfit Array
 arrayOf (at, m) = do
-  mapM_ (refused . NoNumbers at) $
-    ["turning" | Part.work m == Part.Turned]
-      <> ["a depth" | not (null (Part.levels m))]
-      <> ["a lead" | Just _ <- [Part.leadIn m, Part.leadOut m]]
-      <> ["an allowance of all of a contour" | Part.allowances m /= Mm 0 :| []]
-      <> ["a sharp corner" | Part.corners m == Part.Sharp]
-      <> ["a compensation by the control" | Just _ <- [Part.byControl m]]
+  mapM_ (refused . NoNumbers at) (unsupported m)
+  when (Part.ends contour == Part.Closed) (refused (NoPiece name ClosedContour))
   case NonEmpty.nonEmpty (Part.legs contour) of
-    _
-      | Part.ends contour == Part.Closed ->
-        refused (NoPiece name "a closed contour" "A sheet joins its pieces to open contours.")
-    Nothing ->
-      refused
-        ( NoPiece
-            name
-            "a contour that is moved, turned, or made of others"
-            "Write its pieces down where they are walked."
-        )
-    Just legs -> do
-      pieces' <- traverse (pieceOf m) legs
-      links <- traverse linkOf (NonEmpty.init legs)
+    Nothing -> refused (NoPiece name DerivedContour)
+    Just elements -> do
+      pieces' <- traverse (pieceOf m) elements
+      links <- traverse linkOf (NonEmpty.init elements)
       pure
         Array
           { joined = zipWith LinkedPiece (NonEmpty.init pieces') links,
@@ -283,91 +284,77 @@ arrayOf (at, m) = do
     name = region (Part.contourName contour)
     nowhere = Waypoint {x = here 0, y = here 0, z = here 0, feed = here 0}
 
+-- | The settings of a milling that a sheet has no numbers for.
+unsupported :: Milling -> [Feature]
+unsupported m =
+  [TurningContour | Part.work m == Part.Turned]
+    <> [Depth | not (null (Part.levels m))]
+    <> [Lead | Just _ <- [Part.leadIn m, Part.leadOut m]]
+    <> [ContourAllowance | Part.allowances m /= Mm 0 :| []]
+    <> [SharpCorner | Part.corners m == Part.Sharp]
+    <> [ControlCompensation | Just _ <- [Part.byControl m]]
+
 pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
-pieceOf m leg = case Part.source leg of
-  Nothing ->
-    refused
-      ( NoPiece
-          at
-          "this element"
-          "Elements of a sheet are curves: write a line as polyline([p, q]), a curve as \
-          \spline(table), and those of another contour once more."
-      )
+pieceOf m element = case Part.source element of
+  Nothing -> refused (NoPiece at PlainElement)
   Just curve -> do
     mapM_
-      ( \f ->
-          refused
-            ( NoFeed
-                (region f)
-                "an element with a feed of its own"
-                "On a sheet all pieces of an array have one feed."
-            )
-      )
-      (Part.ownFeed (Part.asked leg))
-    made <- FromCurve.piece at (Curve.exact curve) (Part.asked leg)
-    mapM_ (const (swivelling at curve made leans)) (Part.gear m)
-    pure made
+      (\f -> refused (NoFeed (region f) FeedOfElement))
+      (Part.ownFeed (Part.asked element))
+    piece <- FromCurve.piece at (Curve.exact curve) (Part.asked element)
+    mapM_ (const (checkSwivel at curve piece bevels)) (Part.gear m)
+    pure piece
   where
-    at = Part.spot leg
-    leans =
+    at = Part.spot element
+    bevels =
       [ (Part.segment e, b)
         | e <- toList (Part.elements (Part.contour m)),
           Part.origin e == at,
           Just b <- [Part.bevel e]
       ]
 
--- | A blade swivels on every piece with a bevel by that bevel, and on the others not at all: on
--- each element by what the bevels of the rows come to at its ends.
-swivelling ::
+-- | Refuses a blade that does not swivel by the bevel of its piece, 0 on a piece without one. The
+-- bevels at the ends of the segments are compared with those of the points, interpolated.
+checkSwivel ::
   Region ->
   Curve.PartCurve ->
   Piece ->
   [(Segment, (Double, Double))] ->
   Result w Unfit ()
-swivelling at curve made leans
-  | surfaced made && null leans =
-    refused
-      ( NoCipher
-          at
-          "the blade does not swivel by the bevel of its cipher"
-          "Behind an element with a 4 write: bevel mu"
-      )
-  | any differs (concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- leans]) =
-    refused
-      ( NoCipher
-          at
-          "the blade swivels by another bevel than that of its cipher"
-          "Behind an element with a 4 write: bevel mu; behind another one: bevel 0"
-      )
+checkSwivel at curve piece bevels
+  | hasSurface piece && null bevels = refused (NoCipher at NotSwivelling)
+  | any isOther ends = refused (NoCipher at OtherSwivel)
   | otherwise = pure ()
   where
-    bevels = [maybe 0 (\w -> value (mu w) * pi / 180) (surface r) | r <- toList (rows made)]
-    marks = Curve.along curve (Vector.fromList bevels)
-    differs (p, b) =
-      let Mm s =
-            MeasuredPolyarc.station (Curve.laid curve) p
-          Rad slack = Tolerance.bevel
-       in abs (b - between s marks) > 2 * slack
-    between s known = case known of
-      (a, x) : more@((b, y) : _)
-        | s <= b || null (drop 1 more) ->
-          if b > a then x + (y - x) * max 0 (min 1 ((s - a) / (b - a))) else y
-        | otherwise -> between s more
-      [(_, x)] -> x
-      [] -> 0
+    ends = concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- bevels]
+    bevelOf r = maybe 0 (\s -> value (mu s) * pi / 180) (surface r)
+    marks = Curve.along curve (Vector.fromList (map bevelOf (toList (rows piece))))
+    Rad slack = Tolerance.bevel
+    isOther (p, b) =
+      let Mm s = MeasuredPolyarc.station (Curve.approximation curve) p
+       in abs (b - interpolated s marks) > 2 * slack
+
+-- | Linear interpolation between known places; constant after the last one.
+interpolated :: Double -> [(Double, Double)] -> Double
+interpolated s known = case known of
+  (a, x) : more@((b, y) : _)
+    | s <= b || null (drop 1 more) ->
+      if b > a then x + (y - x) * max 0 (min 1 ((s - a) / (b - a))) else y
+    | otherwise -> interpolated s more
+  [(_, x)] -> x
+  [] -> 0
 
 linkOf :: Part.ContourElement -> Result w Unfit (Located Link)
-linkOf leg = case Part.link leg of
+linkOf element = case Part.link element of
   Nothing -> pure (here Intersection)
   Just (LinkCandidate.Meet Nothing) -> pure (here Intersection)
   Just LinkCandidate.Smooth -> pure (here Joint)
-  Just (LinkCandidate.Fillet turn (Mm r)) ->
+  Just (LinkCandidate.Fillet sense (Mm r)) ->
     pure
-      (here (Rounding (case turn of Carrier.Clockwise -> r; Carrier.CounterClockwise -> negate r)))
-  Just (LinkCandidate.Meet (Just _)) -> refused (NoLink at "an intersection with a choice")
-  Just (LinkCandidate.Fixed _) ->
-    refused (NoPiece at "a contour in a contour" "Write its pieces down where they are walked.")
-  Just LinkCandidate.Tangent -> refused (NoLink at "a tangent")
-  Just (LinkCandidate.Chamfer _) -> refused (NoLink at "a chamfer")
+      (here (Rounding (case sense of Carrier.Clockwise -> r; Carrier.CounterClockwise -> negate r)))
+  Just (LinkCandidate.Meet (Just _)) -> refused (NoLink at ChosenIntersection)
+  Just (LinkCandidate.Fixed _) -> refused (NoPiece at NestedContour)
+  Just LinkCandidate.Tangent -> refused (NoLink at TangentLink)
+  Just (LinkCandidate.Chamfer _) -> refused (NoLink at ChamferLink)
   where
-    at = Part.spot leg
+    at = Part.spot element

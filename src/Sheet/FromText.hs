@@ -1,28 +1,37 @@
--- | A text of numbers into a sheet. Words that are no numbers are all reported; of what the numbers
--- mean, the first mistake, since everything behind it is shifted.
+-- | Reads an input sheet from its text.
+--
+-- All words that are no numbers are reported. Of the numbers' meaning only the first mistake is
+-- reported, because every number after it is shifted.
 module Sheet.FromText
   ( read,
   )
 where
 
-import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
-import Control.Monad (unless, when)
+import Control.Monad (forM_, unless, when)
 import Control.Monad.State.Strict (StateT, evalStateT, gets, lift, modify', put)
 import Data.Either (lefts, rights)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
-import Sheet.Error (Error (..), NumberPosition (..))
+import Sheet.Error
+  ( ApproachFault (..),
+    Error (..),
+    Expected (..),
+    GeneralFault (..),
+    LinkNumber (..),
+    NumberPosition (..),
+    RetractFault (..),
+  )
 import Sheet.PieceFromWords qualified as PieceFromWords
 import Sheet.Sheet
 import Sheet.Word (SheetWord (..), WordValue (..), figure)
 import Sheet.Word qualified as Word
 import Prelude hiding (read)
 
--- | Read a sheet.
+-- | The sheet of a text.
 read :: Text -> Result w Error Sheet
 read text
   | not (null (lefts found)) = Result [] (lefts found) Nothing
@@ -30,47 +39,48 @@ read text
     either
       (\e -> Result [] [e] Nothing)
       (Result [] [] . Just)
-      (evalStateT sheet (Before {left = rights found, final' = NumberPosition (Region 0 0) 1}))
+      (evalStateT sheet (Input {unread = rights found, last' = NumberPosition (Region 0 0) 1}))
   where
     found = Word.entries text
 
 -- Reading
 
--- | What is still to be read, and the word that was read last.
-data Before = Before {left :: [SheetWord], final' :: NumberPosition}
+-- | The words to be read, and the position of the last word read.
+data Input = Input {unread :: [SheetWord], last' :: NumberPosition}
 
-type Reader = StateT Before (Either Error)
+type Reader = StateT Input (Either Error)
 
 refuse :: Error -> Reader a
 refuse = lift . Left
 
--- | The next word, if there is one.
+-- | Reads a word; nothing at the end of the sheet.
 next :: Reader (Maybe SheetWord)
 next = do
-  before <- gets left
-  case before of
+  input <- gets unread
+  case input of
     [] -> pure Nothing
-    e : rest -> Just e <$ put Before {left = rest, final' = spot e}
+    e : rest -> Just e <$ put Input {unread = rest, last' = position e}
 
 peek :: Reader (Maybe SheetWord)
-peek = gets (listToMaybe . left)
+peek = gets (listToMaybe . unread)
 
+-- | The position of the last word read.
 latest :: Reader NumberPosition
-latest = gets final'
+latest = gets last'
 
--- | The next word; at the end of the sheet, the complaint that something is expected.
-needed :: Text -> Reader SheetWord
-needed what = next >>= maybe (latest >>= \s -> refuse (EndMissing s what)) pure
+-- | Reads a word; fails at the end of the sheet.
+needed :: Expected -> Reader SheetWord
+needed expected = next >>= maybe (latest >>= \s -> refuse (EndMissing s expected)) pure
 
--- | The words up to an end mark, and the mark.
-upToMark :: Text -> Reader ([SheetWord], SheetWord)
-upToMark what = do
-  (inside, behind) <- gets (break ((== Mark) . symbol) . left)
-  case behind of
-    mark : rest -> (inside, mark) <$ put Before {left = rest, final' = spot mark}
+-- | Reads the words up to an end mark, and the mark.
+upToMark :: Expected -> Reader ([SheetWord], SheetWord)
+upToMark expected = do
+  (inside, rest) <- gets (break ((== Mark) . symbol) . unread)
+  case rest of
+    mark : others -> (inside, mark) <$ put Input {unread = others, last' = position mark}
     [] -> do
-      mapM_ (\e -> modify' (\b -> b {final' = spot e})) (listToMaybe (reverse inside))
-      latest >>= \s -> refuse (EndMissing s what)
+      mapM_ (\e -> modify' (\b -> b {last' = position e})) (listToMaybe (reverse inside))
+      latest >>= \s -> refuse (EndMissing s expected)
 
 -- Parts of the sheet
 
@@ -78,189 +88,133 @@ sheet :: Reader Sheet
 sheet = do
   general <- generalData
   approach <- approachPoints
-  (first, more) <- array 1
-  others <- if more then furtherArrays 2 else pure []
-  behind <- peek
-  mapM_ (refuse . BehindTheEnd . spot) behind
+  (first, hasMore) <- array 1
+  others <- if hasMore then furtherArrays 2 else pure []
+  remainder <- peek
+  mapM_ (refuse . BehindTheEnd . position) remainder
   pure Sheet {general, approach, first, others}
 
 furtherArrays :: Int -> Reader [Array]
 furtherArrays count = do
-  (one, more) <- array count
-  (one :) <$> if more then furtherArrays (count + 1) else pure []
+  (one, hasMore) <- array count
+  (one :) <$> if hasMore then furtherArrays (count + 1) else pure []
+
+-- General data
+
+type Positioned = (NumberPosition, Number)
 
 generalData :: Reader General
 generalData = do
-  given <- traverse generalWord [1 .. generalWords]
+  given <- traverse generalWord [1 .. generalCount]
   case given of
-    productCipher
-      : partCipher
-      : program
-      : diameter
-      : gear
-      : bevel
-      : height
-      : tolerance
+    product'
+      : part'
+      : program'
+      : diameter'
+      : gear'
+      : bevel'
+      : height'
+      : tolerance'
       : sideWord
-      : reserve ->
+      : unused ->
         do
-          mapM_
-            (uncurry wholeNumber)
-            [ ("the cipher of the product", productCipher),
-              ("the cipher of the part", partCipher),
-              ("the number of the program", program)
-            ]
-          mapM_
-            ( \n ->
-                wrong
-                  n
-                  "a word that is not used"
-                  "The addresses 0101 to 0107 are not used and hold 0."
-            )
-            [n | n <- reserve, value (snd n) /= 0]
-          when
-            (value (snd diameter) <= 0)
-            (wrong diameter "the diameter of the tool" "It is above 0.")
-          when (value (snd tolerance) <= 0) (wrong tolerance "the tolerance" "It is above 0.")
-          mapM_
-            (\(what, n) -> when (value (snd n) < 0) (wrong n what "It is 0 or above."))
-            [("the diameter of the wheel", gear), ("the height of the cone", height)]
-          when
-            (value (snd gear) /= 0)
-            ( mapM_
-                ( \n ->
-                    when
-                      (value (snd n) /= 0)
-                      ( wrong
-                          n
-                          "a cone's dimension"
-                          "A tool is a swivelling blade or a cone, not both."
-                      )
-                )
-                [bevel, height]
-            )
-          when
-            (value (snd bevel) == 0 && value (snd height) /= 0)
-            (wrong height "the height of the cone" "A tool without a bevel is no cone.")
+          check ProductCipherNotWhole isWhole product'
+          check PartCipherNotWhole isWhole part'
+          check ProgramNotWhole isWhole program'
+          mapM_ (check UnusedWord (== 0)) unused
+          check DiameterNotPositive (> 0) diameter'
+          check ToleranceNotPositive (> 0) tolerance'
+          checkTool gear' bevel' height'
           side <- sideOf sideWord
           pure
             General
-              { productCipher = snd productCipher,
-                partCipher = snd partCipher,
-                program = snd program,
-                diameter = snd diameter,
-                gear = snd gear,
-                bevel = snd bevel,
-                height = snd height,
-                tolerance = snd tolerance,
+              { productCipher = snd product',
+                partCipher = snd part',
+                program = snd program',
+                diameter = snd diameter',
+                gear = snd gear',
+                bevel = snd bevel',
+                height = snd height',
+                tolerance = snd tolerance',
                 side
               }
     _ -> latest >>= \s -> refuse (GeneralShort s (length given))
   where
-    wholeNumber what n =
-      unless
-        ( value (snd n) >= 0
-            && value (snd n) < 1e9
-            && value (snd n) == fromInteger (round (value (snd n)))
-        )
-        $ wrong n what "It is a whole number of at most nine digits."
-    sideOf n = case value (snd n) of
-      1 -> pure (Located (region (snd n)) (Just LeftSide))
-      -1 -> pure (Located (region (snd n)) (Just RightSide))
-      0 -> pure (Located (region (snd n)) Nothing)
-      _ ->
-        wrong
-          n
-          "the side of the tool"
-          "It is 1, left of the walk, -1, right of it, or 0, on the pieces themselves."
+    isWhole x = x >= 0 && x < 1e9 && x == fromInteger (round x)
 
-wrong :: (NumberPosition, Number) -> Text -> Text -> Reader a
-wrong (s, _) what must = refuse (GeneralWrong s what must)
+-- | Checks the dimensions of the tool: a cylinder, a cone or a swivelling blade.
+checkTool :: Positioned -> Positioned -> Positioned -> Reader ()
+checkTool gear' bevel' height' = do
+  check NegativeGear (>= 0) gear'
+  check NegativeHeight (>= 0) height'
+  when (value (snd gear') /= 0) (mapM_ (check BladeWithCone (== 0)) [bevel', height'])
+  when (value (snd bevel') == 0) (check HeightWithoutBevel (== 0) height')
 
--- | One of the general data, counted from 1.
-generalWord :: Int -> Reader (NumberPosition, Number)
+-- | Fails when a number does not satisfy a condition.
+check :: GeneralFault -> (Double -> Bool) -> Positioned -> Reader ()
+check fault isRight (s, n) = unless (isRight (value n)) (refuse (GeneralWrong s fault))
+
+sideOf :: Positioned -> Reader (Located (Maybe Side))
+sideOf (s, n) = case value n of
+  1 -> pure (Located (region n) (Just LeftSide))
+  -1 -> pure (Located (region n) (Just RightSide))
+  0 -> pure (Located (region n) Nothing)
+  _ -> refuse (GeneralWrong s UnknownSide)
+
+-- | Reads one of the general data, with its number from 1.
+generalWord :: Int -> Reader Positioned
 generalWord count = do
   e <- next
   s <- latest
   maybe (refuse (GeneralShort s (count - 1))) (pure . (s,)) (e >>= figure)
 
--- | The points up to the first array, the first of which is where the cutter stands.
+-- Points
+
+-- | Reads the points up to the first array; the first one is the cutter's starting position.
 approachPoints :: Reader (NonEmpty Waypoint)
 approachPoints = do
-  (inside, mark) <- upToMark "the -0 behind the points of the approach"
-  mapM_
-    ( \e ->
-        refuse (ApproachShifted (spot e) "A sign without a number is no coordinate and no feed.")
-    )
-    (filter Word.isSign inside)
-  case fours [(spot e, n) | e <- inside, Just n <- [figure e]] of
+  (inside, mark) <- upToMark MarkAfterApproach
+  mapM_ (refuse . (`ApproachShifted` SignInApproach) . position) (filter Word.isSign inside)
+  case fours [(position e, n) | e <- inside, Just n <- [figure e]] of
     Just (p : ps) -> do
-      mapM_
-        ( \(s, w) ->
-            when (value (feed w) <= 0) (refuse (ApproachShifted s "This feed is not above 0."))
-        )
-        (p : ps)
-      working (NonEmpty.last (p :| ps))
+      forM_ (p : ps) $ \(s, w) ->
+        when (value (feed w) <= 0) (refuse (ApproachShifted s ApproachFeedNotPositive))
+      checkWorkingFeed (NonEmpty.last (p :| ps))
       pure (fmap snd (p :| ps))
-    Just [] -> refuse (ApproachShifted (spot mark) "There is no point at all.")
-    Nothing ->
-      refuse
-        ( ApproachShifted
-            (spot mark)
-            ( "Before this -0 stand "
-                <> Decimal.whole (length inside)
-                <> " numbers, which is no whole number of points."
-            )
-        )
+    Just [] -> refuse (ApproachShifted (position mark) NoApproachPoint)
+    Nothing -> refuse (ApproachShifted (position mark) (ApproachCount (length inside)))
 
--- | The last point before an array: the spot of its feed.
-working :: (NumberPosition, Waypoint) -> Reader ()
-working (s, w) = when (value (feed w) == rapidFeed) (refuse (NoWorkingFeed s))
+-- | Fails when the last point before an array, with the position of its feed, sets the rapid feed.
+checkWorkingFeed :: (NumberPosition, Waypoint) -> Reader ()
+checkWorkingFeed (s, w) = when (value (feed w) == rapidFeed) (refuse (NoWorkingFeed s))
 
--- | Numbers by fours as points, each with the spot of its feed.
-fours :: [(NumberPosition, Number)] -> Maybe [(NumberPosition, Waypoint)]
+-- | Points from groups of four numbers, each with the position of its feed; nothing when the count
+-- is no multiple of four.
+fours :: [Positioned] -> Maybe [(NumberPosition, Waypoint)]
 fours numbers = case numbers of
   [] -> Just []
   (_, x) : (_, y) : (_, z) : (s, feed) : rest -> ((s, Waypoint {x, y, z, feed}) :) <$> fours rest
   _ -> Nothing
 
--- | The array with this number, and whether another one follows.
-array :: Int -> Reader (Array, Bool)
-array count = do
-  begin <- peek
-  when (count > mostArrays) (mapM_ (refuse . TooManyArrays . spot) begin)
-  (joined, final) <- piecesOfArray
-  (onward, more) <- onwardPoints
-  pure (Array {joined, final, onward}, more)
-
-piecesOfArray :: Reader ([LinkedPiece], Piece)
-piecesOfArray = do
-  (one, link) <- piece
-  case link of
-    Nothing -> pure ([], one)
-    Just l -> do
-      (rest, final) <- piecesOfArray
-      pure (LinkedPiece one l : rest, final)
-
--- | The points behind an array, and whether another one follows.
-onwardPoints :: Reader (NonEmpty Waypoint, Bool)
-onwardPoints = go []
+-- | Reads the points after an array, and whether another array follows.
+retractPoints :: Reader (NonEmpty Waypoint, Bool)
+retractPoints = go []
   where
     go before = do
-      (s, point) <- onwardPoint
+      (s, point) <- retractPoint
       let points = NonEmpty.reverse (point :| before)
-      when (value (feed point) < 0) (refuse (OnwardShifted s "This feed is below 0."))
-      behind <- peek
-      case symbol <$> behind of
+      when (value (feed point) < 0) (refuse (RetractShifted s NegativeFeed))
+      following <- peek
+      case symbol <$> following of
         _ | value (feed point) == 0 -> pure (points, False)
         Just Mark -> do
-          working (s, point)
+          checkWorkingFeed (s, point)
           (points, True) <$ next
         _ -> go (point : before)
 
--- | A point, and the spot of its feed.
-onwardPoint :: Reader (NumberPosition, Waypoint)
-onwardPoint = do
+-- | Reads a point, with the position of its feed.
+retractPoint :: Reader (NumberPosition, Waypoint)
+retractPoint = do
   x <- coordinate
   y <- coordinate
   z <- coordinate
@@ -272,25 +226,43 @@ onwardPoint = do
       e <- next
       s <- latest
       case e of
-        Nothing -> refuse (OnwardShifted s "The sheet ends here, and no feed was 0.")
-        Just found ->
-          maybe
-            (refuse (OnwardShifted s "Here no coordinate and no feed stands."))
-            pure
-            (figure found)
+        Nothing -> refuse (RetractShifted s NoLastFeed)
+        Just found -> maybe (refuse (RetractShifted s NotACoordinate)) pure (figure found)
 
--- Pieces
+-- Arrays and pieces
 
--- | A piece, and its link unless it is the last one of its array.
+-- | Reads the array with a number from 1, and whether another one follows.
+array :: Int -> Reader (Array, Bool)
+array count = do
+  begin <- peek
+  when (count > maxArrays) (mapM_ (refuse . TooManyArrays . position) begin)
+  (joined, final) <- piecesOfArray
+  (onward, hasMore) <- retractPoints
+  pure (Array {joined, final, onward}, hasMore)
+
+piecesOfArray :: Reader ([LinkedPiece], Piece)
+piecesOfArray = do
+  (one, link) <- piece
+  case link of
+    Nothing -> pure ([], one)
+    Just l -> do
+      (rest, final) <- piecesOfArray
+      pure (LinkedPiece one l : rest, final)
+
+-- | Reads a piece and its link; the last piece of an array has none.
 piece :: Reader (Piece, Maybe (Located Link))
 piece = do
-  opening <- needed "a piece, or the feed 0 of the last point"
-  (negative, digits) <- either refuse pure (PieceFromWords.cipherOf opening)
-  (inside, mark) <- upToMark "the -0 behind a piece"
-  body <- either refuse pure (PieceFromWords.pieceOf opening negative digits inside mark)
-  link <- linkOf =<< needed "the link of a piece"
-  left' <- needed "the allowance of a piece"
-  allowance <- maybe (refuse (LinkMissing (spot left') "allowance")) pure (figure left')
+  opening <- needed PieceOrLastFeed
+  (isNegative, digits) <- either refuse pure (PieceFromWords.cipherOf opening)
+  (inside, mark) <- upToMark MarkAfterPiece
+  body <- either refuse pure (PieceFromWords.pieceOf opening isNegative digits inside mark)
+  link <- linkOf =<< needed LinkOfPiece
+  allowanceWord <- needed AllowanceOfPiece
+  allowance <-
+    maybe
+      (refuse (LinkMissing (position allowanceWord) AllowanceNumber))
+      pure
+      (figure allowanceWord)
   pure (body {allowance}, link)
 
 linkOf :: SheetWord -> Reader (Maybe (Located Link))
@@ -299,6 +271,6 @@ linkOf e = case symbol e of
   Figure r -> here (Rounding r)
   Plus -> here Joint
   Minus -> here Intersection
-  Mark -> refuse (LinkMissing (spot e) "link")
+  Mark -> refuse (LinkMissing (position e) LinkNumber)
   where
-    here = pure . Just . Located (site (spot e))
+    here = pure . Just . Located (site (position e))

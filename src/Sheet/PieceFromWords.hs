@@ -1,4 +1,10 @@
--- | The words of one piece into what they mean. How many there are follows from its cipher.
+-- | The meaning of the words of one piece. The cipher determines their count and their order:
+--
+-- * before the points: one number for each 1 and each 2;
+-- * for each point: x, y, and with a 4 the bevel and the height;
+-- * after the points: one number for each 1;
+-- * one number for each point and each 6;
+-- * the flag of the feed.
 module Sheet.PieceFromWords
   ( cipherOf,
     pieceOf,
@@ -9,8 +15,7 @@ import Base.Region (Located (..), Region (..))
 import Control.Monad (when)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
-import Data.Text qualified as Text
-import Sheet.Error (Error (..), NumberPosition (..), PieceMisfit (..))
+import Sheet.Error (CipherFault (..), Error (..), NumberPosition (..), PieceMisfit (..))
 import Sheet.Sheet
 import Sheet.Word (SheetWord (..), WordValue (..), figure, isSign)
 
@@ -19,73 +24,112 @@ cipherOf :: SheetWord -> Either Error (Bool, [Digit])
 cipherOf e = case symbol e of
   Figure 0 -> pure (False, [])
   Figure c
-    | abs c == fromInteger (round c') && c' < 1e9 ->
-      (c < 0,) <$> traverse digit (show (round c' :: Int))
-    where
-      c' = abs c
-  Figure _ -> unknown "A cipher is a whole number of at most nine digits."
-  Mark -> unknown "Here stands an end mark; a piece begins with its cipher."
-  Plus -> unknown "Here stands a sign without a number; a piece begins with its cipher."
-  Minus -> unknown "Here stands a sign without a number; a piece begins with its cipher."
+    | abs c == fromInteger (round (abs c)) && abs c < 1e9 ->
+      (c < 0,) <$> traverse digit (show (round (abs c) :: Int))
+  Figure _ -> unknown CipherNotWhole
+  Mark -> unknown MarkInsteadOfCipher
+  Plus -> unknown SignInsteadOfCipher
+  Minus -> unknown SignInsteadOfCipher
   where
-    unknown why = Left (CipherUnknown (spot e) why)
+    unknown fault = Left (CipherUnknown (position e) fault)
     digit c = case c of
       '1' -> pure One
       '2' -> pure Two
       '4' -> pure Four
       '6' -> pure Six
-      _ -> unknown ("It has the digit " <> Text.singleton c <> ".")
+      _ -> unknown (UnknownDigit c)
 
--- | The data of a piece: its cipher, the words up to the end mark, the mark. It has no allowance
--- yet.
+-- | The counts of numbers that a cipher asks for.
+data Layout = Layout {before :: Int, each :: Int, after :: Int, again :: Int}
+
+layoutOf :: [Digit] -> Layout
+layoutOf digits =
+  Layout
+    { before = length (filter (`elem` [One, Two]) digits),
+      each = if Four `elem` digits then 4 else 2,
+      after = length (filter (== One) digits),
+      again = length (filter (== Six) digits)
+    }
+
+-- | The numbers of a piece by their meaning.
+data Parts = Parts
+  { -- | the distances before the points
+    heads :: [Number],
+    -- | the numbers of each point
+    pointRows :: [[Number]],
+    -- | the distances after the points
+    tails :: [Number],
+    -- | the distances for each point, by recalculation
+    given :: [[Number]],
+    flag :: Maybe Number
+  }
+
+partsOf :: Layout -> Int -> [Number] -> Parts
+partsOf Layout {before, each, after, again} points numbers =
+  Parts
+    { heads,
+      pointRows = groups each body,
+      tails,
+      given = groups points givenNumbers,
+      flag = listToMaybe rest
+    }
+  where
+    (heads, afterHeads) = splitAt before numbers
+    (body, afterBody) = splitAt (points * each) afterHeads
+    (tails, afterTails) = splitAt after afterBody
+    (givenNumbers, rest) = splitAt (points * again) afterTails
+
+-- | A piece from the word of its cipher, the cipher, the words up to the end mark, and the end
+-- mark. Its allowance is 0.
 pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
-pieceOf opening negative digits inside mark = do
-  mapM_ (\e -> Left (PieceMisfit (spot e) (spot opening) LoneSign)) (filter isSign inside)
-  let numbers = [n | e <- inside, Just n <- [figure e]]
-      count = length numbers
-      (points, odd') = (count - before - behind - 1) `divMod` (each + again)
-  when (odd' /= 0) (misfit (CountOff before each behind again count))
-  when (points < 2) (misfit PointsFew)
-  let (heads, afterHeads) = splitAt before numbers
-      (body, afterBody) = splitAt (points * each) afterHeads
-      (tails, afterTails) = splitAt behind afterBody
-      (given, flag) = splitAt (points * again) afterTails
-      right = negative || any ((< 0) . value) (take 1 heads)
-  when (negative && any ((/= 0) . value) (take 1 heads)) $
-    Left
-      ( CipherUnknown
-          (spot opening)
-          "The sign before the first distance says the side; a cipher has a minus sign only where \
-          \there is no such distance."
-      )
-  slow <-
-    maybe
-      (Left (misfitAt (maybe (spot mark) spot (listToMaybe (reverse inside))) FlagOff))
-      Right
-      (listToMaybe flag >>= flagOf)
-  rows <- maybe (misfit PointsFew) Right (NonEmpty.nonEmpty (map row (groups each body)))
-  let heads' = zipWith (\k h -> if k == (0 :: Int) then fmap abs h else h) [0 ..] heads
+pieceOf opening isNegative digits inside mark = do
+  mapM_ (\e -> Left (misfitAt e LoneSign)) (filter isSign inside)
+  points <- pointCount layout (length numbers) misfit
+  let parts = partsOf layout points numbers
+      firstDistance = listToMaybe (heads parts)
+      isRight = isNegative || any ((< 0) . value) firstDistance
+  when (isNegative && any ((/= 0) . value) firstDistance) $
+    Left (CipherUnknown (position opening) SignTwice)
+  slow <- maybe (Left (misfitAt lastWord FlagOff)) Right (flag parts >>= flagOf)
+  rows <- maybe (misfit PointsFew) Right (NonEmpty.nonEmpty (map row (pointRows parts)))
   pure
     Piece
-      { towards = Located (site (spot opening)) (if right then RightSide else LeftSide),
+      { towards = Located (site (position opening)) (if isRight then RightSide else LeftSide),
         cipher =
-          Located (site (spot opening)) (recalculations digits heads' tails (groups points given)),
+          Located
+            (site (position opening))
+            (recalculations digits (unsigned (heads parts)) (tails parts) (given parts)),
         rows,
         slow,
-        allowance = Located (site (spot mark)) 0
+        allowance = Located (site (position mark)) 0
       }
   where
-    before = length (filter (`elem` [One, Two]) digits)
-    each = if Four `elem` digits then 4 else 2
-    behind = length (filter (== One) digits)
-    again = length (filter (== Six) digits)
-    misfitAt s = PieceMisfit s (spot opening)
+    layout = layoutOf digits
+    numbers = [n | e <- inside, Just n <- [figure e]]
+    lastWord = if null inside then mark else last inside
+    misfitAt e = PieceMisfit (position e) (position opening)
     misfit :: PieceMisfit -> Either Error a
-    misfit = Left . misfitAt (spot mark)
-    flagOf n = case value n of
-      0 -> Just (False <$ n)
-      1 -> Just (True <$ n)
-      _ -> Nothing
+    misfit = Left . misfitAt mark
+    -- The sign of the first distance tells the side.
+    unsigned distances = case distances of
+      [] -> []
+      h : others -> fmap abs h : others
+
+-- | The count of points, which is two at least.
+pointCount :: Layout -> Int -> (PieceMisfit -> Either Error Int) -> Either Error Int
+pointCount Layout {before, each, after, again} count misfit
+  | remainder /= 0 = misfit (CountOff before each after again count)
+  | points < 2 = misfit PointsFew
+  | otherwise = Right points
+  where
+    (points, remainder) = (count - before - after - 1) `divMod` (each + again)
+
+-- | The flag of the feed.
+flagOf :: Number -> Maybe (Located Bool)
+flagOf n = case value n of
+  0 -> Just (False <$ n)
+  1 -> Just (True <$ n)
+  _ -> Nothing
 
 row :: [Number] -> PointRow
 row numbers = case numbers of
@@ -93,17 +137,17 @@ row numbers = case numbers of
   px : py : _ -> PointRow {px, py, surface = Nothing}
   _ -> PointRow {px = nowhere, py = nowhere, surface = Nothing}
   where
-    -- Groups are of two or of four.
+    -- Unreachable: points have two or four numbers.
     nowhere = Located (Region 0 0) 0
 
--- | Stretches of one length.
+-- | Splits a list into groups of a size.
 groups :: Int -> [a] -> [[a]]
 groups size list = case splitAt size list of
   ([], _) -> []
   (one, rest) -> one : groups size rest
 
--- | The recalculations of a cipher: its digits, the distances before the points, those behind them,
--- those for each point.
+-- | The recalculations of a cipher's digits with the distances before the points, after the points,
+-- and for each point.
 recalculations :: [Digit] -> [Number] -> [Number] -> [[Number]] -> [Recalculation]
 recalculations digits heads tails given = case (digits, heads, tails, given) of
   (One : ds, h : hs, t : ts, _) -> Growing h t : recalculations ds hs ts given

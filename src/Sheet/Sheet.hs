@@ -1,5 +1,8 @@
--- | The input sheet of the Minsk-22 system as data: what each number of it means
+-- | The input sheet of the Minsk-22 system as data: the meaning of every number
 -- (docs/input-sheet.md).
+--
+-- Numbers are as written: mm, degrees and mm\/min. Every number keeps its region, so that reports
+-- can point at it.
 module Sheet.Sheet
   ( Sheet (..),
     General (..),
@@ -18,10 +21,10 @@ module Sheet.Sheet
     pieces,
     digitOf,
     digitText,
-    surfaced,
+    hasSurface,
     rapidFeed,
-    mostArrays,
-    generalWords,
+    maxArrays,
+    generalCount,
     address,
   )
 where
@@ -34,77 +37,80 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Numeric (showOct)
 
--- | A whole sheet. The points of the way to the first piece begin with the place at which the
--- cutter stands. The feed of a point holds from there on, so that of the last point of all is 0.
+-- | A whole sheet.
 data Sheet = Sheet
   { general :: General,
+    -- | the points up to the first array; the first one is the cutter's starting position
     approach :: NonEmpty Waypoint,
     first :: Array,
     others :: [Array]
   }
   deriving stock (Eq, Show)
 
--- | A number and where it stands.
+-- | A number and its region.
 type Number = Located Double
 
 -- | The general data.
 data General = General
-  { -- | the ciphers of product and part, and the number of the program: whole numbers
+  { -- | the cipher of the product, a whole number
     productCipher :: Number,
+    -- | the cipher of the part, a whole number
     partCipher :: Number,
+    -- | the number of the program, a whole number
     program :: Number,
     -- | of the tool, mm
     diameter :: Number,
-    -- | of the wheel that swivels a blade, mm; 0 without a blade
+    -- | the diameter of the wheel that swivels a blade, mm; 0 without a blade
     gear :: Number,
     -- | of a cone, degrees; 0 without a cone
     bevel :: Number,
-    -- | of what a cone cuts, mm; 0 without a cone
+    -- | of a cone's flank, mm; 0 without a cone
     height :: Number,
-    -- | of the approximation, mm
+    -- | the chord error allowed, mm
     tolerance :: Number,
-    -- | of the walk on which the tool goes; nothing when it goes on the pieces themselves
+    -- | the side of the tool; nothing when its centre moves on the pieces
     side :: Located (Maybe Side)
   }
   deriving stock (Eq, Show)
 
--- | A place in space, mm, and the feed with which the tool leaves it, mm/min.
+-- | A point in space, mm, and the feed from it to the next point, mm\/min. The feed of the last
+-- point of a sheet is 0.
 data Waypoint = Waypoint {x :: Number, y :: Number, z :: Number, feed :: Number}
   deriving stock (Eq, Show)
 
--- | Pieces joined to one another, and the way on behind them.
+-- | Linked pieces, and the points after them.
 data Array = Array {joined :: [LinkedPiece], final :: Piece, onward :: NonEmpty Waypoint}
   deriving stock (Eq, Show)
 
--- | A piece and its link to the one behind it.
+-- | A piece, and its link to the next piece.
 data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
--- | A curve by points of the theoretical contour, and what is made of it. When a recalculation
--- looks at the bevel, every row tells it; otherwise none does. A distance for each point is one for
--- each row.
+-- | A curve through points of the theoretical contour, and its recalculations. When one of these
+-- uses the bevel, every point has a surface; otherwise none has.
 data Piece = Piece
-  { -- | towards which the distances count
+  { -- | the side to which the distances count
     towards :: Located Side,
     cipher :: Located [Recalculation],
     rows :: NonEmpty PointRow,
-    -- | the feed goes down at the end
+    -- | the flag of the feed: slow down at the end
     slow :: Located Bool,
-    -- | left on the piece, mm
+    -- | the material left on the piece, mm
     allowance :: Number
   }
   deriving stock (Eq, Show)
 
--- | The digits of a cipher.
+-- | A digit of a cipher.
 data Digit = One | Two | Four | Six
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | A recalculation of a curve, with distances in mm.
 data Recalculation
-  = -- | 1: from one distance to another, evenly along the curve
+  = -- | 1: a distance that changes evenly along the curve, from one value to another
     Growing Number Number
-  | -- | 2: one distance
+  | -- | 2: a constant distance
     Constant Number
-  | -- | 4: what the bevel makes of the height
+  | -- | 4: the distance that follows from the bevel and the height of the flange
     Bevelled
   | -- | 6: a distance for each point
     Pointwise (NonEmpty Number)
@@ -118,20 +124,21 @@ data PointRow = PointRow {px :: Number, py :: Number, surface :: Maybe Surface}
 data Surface = Surface {mu :: Number, flange :: Number}
   deriving stock (Eq, Show)
 
+-- | The link of two pieces.
 data Link
   = -- | @+@: the pieces touch
     Joint
   | -- | @-@: they intersect
     Intersection
-  | -- | an arc: clockwise if positive, mm
+  | -- | an arc of this radius, mm; positive is clockwise
     Rounding Double
   deriving stock (Eq, Show)
 
--- | Of the direction of the walk.
+-- | The side of the direction of travel.
 data Side = LeftSide | RightSide
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | All arrays.
+-- | All arrays of a sheet.
 arrays :: Sheet -> NonEmpty Array
 arrays sheet = first sheet :| others sheet
 
@@ -147,7 +154,7 @@ digitOf r = case r of
   Bevelled -> Four
   Pointwise _ -> Six
 
--- | A digit as it is written.
+-- | A digit as written.
 digitText :: Digit -> Text
 digitText digit = case digit of
   One -> "1"
@@ -155,26 +162,26 @@ digitText digit = case digit of
   Four -> "4"
   Six -> "6"
 
--- | Whether the rows of a piece tell the bevel of the surface.
-surfaced :: Piece -> Bool
-surfaced piece = isJust (surface (NonEmpty.head (rows piece)))
+-- | Tells whether the points of a piece have a surface.
+hasSurface :: Piece -> Bool
+hasSurface piece = isJust (surface (NonEmpty.head (rows piece)))
 
--- | This feed means rapid, mm/min: the largest number of four digits.
+-- | The feed that means rapid, mm\/min: the largest number of four digits.
 rapidFeed :: Double
 rapidFeed = 9999
 
--- | A program has no more of them (control stop 10746).
-mostArrays :: Int
-mostArrays = 30
+-- | The largest number of arrays in a program (control stop 10746).
+maxArrays :: Int
+maxArrays = 30
 
--- | Where the first number of a sheet stood in the store of the machine.
+-- | The address of a sheet's first number in the store of the Minsk-22.
 firstAddress :: Int
 firstAddress = 0o70
 
--- | So many numbers are general data: 0070 to 0107.
-generalWords :: Int
-generalWords = 16
+-- | The count of general data, at the addresses 0070 to 0107.
+generalCount :: Int
+generalCount = 16
 
--- | The address of a number of the sheet, which are counted from 1.
+-- | The octal address of a number of the sheet, counted from 1.
 address :: Int -> Text
 address number = Text.justifyRight 4 '0' (Text.pack (showOct (firstAddress + number - 1) ""))

@@ -1,5 +1,7 @@
--- | A sheet as a part program. Everything in the program stands where the numbers of the sheet
--- stand that it came from, so what later stages say points at the sheet.
+-- | An input sheet as a part program.
+--
+-- Every node of the syntax tree has the region of the numbers that it comes from, so the reports of
+-- later stages point at the sheet.
 module Sheet.ToSurface
   ( program,
     text,
@@ -31,7 +33,7 @@ import Surface.Syntax
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit (..))
 
--- | The program that a sheet stands for.
+-- | The program with the meaning of a sheet.
 program :: Sheet -> Surface.Program
 program sheet =
   Surface.Program {Surface.statements = concat (paragraphs sheet), Surface.comments = []}
@@ -51,17 +53,20 @@ partName number = "program_" <> Decimal.exact number
 partTitle :: Double -> Double -> Text
 partTitle product' part' = "Product " <> Decimal.exact product' <> ", part " <> Decimal.exact part'
 
--- | Statements between which empty lines stand.
+-- | Groups of statements, with an empty line between two of them.
 paragraphs :: Sheet -> [[Statement]]
 paragraphs sheet =
   [headStatement (general sheet)] : settings sheet : concatMap (arrayStatements sheet) (runs sheet)
 
--- | An array with what is known before it: its number, that of its first piece, the feed of its
--- pieces, and that of the pieces before it.
+-- | An array in its sheet.
 data Run = Run
-  { count :: Int,
+  { -- | of the array, from 1
+    count :: Int,
+    -- | the number of its first piece, from 1
     firstPiece :: Int,
+    -- | the feed of its pieces
     working :: Number,
+    -- | the feed of the pieces before it
     earlier :: Maybe Number,
     array :: Array
   }
@@ -81,6 +86,7 @@ runs sheet = go 1 1 (leaving (approach sheet)) Nothing (NonEmpty.toList (arrays 
           rest
     leaving = feed . NonEmpty.last
 
+-- | The statement that names the part.
 headStatement :: General -> Statement
 headStatement g = Located (region number) (Part (Name . partName <$> number) (Just title))
   where
@@ -90,13 +96,14 @@ headStatement g = Located (region number) (Part (Name . partName <$> number) (Ju
         (Region.merge (region (productCipher g)) (region (partCipher g)))
         (partTitle (value (productCipher g)) (value (partCipher g)))
 
+-- | The machine, the tool, the feed, the tolerance and the starting position.
 settings :: Sheet -> [Statement]
 settings sheet@Sheet {general = g, approach} =
   [ Located at (Machine (Located at (Surface.Named "lkp-01f"))),
     Located (region (diameter g)) (Tool (Located (region (diameter g)) tool)),
     Located (region working) (Feed (measured MmPerMin working)),
     Located (region (tolerance g)) (Tolerance (Surface.Within (measured Millimetre (tolerance g)))),
-    Located (region (x start)) (From (place (isFlat sheet) start))
+    Located (region (x start)) (From (pointOf (isFlat sheet) start))
   ]
   where
     at = region (Sheet.program g)
@@ -112,24 +119,17 @@ settings sheet@Sheet {general = g, approach} =
           (measured Millimetre (height g))
       | otherwise = Surface.MillCutter (measured Millimetre (diameter g))
 
--- | The paragraphs of an array.
+-- | The paragraphs of an array: its pieces, its contour, its milling.
 arrayStatements :: Sheet -> Run -> [[Statement]]
-arrayStatements sheet Run {count, firstPiece, working, earlier, array} =
+arrayStatements sheet run@Run {count, firstPiece, working, earlier, array} =
   zipWith pieceStatements [firstPiece ..] (NonEmpty.toList (pieces array))
     <> [[contour], feeds <> [mill]]
   where
     at = region (cipher (NonEmpty.head (pieces array)))
-    flat = isFlat sheet
     name = Name ("array_" <> Decimal.whole count)
     links = [Just l | LinkedPiece _ l <- joined array] <> [Nothing]
-    contour =
-      Located
-        at
-        ( Contour
-            (Located at name)
-            Surface.Open
-            (zipWith3 (item (blade sheet)) [firstPiece ..] (NonEmpty.toList (pieces array)) links)
-        )
+    contour = Located at (Contour (Located at name) Surface.Open items)
+    items = zipWith3 (item (isBlade sheet)) [firstPiece ..] (NonEmpty.toList (pieces array)) links
     feeds =
       [ Located (region working) (Feed (measured MmPerMin working))
         | Just old <- [earlier],
@@ -141,14 +141,20 @@ arrayStatements sheet Run {count, firstPiece, working, earlier, array} =
         ( Mill
             (Located at (Variable name))
             (sideOf <$> side (general sheet))
-            (approaching <> retracting)
+            (linkingMoves sheet run)
         )
-    -- The way to an array behind another one is that from the other one.
+
+-- | The approach and the retract of an array. An array after another one has no approach: the
+-- retract of the other one leads to it.
+linkingMoves :: Sheet -> Run -> [Setting]
+linkingMoves sheet Run {working, earlier, array} = approaching <> retracting
+  where
+    isFlat' = isFlat sheet
     approaching = case (earlier, approach sheet) of
-      (Nothing, from :| rest) -> setting Surface.Approach (stops flat working (feed from) rest)
+      (Nothing, from :| rest) -> setting Surface.Approach (stops isFlat' working (feed from) rest)
       (Just _, _) -> []
     retracting =
-      setting Surface.Retract (stops flat working working (NonEmpty.toList (onward array)))
+      setting Surface.Retract (stops isFlat' working working (NonEmpty.toList (onward array)))
     setting make list =
       [ Located (region (point (NonEmpty.head s))) (make s)
         | Just s <- [NonEmpty.nonEmpty list]
@@ -161,93 +167,88 @@ sideOf side = case side of
   Just RightSide -> Surface.RightSide
   Nothing -> Surface.On
 
--- | Whether the tool is a swivelling blade.
-blade :: Sheet -> Bool
-blade sheet = value (gear (general sheet)) /= 0
+-- | Tells whether the tool is a swivelling blade.
+isBlade :: Sheet -> Bool
+isBlade sheet = value (gear (general sheet)) /= 0
 
--- Points on the way
+-- Points
 
--- | Whether the tool never leaves the height 0; a blade does when it swivels.
+-- | Tells whether the tool keeps the height 0. A swivelling blade does not.
 isFlat :: Sheet -> Bool
 isFlat sheet =
-  not (blade sheet)
+  not (isBlade sheet)
     && all (all ((== 0) . value . z)) (approach sheet : map onward (NonEmpty.toList (arrays sheet)))
 
--- | A place; without its height when all are 0.
-place :: Bool -> Waypoint -> Expr
-place flat Waypoint {x, y, z}
-  | flat = Located (Region.merge (region x) (region y)) (Pair (bare x) (bare y))
-  | otherwise = Located (Region.merge (region x) (region z)) (Triple (bare x) (bare y) (bare z))
+-- | A point, with its height unless all heights of the sheet are 0.
+pointOf :: Bool -> Waypoint -> Expr
+pointOf isFlat' Waypoint {x, y, z}
+  | isFlat' = Located (Region.merge (region x) (region y)) (Pair (unitless x) (unitless y))
+  | otherwise =
+    Located (Region.merge (region x) (region z)) (Triple (unitless x) (unitless y) (unitless z))
 
--- | Points behind one another, from the feed of the pieces and the one at which the point before is
--- left.
+-- | Points one after the other, given the feed of the pieces and the feed to the first point.
 stops :: Bool -> Number -> Number -> [Waypoint] -> [Stop]
-stops flat working leaving list = case list of
+stops isFlat' working leaving list = case list of
   [] -> []
-  w : rest -> Stop (place flat w) pace : stops flat working (feed w) rest
+  w : rest -> Stop (pointOf isFlat' w) pace : stops isFlat' working (feed w) rest
   where
     pace
       | value leaving == rapidFeed = Rapid
       | value leaving == value working = Cutting
-      | otherwise = AtFeed (bare leaving)
+      | otherwise = AtFeed (unitless leaving)
 
 -- Pieces
 
--- | The table of a piece, and the piece, with its number.
+-- | The table of a piece, and its curve or piece, named by a number.
 pieceStatements :: Int -> Piece -> [Statement]
 pieceStatements count piece =
-  [ Located
-      at
-      ( Table
-          (Located at points)
-          ( Surface.WrittenLines
-              ( Located at (Surface.Header headings) :
-                zipWith line rowList (each (map NonEmpty.toList given))
-              )
-          )
-      ),
-    Located at made
+  [ Located at (Table (Located at points) (tableOf piece)),
+    Located at definition
   ]
   where
     at = region (cipher piece)
     points = Name ("points_" <> Decimal.whole count)
-    rowList = NonEmpty.toList (rows piece)
-    given = [ts | Pointwise ts <- value (cipher piece)]
-    headings =
-      heading "x" :| [heading "y"]
-        <> concat
-          [[Surface.Heading (Located at (Name "mu")) (Just Degree), heading "H"] | surfaced piece]
-        <> map heading (thicknessNames (length given))
-    each lists = if null lists then repeat [] else transpose lists
-    heading word = Surface.Heading (Located at (Name word)) Nothing
-    line row ts =
-      Located
-        (Region.merge (region (px row)) (region (py row)))
-        (Surface.Entries (bare (px row) :| [bare (py row)] <> surfaceCells row <> map bare ts))
-    surfaceCells row = concat [[bare (mu s), bare (flange s)] | Just s <- [surface row]]
+    function = Name (if length (rows piece) > 2 then "spline" else "polyline")
     curve =
       Located
         at
-        ( Call
-            (Located at (Name (if length rowList > 2 then "spline" else "polyline")))
-            (Surface.Given (Located at (Variable points)) :| [])
-        )
+        (Call (Located at function) (Surface.Given (Located at (Variable points)) :| []))
     name = Located at (pieceName count)
-    made = case value (cipher piece) of
+    definition = case value (cipher piece) of
       [] -> Curve name curve
-      rs -> Surface.Piece name curve (ciphers piece rs) (sideTowards <$> towards piece) []
-    sideTowards s = case s of
+      rs -> Surface.Piece name curve (ciphers piece rs) (surfaceSide <$> towards piece) []
+    surfaceSide s = case s of
       LeftSide -> Surface.LeftSide
       RightSide -> Surface.RightSide
+
+-- | The points of a piece, their surfaces, and the distances for each point.
+tableOf :: Piece -> Surface.Lines
+tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map line linesOf)
+  where
+    at = region (cipher piece)
+    rowList = NonEmpty.toList (rows piece)
+    given = [NonEmpty.toList ts | Pointwise ts <- value (cipher piece)]
+    linesOf = zip rowList (if null given then repeat [] else transpose given)
+    headings =
+      heading "x" :| [heading "y"]
+        <> concat
+          [[Surface.Heading (Located at (Name "mu")) (Just Degree), heading "H"] | hasSurface piece]
+        <> map heading (thicknessNames (length given))
+    heading word = Surface.Heading (Located at (Name word)) Nothing
+    line (row, ts) =
+      Located
+        (Region.merge (region (px row)) (region (py row)))
+        (Surface.Entries (unitless (px row) :| map unitless ([py row] <> surfaceCells row <> ts)))
+    surfaceCells row = concat [[mu s, flange s] | Just s <- [surface row]]
 
 pieceName :: Int -> Name
 pieceName count = Name ("piece_" <> Decimal.whole count)
 
--- | The columns of distances for each point.
+-- | The names of a count of columns of distances.
 thicknessNames :: Int -> [Text]
 thicknessNames count = if count == 1 then ["t"] else ["t_" <> Decimal.whole k | k <- [1 .. count]]
 
--- | Distances are square to the surface where the bevel is known.
+-- | The ciphers of a piece. Distances of a piece with surfaces are square to the surface.
 ciphers :: Piece -> [Recalculation] -> [Surface.Cipher]
 ciphers piece recalculations =
   go (thicknessNames (length [() | Pointwise _ <- recalculations])) recalculations
@@ -257,50 +258,49 @@ ciphers piece recalculations =
       (r@(Pointwise _) : rest, name : others') ->
         cipherOf r (column name :| square) : go others' rest
       (r@(Pointwise _) : rest, []) -> cipherOf r (column "t" :| square) : go [] rest
-      (r@(Growing a b) : rest, _) -> cipherOf r (bare a :| bare b : square) : go names rest
-      (r@(Constant a) : rest, _) -> cipherOf r (bare a :| square) : go names rest
+      (r@(Growing a b) : rest, _) -> cipherOf r (unitless a :| unitless b : square) : go names rest
+      (r@(Constant a) : rest, _) -> cipherOf r (unitless a :| square) : go names rest
       (r@Bevelled : rest, _) -> cipherOf r (column "mu" :| [column "H"]) : go names rest
     at = region (cipher piece)
     column name = Located at (Variable (Name name))
-    square = [column "mu" | surfaced piece]
+    square = [column "mu" | hasSurface piece]
     cipherOf r arguments =
-      Located at (Surface.Cipher (Located at (numeral (read' (digitOf r)))) arguments)
-    read' digit = case digit of
+      Located at (Surface.Cipher (Located at (numeral (digitNumber (digitOf r)))) arguments)
+    digitNumber digit = case digit of
       One -> 1
       Two -> 2
       Four -> 4
       Six -> 6
 
--- | A piece in its contour, by its number; whether the tool is a swivelling blade.
+-- | A piece as an element of its contour, given whether the tool is a swivelling blade, and the
+-- number of the piece.
 item :: Bool -> Int -> Piece -> Maybe (Located Link) -> Item
-item swivels count piece link =
+item isSwivelling count piece link =
   Located
     at
     (Surface.Element Nothing (Located at (Variable (pieceName count))) modifiers (linked <$> link))
   where
     at = region (cipher piece)
     modifiers =
-      [ Located
-          at
-          ( Surface.Bevel
-              (if surfaced piece then Located at (Variable (Name "mu")) else bare (Located at 0))
-          )
-        | swivels
-      ]
+      [Located at (Surface.Bevel bevelOfPiece) | isSwivelling]
         <> [Located (region (slow piece)) Surface.Slow | value (slow piece)]
-        <> [ Located (region (allowance piece)) (Surface.ElementAllowance (bare (allowance piece)))
-             | value (allowance piece) /= 0
-           ]
+        <> [Located (region left) (Surface.ElementAllowance (unitless left)) | value left /= 0]
+    bevelOfPiece
+      | hasSurface piece = Located at (Variable (Name "mu"))
+      | otherwise = unitless (Located at 0)
+    left = allowance piece
     linked (Located r l) = Located r $ case l of
       Joint -> Surface.Smooth
       Intersection -> Surface.Meet Nothing
-      Rounding radius -> Surface.Fillet (bare (Located r radius))
+      Rounding radius -> Surface.Fillet (unitless (Located r radius))
 
 -- Numbers
 
-bare :: Number -> Expr
-bare = literal Nothing
+-- | A number without a unit.
+unitless :: Number -> Expr
+unitless = literal Nothing
 
+-- | A number with a unit.
 measured :: Unit -> Number -> Expr
 measured = literal . Just
 

@@ -1,5 +1,6 @@
--- | A sheet as text: a line for each kind of number, an empty line before each piece. Reading the
--- text gives the same numbers.
+-- | Writes an input sheet as text: a line for each kind of number, an empty line before each piece.
+--
+-- 'Sheet.FromText.read' gives the same numbers again.
 module Sheet.ToText
   ( write,
   )
@@ -38,15 +39,17 @@ generalData g =
 waypoint :: Waypoint -> Text
 waypoint w = line [x w, y w, z w, feed w]
 
--- | An array with its number from 0, among others up to a last one.
+-- | An array with its number, given the number of the last array; both count from 0.
 array :: Int -> Int -> Array -> [Text]
-array final' count a =
+array lastArray number' a =
   concatMap (\(LinkedPiece p (Located _ l)) -> piece p (linkText l)) (joined a)
     <> piece (final a) "0"
     <> [""]
     <> map waypoint (NonEmpty.toList (onward a))
-    <> ["-0" | count < final']
+    <> ["-0" | number' < lastArray]
 
+-- | A piece with its link. The sign of the first distance tells the side; without a first distance,
+-- or with 0, the sign of the cipher does.
 piece :: Piece -> Text -> [Text]
 piece p link =
   ["", cipherText]
@@ -61,20 +64,19 @@ piece p link =
     heads = concatMap headOf recalculations
     tails = [t | Growing _ t <- recalculations]
     given = [g | Pointwise g <- recalculations]
-    rightwards = value (towards p) == RightSide
-    signedFirst = any ((/= 0) . value) (take 1 heads)
+    isRight = value (towards p) == RightSide
+    isSignedFirst = any ((/= 0) . value) (take 1 heads)
     cipherText
       | null recalculations = "0"
-      | rightwards && not signedFirst = "-" <> digits
+      | isRight && not isSignedFirst = "-" <> digits
       | otherwise = digits
     signed =
-      zipWith
-        (\k h -> if rightwards && signedFirst && k == (0 :: Int) then negate (value h) else value h)
-        [0 ..]
-        heads
+      case map value heads of
+        h : others' | isRight && isSignedFirst -> negate h : others'
+        distances -> distances
     line' = Text.unwords . map number
 
--- | The distance before the points that a recalculation asks for.
+-- | The distance before the points that a recalculation has.
 headOf :: Recalculation -> [Number]
 headOf r = case r of
   Growing h _ -> [h]
@@ -97,7 +99,7 @@ line = Text.unwords . map (number . value)
 number :: Double -> Text
 number = Decimal.exact
 
--- | Ten numbers a line.
+-- | Groups of ten.
 tens :: [a] -> [[a]]
 tens list = case splitAt 10 list of
   ([], _) -> []

@@ -1,4 +1,4 @@
--- | The words of a sheet: numbers, end marks, lone signs.
+-- | The words of a sheet's text: numbers, end marks, and signs without a number.
 module Sheet.Word
   ( WordValue (..),
     SheetWord (..),
@@ -16,33 +16,35 @@ import Data.Text qualified as Text
 import Sheet.Error (Error (..), NumberPosition (..))
 import Sheet.Sheet (Number)
 
--- | What a word of the sheet is.
+-- | The meaning of a word.
 data WordValue
   = Figure Double
-  | -- | @-0@
+  | -- | the end mark @-0@
     Mark
-  | -- | a sign without digits
+  | -- | a plus sign without digits
     Plus
-  | Minus
+  | -- | a minus sign without digits
+    Minus
   deriving stock (Eq, Show)
 
-data SheetWord = SheetWord {spot :: NumberPosition, symbol :: WordValue}
+-- | A word with its position.
+data SheetWord = SheetWord {position :: NumberPosition, symbol :: WordValue}
 
--- | The words of a text; what is no number is an error.
+-- | The words of a text, in order; a word that is no number is an error.
 entries :: Text -> [Either Error SheetWord]
 entries text = zipWith entry [1 ..] (wordsOf text)
 
--- | The words of a text with their places.
+-- | The words of a text with their regions.
 wordsOf :: Text -> [Located Text]
 wordsOf = go 0
   where
-    go at rest = case Text.break isSpace here of
+    go at text = case Text.break isSpace trimmed of
       ("", _) -> []
       (word, after) ->
-        Located (Region from (from + Text.length word)) word : go (from + Text.length word) after
+        let to = from + Text.length word in Located (Region from to) word : go to after
       where
-        here = Text.dropWhile isSpace rest
-        from = at + Text.length rest - Text.length here
+        trimmed = Text.dropWhile isSpace text
+        from = at + Text.length text - Text.length trimmed
 
 entry :: Int -> Located Text -> Either Error SheetWord
 entry number (Located at word) =
@@ -56,15 +58,15 @@ entry number (Located at word) =
   where
     here = NumberPosition at number
 
--- | A number with its place.
+-- | A number with its region; nothing for marks and signs.
 figure :: SheetWord -> Maybe Number
 figure e = case symbol e of
-  Figure x -> Just (Located (site (spot e)) x)
+  Figure x -> Just (Located (site (position e)) x)
   Mark -> Nothing
   Plus -> Nothing
   Minus -> Nothing
 
--- | Whether a word is a sign without digits.
+-- | Tells whether a word is a sign without digits.
 isSign :: SheetWord -> Bool
 isSign e = case symbol e of
   Plus -> True

@@ -1,0 +1,46 @@
+-- | Assertions of a program.
+module Part.Assertion
+  ( check,
+  )
+where
+
+import Base.Region (Located (..), Region)
+import Checked.Dimension (Dimension)
+import Checked.Syntax qualified as Checked
+import Data.Text (Text)
+import Geometry.Tolerance qualified as Tolerance
+import Part.Builtin qualified as Builtin
+import Part.Error (ValueFact (..))
+import Part.Evaluation (Eval)
+import Part.Evaluation qualified as Evaluation
+import Part.Expression (Environment)
+import Part.Expression qualified as Expression
+import Part.Value (Value (..))
+
+-- | Fails when an assertion does not hold. Two quantities agree within 10⁻⁶, unless the program
+-- gives a tolerance.
+check :: Region -> Environment -> Checked.Assertion -> Eval ()
+check at env assertion = case assertion of
+  Checked.Holds e -> do
+    v <- Expression.evaluate env e
+    if Expression.isTrue v then pure () else Evaluation.mistake (DoesNotHold (region e) [])
+  Checked.Compares d whole op l r -> do
+    a <- Expression.evaluate env l
+    b <- Expression.evaluate env r
+    v <- Builtin.binary whole op a b
+    let compared = [(region l, Expression.written d a), (region r, Expression.written d b)]
+    if Expression.isTrue v then pure () else Evaluation.mistake (DoesNotHold whole compared)
+  Checked.Agrees d l r within -> do
+    a <- Expression.number <$> Expression.evaluate env l
+    b <- Expression.number <$> Expression.evaluate env r
+    slack <- maybe (pure 1e-6) (fmap Expression.number . Expression.evaluate env) within
+    let left = (region l, written d a)
+        right = (region r, written d b)
+    if abs (a - b) <= slack + Tolerance.equal
+      then pure ()
+      else
+        Evaluation.mistake
+          (DoNotAgree at left right (written d (abs (a - b))) (written d slack))
+  where
+    written :: Dimension -> Double -> Text
+    written d x = Expression.written d (Quantity x)

@@ -1,0 +1,155 @@
+-- | Constructions without an answer, and constructions with several: intersections, tangents,
+-- circles of a radius, points of a curve.
+module Part.ConstructionError
+  ( ConstructionFault (..),
+    Sought (..),
+    NoAnswer (..),
+    TangentObstacle (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Mm)
+import Base.Region (Region)
+import Data.Text (Text)
+import Geometry.ElementCarrier (ElementCarrier)
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.ErrorText (Candidate, at, describe, listed)
+import Report.Report (Report (..))
+
+-- | A fault of a construction; the region of the call comes first.
+data ConstructionFault
+  = -- | two things without a common point: the gap between them
+    NothingCommon Region ElementCarrier ElementCarrier Mm
+  | -- | an intersection or a tangency of two equal curves
+    SameThing Region
+  | -- | several answers and no choice among them
+    Several Region Sought [Candidate]
+  | -- | answers that the choice excludes
+    NoneFits Region Sought [Candidate]
+  | -- | several answers that fit the choice, or that are equally near
+    SeveralFit Region Sought [Candidate]
+  | NoAnswer Region NoAnswer
+  | -- | a tangency of things that do not touch: the gap between them
+    NotTouching Region Mm
+  | -- | a circle through three points of one line
+    OnOneLine Region
+  deriving stock (Eq, Show)
+
+-- | The result of a construction.
+data Sought = SoughtPoint | SoughtTangency | SoughtLine | SoughtCircle
+  deriving stock (Eq, Show)
+
+-- | The reason why a construction has no answer.
+data NoAnswer
+  = -- | no circle touches both things on the sides asked for
+    NothingTouches Sought
+  | -- | the distance of lines that are not parallel
+    LinesNotParallel
+  | -- | the direction of a vector without a length
+    ZeroVector
+  | NoTangent Sought TangentObstacle
+  | -- | a point at an x that the curve does not reach: its least and greatest x
+    OutsideCurve Mm Mm
+  | -- | a point beyond the length of a curve
+    BeyondLength Mm
+  deriving stock (Eq, Show)
+
+-- | The reason why two circles or points have no common tangent.
+data TangentObstacle
+  = SamePoints
+  | PointOnCircle Point
+  | -- | the point's distance from the circle
+    PointInside Mm
+  | SameCircles
+  | CircleInCircle
+  | -- | the length by which they overlap
+    CirclesOverlap Mm
+  deriving stock (Eq, Show)
+
+-- | The report of a fault.
+toReport :: ConstructionFault -> Report
+toReport fault = case fault of
+  NothingCommon region a b gap ->
+    (at region "E0330" (describe a <> " and " <> describe b <> " do not meet"))
+      { message = ["They miss one another by " <> Decimal.some gap <> "."]
+      }
+  SameThing region ->
+    at region "E0331" "these are the same curve, so they have no one point in common"
+  Several region sought candidates ->
+    (at region "E0332" ("there is more than one such " <> nameOf sought))
+      { message = [listed candidates],
+        hints = [choiceHint sought]
+      }
+  NoneFits region sought candidates ->
+    (at region "E0333" ("no such " <> nameOf sought <> " is where it is sought"))
+      { message = [listed candidates]
+      }
+  SeveralFit region sought candidates ->
+    (at region "E0334" ("the choice leaves more than one " <> nameOf sought))
+      { message = [listed candidates],
+        hints = ["Choose by something that only one of them has."]
+      }
+  NoAnswer region reason ->
+    let (result, why) = noAnswerTexts reason
+     in (at region "E0335" ("there is no such " <> result)) {message = [why]}
+  NotTouching region gap ->
+    (at region "E0336" ("these do not touch: they miss it by " <> Decimal.mm gap))
+      { hints = ["For the points in which they cross, write intersection."]
+      }
+  OnOneLine region ->
+    at region "E0337" "no circle goes through three points of one line"
+
+nameOf :: Sought -> Text
+nameOf sought = case sought of
+  SoughtPoint -> "point"
+  SoughtTangency -> "point of tangency"
+  SoughtLine -> "line"
+  SoughtCircle -> "circle"
+
+-- | The way to choose one of several answers.
+choiceHint :: Sought -> Text
+choiceHint sought = case sought of
+  SoughtLine -> bySides
+  SoughtTangency -> bySides
+  SoughtPoint -> byThings <> ", first or last along a line."
+  SoughtCircle -> byThings <> "."
+  where
+    bySides =
+      "Say for each circle on which side of the directed line it lies: left C or right C."
+    byThings =
+      "Choose one that stays right when the part is turned: near P, left L or right L (of a \
+      \directed line), inside C or outside C"
+
+-- | The name of the result, and the sentence that says why there is none.
+noAnswerTexts :: NoAnswer -> (Text, Text)
+noAnswerTexts reason = case reason of
+  NothingTouches sought ->
+    ( nameOf sought,
+      "No "
+        <> nameOf sought
+        <> " of this size touches both things on these sides, or goes through them."
+    )
+  LinesNotParallel -> ("distance", "These lines are not parallel.")
+  ZeroVector -> ("direction", "The vector has no length.")
+  NoTangent sought obstacle -> (nameOf sought, obstacleText obstacle)
+  OutsideCurve low high ->
+    ( "point",
+      "The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
+    )
+  BeyondLength l -> ("point", "The curve is " <> Decimal.mm l <> " long.")
+
+obstacleText :: TangentObstacle -> Text
+obstacleText obstacle = case obstacle of
+  SamePoints -> "The points are the same."
+  PointOnCircle p ->
+    "The point "
+      <> Vec.written 4 p
+      <> " lies on the circle; the line that touches it there is perpendicular to its radius."
+  PointInside depth ->
+    "The point lies inside the circle, " <> Decimal.mm depth <> " from its edge."
+  SameCircles -> "The circles are the same."
+  CircleInCircle -> "One circle lies inside the other."
+  CirclesOverlap overlap -> "The circles overlap by " <> Decimal.mm overlap <> "."

@@ -1,0 +1,344 @@
+-- | Faults of contours: elements that do not follow one another, and links that do not join their
+-- neighbours.
+module Part.ContourError
+  ( ContourFault (..),
+    Neighbours (..),
+    LinkFault (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm, Rad, degrees)
+import Base.Region (Located (..), Region)
+import Data.List (nub)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Geometry.Carrier (Sense (..))
+import Geometry.Construction.Fillet qualified as Fillet
+import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.ErrorText (andMore, at, describe, downTo, stop)
+import Report.Report (Label (..), Report (..), ReportCode, quote)
+
+-- | A fault of a contour; the region that the report points at comes first.
+data ContourFault
+  = EmptyContour Region Name
+  | -- | a closed contour of one element that is no circle and no closed curve
+    LoneElement Region ElementCarrier
+  | -- | a contour whose segments are all shorter than 'Tolerance.coincident'
+    NoLength Region
+  | -- | a link after a circle that closes by itself
+    LinkOfLoneCircle Region
+  | -- | an open contour whose first or last element has no end of its own
+    NoEnd Region ElementCarrier
+  | -- | a link after the last element of an open contour: the link, the first element
+    LinkAtEnd Region Region
+  | -- | a closed contour as an element of another
+    ClosedElement Region Name
+  | -- | a closed curve as the element of an open contour
+    ClosedCurve Region
+  | -- | a starting point on an open contour
+    OpenBegins Region Name
+  | -- | a link that cannot join its neighbours, whatever the other links do
+    NotLinked Neighbours LinkFault
+  | -- | an element that ends before it begins: the element, the length by which it is too short,
+    -- the links at its ends, the largest radius of one of their fillets that fits
+    Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
+  | -- | the contour, two of its elements, their common point, and whether the contour has fillets
+    CrossesItself Region Region Region Point Bool
+  deriving stock (Eq, Show)
+
+-- | Two neighbouring elements of a contour, and the link between them.
+data Neighbours = Neighbours
+  { link :: Region,
+    before :: {-# UNPACK #-} (Located ElementCarrier),
+    after :: {-# UNPACK #-} (Located ElementCarrier)
+  }
+  deriving stock (Eq, Show)
+
+-- | The reason why a link cannot join its neighbours.
+data LinkFault
+  = -- | the gap between them
+    NoMeeting Mm
+  | -- | their distance
+    ParallelLines Mm
+  | SameCurve
+  | -- | the points to choose from
+    AmbiguousMeeting [Point]
+  | -- | the gap between them
+    NotSmooth Mm
+  | -- | the angle at which they meet
+    Kinked Rad
+  | -- | they touch, but the contour would have to reverse its direction
+    TurnsBack
+  | TangentNeedsCircles
+  | ConcentricTangent
+  | CoincidentTangent
+  | -- | the senses of the circles for which there is a tangent
+    NoCommonTangent [(Sense, Sense)]
+  | FilletAtPoint
+  | -- | the radius, and the largest that fits
+    NoFillet Mm (Maybe Mm)
+  | -- | centres of the arcs that make equally long contours
+    AmbiguousFillet [Point]
+  deriving stock (Eq, Show)
+
+-- | The report of a fault.
+toReport :: ContourFault -> Report
+toReport fault = case fault of
+  EmptyContour region (Name name) ->
+    at region "E0307" ("the contour " <> quote name <> " has no elements")
+  LoneElement region carrier ->
+    (at region "E0308" ("a closed contour cannot consist of " <> describe carrier <> " alone"))
+      { hints =
+          [ "Only a circle or a closed curve closes by itself; add the other elements, or \
+            \make the contour open."
+          ]
+      }
+  NoLength region ->
+    at region "E0328" "the contour has no length"
+  LinkOfLoneCircle region ->
+    (at region "E0329" "a circle or a closed curve alone needs no link")
+      { hints = ["It closes by itself: leave the link out."]
+      }
+  NoEnd region carrier ->
+    (at region "E0309" ("an open contour cannot begin or end on " <> describe carrier))
+      { message = ["A circle has no ends; the contour does not know where to begin or stop on it."],
+        hints = ["Put a point of the circle before it (or behind it) as an element of its own."]
+      }
+  LinkAtEnd region contour ->
+    (at region "E0310" "nothing follows this link")
+      { others = [Label contour "the contour is open"],
+        hints = ["Leave the link out, or make the contour closed."]
+      }
+  ClosedElement region (Name name) ->
+    ( at
+        region
+        "E0343"
+        ("the contour " <> quote name <> " is closed and cannot be a part of another")
+    )
+      { hints = ["Only an open contour leads on to the next element."]
+      }
+  ClosedCurve region ->
+    (at region "E0343" "this curve is closed, the contour is not")
+      { hints = ["Make the contour closed: contour … closed { … }"]
+      }
+  OpenBegins region (Name name) ->
+    (at region "E0347" ("the contour " <> quote name <> " is open and begins at its first element"))
+      { hints =
+          [ "Leave ‘start near’ out. To begin at its other end, mill reversed("
+              <> name
+              <> ") on the other side."
+          ]
+      }
+  NotLinked neighbours linkFault -> linkReport neighbours linkFault
+  Overrun region carrier overlap links largest -> overrunReport region carrier overlap links largest
+  CrossesItself contour first second p hasFillets ->
+    (at first "E0325" "the contour crosses or touches itself")
+      { label = "this element",
+        others =
+          [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
+        message = ["They meet at " <> Vec.written 4 p <> "."],
+        hints =
+          [ "Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise."
+            | hasFillets
+          ]
+      }
+
+overrunReport :: Region -> ElementCarrier -> Mm -> [Region] -> Maybe Mm -> Report
+overrunReport region carrier overlap links largest =
+  (at region "E0324" title)
+    { label = "it would have to be walked backwards",
+      others = [Label l "this link takes its share" | l <- nub links],
+      message = [stop "17535"],
+      hints =
+        [ maybe
+            "Make the fillet or chamfer smaller, or check the directions of the neighbours."
+            (\m -> "The largest radius that fits here is " <> downTo m <> ".")
+            largest
+        ]
+    }
+  where
+    title =
+      "the links do not fit: "
+        <> describe carrier
+        <> " is too short for them by "
+        <> Decimal.some overlap
+
+-- | The report of a link that cannot join its neighbours.
+linkReport :: Neighbours -> LinkFault -> Report
+linkReport j fault = case fault of
+  NoMeeting gap ->
+    (titled "E0311" (both j <> " do not meet: they miss one another by " <> Decimal.some gap))
+      { message = [stop "17533"],
+        hints =
+          if curved
+            then
+              [ "A curve ends with the last row of its table, a piece where its curve ends. \
+                \Correct the numbers, or join them by a line: line(end_of(a), start_of(b))."
+              ]
+            else
+              [ "Correct the numbers; circles that are apart are joined by tangent or fillet, \
+                \and a line begins at the point before it."
+              ]
+      }
+  ParallelLines gap ->
+    (titled "E0312" ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
+      { message = [stop "17533"],
+        hints =
+          ["Is an edge between them missing? A closed contour joins its last element to its first."]
+      }
+  SameCurve ->
+    (titled "E0313" "these are the same curve, so they have no one point in common")
+      { hints = ["Leave one of them out, or correct the numbers."]
+      }
+  AmbiguousMeeting points ->
+    (titled "E0314" (both j <> " meet in more than one point"))
+      { message = [meetingPoints points],
+        hints = ["Choose with: meet near " <> Vec.written 4 p | p <- take 1 points]
+      }
+  NotSmooth gap ->
+    (titled "E0315" (both j <> " do not touch: they miss it by " <> Decimal.mm gap))
+      { message = [stop "17533"],
+        hints = ["Correct the numbers, or join them with a fillet."]
+      }
+  Kinked angle ->
+    ( titled
+        "E0348"
+        (both j <> " meet at an angle of " <> Decimal.short 2 (degrees angle) <> " deg")
+    )
+      { message =
+          [ "Smooth neighbours differ in direction by at most "
+              <> Decimal.short 2 (degrees Tolerance.smoothTurn)
+              <> " deg."
+          ],
+        hints = ["Correct the numbers, round the corner with a fillet, or leave smooth out."]
+      }
+  TurnsBack ->
+    (titled "E0316" "the elements touch here, but the walk would have to turn back")
+      { hints = ["Change the sense (cw, ccw) of a circle or the direction of a line."]
+      }
+  TangentNeedsCircles
+    | curved ->
+      (titled "E0317" "a tangent joins circles, not a curve")
+        { hints =
+            [ "If its neighbour goes on where the curve ends, write smooth; to round the \
+              \corner, write fillet and a radius."
+            ]
+        }
+    | otherwise ->
+      (titled "E0317" "a tangent joins circles, not a line that is already there")
+        { hints =
+            [ "If the line touches the circle, write smooth; to round the corner, write \
+              \fillet and a radius."
+            ]
+        }
+  ConcentricTangent ->
+    (titled "E0318" "concentric circles have no common tangent") {message = [stop "17533"]}
+  CoincidentTangent ->
+    (titled "E0319" "these circles are the same, so there is no tangent from one to the other")
+      { hints = ["Leave one of them out, or correct the centre or the radius of one."]
+      }
+  NoCommonTangent senses ->
+    (titled "E0320" "no common tangent fits the senses in which these circles are walked")
+      { message = [stop "17533"],
+        hints = [tangentHint senses]
+      }
+  FilletAtPoint ->
+    ( titled
+        "E0321"
+        "a fillet or chamfer needs a line, a circle or a curve on both sides, not a point"
+    )
+      { hints = ["Write the edges as lines: line(p, q)."]
+      }
+  NoFillet r largest ->
+    ( titled
+        "E0322"
+        ( "no arc of radius "
+            <> Decimal.mm r
+            <> " touches both neighbours in the direction of the walk"
+        )
+    )
+      { message = [stop "17535"],
+        hints = filletHints j r largest
+      }
+  AmbiguousFillet centres ->
+    (titled "E0323" "two fillets make contours of the same length")
+      { message =
+          [ "Their centres are "
+              <> Text.intercalate " and " (map (Vec.written 4) centres)
+              <> "."
+          ],
+        hints =
+          ["Change the order or the senses of the elements so that one of them is the shorter way."]
+      }
+  where
+    titled = linkTitle j
+    curved = any isCurve [before j, after j]
+
+-- | An error at a link, with its neighbours in words.
+linkTitle :: Neighbours -> ReportCode -> Text -> Report
+linkTitle j code title =
+  (at (link j) code title)
+    { others = [Label r (describe carrier) | Located r carrier <- [before j, after j], r /= link j]
+    }
+
+both :: Neighbours -> Text
+both j = describe (value (before j)) <> " and " <> describe (value (after j))
+
+isCurve :: Located ElementCarrier -> Bool
+isCurve (Located _ carrier) = case carrier of
+  OnCurve _ -> True
+  OnLine _ -> False
+  OnCircle _ _ -> False
+  AtPoint _ -> False
+
+-- | The points in which two neighbours meet, at most 'mostPoints' of them.
+meetingPoints :: [Point] -> Text
+meetingPoints points =
+  "They meet at "
+    <> Text.intercalate
+      (if length points > mostPoints then ", " else " and at ")
+      (map (Vec.written 4) (take mostPoints points))
+    <> andMore mostPoints points
+    <> "."
+
+-- | The largest number of points in a report.
+mostPoints :: Int
+mostPoints = 6
+
+tangentHint :: [(Sense, Sense)] -> Text
+tangentHint senses = case senses of
+  [] ->
+    "One circle lies inside the other: there is no common tangent at all. Join them with a fillet."
+  _ -> "There is one when they are walked " <> Text.intercalate ", or " (map pairText senses) <> "."
+  where
+    pairText (first, second) = senseText first <> " then " <> senseText second
+    senseText sense = case sense of
+      Clockwise -> "cw"
+      CounterClockwise -> "ccw"
+
+filletHints :: Neighbours -> Mm -> Maybe Mm -> [Text]
+filletHints j r largest =
+  ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
+    <> [ "With the other sign there is one: fillet " <> signed <> "."
+         | Just signed <- [otherSign j r]
+       ]
+    <> [ "+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses \
+         \of the neighbours."
+       ]
+
+-- | The radius of a fillet with the only sign that fits: R with + is clockwise. Nothing when both
+-- signs fit, or none.
+otherSign :: Neighbours -> Mm -> Maybe Text
+otherSign j r = case (fits Clockwise, fits CounterClockwise) of
+  (True, False) -> Just (Decimal.mm r)
+  (False, True) -> Just ("-" <> Decimal.mm r)
+  (True, True) -> Nothing
+  (False, False) -> Nothing
+  where
+    fits sense = not (null (Fillet.between r sense (value (before j)) (value (after j))))

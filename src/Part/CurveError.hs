@@ -1,0 +1,253 @@
+-- | Faults of curves and pieces: points that make no curve, shifts that fold a curve or tear it,
+-- bevels and joggles that do not fit.
+module Part.CurveError
+  ( CurveFault (..),
+    Listing (..),
+    ListFault (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Mm (..), Rad, degrees, times)
+import Base.Region (Region)
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.ErrorText (Candidate (APoint), at, below, downTo, listed, stop)
+import Report.Report (Label (..), Report (..))
+
+-- | A fault of a curve or a piece; the region of the call or the cipher comes first.
+data CurveFault
+  = -- | points that make no curve: their source, the region of the row where it shows
+    BadPoints Region Listing (Maybe Region) ListFault
+  | -- | the number of a row or a point that does not exist, and the count of those that do
+    NoSuchRow Region Listing Int Int
+  | -- | a shift beyond the radius of curvature: the point, the distance, the upper limit there
+    Folds Region Point Mm Mm
+  | -- | a shift of a curve with a corner: the point, the angle
+    ShiftsCorner Region Point Rad
+  | -- | a bevel outside of −90° to 90°: the row of the table
+    SteepBevel Region (Maybe Int) Rad
+  | -- | a change of distance that ends before it begins, along the curve
+    GrowthEnds Region
+  | -- | a coordinate of a joggle without exactly one point on the piece: the points, and the least
+    -- and greatest x of the piece
+    JoggleCoordinate Region Mm [Point] (Mm, Mm)
+  | -- | a joggle between two equal coordinates
+    JoggleNowhere Region
+  | -- | a joggle that is too long: its radius, the length between its ends, the largest radius that
+    -- fits
+    JoggleRadius Region Mm Mm (Maybe Mm)
+  | -- | a joggle's radius that is too small for its depth: the lower limit
+    JoggleDepth Region Mm Mm
+  deriving stock (Eq, Show)
+
+-- | The source of points: the rows of a table, or a list.
+data Listing = InTable | InList
+  deriving stock (Eq, Show)
+
+-- | The reason why points make no curve. Rows and sections are counted from 1.
+data ListFault
+  = -- | the count of points, and the least count
+    FewPoints Int Int
+  | -- | of a closed curve: the count of different points, and the least count
+    FewDifferent Int Int
+  | -- | a row with the same point as the row before it
+    SamePoint Int
+  | -- | an even count of points for parabolas
+    EvenPoints Int
+  | -- | a row where x reverses its direction
+    Unordered Int
+  | -- | a section, and its count of rows, which is neither two nor three
+    SectionRows Int Int
+  | -- | a section whose rows do not rise
+    SectionOrder Int
+  | -- | a section, its first row, and the last row of the section before it
+    SectionJoint Int Int Int
+  | -- | the last row of the sections, and of the table
+    SectionEnd Int Int
+  | NoSection
+  deriving stock (Eq, Show)
+
+-- | The report of a fault.
+toReport :: CurveFault -> Report
+toReport fault = case fault of
+  BadPoints region listing row listFault ->
+    (at (fromMaybe region row) "E0349" (listTitle (nounOf listing) listFault))
+      { others = [Label region "for this curve" | Just r <- [row], r /= region],
+        hints = listHint (nounOf listing) listFault
+      }
+  NoSuchRow region listing n count ->
+    (at region "E0339" (noRowTitle listing n count)) {message = ["They count from 1." | n < 1]}
+  Folds region p asked largest ->
+    ( at
+        region
+        "E0350"
+        ( "the curve folds over: at "
+            <> Vec.written 3 p
+            <> " its radius of curvature is only "
+            <> below largest
+        )
+    )
+      { message =
+          [ "It is shifted there by "
+              <> Decimal.mm asked
+              <> " towards the inside of the bend; a curve can be shifted by less than its radius."
+          ],
+        hints = ["The largest distance that fits there is less than " <> below largest <> "."]
+      }
+  ShiftsCorner region p angle ->
+    ( at
+        region
+        "E0351"
+        ( "the curve has a corner of "
+            <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle)
+            <> " deg at "
+            <> Vec.written 3 p
+        )
+    )
+      { message = ["A shift would tear it open there, or let its parts cross."],
+        hints =
+          [ "Lay a spline through the points, a closed_spline if they close, or make a piece of \
+            \each part and join them by a link."
+          ]
+      }
+  SteepBevel region row angle ->
+    (at region "E0352" (Decimal.short 3 (degrees angle) <> " deg is no bevel"))
+      { message = ["In row " <> Decimal.whole k <> " of the table." | Just k <- [row]],
+        hints =
+          ["The bevel is measured from the axis of the tool; it lies between -90 deg and 90 deg."]
+      }
+  GrowthEnds region ->
+    (at region "E0353" "the change of distance must end behind its beginning, along the walk")
+      { hints = ["Give the point first that the walk comes to first."]
+      }
+  JoggleCoordinate region x points range -> coordinateReport region x points range
+  JoggleNowhere region ->
+    (at region "E0354" "a joggle needs two different coordinates")
+      { message = [stop "15074"]
+      }
+  JoggleRadius region r available largest -> radiusReport region r available largest
+  JoggleDepth region r least ->
+    (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " cannot go so deep"))
+      { hints = ["Its radius must be more than half of its depth, " <> Decimal.mm least <> "."]
+      }
+
+coordinateReport :: Region -> Mm -> [Point] -> (Mm, Mm) -> Report
+coordinateReport region x points (low, high) =
+  (at region "E0354" title)
+    { message = [detail, stop "15074"],
+      hints = ["A joggle needs x coordinates that the piece passes once."]
+    }
+  where
+    title = case points of
+      [] -> "the piece does not come to x = " <> Decimal.mm x
+      _ -> "the piece has more than one point with x = " <> Decimal.mm x
+    detail = case points of
+      [] -> "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
+      _ -> listed (map APoint points)
+
+radiusReport :: Region -> Mm -> Mm -> Maybe Mm -> Report
+radiusReport region r available largest =
+  (at region "E0355" title) {message = [stop "14174"], hints = [maybe none fitting largest]}
+  where
+    title =
+      "a joggle of radius "
+        <> Decimal.mm r
+        <> " does not fit into "
+        <> Decimal.mm available
+        <> " of the piece"
+    none =
+      "No radius fits: the depth must be less than half of this length, "
+        <> downTo (times 0.5 available)
+        <> "."
+    fitting m = "The largest radius that fits is " <> downTo m <> "."
+
+noRowTitle :: Listing -> Int -> Int -> Text
+noRowTitle listing n count =
+  "the "
+    <> (case listing of InTable -> "table"; InList -> "list")
+    <> " has no "
+    <> nounOf listing
+    <> " "
+    <> Decimal.whole n
+    <> ", it has "
+    <> (if count == 0 then "none" else Decimal.whole count)
+
+-- | A member of a table or of a list.
+nounOf :: Listing -> Text
+nounOf listing = case listing of
+  InTable -> "row"
+  InList -> "point"
+
+-- | The title of a report on points; the noun is the one of 'nounOf'.
+listTitle :: Text -> ListFault -> Text
+listTitle noun fault = case fault of
+  FewPoints count least ->
+    "a curve needs " <> Decimal.whole least <> " points, " <> thereAre count
+  FewDifferent count least ->
+    "a closed curve needs " <> Decimal.whole least <> " different points, " <> thereAre count
+  SamePoint k -> numbered k <> " is the same point as the one before it"
+  EvenPoints n -> "parabolas need an odd number of points, there are " <> Decimal.whole n
+  Unordered k -> "x does not go on in " <> numbered k <> " as it began"
+  SectionRows s n ->
+    "section "
+      <> Decimal.whole s
+      <> " names "
+      <> Decimal.whole n
+      <> " "
+      <> noun
+      <> (if n == 1 then "" else "s")
+  SectionOrder s -> "the " <> noun <> "s of section " <> Decimal.whole s <> " do not rise"
+  SectionJoint s begins needed ->
+    "section "
+      <> Decimal.whole s
+      <> " begins with "
+      <> numbered begins
+      <> ", not with "
+      <> numbered needed
+  SectionEnd end count ->
+    "the last section ends with "
+      <> numbered end
+      <> ", not with the last "
+      <> noun
+      <> ", "
+      <> Decimal.whole count
+  NoSection -> "a curve of sections needs at least one"
+  where
+    numbered k = noun <> " " <> Decimal.whole k
+    thereAre n = case n of
+      0 -> "there are none"
+      1 -> "there is only one"
+      _ -> "there are only " <> Decimal.whole n
+
+-- | The hints of a report on points.
+listHint :: Text -> ListFault -> [Text]
+listHint noun fault = case fault of
+  FewPoints _ _ -> []
+  FewDifferent _ _ -> ["The last point, when it is the first again, does not count."]
+  SamePoint _ -> ["Leave one of the two " <> noun <> "s out."]
+  EvenPoints _ ->
+    [ "The first parabola goes through "
+        <> noun
+        <> "s 1 to 3, the next through "
+        <> noun
+        <> "s 3 to 5, and so on."
+    ]
+  Unordered _ ->
+    ["Sort the " <> noun <> "s by x. A curve that turns back in x is a spline, arcs or a polyline."]
+  SectionRows _ _ -> [example]
+  SectionOrder _ -> ["Write the " <> noun <> "s in their order: [3, 5, 8]."]
+  SectionJoint {} ->
+    [ "The first section begins with "
+        <> noun
+        <> " 1, every other one with the "
+        <> noun
+        <> " that the one before ends with."
+    ]
+  SectionEnd _ _ -> []
+  NoSection -> [example]
+  where
+    example = "Two " <> noun <> "s are joined by a line, three by a parabola: [[1, 3], [3, 5, 8]]."

@@ -1,0 +1,354 @@
+-- | Evaluation of machining statements: milling, turning, pockets, drilling, moves; and of cutters
+-- and tolerances.
+--
+-- The functions yield nothing when a setting is missing because of a mistake that is already
+-- reported.
+module Part.Machining
+  ( Context (..),
+    milling,
+    pocketing,
+    drilling,
+    stopsOf,
+    spacePoint,
+    cutterOf,
+    accuracyOf,
+  )
+where
+
+import Base.Crash (bug)
+import Base.Quantity (Feed, Mm (..), Rad (..), over, times)
+import Base.Region (Located (..), Region)
+import Checked.Syntax (Expr)
+import Checked.Syntax qualified as Checked
+import Control.Applicative ((<|>))
+import Control.Monad (when)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Vector qualified as Vector
+import Geometry.Tolerance qualified as Tolerance
+import Part.ContourElement qualified as ContourElement
+import Part.ContourError (ContourFault (OpenBegins))
+import Part.CurveError (CurveFault (SteepBevel))
+import Part.Error (CutterStatement (..), Error (..), ValueFact (..))
+import Part.Evaluation (Eval)
+import Part.Evaluation qualified as Evaluation
+import Part.Expression (Environment)
+import Part.Expression qualified as Expression
+import Part.Measure (feedOf, lengthOf, notNegative)
+import Part.Parameter (Range (UpTo))
+import Part.Parameter qualified as Parameter
+import Part.Part hiding (spot)
+import Part.PocketCheck qualified as PocketCheck
+import Part.PocketError (PocketMisfit (StepTooWide))
+import Part.Value (Value (..))
+
+-- | The names and the settings that hold at a statement. A setting without a value is missing
+-- because of a mistake.
+data Context = Context
+  { environment :: Environment,
+    cutter :: Maybe Cutter,
+    chordError :: Maybe Accuracy,
+    modalFeed :: Maybe (Located Feed),
+    clearanceHeight :: Maybe Mm,
+    spindleSense :: Sense
+  }
+
+-- Milling and turning
+
+-- | The milling or turning of a contour, from the region of its statement.
+milling ::
+  Context ->
+  Work ->
+  Region ->
+  Expr ->
+  Located Side ->
+  Checked.Settings ->
+  Eval (Maybe Milling)
+milling context work at e side settings = do
+  v <- Expression.evaluate (environment context) e
+  case work of
+    Milled -> checkCutter context at MillStatement
+    Turned -> checkCutter context at TurnStatement
+  passes <- passesOf context at (contourOf v) settings
+  pure (assembled context work side settings passes)
+
+-- | The evaluated settings of a milling.
+data Passes = Passes
+  { path :: Contour,
+    before :: Maybe [Stop],
+    after :: Maybe [Stop],
+    heights :: [Mm],
+    plungeFeed :: Maybe (Located Feed),
+    leads :: (Maybe (LeadForm, Mm), Maybe (LeadForm, Mm)),
+    left :: NonEmpty Mm
+  }
+
+passesOf :: Context -> Region -> Contour -> Checked.Settings -> Eval Passes
+passesOf context at contour settings = do
+  before <- stopsOf context (Checked.approach settings)
+  after <- stopsOf context (Checked.retract settings)
+  path <- startedNear env contour (Checked.startNear settings)
+  heights <- maybe (pure []) (levelsOf env) (Checked.depth settings)
+  checkSteps context (maybe at (region . fst) (Checked.depth settings)) heights
+  plungeFeed <- traverse (feedOf env) (Checked.plunge settings)
+  leadIn <- traverse lead (Checked.leadIn settings)
+  leadOut <- traverse lead (Checked.leadOut settings)
+  left <-
+    maybe
+      (pure (Mm 0 :| []))
+      (Evaluation.gather . fmap (notNegative env Parameter.Allowance))
+      (Checked.allowances settings)
+  pure Passes {path, before, after, heights, plungeFeed, leads = (leadIn, leadOut), left}
+  where
+    env = environment context
+    lead (form, x) = (form,) <$> lengthOf env Parameter.Lead x
+
+-- | A milling when all its settings have values.
+assembled :: Context -> Work -> Located Side -> Checked.Settings -> Passes -> Maybe Milling
+assembled context work side settings passes = do
+  tool <- cutter context
+  tolerance <- chordError context
+  feed <- modalFeed context
+  approach <- before passes
+  retract <- after passes
+  _ <- if null (heights passes) then Just (Mm 0) else clearanceHeight context
+  Just
+    Milling
+      { contour = path passes,
+        work,
+        side,
+        radius = cutterRadius tool,
+        gear = case kind tool of BladeCutter wheel -> Just wheel; _ -> Nothing,
+        tolerance,
+        feed,
+        approach,
+        retract,
+        levels = heights passes,
+        clearance = clearanceHeight context,
+        plunge = plungeFeed passes,
+        leadIn = fst (leads passes),
+        leadOut = snd (leads passes),
+        allowances = left passes,
+        corners = Checked.corners settings,
+        sense = Checked.sense settings,
+        spin = spindleSense context,
+        byControl = case Checked.compensation settings of
+          Just (Located asked Checked.ByController) -> Just asked
+          Just (Located _ Checked.ByCompiler) -> Nothing
+          Nothing -> Nothing,
+        rest = maybe Refused (const Allowed) (Checked.restAllowed settings)
+      }
+
+contourOf :: Value -> Contour
+contourOf v = case v of
+  ContourValue c -> c
+  _ -> bug "a value that is no contour where one was checked"
+
+-- | A contour from the point that its statement asks for; fails for an open one.
+startedNear :: Environment -> Contour -> Maybe Expr -> Eval Contour
+startedNear env contour near = case near of
+  Nothing -> pure contour
+  Just e -> do
+    p <- Expression.point <$> Expression.evaluate env e
+    if ends contour == Open
+      then
+        let name = value (contourName contour)
+         in Evaluation.mistake (InContour (OpenBegins (region e) name))
+      else pure (ContourElement.startingNear p contour)
+
+-- | The heights of the passes, downwards: equal steps, none larger than the stepdown asked for.
+levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
+levelsOf env (depth, most) = do
+  d <- lengthOf env Parameter.Depth depth
+  stepdown <- traverse (lengthOf env Parameter.PassDepth) most
+  let count = maybe 1 (\s -> max 1 (ceiling (over d s - Tolerance.equal))) stepdown :: Int
+  when
+    (count > 10000)
+    ( Evaluation.mistake
+        (NotWhole (region depth) Parameter.PassCount (UpTo 10000) (fromIntegral count))
+    )
+  pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
+
+-- | Fails for several passes with a cutter that is widest at its tip.
+checkSteps :: Context -> Region -> [Mm] -> Eval ()
+checkSteps context at heights = case cutter context of
+  Just c
+    | kind c == DovetailCutter && length heights > 1 -> Evaluation.mistake (StepsUndercut at)
+  _ -> pure ()
+
+-- Pockets
+
+-- | The clearing of a closed contour around islands.
+pocketing ::
+  Context ->
+  Region ->
+  Expr ->
+  Expr ->
+  Checked.Settings ->
+  Eval (Maybe Pocketing)
+pocketing context at e step settings = do
+  checkCutter context at PocketStatement
+  wall <- milling context Milled at e (Located (region e) Inside) settings
+  outline' <- named e . contourOf <$> Expression.evaluate env e
+  islands <- concat <$> Evaluation.gather (map islandsOf (Checked.islands settings))
+  apart <- lengthOf env Parameter.Stepover step
+  Evaluation.spend at (sum [length (elements (PocketCheck.contour c)) | c <- outline' : islands])
+  checkPassCount (region step) (over (PocketCheck.halfWidth outline') apart)
+  let diameter = times 2 . cutterRadius <$> cutter context
+      tooWide = [StepTooWide (region step) apart d | Just d <- [diameter], apart > d]
+      pocket w = Pocketing {wall = w, islands = map PocketCheck.contour islands, apart}
+  case PocketCheck.misfits outline' islands <> tooWide of
+    [] -> pure (pocket <$> wall)
+    found -> Evaluation.mistakes [Error (InPocket m) [] | m <- found]
+  where
+    env = environment context
+    named i = PocketCheck.Named (region i)
+    islandsOf i = do
+      v <- Expression.evaluate env i
+      pure $ case v of
+        ListValue vs -> map (named i . contourOf) (Vector.toList vs)
+        _ -> [named i (contourOf v)]
+
+-- | Fails for more passes than any pocket needs.
+checkPassCount :: Region -> Double -> Eval ()
+checkPassCount at count =
+  when
+    (count > 10000)
+    (Evaluation.mistake (NotWhole at Parameter.PassCount (UpTo 10000) (fromIntegral rounded)))
+  where
+    rounded = ceiling (min 1e9 count) :: Int
+
+-- Drilling
+
+-- | The drilling of a point or a list of points.
+drilling ::
+  Context ->
+  Region ->
+  Expr ->
+  Expr ->
+  Checked.Settings ->
+  Eval (Maybe Drilling)
+drilling context at points depth settings = do
+  v <- Expression.evaluate env points
+  checkCutter context at DrillStatement
+  d <- lengthOf env Parameter.Depth depth
+  pecked <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
+  plunge <- traverse (feedOf env) (Checked.plunge settings)
+  let values = case v of
+        ListValue vs -> Vector.toList vs
+        _ -> [v]
+      pecks = maybe 1 (\p -> ceiling (min 1e9 (over d p) - Tolerance.equal)) pecked :: Int
+  when
+    (pecks > 1000)
+    ( Evaluation.mistake
+        (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral pecks))
+    )
+  Evaluation.spend at (length values * pecks)
+  case NonEmpty.nonEmpty (map Expression.point values) of
+    Nothing -> Evaluation.mistake (NothingToDrill (region points))
+    Just some -> pure $ do
+      tool <- cutter context
+      drillFeed <- plunge <|> modalFeed context
+      clear <- clearanceHeight context
+      Just
+        Drilling
+          { holes = fmap (Located (region points)) some,
+            drillRadius = cutterRadius tool,
+            bottom = times (-1) d,
+            clear,
+            pecked,
+            drillFeed
+          }
+  where
+    env = environment context
+
+-- Moves
+
+-- | The points of moves, with the feed of each; nothing when a feed is missing.
+stopsOf :: Context -> [Checked.Stop] -> Eval (Maybe [Stop])
+stopsOf context stops = fmap sequence (Evaluation.gather (map stop stops))
+  where
+    env = environment context
+    stop (Checked.Stop p checkedPace) = do
+      v <- Expression.evaluate env p
+      pace <- case checkedPace of
+        Checked.Cutting -> pure (At <$> modalFeed context)
+        Checked.Rapid -> pure (Just Rapid)
+        Checked.AtFeed e -> Just . At <$> feedOf env e
+      let SpacePoint target _ = spacePoint v
+          level = case v of
+            SpaceValue _ z -> Just z
+            _ -> Nothing
+      pure (Stop (Located (region p) target) level <$> pace)
+
+-- | A point in space; a point of the plane has the height 0.
+spacePoint :: Value -> SpacePoint
+spacePoint v = case v of
+  SpaceValue p z -> SpacePoint p z
+  _ -> SpacePoint (Expression.point v) (Mm 0)
+
+-- Cutters and tolerances
+
+-- | Fails when the statement needs another kind of cutter.
+checkCutter :: Context -> Region -> CutterStatement -> Eval ()
+checkCutter context at statement = case cutter context of
+  Just c | not (fits (kind c)) -> Evaluation.mistake (WrongCutter at statement (kind c))
+  _ -> pure ()
+  where
+    fits cutterKind = case statement of
+      MillStatement -> isMill cutterKind
+      TurnStatement -> cutterKind == TurningCutter
+      PocketStatement -> cutterKind == MillingCutter
+      DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
+
+-- | Tells whether a cutter cuts with its flank along a contour.
+isMill :: CutterKind -> Bool
+isMill cutterKind = case cutterKind of
+  MillingCutter -> True
+  ConeCutter -> True
+  DovetailCutter -> True
+  BladeCutter _ -> True
+  DrillingCutter -> False
+  TurningCutter -> False
+
+-- | A cutter with its radius where it touches the part.
+cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
+cutterOf env (Located _ c) = case c of
+  Checked.MillCutter e ->
+    Cutter MillingCutter . times 0.5 <$> lengthOf env Parameter.CutterDiameter e
+  Checked.DrillCutter e ->
+    Cutter DrillingCutter . times 0.5 <$> lengthOf env Parameter.DrillDiameter e
+  Checked.ConeCutter e lean h -> cone env e lean h
+  Checked.BladeCutter e g -> do
+    d <- lengthOf env Parameter.BladeDiameter e
+    wheel <- lengthOf env Parameter.WheelDiameter g
+    pure (Cutter (BladeCutter wheel) (times 0.5 d))
+  Checked.TurningCutter e -> do
+    x <- Expression.number <$> Expression.evaluate env e
+    when (x < 0) (Evaluation.mistake (Negative (region e) Parameter.NoseRadius x))
+    pure (Cutter TurningCutter (Mm x))
+
+-- | A cone by its diameter, its bevel μ and the height H of its flank, which touches the part at
+-- @a = R + H·tan μ@ from the axis (Kolsanova, section 3).
+cone :: Environment -> Expr -> Expr -> Expr -> Eval Cutter
+cone env e lean h = do
+  Mm d <- lengthOf env Parameter.CutterDiameter e
+  mu <- Expression.number <$> Expression.evaluate env lean
+  Mm flank <- lengthOf env Parameter.FlankHeight h
+  when
+    (abs mu >= pi / 2 - 1e-6)
+    (Evaluation.mistake (InCurve (SteepBevel (region lean) Nothing (Rad mu))))
+  let a = d / 2 + flank * tan mu
+  when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
+  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
+
+-- | The chord error of a tolerance statement.
+accuracyOf :: Environment -> Checked.Accuracy -> Eval Accuracy
+accuracyOf env accuracy = case accuracy of
+  Checked.Within e -> OnPath <$> lengthOf env Parameter.Tolerance e
+  Checked.Between a b -> do
+    inside <- notNegative env Parameter.Tolerance a
+    outside <- notNegative env Parameter.Tolerance b
+    if inside <= Mm 0 && outside <= Mm 0
+      then Evaluation.mistake (NotPositive (region b) Parameter.OneSidedTolerance 0)
+      else pure (Band inside outside)
