@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with names, types and the set of statements.
 module Checked.Error
   ( Error (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with files, machines and the command line.
 module Cli.Error
   ( Error (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | The machines, and all that is known of one.
 module Cli.MachineSheet
   ( machineList,

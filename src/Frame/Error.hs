@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What a machine can not do, or does otherwise than asked.
 module Frame.Error
   ( Error (..),

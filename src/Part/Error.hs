@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with the values and the geometry of a part.
 module Part.Error
   ( Error (..),

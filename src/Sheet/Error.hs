@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with the numbers of a sheet.
 module Sheet.Error
   ( Error (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with the form of a program.
 module Surface.Error
   ( Error (..),
