@@ -16,6 +16,11 @@ TEST ?=
 # Builds that differ in flags keep apart, so that none undoes another's work.
 CHECK := $(STACK) --work-dir .stack-work-check
 BENCH := $(STACK) --work-dir .stack-work-bench
+# Some tests, while one works: without optimisation a changed function compiles one module, not all that use it.
+QUICK := $(STACK) --work-dir .stack-work-quick
+
+TESTED := $(if $(TEST),$(QUICK),$(STACK))
+UNOPTIMISED := $(if $(TEST),--fast)
 
 DEMO := flange
 MACHINE := lkp-01f
@@ -50,11 +55,11 @@ build: needs-build ## build the library and the program
 	$(call banner,build)
 	$(quietly) $(STACK) build
 
-test: needs-build needs-test ## build and run all tests; TEST='--match WORD' runs some
+test: needs-build needs-test ## build and run all tests; TEST='--match WORD' runs some, quickly built
 	$(call banner,build with tests)
-	$(quietly) $(STACK) build --test --no-run-tests
+	$(quietly) $(TESTED) build $(UNOPTIMISED) --test --no-run-tests
 	$(call banner,test)
-	@$(STACK) --verbosity warn test --test-arguments "$(TEST)"
+	@$(TESTED) --verbosity warn test $(UNOPTIMISED) --test-arguments "$(TEST)"
 
 check: needs-build needs-test format-check lint commits ## everything a change must pass: format, lint, commits, warnings, tests
 	$(call banner,build with warnings as errors)
@@ -129,4 +134,4 @@ deb-try: build needs-package needs-try ## try both in a Debian 12 without Haskel
 	  bash scripts/package-try.sh "$(PARTC)" "$$deb" "$$archive"
 
 clean: ## remove everything that was built
-	@rm -rf .stack-work .stack-work-check .stack-work-bench build partc.cabal
+	@rm -rf .stack-work .stack-work-check .stack-work-bench .stack-work-quick build partc.cabal
