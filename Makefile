@@ -16,6 +16,11 @@ TEST ?=
 # Builds that differ in flags keep apart, so that none undoes another's work.
 CHECK := $(STACK) --work-dir .stack-work-check
 BENCH := $(STACK) --work-dir .stack-work-bench
+# Some tests, while one works: without optimisation a changed function compiles one module, not all that use it.
+QUICK := $(STACK) --work-dir .stack-work-quick
+
+TESTED := $(if $(TEST),$(QUICK),$(STACK))
+UNOPTIMISED := $(if $(TEST),--fast)
 
 DEMO := flange
 MACHINE := lkp-01f
@@ -24,61 +29,74 @@ MACHINE := lkp-01f
 ORMOLU := ormolu -o -XImportQualifiedPost
 
 HS_FILES = $(shell find src app test bench -name '*.hs' 2>/dev/null | sort)
+# The package and the archive are written here.
+PACKED := build/packages
+
 PARTC = $$($(STACK) path --local-install-root 2>/dev/null)/bin/partc
 
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants pictures help setup build test check format format-check lint bench demo install clean
+.PHONY: mutants pictures help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
 
-setup: ## install the Debian packages that are missing
+setup: ## install all Debian packages that are missing, and the commit hook
 	@bash scripts/setup.sh
+	@bash scripts/commit-hook.sh
 
-build: setup ## build the library and the program
+# What a target needs: needs-build, needs-test, ... install the groups of scripts/packages.txt.
+needs-%:
+	@bash scripts/setup.sh $*
+
+build: needs-build ## build the library and the program
 	$(call banner,build)
 	$(quietly) $(STACK) build
 
-test: setup ## build and run all tests; TEST='--match WORD' runs some
+test: needs-build needs-test ## build and run all tests; TEST='--match WORD' runs some, quickly built
 	$(call banner,build with tests)
-	$(quietly) $(STACK) build --test --no-run-tests
+	$(quietly) $(TESTED) build $(UNOPTIMISED) --test --no-run-tests
 	$(call banner,test)
-	@$(STACK) --verbosity warn test --test-arguments "$(TEST)"
+	@$(TESTED) --verbosity warn test $(UNOPTIMISED) --test-arguments "$(TEST)"
 
-check: setup format-check lint ## everything a change must pass: format, lint, warnings, tests
+check: needs-build needs-test format-check lint commits ## everything a change must pass: format, lint, commits, warnings, tests
 	$(call banner,build with warnings as errors)
 	$(quietly) $(CHECK) build --flag partc:werror --test --no-run-tests
 	$(call banner,test)
 	@$(CHECK) --verbosity warn test --flag partc:werror
 
-format: setup ## lay out every Haskell file with ormolu
+format: needs-check ## lay out every Haskell file with ormolu
 	$(call banner,format)
 	@$(ORMOLU) --mode inplace $(HS_FILES)
 
-format-check: setup ## fail when ormolu would change a file
+format-check: needs-check ## fail when ormolu would change a file
 	$(call banner,format check)
 	@$(ORMOLU) --mode check $(HS_FILES)
 
-lint: setup ## run hlint over every Haskell file
+lint: needs-check ## run hlint over every Haskell file
 	$(call banner,lint)
 	@hlint --no-summary $(HS_FILES)
 
-bench: setup ## time the kernel, the stages, the whole compile; into docs/performance.md
+commits: ## hold the subjects of commits to their rule
+	$(call banner,commits)
+	@bash scripts/commits-try.sh
+	@bash scripts/commits.sh
+
+bench: needs-build needs-test ## time the kernel, the stages, the whole compile; into docs/performance.md
 	$(call banner,build with benchmark)
 	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
 	$(call banner,bench)
 	@bash scripts/bench.sh "$$($(BENCH) path --dist-dir)"
 
-pictures: setup ## draw the pictures of the documents anew from their programs
+pictures: needs-build needs-test ## draw the pictures of the documents anew from their programs
 	$(call banner,build with tests)
 	$(quietly) $(STACK) build --test --no-run-tests
 	$(call banner,pictures)
 	@PARTC_RECORD=1 $(STACK) --verbosity warn test --test-arguments "--match pictures"
 
-mutants: setup ## break the code once for every law and see the law fail
+mutants: needs-build needs-test ## break the code once for every law and see the law fail
 	$(call banner,mutants)
 	@bash scripts/mutants.sh $(MUTANTS)
 
@@ -100,5 +118,20 @@ install: build ## copy partc to $(PREFIX)/bin
 	@install -D -m 644 docs/partc.1 "$(DESTDIR)$(PREFIX)/share/man/man1/partc.1"
 	@printf 'installed %s\n' '$(DESTDIR)$(PREFIX)/bin/partc'
 
+deb: build needs-package ## make a Debian package
+	$(call banner,deb)
+	@bash scripts/package.sh deb "$(PARTC)" $(PACKED)
+
+dist: build needs-package ## make an archive that runs on a Debian 12 without Haskell
+	$(call banner,dist)
+	@bash scripts/package.sh dist "$(PARTC)" $(PACKED)
+
+deb-try: build needs-package needs-try ## try both in a Debian 12 without Haskell; needs root
+	$(call banner,deb and dist)
+	@deb=$$(bash scripts/package.sh deb "$(PARTC)" $(PACKED)) && \
+	  archive=$$(bash scripts/package.sh dist "$(PARTC)" $(PACKED)) && \
+	  printf '%s\n' "$$deb" "$$archive" && \
+	  bash scripts/package-try.sh "$(PARTC)" "$$deb" "$$archive"
+
 clean: ## remove everything that was built
-	@rm -rf .stack-work .stack-work-check .stack-work-bench build partc.cabal
+	@rm -rf .stack-work .stack-work-check .stack-work-bench .stack-work-quick build partc.cabal

@@ -2,6 +2,9 @@
 # Installs the Debian packages of scripts/packages.txt that are missing.
 # Says nothing and touches nothing when all are there.
 #
+#   setup.sh build test    the packages of these groups
+#   setup.sh               those of build, test and check: all that a change needs
+#
 # PARTC_NO_SETUP=1 skips it, for a system where the tools come from elsewhere.
 set -euo pipefail
 
@@ -17,9 +20,20 @@ if [[ ${PARTC_NO_SETUP:-} == 1 ]]; then
   exit 0
 fi
 
+groups=("$@")
+if ((${#groups[@]} == 0)); then groups=(build test check); fi
+for group in "${groups[@]}"; do
+  grep -qxF "[$group]" "$list" || fail "scripts/packages.txt has no group $group."
+done
+
 wanted=()
+group=
 while read -r name _; do
-  [[ -z $name || $name == '#'* ]] || wanted+=("$name")
+  case $name in
+    '' | '#'*) ;;
+    '['*) group=${name//[\[\]]/} ;;
+    *) if [[ " ${groups[*]} " == *" $group "* ]]; then wanted+=("$name"); fi ;;
+  esac
 done <"$list"
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

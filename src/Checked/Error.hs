@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Mistakes in names, types and the order of statements, and their reports.
 module Checked.Error
   ( Error (..),

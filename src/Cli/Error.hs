@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Errors and warnings that concern files and the command line. Errors in programs and machine
 -- descriptions belong to the stages that find them.
 module Cli.Error

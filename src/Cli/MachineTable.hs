@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Tables of machines: the list of all, and the sheet of one.
 module Cli.MachineTable
   ( machineList,

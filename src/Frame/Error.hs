@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Errors and warnings of the step from the toolpath to frames: requests that a machine cannot
 -- carry out, or carries out in another manner than asked.
 --

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with the description of a machine.
 module Machine.Error
   ( Error (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Mistakes in the values and the geometry of a part.
 --
 -- A mistake is a fact with the regions of its source; sentences are formed by 'toReport' alone.

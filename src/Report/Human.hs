@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Reports for a person at a terminal: title, source excerpt, sentences, hints.
 module Report.Human
   ( Colour (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Mistakes in the numbers of an input sheet.
 module Sheet.Error
   ( Error (..),

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Mistakes in the syntax of a program, its imports and its table files, and their reports.
 module Surface.Error
   ( Error (..),

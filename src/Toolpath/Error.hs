@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | What can be wrong with the way of a cutter around a part.
 module Toolpath.Error
   ( Error (..),

@@ -22,6 +22,7 @@ import Machines (iso6983)
 import Machines qualified
 import Part.Part (Milling)
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
 import Test.Hspec
 import Test.QuickCheck
 import Toolpath.Toolpath (Toolpath)
@@ -96,7 +97,7 @@ lkp01f = Machines.named "lkp-01f"
 proven :: Machine -> Text -> IO (Toolpath, Proof)
 proven machine text =
   maybe (fail "the program has errors") pure . Result.settled $
-    Compile.analyse [] (Compile.alone "p.part" text) `Result.thenSound` \a ->
+    Compile.analyse [] (LoadedProgram.fromText "p.part" text) `Result.thenSound` \a ->
       Compile.punch machine (path a) `Result.thenSound` \p ->
         pure (path a, proofOf (path a) (program p))
   where
