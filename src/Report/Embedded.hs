@@ -1,7 +1,6 @@
 {-# LANGUAGE TemplateHaskell #-}
 
--- | The files of the folder @explain/@, as they were when the program was built. What
--- they mean is read in "Report.Explanation".
+-- | Files of the folder @explain/@, compiled into the program. "Report.Explanation" parses them.
 module Report.Embedded
   ( files,
   )
@@ -11,7 +10,7 @@ import Data.ByteString (ByteString)
 import Data.FileEmbed (embedDir)
 import Language.Haskell.TH.Syntax (addDependentFile)
 
--- | Names and contents. A changed file compiles this module anew by itself; a new one does through
--- @partc.cabal@, which is generated with the list of them.
+-- | Names and contents of the files. GHC compiles this module again when one of the files changes, and
+-- when one is added, because that changes @partc.cabal@.
 files :: [(FilePath, ByteString)]
 files = $(addDependentFile "partc.cabal" *> embedDir "explain")

@@ -1,5 +1,7 @@
--- | A line of the program with marks under a part of it, aligned by the width that
--- characters have on a terminal.
+-- | Excerpts of a program: source lines with a mark under a region.
+--
+-- Marks are aligned by the widths of characters on a terminal. Characters that would control the
+-- terminal are replaced by visible ones. Colours are left to "Report.Human".
 module Report.Excerpt
   ( Excerpt (..),
     excerpts,
@@ -15,31 +17,36 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Text.DocLayout (realLength)
 
--- | A line to print, and where under it the marks go, in columns of the terminal from 0; so many of
--- its characters are left out at its front, and the same line as that of the excerpt before need
--- not be printed again.
+-- | Line to print, with the columns of its mark.
 data Excerpt = Excerpt
-  { place :: Position,
+  { -- | position of the region's first character
+    place :: Position,
+    -- | text of the line, or a window of a long line
     shown :: Text,
+    -- | terminal column of the mark, from 0
     indent :: Int,
+    -- | width of the mark in terminal columns, at least 1
     width :: Int,
+    -- | count of characters left out at the front of the line
     skipped :: Int,
+    -- | true if the excerpt before shows the same window of the same line
     isSame :: Bool
   }
   deriving stock (Eq, Show)
 
--- | The line on which each region begins. A region of several lines is marked to the end of its
--- first.
+-- | Makes an excerpt for each region, in the order given. A region of several lines is marked to the
+-- end of its first line.
 excerpts :: Source -> [Region] -> [Excerpt]
 excerpts source =
   snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing
 
--- | The line on which a region begins, behind another one.
+-- | Makes the excerpt of a region; the second argument is the excerpt before it. A line longer than
+-- 'longest' is cut to a window around the region.
 excerpt :: Source -> Maybe Excerpt -> Region -> Excerpt
 excerpt source before region =
   Excerpt
     { place,
-      shown = Text.concat (cutBefore <> window <> cutAfter),
+      shown = Text.concat (ellipsisBefore <> window <> ellipsisAfter),
       indent,
       width,
       skipped,
@@ -48,47 +55,49 @@ excerpt source before region =
   where
     place@Position {file = file', line = line', column} = Region.position source (start region)
     content = Region.lineText source (start region)
-    cells = expand 0 (Text.unpack content)
+    printed = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
-    -- Of a very long line only the surroundings of the place are shown.
+    -- The window of the excerpt before is used again if it shows the region.
     (skipped, isSame) = case before of
       Just Excerpt {place = Position {file, line}, skipped = front}
         | file == file',
           line == line',
-          front == own || front < column && column - 1 + length' <= front + longest ->
+          front == ownStart || front < column && column - 1 + length' <= front + longest ->
           (front, True)
-      _ -> (own, False)
-    own = if Text.length content > longest then max 0 (column - 1 - longest `div` 2) else 0
-    window = take longest (drop skipped cells)
-    cutBefore = ["…" | skipped > 0]
-    cutAfter = ["…" | Text.length content - skipped > longest]
-    (ahead, rest) = splitAt (column - 1 - skipped) window
-    indent = realLength (Text.concat (cutBefore <> ahead))
+      _ -> (ownStart, False)
+    ownStart = if Text.length content > longest then max 0 (column - 1 - longest `div` 2) else 0
+    window = take longest (drop skipped printed)
+    ellipsisBefore = ["…" | skipped > 0]
+    ellipsisAfter = ["…" | Text.length content - skipped > longest]
+    (beforeMark, rest) = splitAt (column - 1 - skipped) window
+    indent = realLength (Text.concat (ellipsisBefore <> beforeMark))
     width = max 1 (realLength (Text.concat (take length' rest)))
 
--- | How many characters of a line are shown.
+-- | Greatest count of characters shown of one line.
 longest :: Int
 longest = 120
 
--- | A text without characters that a terminal would obey.
+-- | Replaces the control characters of a text by visible ones; line ends remain.
 visible :: Text -> Text
 visible = Text.map sign
   where
     sign c = if c == '\n' then c else shownAs c
 
--- | Control characters become visible signs, those that steer the writing direction a mark.
+-- | Visible form of a character: a control picture (U+2400 …) for C0 controls, U+FFFD for other
+-- controls and for format characters, among them those that change the writing direction.
 shownAs :: Char -> Char
 shownAs c
   | ord c < 0x20 = toEnum (0x2400 + ord c)
   | isControl c || generalCategory c == Format = '\xFFFD'
   | otherwise = c
 
--- | What each character becomes on the terminal: tabs reach the next multiple of four.
+-- | Printed form of each character, from a terminal column on. A tab reaches the next multiple of
+-- four columns.
 expand :: Int -> String -> [Text]
 expand at string = case string of
   [] -> []
-  c : rest -> cell : expand (at + realLength cell) rest
+  c : rest -> printedCharacter : expand (at + realLength printedCharacter) rest
     where
-      cell
+      printedCharacter
         | c == '\t' = Text.replicate (4 - at `mod` 4) " "
         | otherwise = Text.singleton (shownAs c)

@@ -1,6 +1,7 @@
--- | What the code of a report means: a text for people, with a wrong program and a right one. Each
--- stands in a file of its own in @explain/@; this module reads these files, finds one by its code,
--- and lays it out for a terminal.
+-- | Explanations of report codes: a text, a wrong program and the same program put right.
+--
+-- Each explanation is a Markdown file in @explain/@, compiled into the program. This module parses
+-- the files, finds an explanation by its code, and renders it for a terminal or for Markdown.
 module Report.Explanation
   ( Explanation (..),
     Example (..),
@@ -24,64 +25,64 @@ import Data.Text.Encoding qualified as Encoding
 import Report.Embedded qualified as Embedded
 import Report.Report (ReportCode (..))
 
+-- | Explanation of one code.
 data Explanation = Explanation
   { code :: ReportCode,
     -- | one line, no full stop
     title :: Text,
-    -- | paragraphs in Markdown, lines ready for a terminal
+    -- | paragraphs in Markdown, broken at the width of a terminal
     prose :: Text,
     wrong :: Example,
     right :: Example
   }
   deriving stock (Eq, Show)
 
--- | An example, each line with its end.
+-- | Example text; each line has its line end.
 data Example = Example Language Text
   deriving stock (Eq, Show)
 
--- | What an example is written in.
+-- | Language of an example.
 data Language
-  = -- | a part program, complete
+  = -- | a complete part program
     Part
-  | -- | a session at the terminal, or a piece of a tape
+  | -- | lines of a terminal, or rows of a tape
     Session
   deriving stock (Eq, Show)
 
--- | All that the program holds, ordered by their codes.
+-- | All explanations, in the order of their codes; in each group the warnings follow the errors.
 everything :: [Explanation]
 everything = sortOn order (mapMaybe readOne Embedded.files)
   where
     readOne (file, bytes) = either (const Nothing) Just (Encoding.decodeUtf8' bytes) >>= parse file
-    -- Warnings stand behind the errors of their group.
     order e = let ReportCode c = code e in (Text.take 2 (Text.drop 1 c), Text.take 1 c, c)
 
--- | Read a file: a heading with the code that its name tells, paragraphs, the wrong example, the
--- right one.
+-- | Parses the file of an explanation: a heading with the code of the file's name, paragraphs, the
+-- wrong example, the right example. Nothing if the file has another form.
 parse :: FilePath -> Text -> Maybe Explanation
 parse file text = do
   name <- Text.stripSuffix ".md" (Text.pack file)
   let (heading, body) = Text.breakOn "\n" text
   title <- Text.stripPrefix ("# " <> name <> ": ") heading
   let (prose, examples) = Text.breakOn "\n```" body
-  (wrong, behind) <- example "wrong" examples
-  (right, rest) <- example "right" behind
+  (wrong, following) <- example "wrong" examples
+  (right, rest) <- example "right" following
   if Text.null (Text.strip rest) && not (Text.null (Text.strip prose))
     then Just Explanation {code = ReportCode name, title, prose = Text.strip prose, wrong, right}
     else Nothing
 
--- | The fenced block of this kind that a text begins with, and what follows it.
+-- | Parses the fenced block of a kind at the beginning of a text; gives the example and the rest.
 example :: Text -> Text -> Maybe (Example, Text)
-example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") begun of
+example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") trimmed of
   Just rest -> closed Part rest
-  Nothing -> Text.stripPrefix ("```text " <> kind <> "\n") begun >>= closed Session
+  Nothing -> Text.stripPrefix ("```text " <> kind <> "\n") trimmed >>= closed Session
   where
-    begun = Text.stripStart text
+    trimmed = Text.stripStart text
     closed language rest = case Text.breakOn "\n```\n" rest of
       (_, "") -> Nothing
-      (content, behind) -> Just (Example language (content <> "\n"), Text.drop 5 behind)
+      (content, following) -> Just (Example language (content <> "\n"), Text.drop 5 following)
 
--- | The explanations that a person asks for. The letter may be small, it and zeros in front may be
--- left out, and a code may be copied with its brackets: @e314@, @314@, @error[E0314]@.
+-- | Finds the explanations of a code as a user writes it: in lower case, without its letter, without
+-- leading zeros, or with brackets: @e314@, @314@, @error[E0314]@.
 find :: Text -> [Explanation]
 find word = filter isMeant everything
   where
@@ -90,8 +91,8 @@ find word = filter isMeant everything
       let ReportCode c = code e
        in number /= "" && Text.drop 1 c == number && (letters == "" || Text.take 1 c == letters)
 
--- | A code as it was probably meant: its letters in upper case, four digits. No digits when it is
--- none.
+-- | Splits a code as a user writes it into its letter in upper case and its four digits. The digits
+-- are empty if the word is no code.
 readCode :: Text -> (Text, Text)
 readCode word =
   (letters, if isNumber then Text.justifyRight 4 '0' (Text.dropWhile (== '0') digits) else "")
@@ -100,8 +101,8 @@ readCode word =
     (letters, digits) = Text.break isDigit (Text.toUpper within)
     isNumber = not (Text.null digits) && Text.all isDigit digits && Text.length letters <= 1
 
--- | At most three codes that may have been meant by one that there is not: the same number with the
--- other letter, else two digits exchanged, else the nearest of its group.
+-- | Suggests at most three codes for one that does not exist: the same number with the other letter;
+-- otherwise codes with two digits exchanged, then the nearest numbers of the group.
 near :: Text -> [Text]
 near word
   | number == "" = []
@@ -121,40 +122,41 @@ near word
       ]
     value = Text.foldl' (\n d -> 10 * n + fromEnum d - fromEnum '0') 0
 
--- | A number with two neighbouring digits exchanged, in every place.
+-- | All numbers that arise from exchanging two neighbouring digits.
 exchanges :: Text -> [Text]
 exchanges number =
-  [ before <> Text.reverse (Text.take 2 behind) <> Text.drop 2 behind
+  [ before <> Text.reverse (Text.take 2 following) <> Text.drop 2 following
     | k <- [0 .. Text.length number - 2],
-      let (before, behind) = Text.splitAt k number
+      let (before, following) = Text.splitAt k number
   ]
 
--- | All codes with their titles, one a line.
+-- | All codes with their titles, one per line.
 list :: Text
 list = Text.unlines [c <> "  " <> plain (title e) | e <- everything, let ReportCode c = code e]
 
--- | One explanation for a terminal: no fences, programs indented.
+-- | Renders an explanation for a terminal: programs are indented, without fences.
 render :: Explanation -> Text
-render e = page (c <> ": " <> plain (title e)) (plain (prose e)) indented e
+render e = layOut (c <> ": " <> plain (title e)) (plain (prose e)) indented e
   where
     ReportCode c = code e
     indented content =
       Text.intercalate "\n" [if Text.null l then "" else "    " <> l | l <- Text.lines content]
 
--- | One explanation for a viewer of Markdown.
+-- | Renders an explanation in Markdown.
 markdown :: Explanation -> Text
-markdown e = page ("# " <> c <> ": " <> title e) (prose e) fenced e
+markdown e = layOut ("# " <> c <> ": " <> title e) (prose e) fenced e
   where
     ReportCode c = code e
     fenced content = "```\n" <> content <> "```"
 
-page :: Text -> Text -> (Text -> Text) -> Explanation -> Text
-page heading body shown e =
+-- | Joins heading, prose and examples; the function renders the text of an example.
+layOut :: Text -> Text -> (Text -> Text) -> Explanation -> Text
+layOut heading body shown e =
   Text.unlines
     [heading, "", body, "", "Wrong:", "", content (wrong e), "", "Right:", "", content (right e)]
   where
     content (Example _ text) = shown text
 
--- | Words of a program stand between quotation marks on a terminal.
+-- | Replaces the backquotes of Markdown by quotation marks.
 plain :: Text -> Text
 plain text = Text.concat (zipWith (<>) ("" : cycle ["‘", "’"]) (Text.splitOn "`" text))

@@ -1,6 +1,6 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Reports for a person at a terminal: title, source excerpt, sentences, hints.
+-- | Rendering of reports for a person at a terminal: heading, excerpts with marks, sentences, hints.
 module Report.Human
   ( Colour (..),
     render,
@@ -20,92 +20,91 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import System.Console.ANSI.Codes qualified as Ansi
 
--- | Whether to use the terminal's colours.
+-- | Use of the terminal's colours.
 data Colour = Coloured | Plain
   deriving stock (Eq, Show)
 
--- | What a piece of the rendering is, which decides its colour.
+-- | Kind of a part of the rendering; it decides the colour.
 data Role = Severe Severity | Title | Frame | Secondary | Advice
 
--- | One report; the path names the file it is about when it has no place in the program.
+-- | Renders one report. The path names the file of a report that has no region in the program.
 render :: Colour -> Text -> Source -> Report -> Text
 render colour path source report = Text.unlines (heading : location <> body <> advice)
   where
     r = cleaned report
-    paint' = paint colour
+    painted = paint colour
     ReportCode code = Report.code r
     heading =
-      paint' (Severe (severity r)) (Report.severityWord (severity r) <> "[" <> code <> "]")
-        <> paint' Title (": " <> title r)
+      painted (Severe (severity r)) (Report.severityWord (severity r) <> "[" <> code <> "]")
+        <> painted Title (": " <> title r)
     marks = case place r of
       InSource region -> (True, Label region (label r)) : map (False,) (others r)
       InTape _ -> map (False,) (others r)
       InFile -> map (False,) (others r)
     ordered = sortOn (\(_, Label region _) -> start region) marks
     excerpts =
-      [ (isMain, e, words')
-        | ((isMain, Label _ words'), e) <-
+      [ (isMain, e, text)
+        | ((isMain, Label _ text), e) <-
             zip ordered (Excerpt.excerpts source [region | (_, Label region _) <- ordered])
       ]
     gutter = maximum (1 : [Text.length (number' e) | (_, e, _) <- excerpts])
-    bar = Text.replicate (gutter + 1) " " <> paint' Frame "|"
-    location = [Text.replicate gutter " " <> paint' Frame "--> " <> where' | where' /= ""]
-    where' = case place r of
-      InSource region -> written (Region.position source (start region))
+    bar = Text.replicate (gutter + 1) " " <> painted Frame "|"
+    location = [Text.replicate gutter " " <> painted Frame "--> " <> address | address /= ""]
+    address = case place r of
+      InSource region -> positionText (Region.position source (start region))
       InTape row -> path <> ", row " <> Decimal.whole row
       InFile -> path
-    written Position {file, line, column} =
+    positionText Position {file, line, column} =
       file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
-    body = concat (zipWith shownAt (Nothing : map Just excerpts) excerpts)
-    -- Nothing between two marks of one line; a heading where another file begins.
-    shownAt before (isMain, e, words') =
+    body = concat (zipWith excerptLines (Nothing : map Just excerpts) excerpts)
+    -- Two marks on one line share it; another file gets a heading.
+    excerptLines before (isMain, e, text) =
       [bar | not (isSame e)]
-        <> [ Text.replicate gutter " " <> paint' Frame "::: " <> written (Excerpt.place e)
+        <> [ Text.replicate gutter " " <> painted Frame "::: " <> positionText (Excerpt.place e)
              | fileOf e /= fileBefore
            ]
-        <> [ paint' Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
+        <> [ painted Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
              | not (isSame e)
            ]
-        <> [bar <> " " <> Text.replicate (indent e) " " <> mark isMain e words']
+        <> [bar <> " " <> Text.replicate (indent e) " " <> mark isMain e text]
       where
         fileBefore = maybe mainPlace (\(_, b, _) -> fileOf b) before
     fileOf e = let Position {file} = Excerpt.place e in file
-    -- The excerpts begin in the file that the heading names.
     mainPlace = case place r of
       InSource region -> let Position {file} = Region.position source (start region) in file
       _ -> Region.mainFile source
-    mark isMain e words' =
+    mark isMain e text =
       let role = if isMain then Severe (severity r) else Secondary
           sign = if isMain then "^" else "-"
-       in paint'
+       in painted
             role
-            (Text.replicate (width e) sign <> (if words' == "" then "" else " " <> words'))
+            (Text.replicate (width e) sign <> (if text == "" then "" else " " <> text))
     advice =
       [bar | not (null excerpts) && not (null (message r) && null (hints r))]
-        <> concatMap (noted "") (message r)
-        <> concatMap (noted "hint: ") (hints r)
-    noted kind words' = case wrap (76 - Text.length kind) words' of
+        <> concatMap (adviceLines "") (message r)
+        <> concatMap (adviceLines "hint: ") (hints r)
+    adviceLines kind text = case wrap (76 - Text.length kind) text of
       [] -> []
       first : rest ->
-        (lead <> paint' Frame "= " <> paint' Advice kind <> first) :
+        (lead <> painted Frame "= " <> painted Advice kind <> first) :
         map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
     lead = Text.replicate (gutter + 1) " "
     number' e = Decimal.whole (line (Excerpt.place e))
 
--- | Without characters that a terminal would obey; the excerpt sees to its own.
+-- | Replaces control characters in all words of a report. Excerpts do that for source lines.
 cleaned :: Report -> Report
 cleaned r =
   r
     { title = clean (title r),
       label = clean (label r),
-      others = [Label region (clean words') | Label region words' <- others r],
+      others = [Label region (clean text) | Label region text <- others r],
       message = map clean (message r),
       hints = map clean (hints r)
     }
   where
     clean = Excerpt.visible
 
--- | How many errors and warnings there were, as the last line. Nothing when there were none.
+-- | Counts errors and warnings in a last line; empty without reports.
 summary :: Colour -> [Report] -> Text
 summary colour reports = case (count "error" errors, count "warning" warnings) of
   ("", "") -> ""
@@ -120,7 +119,8 @@ summary colour reports = case (count "error" errors, count "warning" warnings) o
       | n == 1 = "1 " <> word
       | otherwise = Decimal.whole n <> " " <> word <> "s"
 
--- | Break at spaces so that lines are at most so wide; explicit line ends stay.
+-- | Breaks a text at spaces into lines of at most @limit@ characters. Line ends of the text remain. A
+-- longer word gets a line of its own.
 wrap :: Int -> Text -> [Text]
 wrap limit = concatMap line . Text.lines
   where
@@ -135,6 +135,7 @@ wrap limit = concatMap line . Text.lines
         | Text.length current + 1 + Text.length w <= limit -> go (current <> " " <> w) rest
         | otherwise -> current : go w rest
 
+-- | Colours a text for its role. An empty text stays empty.
 paint :: Colour -> Role -> Text -> Text
 paint colour role text = case colour of
   Plain -> text
@@ -142,6 +143,7 @@ paint colour role text = case colour of
   Coloured ->
     Text.pack (Ansi.setSGRCode (codes role)) <> text <> Text.pack (Ansi.setSGRCode [Ansi.Reset])
 
+-- | Codes of a role for SGR, the "select graphic rendition" sequence of ECMA-48.
 codes :: Role -> [Ansi.SGR]
 codes role = case role of
   Severe Error -> [bold, foreground Ansi.Red]

@@ -1,4 +1,5 @@
--- | Reports for programs: one line for an editor's problem matcher, or one JSON object a line.
+-- | Rendering of reports for other programs, one line per report: the format of compilers, which
+-- editors match, and JSON.
 module Report.Line
   ( short,
     json,
@@ -17,7 +18,8 @@ import Report.Excerpt qualified as Excerpt
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 
--- | @file:line:col: error[E0123]: text@. A report about a tape has the row in the line's place.
+-- | Renders a report as @file:line:col: error[E0123]: text@. For a report about a tape the row is
+-- the line.
 short :: Text -> Source -> Report -> Text
 short path source r =
   at
@@ -37,8 +39,8 @@ short path source r =
       InTape row -> path <> ":" <> Decimal.whole row <> ":1"
       InFile -> path <> ":1:1"
 
--- | One JSON object and a line end. Lines and columns count characters, from 1; @end@ is the
--- position behind the last character.
+-- | Renders a report as one JSON object with a line end. Lines and columns count characters from 1;
+-- @end@ is the position after the last character.
 json :: Text -> Source -> Report -> Text
 json path source r =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (pairs fields))) <> "\n"

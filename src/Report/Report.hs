@@ -1,5 +1,7 @@
--- | The one type of report. Every stage turns its errors and warnings into it with
--- its own @toReport@; how a report looks is decided by the renderings beside this module.
+-- | The report: one error or warning as a user reads it.
+--
+-- Every stage converts its errors and warnings to reports by its own @toReport@. The other modules of
+-- this folder render a report for a terminal, for an editor, as JSON and as SARIF.
 module Report.Report
   ( Report (..),
     Severity (..),
@@ -21,18 +23,18 @@ import Data.String (IsString)
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | Errors stop the tape, warnings do not.
+-- | Severity of a report. An error prevents the tape; a warning does not.
 data Severity = Error | Warning
   deriving stock (Eq, Ord, Show)
 
--- | The stable code of a report, a letter and four digits: @E0412@, @W0501@.
+-- | Stable code of a report, a letter and four digits: @E0412@, @W0501@.
 newtype ReportCode = ReportCode Text
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
--- | Where a report points.
+-- | Object to which a report points.
 data ReportPlace
-  = -- | a stretch of the program
+  = -- | a region of the program
     InSource Region
   | -- | a row of the tape, from 1
     InTape Int
@@ -40,48 +42,50 @@ data ReportPlace
     InFile
   deriving stock (Eq, Ord, Show)
 
--- | A stretch of the program with a few words beside it.
+-- | Region of the program with a few words of explanation.
 data Label = Label {region :: Region, words :: Text}
   deriving stock (Eq, Show)
 
--- | What is wrong, where, why, and what to do about it.
+-- | Mistake or warning: its place, its reason, and the remedy.
 data Report = Report
   { severity :: Severity,
     code :: ReportCode,
     -- | one line, lower case, no full stop
     title :: Text,
     place :: ReportPlace,
-    -- | words beside the place itself; may be empty
+    -- | words printed beside the place; may be empty
     label :: Text,
-    -- | other places that matter
+    -- | further regions that explain the mistake
     others :: [Label],
     -- | whole sentences
     message :: [Text],
-    -- | what to do; looked for when it is told
+    -- | remedies; a lazy list, because near names are searched only when the report is rendered
     hints :: ~[Text]
   }
   deriving stock (Eq, Show)
 
--- | A report with a title and a place and nothing else yet.
+-- | Makes a report with a title and a place; all other fields are empty.
 report :: Severity -> ReportCode -> ReportPlace -> Text -> Report
 report severity code place title =
   Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
 
--- | A word of the program in a sentence, the beginning of a very long one.
+-- | Puts a word of the program in quotation marks. Of a word of more than 60 characters only the first
+-- 57 are quoted.
 quote :: Text -> Text
 quote text = "‘" <> (if Text.length text > 60 then Text.take 57 text <> "…" else text) <> "’"
 
+-- | Word for a severity in all renderings.
 severityWord :: Severity -> Text
 severityWord severity = case severity of
   Error -> "error"
   Warning -> "warning"
 
--- | Whether the report stops the tape.
+-- | True of a report that prevents the tape.
 isError :: Report -> Bool
 isError r = case severity r of
   Error -> True
   Warning -> False
 
--- | By place, each once.
+-- | Sorts reports by place, severity, code and title, and drops repetitions of the same four.
 sorted :: [Report] -> [Report]
 sorted = map NonEmpty.head . NonEmpty.group . sortOn (\r -> (place r, severity r, code r, title r))

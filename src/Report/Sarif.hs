@@ -1,7 +1,8 @@
--- | Reports as one log in SARIF 2.1.0, the format that code scanners exchange: for viewers in
--- editors and on the pages of a repository. The log holds no time, path or version of its own.
+-- | Rendering of reports as one SARIF 2.1.0 log, the exchange format of code scanners and of their
+-- viewers. The log contains neither a time nor a version, so equal runs give equal logs.
 --
--- <https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>; paragraphs below are its.
+-- Numbers of paragraphs refer to
+-- <https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>.
 module Report.Sarif
   ( Filed (..),
     log,
@@ -29,10 +30,10 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import Prelude hiding (log)
 
--- | A report with the file that it is about, and the text that its regions point into.
+-- | Report with the path of its file and the source of its regions.
 data Filed = Filed {path :: Text, source :: Source, report :: Report}
 
--- | The log of one run: its rules are the codes that occur, with their explanations.
+-- | Renders the log of one run. Its rules are the codes that occur, with their explanations.
 log :: [Explanation] -> [Filed] -> Text
 log explanations filed =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
@@ -50,7 +51,7 @@ log explanations filed =
     codes = nub (sort (map (Report.code . report) filed))
     indices = Map.fromList (zip codes [0 ..])
 
--- | What a code means; its help is the text of @partc explain@.
+-- | Encodes the rule of a code. Its help is the text of @partc explain@.
 rule :: [Explanation] -> ReportCode -> Encoding
 rule explanations code@(ReportCode name) = pairs ("id" .= name <> maybe mempty explained found)
   where
@@ -61,6 +62,7 @@ rule explanations code@(ReportCode name) = pairs ("id" .= name <> maybe mempty e
           "help"
           (pairs ("text" .= Explanation.render e <> "markdown" .= Explanation.markdown e))
 
+-- | Encodes one report. The map gives the index of the rule of each code.
 result :: Map ReportCode Int -> Filed -> Encoding
 result indices Filed {path, source, report = r} =
   pairs $
@@ -78,14 +80,14 @@ result indices Filed {path, source, report = r} =
         [ inSource source region
             <> (if label r == "" then mempty else pair "message" (message' (label r)))
         ]
-      -- A tape is no text: a row is a byte of it (3.30.3).
+      -- A tape is binary: each row is one byte (3.30.3).
       InTape row ->
         [ at
             path
             (pair "region" (pairs ("byteOffset" .= max 0 (row - 1) <> "byteLength" .= (1 :: Int))))
         ]
       InFile -> [at path mempty | path /= ""]
-    -- No two of them may be alike (3.27.22); repetitions of one element are.
+    -- All related locations have to differ (3.27.22).
     places = nub (others r)
     related (Label region words') =
       pairs
@@ -93,8 +95,8 @@ result indices Filed {path, source, report = r} =
             <> (if words' == "" then mempty else pair "message" (message' words'))
         )
 
--- | A stretch of a text. Columns count characters from 1; the end is behind the last character
--- (3.30.8).
+-- | Location of a region. Columns count characters from 1; the end is the position after the last
+-- character (3.30.8).
 inSource :: Source -> Region -> Series
 inSource source region = at file (pair "region" (pairs stretch))
   where
@@ -106,16 +108,17 @@ inSource source region = at file (pair "region" (pairs stretch))
         <> "endLine" .= endLine
         <> "endColumn" .= endColumn
 
+-- | Physical location in a file: its address and further properties.
 at :: Text -> Series -> Series
 at path region =
   pair "physicalLocation" (pairs (pair "artifactLocation" (pairs ("uri" .= uri path)) <> region))
 
--- | Braces would be placeholders, so they are doubled (3.11.5).
+-- | Encodes a message. Braces are doubled, since single ones enclose placeholders (3.11.5).
 message' :: Text -> Encoding
 message' words' = pairs ("text" .= Text.replace "}" "}}" (Text.replace "{" "{{" words'))
 
--- | The path of a file as a reference: relative if it is, each byte encoded that has a meaning
--- there.
+-- | Converts a path to a URI reference (RFC 3986): relative for a relative path, with all reserved
+-- bytes percent-encoded.
 uri :: Text -> Text
 uri path = case Text.stripPrefix "/" path of
   Just rest -> "file:///" <> encoded rest
@@ -128,5 +131,5 @@ uri path = case Text.stripPrefix "/" path of
       where
         c = chr (fromIntegral w)
     digit = toUpper . intToDigit . fromIntegral
-    -- Viewers compare with the paths of a repository, which have no dot in front.
+    -- Viewers compare the reference with paths of a repository, which have no leading dot.
     dropHere p = maybe p dropHere (Text.stripPrefix "./" p)
