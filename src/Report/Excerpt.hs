@@ -34,8 +34,8 @@ data Excerpt = Excerpt
   }
   deriving stock (Eq, Show)
 
--- | Makes an excerpt for each region, in the order given. A region of several lines is marked to the
--- end of its first line.
+-- | Makes an excerpt for each region, in the order given. A region of several lines is marked to
+-- the end of its first line.
 excerpts :: Source -> [Region] -> [Excerpt]
 excerpts source =
   snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing

@@ -81,8 +81,8 @@ example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") trimmed o
       (_, "") -> Nothing
       (content, following) -> Just (Example language (content <> "\n"), Text.drop 5 following)
 
--- | Finds the explanations of a code as a user writes it: in lower case, without its letter, without
--- leading zeros, or with brackets: @e314@, @314@, @error[E0314]@.
+-- | Finds the explanations of a code as a user writes it: in lower case, without its letter,
+-- without leading zeros, or with brackets: @e314@, @314@, @error[E0314]@.
 find :: Text -> [Explanation]
 find word = filter isMeant everything
   where
@@ -101,8 +101,8 @@ readCode word =
     (letters, digits) = Text.break isDigit (Text.toUpper within)
     isNumber = not (Text.null digits) && Text.all isDigit digits && Text.length letters <= 1
 
--- | Suggests at most three codes for one that does not exist: the same number with the other letter;
--- otherwise codes with two digits exchanged, then the nearest numbers of the group.
+-- | Suggests at most three codes for one that does not exist: the same number with the other
+-- letter; otherwise codes with two digits exchanged, then the nearest numbers of the group.
 near :: Text -> [Text]
 near word
   | number == "" = []

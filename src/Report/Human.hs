@@ -1,6 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Rendering of reports for a person at a terminal: heading, excerpts with marks, sentences, hints.
+-- | Rendering of reports for a person at a terminal: heading, excerpts with marks, sentences,
+-- hints.
 module Report.Human
   ( Colour (..),
     render,
@@ -119,8 +120,8 @@ summary colour reports = case (count "error" errors, count "warning" warnings) o
       | n == 1 = "1 " <> word
       | otherwise = Decimal.whole n <> " " <> word <> "s"
 
--- | Breaks a text at spaces into lines of at most @limit@ characters. Line ends of the text remain. A
--- longer word gets a line of its own.
+-- | Breaks a text at spaces into lines of at most @limit@ characters. Line ends of the text remain.
+-- A longer word gets a line of its own.
 wrap :: Int -> Text -> [Text]
 wrap limit = concatMap line . Text.lines
   where

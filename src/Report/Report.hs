@@ -1,7 +1,7 @@
 -- | The report: one error or warning as a user reads it.
 --
--- Every stage converts its errors and warnings to reports by its own @toReport@. The other modules of
--- this folder render a report for a terminal, for an editor, as JSON and as SARIF.
+-- Every stage converts its errors and warnings to reports by its own @toReport@. The other modules
+-- of this folder render a report for a terminal, for an editor, as JSON and as SARIF.
 module Report.Report
   ( Report (..),
     Severity (..),
@@ -69,8 +69,8 @@ report :: Severity -> ReportCode -> ReportPlace -> Text -> Report
 report severity code place title =
   Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
 
--- | Puts a word of the program in quotation marks. Of a word of more than 60 characters only the first
--- 57 are quoted.
+-- | Puts a word of the program in quotation marks. Of a word of more than 60 characters only the
+-- first 57 are quoted.
 quote :: Text -> Text
 quote text = "‘" <> (if Text.length text > 60 then Text.take 57 text <> "…" else text) <> "’"
 
