@@ -1,4 +1,5 @@
--- | Labels beside points, where they cover neither lines nor one another.
+-- | Placement of labels beside points, clear of lines and of each other. The search is greedy:
+-- each label takes the first of its candidate positions that is free.
 module Draw.Label
   ( PointLabel (..),
     size,
@@ -23,8 +24,8 @@ import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | A text for a point, the direction in which it had best stand, of length 1, and how many mm it
--- may be off, the best first.
+-- | Label of a point: its text, the preferred direction from the point (a unit vector), and the
+-- allowed distances from the point in mm, the preferred one first.
 data PointLabel = PointLabel
   { caption :: Text,
     anchor :: Point,
@@ -33,12 +34,12 @@ data PointLabel = PointLabel
   }
   deriving stock (Eq, Show)
 
--- | The size of the letters in mm.
+-- | Size of the letters in mm.
 size :: Double
 size = 3
 
--- | The middles of the labels, in order, in an area and clear of lines. A label for which there is
--- no room is left out.
+-- | Places labels in an area, clear of segments, in the order given. The result has the centre of
+-- each label. A label without a free position is left out.
 settle :: Area -> BoundingBox.Index Segment -> [PointLabel] -> [(Point, Text)]
 settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
@@ -46,35 +47,35 @@ settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
       Just box -> (settled box taken, Just (middleOf box, caption label))
       Nothing -> (taken, Nothing)
 
--- | The middle of a box.
+-- | Centre of a box.
 middleOf :: BoundingBox -> Point
 middleOf BoundingBox {left, bottom, right, top} =
   Vec.point ((left + right) / 2) ((bottom + top) / 2)
 
--- | What labels cover, by the squares in which some of it lies.
+-- | Boxes of placed labels, by the squares of the paper that they touch.
 type Taken = Map (Int, Int) [BoundingBox]
 
 settled :: BoundingBox -> Taken -> Taken
 settled box taken =
   foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
 
--- | The squares of paper, 10 mm wide, in which some of a box lies.
+-- | Squares of paper, 10 mm wide, that a box touches.
 squares :: BoundingBox -> [(Int, Int)]
 squares BoundingBox {left, bottom, right, top} =
   [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
   where
     at x = floor (x / 10)
 
--- | What the label covers at places near its point, the best first.
+-- | Boxes of a label at its candidate positions, the preferred one first.
 candidates :: PointLabel -> [BoundingBox]
 candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
   where
-    -- Figures are 0.72 of their size high.
+    -- The height of digits is 0.72 of their size.
     high = 0.36 * size
     wide = max high (Draw.textWidth size caption / 2)
     at distance angle =
       let direction = Vec.rotate angle outward
-          -- From the middle of the text to its edge, as far as the direction goes across it.
+          -- Distance from the centre of the text to its edge in the label's direction.
           inside =
             min
               (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0))))
@@ -98,6 +99,6 @@ free area drawn taken box@BoundingBox {left, bottom, right, top} =
     around = BoundingBox.inflate (Mm 0.6) box
     half = (top - bottom) / 2
     y = (bottom + top) / 2
-    -- A text is a horizontal line as thick as its letters are high.
+    -- For the test against lines, a text is a horizontal line as thick as its letters are high.
     middle = Straight (Vec.point (left + half / 2) y) (Vec.point (right - half / 2) y)
     clear s = let ClosestPoint (Mm d) _ = Distance.segments middle s in d > half + 0.5

@@ -1,4 +1,4 @@
--- | The signs of the drawing: its pens, its colours and its marks. The legend shows the same.
+-- | Line styles, colours and symbols of the drawing (after ISO 128). The legend shows the same.
 module Draw.LineStyle
   ( black,
     blue,
@@ -36,15 +36,15 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | The inks: dark enough to print well without colour.
+-- | Colours, dark enough to print without colour.
 black, grey, blue, red :: Text
 black = "#000000"
 grey = "#909090"
 blue = "#0b3d91"
 red = "#a01818"
 
--- | The pens. Where the cutter runs on a contour, an edge and its white bed take the contour's
--- place.
+-- | Pens. Where the cutter runs on a contour, an edge pen over a white bed pen replaces the
+-- contour pen.
 contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen :: Pen
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
@@ -56,11 +56,11 @@ cutterPen = Pen black 0.2 []
 framePen = Pen black 0.35 []
 axisPen = Pen grey 0.13 []
 
--- | The grey of cut material.
+-- | Grey of the material.
 matterColour :: Text
 matterColour = "#e4e4e4"
 
--- | What stays standing because the cutter does not get there.
+-- | Colour of rest material.
 restColour :: Text
 restColour = "#f0a090"
 
@@ -68,12 +68,12 @@ restColour = "#f0a090"
 small :: TextStyle
 small = TextStyle {size = 2.5, ink = black, bold = False}
 
--- | An arrow at a fraction of a segment that has a length.
+-- | Arrow at a fraction of a segment; the segment has a positive length.
 arrowAt :: Text -> Double -> Segment -> Svg
 arrowAt colour fraction s =
   Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
 
--- | An arrow at a fraction of a segment that has room for one.
+-- | Arrow at a fraction of a segment, or nothing if the segment is shorter than an arrow.
 arrowOn :: Text -> Double -> Segment -> [Svg]
 arrowOn colour fraction s
   | room < 4 = []
@@ -81,15 +81,15 @@ arrowOn colour fraction s
   where
     Mm room = Segment.length s
 
--- | The head of an axis.
+-- | Arrowhead at the end of an axis.
 axisArrow :: Vec -> Point -> Svg
 axisArrow = Svg.arrow grey 2.4
 
--- | A node of the path, with a number or without one.
+-- | Node of the toolpath; the flag tells whether it has a number.
 node :: Bool -> Point -> Svg
 node numbered = Svg.dot blue (if numbered then 0.6 else 0.35)
 
--- | The sign of a workpiece's zero: a circle, two of its quarters black.
+-- | Symbol of the workpiece zero: a circle with two black quarters.
 origin :: Point -> [Svg]
 origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 []) r p]
   where
@@ -99,24 +99,24 @@ origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 
       let (from, to) = (rim a, rim (a - pi / 2))
        in Svg.area black [Straight p from, Segment.arc Clockwise p from to]
 
--- | A cutter of a radius, with the cross of its axis.
+-- | Outline of a cutter of a radius in mm of paper, with the cross of its axis.
 cutter :: Double -> Point -> [Svg]
 cutter reach p = Svg.ring cutterPen reach p : map bar (cross reach p)
   where
     bar s = Svg.stroke cutterPen [s]
 
--- | The cross of a cutter of a radius.
+-- | Cross of the axis of a cutter of a radius in mm of paper.
 cross :: Double -> Point -> [Segment]
 cross reach p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
   where
     arm = max 1.6 (min 3 (reach + 1))
     bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
 
--- | Where the cutter stands before the first move.
+-- | Symbol of the start position of the cutter.
 start :: Point -> [Svg]
 start p = [Svg.area "white" (diamond p), Svg.loop (Pen black 0.25 []) (diamond p)]
 
--- | The outline of that mark.
+-- | Outline of the symbol of the start position.
 diamond :: Point -> [Segment]
 diamond p = zipWith Straight corners (drop 1 corners <> take 1 corners)
   where

@@ -1,4 +1,4 @@
--- | The nodes of the way along a contour, numbered from the entry.
+-- | Nodes of the toolpath along a contour, numbered from the entry, as dots and labels.
 module Draw.Node
   ( dots,
     labels,
@@ -21,10 +21,12 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | A node of the path, the direction away from the contour there, and its number from the entry.
+-- | Node: its position on paper, the direction away from the contour (a unit vector), and its
+-- number from 0 at the entry.
 data Node = Node {place :: Point, outward :: Vec, number :: Int}
 
--- | The points between the moves, both ends included; a curve has none between its arcs.
+-- | Points between the moves of a cut, both ends included. Arcs of one curve have no nodes
+-- between them.
 nodes :: Cut -> NonEmpty Node
 nodes Cut {course, away} =
   entry
@@ -34,7 +36,7 @@ nodes Cut {course, away} =
     first = NonEmpty.head (NonEmpty.head course)
     final = NonEmpty.last (NonEmpty.last course)
     closed = Vec.near (Segment.start first) (Segment.end final)
-    -- A closed way goes round, an open one straight on at its ends.
+    -- A closed cut continues at its end with its first move; an open one continues straight on.
     (before, after) = if closed then (final, first) else (first, final)
     entry =
       Node
@@ -49,11 +51,12 @@ nodes Cut {course, away} =
       | otherwise =
         outwardAt away (heading Segment.endDirection s) (heading Segment.startDirection next)
 
--- | A direction of a segment, nowhere when it has no length.
+-- | Direction of a segment, or the zero vector if the segment has no length.
 heading :: (Segment -> Vec) -> Segment -> Vec
 heading direction s = if Segment.length s > Mm 1e-9 then direction s else Vec.vec 0 0
 
--- | Square to the path, where it arrives in one direction and leaves in another.
+-- | Direction away from the contour at a node, square to the mean of the arriving and the leaving
+-- direction. The factor is +1 or -1 for the side.
 outwardAt :: Double -> Vec -> Vec -> Vec
 outwardAt away arriving leaving
   | Vec.norm along > 1e-3 = Vec.scale away (Vec.left (Vec.unit along))
@@ -61,7 +64,7 @@ outwardAt away arriving leaving
   where
     along = Vec.add arriving leaving
 
--- | The points of the nodes. Where they are crowded only those with a number are drawn.
+-- | Dots of the nodes. If there are many, only numbered nodes have dots.
 dots :: Cut -> [Svg]
 dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
   where
@@ -70,7 +73,7 @@ dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered,
     Mm whole = total (map Segment.length (NonEmpty.toList (Scene.lines cut)))
     roomy = whole / fromIntegral (NonEmpty.length numbered) > 1.5
 
--- | The numbers of the nodes; where a closed way ends, it has both its numbers.
+-- | Labels with the numbers of the nodes. The last node of a closed cut has two numbers.
 labels :: Cut -> [PointLabel]
 labels cut
   | Vec.near (place first) (place final) = entry "0" first : map plain between
@@ -81,12 +84,12 @@ labels cut
     final = NonEmpty.last numbered
     between = filter (isMarked (number final)) (drop 1 (NonEmpty.init numbered))
     plain n = PointLabel (Decimal.whole (number n)) (place n) (outward n) near
-    -- The entry is crowded, but is found by the cutter that stands there.
+    -- The entry needs more room, because the cutter is drawn there.
     entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10])
     near = [1.2, 2, 3, 4]
 
--- | Whether a node has its number drawn, by the number of the last node: both ends, and of those
--- between as many as can be read.
+-- | True of a node that has a label; the first argument is the number of the last node. Both ends
+-- have labels, and as many nodes between them as 'most' allows.
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
@@ -95,6 +98,6 @@ isMarked final n = number n `mod` every == 0 || number n == final
         then 1
         else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
 
--- | About so many numbers can be read on a drawing, or things told from one another by them.
+-- | Greatest count of numbers, or of distinguishable lines, that stay legible on one drawing.
 most :: Int
 most = 60

@@ -1,6 +1,6 @@
--- | The sheet of a drawing: an A4 page lying on its side, its scale, and where on it the part lies.
+-- | Page of a drawing: an A4 page in landscape, its scale, and the position of the part on it.
 --
--- On paper x runs to the right and y down, in mm from the upper left corner of the page.
+-- On paper x points right and y points down, in mm from the upper left corner of the page.
 module Draw.Page
   ( Page,
     lay,
@@ -33,35 +33,36 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A scale, and the point of the part in the middle of the field.
+-- | Scale of a drawing, and the point of the part at the centre of the field.
 data Page = Page {scale :: Scale, middle :: Point}
   deriving stock (Eq, Show)
 
--- | So many mm on paper for so many of the part.
+-- | Scale: @paper@ mm on paper show @real@ mm of the part.
 data Scale = Scale {paper :: Double, real :: Double}
   deriving stock (Eq, Show)
 
--- | A rectangle on paper.
+-- | Rectangle on paper.
 data Area = Area {leftmost :: Double, upper :: Double, rightmost :: Double, lower :: Double}
   deriving stock (Eq, Show)
 
--- | The whole page, 297 × 210 mm.
+-- | Whole page, 297 × 210 mm.
 page :: Area
 page = Area 0 0 297 210
 
--- | Where the part is drawn: what a margin of 10 mm leaves above the strip.
+-- | Field in which the part is drawn: the page less a margin of 10 mm and less the strip.
 field :: Area
 field = Area 10 10 287 184
 
--- | The strip below it for the legend and the title.
+-- | Strip below the field, for the legend and the title block.
 strip :: Area
 strip = Area 10 184 287 200
 
--- | What is kept free along the edges of the field, for the labels.
+-- | Width that is kept free along the edges of the field, for labels.
 padding :: Double
 padding = 6
 
--- | A sheet that shows everything in a box of the part, and the origin where the scale allows it.
+-- | Chooses the page for a box of the part. The origin of the part is shown too if the scale
+-- allows it.
 lay :: BoundingBox -> Page
 lay box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bottom + top) / 2)}
   where
@@ -69,7 +70,8 @@ lay box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bottom
     wider = BoundingBox.union box (BoundingBox.ofPoints (Vec.point 0 0) [])
     BoundingBox {left, bottom, right, top} = if fits wider chosen then wider else box
 
--- | Full size where that fits and is not tiny, else the largest standard scale that fits.
+-- | Chooses full size if the box fits and is not tiny, otherwise the largest standard scale (ISO
+-- 5455) at which it fits.
 scaleFor :: BoundingBox -> Scale
 scaleFor box
   | not (fits box (Scale 1 1)) = fromMaybe (Scale 1 1) (find (fits box) reductions)
@@ -84,7 +86,7 @@ scaleFor box
 fits :: BoundingBox -> Scale -> Bool
 fits box s = filled box s <= 1
 
--- | How much of the field's width or height a box takes, the larger of the two.
+-- | Larger of the fractions of the field's width and height that a box takes at a scale.
 filled :: BoundingBox -> Scale -> Double
 filled BoundingBox {left, bottom, right, top} s =
   factor s * max ((right - left) / width) ((top - bottom) / height)
@@ -95,32 +97,32 @@ filled BoundingBox {left, bottom, right, top} s =
 factor :: Scale -> Double
 factor s = paper s / real s
 
--- | A scale as it is written: 1:2.5.
+-- | Scale in the notation 1:2.5.
 ratio :: Scale -> Text
 ratio s = Decimal.short 4 (paper s) <> ":" <> Decimal.short 4 (real s)
 
--- | The largest of … 1, 2, 5, 10, 20 … that is not above a positive number.
+-- | Largest number of … 1, 2, 5, 10, 20 … that is not above a positive number.
 round125 :: Double -> Double
 round125 limit = maximum (decade : [d | d <- map (decade *) [2, 5, 10], d <= limit])
   where
     decade = 10 ^^ (floor (logBase 10 limit) :: Int)
 
--- | Where a point of the part lies on paper.
+-- | Converts a point of the part to paper.
 place :: Page -> Point -> Point
 place Page {scale, middle} p =
   Vec.point
     ((leftmost field + rightmost field) / 2 + factor scale * (Vec.x p - Vec.x middle))
     ((upper field + lower field) / 2 - factor scale * (Vec.y p - Vec.y middle))
 
--- | The point of the part that lies at a place on paper.
+-- | Converts a point on paper to the part.
 unplace :: Page -> Point -> Point
 unplace Page {scale, middle} p =
   Vec.point
     (Vec.x middle + (Vec.x p - (leftmost field + rightmost field) / 2) / factor scale)
     (Vec.y middle - (Vec.y p - (upper field + lower field) / 2) / factor scale)
 
--- | A segment on paper. What is walked counter-clockwise still looks so; its sweep is negative
--- there, because y points down.
+-- | Converts a segment to paper. A counter-clockwise arc still looks counter-clockwise; its sweep
+-- changes sign, because y points down.
 segment :: Page -> Segment -> Segment
 segment sheet s = case s of
   Straight a b -> Straight (place sheet a) (place sheet b)
@@ -132,11 +134,11 @@ segment sheet s = case s of
         sweep = Rad (-a)
       }
 
--- | How long a length of the part is on paper.
+-- | Converts a length of the part to mm on paper.
 onPaper :: Page -> Mm -> Double
 onPaper sheet (Mm l) = factor (scale sheet) * l
 
--- | The smallest box around a segment.
+-- | Smallest bounding box of a segment.
 extent :: Segment -> BoundingBox
 extent s = case s of
   Straight a b -> BoundingBox.ofPoints a [b]
@@ -146,7 +148,7 @@ extent s = case s of
           [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
      in BoundingBox.ofPoints start (end : filter (Segment.spans s) quarters)
 
--- | Whether a point on paper lies in an area.
+-- | True of a point on paper inside an area.
 holds :: Area -> Point -> Bool
 holds area p =
   Vec.x p >= leftmost area

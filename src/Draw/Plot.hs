@@ -1,6 +1,6 @@
--- | The picture of a part and of the cutter's path: one A4 page at a standard scale, made to be
--- printed. Widths of lines and sizes of letters are mm of paper at every scale, and kinds of lines
--- differ in black and white too.
+-- | Drawing of a part and of the toolpath as SVG: one A4 page at a standard scale, made to be
+-- printed. Line widths and letter sizes are mm of paper at every scale. Line styles differ in
+-- black and white, too.
 module Draw.Plot
   ( plot,
   )
@@ -36,7 +36,7 @@ import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Part)
 import Toolpath.Toolpath (Toolpath)
 
--- | Draw a part and the path of the cutter as an SVG document.
+-- | Draws a part and its toolpath as an SVG document.
 plot :: Part -> Toolpath -> Text
 plot part path =
   Svg.document
@@ -64,8 +64,8 @@ plot part path =
 
 -- The part
 
--- | Material in grey, what lies in something else on top of it. Where nothing bounds it outwards, a
--- band of it runs around every window.
+-- | Areas of material in grey. Shapes inside others are drawn after them. A window that lies in
+-- no material gets a band of grey around it.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
@@ -80,7 +80,7 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
       ( level s,
         Svg.area (if matter s == Within then LineStyle.matterColour else "white") (outline s)
       )
-    -- What stands in a window is drawn above it, and a window in that above that.
+    -- Nesting level of a shape: what lies in a window is drawn after it.
     level s = 2 * inWindows s + (if matter s == Within then 0 else 1)
     inWindows s =
       let p =
@@ -109,8 +109,8 @@ contourLine Shape {ends, outline} = case ends of
   Open -> Svg.stroke LineStyle.contourPen outline
   Closed -> Svg.loop LineStyle.contourPen outline
 
--- | Thin axes through the origin; where it is off the page, a mark at a point with round
--- coordinates.
+-- | Thin axes through the origin. If the origin is off the page, the axes cross at a point with
+-- round coordinates.
 axes :: Page -> [Svg]
 axes sheet
   | Page.holds Page.field origin =
@@ -141,12 +141,12 @@ axes sheet
     mark = Page.place sheet (Vec.point cx cy)
     (mx, my) = (Vec.x mark, Vec.y mark)
 
--- | The mark of the origin, if that is on the page.
+-- | Symbol of the origin, if the origin is on the page.
 originMark :: Page -> [Svg]
 originMark sheet =
   concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place sheet (Vec.point 0 0)])
 
--- | The heads of the axes through a point, and their names.
+-- | Arrowheads and names of the axes through a point.
 heads :: Double -> Double -> Double -> Double -> [Svg]
 heads px py right top =
   [ LineStyle.axisArrow (Vec.vec 1 0) (Vec.point right py),
@@ -155,13 +155,14 @@ heads px py right top =
     Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
--- | A round length of 4 to 8 mm on paper.
+-- | Spacing of the grid: a round length that is 4 to 8 mm on paper.
 gridOf :: Page -> Double
 gridOf sheet = Page.round125 (8 / Page.onPaper sheet (Mm 1))
 
 -- The path
 
--- | The ways between the cuts. A way back on the same line is drawn once, with arrows for both.
+-- | Linking moves. A segment that is traversed both ways is drawn once, with an arrow for each
+-- way.
 ways :: Scene -> [Svg]
 ways Scene {feeds, rapids} =
   map (line LineStyle.feedPen) lineFeeds <> map (line LineStyle.rapidPen) lineRapids <> arrows
@@ -171,8 +172,8 @@ ways Scene {feeds, rapids} =
     (lineFeeds, drawn) = once Set.empty feeds
     (lineRapids, _) = once drawn rapids
 
--- | Segments that, either way round, are neither among known ones nor earlier among themselves; and
--- all that are known then.
+-- | Drops segments that are equal, in either direction, to known segments or to earlier ones. The
+-- result has the remaining segments and all known segments.
 once :: Set Segment -> [Segment] -> ([Segment], Set Segment)
 once known segments = case segments of
   [] -> ([], known)
@@ -182,8 +183,8 @@ once known segments = case segments of
     where
       key = min s (Segment.reverse s)
 
--- | The way along a contour, with five arrows, or in a pocket, with more on a long one. On the
--- contour itself it runs between two thin lines.
+-- | Toolpath along a contour or in a pocket, with five arrows, and more on a long one in a
+-- pocket. A toolpath on the contour itself is drawn between two thin lines.
 cutLine :: Cut -> [Svg]
 cutLine cut@Cut {upon, numbered} =
   [Svg.stroke pen segments | upon, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
@@ -204,7 +205,8 @@ cutLine cut@Cut {upon, numbered} =
         else []
     count = if numbered then 5 else max 5 (floor (over whole (Mm 40))) :: Int
 
--- | An arrow at a distance along segments, clear of the nodes where the segment is long enough.
+-- | Arrow at a distance along segments, kept away from the nodes of segments that are long
+-- enough.
 arrowFrom :: [Segment] -> Mm -> Maybe Svg
 arrowFrom segments distance = case segments of
   [] -> Nothing
@@ -219,11 +221,11 @@ arrowFrom segments distance = case segments of
                 s
             )
 
--- | The cutter where it begins to cut.
+-- | Cutter at the position where it begins to cut.
 cutter :: Cut -> [Svg]
 cutter cut@Cut {reach} = LineStyle.cutter reach (Segment.start (NonEmpty.head (Scene.lines cut)))
 
--- | The numbers of all nodes, clear of the lines.
+-- | Numbers of all nodes, clear of the lines.
 numbers :: Scene -> [Svg]
 numbers Scene {shapes, cuts, feeds, rapids, start} =
   [Svg.text style Centred p words' | (p, words') <- Label.settle Page.field index labels]
@@ -232,7 +234,7 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
     labels =
       concatMap Node.labels (if length marked > Node.most then filter readable marked else marked)
     marked = filter numbered cuts
-    -- Of many ways only those have numbers that are larger than these.
+    -- If there are many cuts, only the larger ones have numbers.
     readable cut =
       let BoundingBox {left, bottom, right, top} =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
@@ -246,7 +248,7 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
         <> rapids
         <> LineStyle.diamond start
 
--- | The way of a cutter, and the cutter itself.
+-- | Segments of a cut and of its cutter, which labels have to avoid.
 cutLines :: Cut -> [Segment]
 cutLines cut@Cut {reach, entered} =
   (if entered then rim : LineStyle.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)

@@ -1,4 +1,4 @@
--- | What is to be drawn, laid on paper: contours, cuts and the ways between them.
+-- | Objects of a drawing, converted to paper: contours, cuts, linking moves and rest material.
 module Draw.Scene
   ( Scene (..),
     Shape (..),
@@ -58,25 +58,25 @@ import Toolpath.Toolpath
 import Toolpath.Toolpath qualified as Toolpath
 import Prelude hiding (lines)
 
--- | What is drawn, on paper.
+-- | All objects of a drawing, in mm of paper.
 data Scene = Scene
   { sheet :: Page,
     shapes :: [Shape],
     cuts :: [Cut],
-    -- | what stays standing because the cutter does not get there
+    -- | outlines of rest material
     rests :: [[Segment]],
-    -- | straight moves without cutting
+    -- | straight linking moves at feed
     feeds :: [Segment],
     rapids :: [Segment],
     start :: Point,
-    -- | what all tools do, and the radii of the cutters or noses in mm of the part
+    -- | work of each tool, with the radius of its cutter or nose in mm of the part
     tools :: [(Part.Work, Mm)]
   }
 
--- | A contour of the part, or a hole in it.
+-- | Contour of the part, or a drilled hole.
 data Shape = Shape {ends :: Ends, matter :: Matter, outline :: [Segment]}
 
--- | Where the material is.
+-- | Side of a contour on which the material lies.
 data Matter
   = -- | within the contour
     Within
@@ -86,19 +86,19 @@ data Matter
     Unknown
   deriving stock (Eq)
 
--- | The way of the cutter's centre along a contour.
+-- | Path of the cutter's centre in one cut.
 data Cut = Cut
   { -- | between nodes: one line or arc, or the arcs of one curve
     course :: NonEmpty (NonEmpty Segment),
-    -- | the radius of the cutter
+    -- | radius of the cutter in mm of paper
     reach :: Double,
-    -- | the side of the walk that is away from the contour: +1 when it is its right
+    -- | side of the path that is away from the contour: +1 for its right, -1 for its left
     away :: Double,
-    -- | whether it runs on the contour itself
+    -- | true if the cutter runs on the contour itself
     upon :: Bool,
-    -- | whether its nodes have numbers: not in a pocket
+    -- | true if the nodes have numbers; false in a pocket
     numbered :: Bool,
-    -- | whether the cutter is drawn where it begins: in a pocket where it goes down first
+    -- | true if the cutter is drawn at the begin of the cut; in a pocket, at the first plunge
     entered :: Bool
   }
 
@@ -106,7 +106,7 @@ data Cut = Cut
 lines :: Cut -> NonEmpty Segment
 lines = sconcat . course
 
--- | Lay a part and a path on a sheet that holds them.
+-- | Converts a part and its toolpath to the objects of a drawing.
 set :: Part -> Toolpath -> Scene
 set part path =
   Scene
@@ -134,7 +134,7 @@ set part path =
     sheet =
       Page.lay (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
 
--- | Contours that are not earlier among themselves.
+-- | Drops contours that are equal to earlier ones.
 distinct :: [Part.Contour] -> [Part.Contour]
 distinct = catMaybes . snd . List.mapAccumL next Map.empty
   where
@@ -142,7 +142,7 @@ distinct = catMaybes . snd . List.mapAccumL next Map.empty
       | c `elem` Map.findWithDefault [] (beginning c) known = (known, Nothing)
       | otherwise = (Map.insertWith (<>) (beginning c) [c] known, Just c)
 
--- | Where a contour begins.
+-- | First point of a contour.
 beginning :: Part.Contour -> Point
 beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 
@@ -158,8 +158,8 @@ millingOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | What stays beside contours: its outline, or where that is not known a circle where the cutter
--- turns back.
+-- | Outlines of rest material. If an outline is not known, a circle marks the position where the
+-- cutter turns back.
 restsOf :: Toolpath -> [[Segment]]
 restsOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
@@ -176,7 +176,7 @@ restsOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
           (Vec.shift (Vec.vec (r / 4) 0) p)
       ]
 
--- | The holes that are drilled.
+-- | Drilled holes of an operation.
 holesOf :: Operation -> [Circle]
 holesOf operation = case operation of
   Mill _ -> []
@@ -195,7 +195,7 @@ movesBetween block = case block of
   Holing _ moves -> moves
   Commanding _ -> []
 
--- | What has to be on the page.
+-- | Bounding boxes of everything that has to be on the page.
 boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
   [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.outline c))]
@@ -218,7 +218,7 @@ cutterBox block = case block of
         (radius milling)
         (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
--- | With the millings of the contours that begin there.
+-- | Converts a contour to paper. The map has the millings of the contours that begin at a point.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf sheet millings c =
   Shape
@@ -246,7 +246,7 @@ holeOf sheet circle@(Circle c r) =
   where
     whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
--- | The side of the walk on which the cutter stands, if it stands on one.
+-- | Side of the contour on which the cutter runs; nothing if it runs on the contour.
 sideOf :: Milling -> Maybe Carrier.Side
 sideOf milling = case Toolpath.leadingSide milling of
   Left _ -> Nothing
@@ -264,7 +264,7 @@ cutsOf sheet block = case block of
           numbered = True
         }
     ]
-  -- What is cut without being lifted is one cut.
+  -- Moves in a pocket between two lifts are one cut.
   Clearing {pocket = Located _ p, cleared} ->
     zipWith
       (\entered ms -> (along (Part.wall p) ms) {entered})
@@ -284,11 +284,11 @@ cutsOf sheet block = case block of
           entered = True
         }
 
--- | Whether a move in a pocket cuts.
+-- | True of a move in a pocket that cuts.
 isCut :: Move -> Bool
 isCut m = Toolpath.pace m /= Rapid && uncurry (==) (Toolpath.heights m)
 
--- | Passes of a pocket that differ in their depth alone, once.
+-- | Keeps the first of those passes of a pocket that differ in depth only.
 drawnOnce :: [Block] -> [Block]
 drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
   where
@@ -297,7 +297,8 @@ drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
       Clearing {pass} -> Right (Toolpath.number pass, Toolpath.left pass)
       _ -> Left i
 
--- | A cutter on the contour itself leaves no side free; the labels then stand outside.
+-- | Side on which labels are placed. A cutter on the contour itself leaves neither side free;
+-- labels are then outside.
 awayFrom :: Milling -> Double
 awayFrom milling = case (sideOf milling, Part.ends (contour milling)) of
   (Just Carrier.LeftOf, _) -> -1

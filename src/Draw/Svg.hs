@@ -1,7 +1,7 @@
--- | Lines, areas, marks and texts in SVG 1.1, in mm of paper.
+-- | SVG 1.1 documents: lines, areas, symbols and texts, in mm of paper.
 --
--- Arcs stay arcs. Every line says how it looks in its own attributes, so that a drawing needs no
--- style sheet and any part of it can be copied out.
+-- Arcs remain arcs. Every element has its style in its own attributes, so a drawing needs no style
+-- sheet, and any part of it can be copied.
 module Draw.Svg
   ( Svg,
     document,
@@ -40,7 +40,7 @@ import Text.Blaze.Svg11 qualified as Svg
 import Text.Blaze.Svg11.Attributes qualified as Attribute
 import Text.DocLayout qualified as DocLayout
 
--- | A page with its title and its layers, from the lowest to the topmost.
+-- | Document of a page size, with a title and layers from the lowest to the topmost.
 document :: Area -> Text -> [Svg] -> Text
 document page title layers =
   Lazy.toStrict (Blaze.renderSvg (Svg.docTypeSvg ! size ! viewBox ! font $ rows (heading : layers)))
@@ -53,36 +53,36 @@ document page title layers =
     font = Attribute.fontFamily "Arial, Helvetica, sans-serif"
     heading = Svg.title (toSvg (printable title))
 
--- | Things that belong together, under a name.
+-- | Group of elements with a name.
 layer :: Text -> [Svg] -> Svg
 layer name things = Svg.g ! Attribute.id_ (toValue name) $ rows things
 
--- | One below the other in the file.
+-- | Elements one after the other, each on a line of its own in the file.
 rows :: [Svg] -> Svg
 rows things = toSvg newLine *> traverse_ (\thing -> thing *> toSvg newLine) things
   where
     newLine = "\n" :: Text
 
--- | How a line is drawn: its width and its dashes and gaps in mm.
+-- | Pen: colour, width in mm, and the lengths of dashes and gaps in mm.
 data Pen = Pen {colour :: Text, width :: Double, dashes :: [Double]}
   deriving stock (Eq, Show)
 
--- | Segments that follow one another, as a line.
+-- | Open polyarc, drawn with a pen. Each segment begins where the one before ends.
 stroke :: Pen -> [Segment] -> Svg
 stroke pen segments =
   Svg.path ! Attribute.d (toValue (course segments)) ! Attribute.fill "none" ! drawnWith pen
 
--- | Segments that end where they begin, as a line without an end.
+-- | Closed polyarc, drawn with a pen.
 loop :: Pen -> [Segment] -> Svg
 loop pen segments =
   Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill "none" ! drawnWith pen
 
--- | What segments enclose, in a colour.
+-- | Area that segments enclose, filled with a colour.
 area :: Text -> [Segment] -> Svg
 area colour segments =
   Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill (toValue colour)
 
--- | A rectangle, filled with a colour.
+-- | Rectangle with a pen, filled with a colour.
 rectangle :: Pen -> Text -> Area -> Svg
 rectangle pen colour Area {leftmost, upper, rightmost, lower} =
   Svg.rect
@@ -93,11 +93,11 @@ rectangle pen colour Area {leftmost, upper, rightmost, lower} =
     ! Attribute.fill (toValue colour)
     ! drawnWith pen
 
--- | A filled circle about a point.
+-- | Filled circle of a colour and a radius about a point.
 dot :: Text -> Double -> Point -> Svg
 dot colour radius p = circle radius p ! Attribute.fill (toValue colour)
 
--- | A circle about a point, as a line.
+-- | Circle of a radius about a point, drawn with a pen.
 ring :: Pen -> Double -> Point -> Svg
 ring pen radius p = circle radius p ! Attribute.fill "none" ! drawnWith pen
 
@@ -109,22 +109,22 @@ circle radius p =
     ! Attribute.cy (number (Vec.y p))
     ! Attribute.r (number radius)
 
--- | An arrow's head of a length, with its tip at a point.
+-- | Arrowhead of a colour and a length in a direction (a unit vector), with its tip at a point.
 arrow :: Text -> Double -> Vec -> Point -> Svg
 arrow colour size direction tip = area colour [Straight tip (back 1), Straight (back 1) (back (-1))]
   where
     along = Vec.scale (-size) direction
     back side = Vec.shift (Vec.add along (Vec.scale (side * size / 4) (Vec.left direction))) tip
 
--- | Which point of a text is given: on its base line, or in its very middle.
+-- | Reference point of a text: start, middle or end of its base line, or its centre.
 data Anchor = Start | Middle | End | Centred
   deriving stock (Eq, Show)
 
--- | The height of the letters' bodies in mm, their colour, and whether they are bold.
+-- | Style of a text: size in mm, colour, weight.
 data TextStyle = TextStyle {size :: Double, ink :: Text, bold :: Bool}
   deriving stock (Eq, Show)
 
--- | A text on one line.
+-- | Text on one line at a point.
 text :: TextStyle -> Anchor -> Point -> Text -> Svg
 text TextStyle {size, ink, bold} anchor p words' =
   Svg.text_
@@ -142,7 +142,7 @@ text TextStyle {size, ink, bold} anchor p words' =
       End -> ("end", 0)
       Centred -> ("middle", 0.36 * size)
 
--- | About how wide a text is in a size, rather too much than too little.
+-- | Estimated width in mm of a text of a size in mm; rather too large than too small.
 textWidth :: Double -> Text -> Double
 textWidth size words' =
   0.6
@@ -153,7 +153,7 @@ textWidth size words' =
   where
     wide c = c `elem` ("MWmwЖМФШЩЫЮжмфшщыю" :: String)
 
--- | A character that XML can not hold becomes a blank.
+-- | Replaces a character that XML does not allow by a space.
 printable :: Text -> Text
 printable = Text.map (\c -> if Char.isControl c || c >= '\xFFFE' && c <= '\xFFFF' then ' ' else c)
 
@@ -168,7 +168,7 @@ drawnWith Pen {colour, width, dashes} =
       [] -> mempty
       _ -> Attribute.strokeDasharray (numbers dashes)
 
--- | The commands that walk along segments.
+-- | Path data of segments.
 course :: [Segment] -> Text
 course segments = case segments of
   [] -> ""
@@ -179,8 +179,8 @@ walked s = case s of
   Straight _ b -> ["L", pair b]
   Arc {start, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
-        -- Ends of a long arc say little about its centre when they are rounded, those of a full
-        -- circle nothing; thirds of a circle are safe.
+        -- Rounded ends of a long arc determine its centre badly, and those of a full circle not at
+        -- all. So an arc is cut into parts of at most a third of a circle.
         pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
         sense = if a > 0 then "1 " else "0 "
         to i = Segment.at (fromIntegral i / fromIntegral pieces) s

@@ -1,5 +1,5 @@
--- | The picture of a tape as text: a line for every row, its holes and what they mean. A tape
--- without holes, a text, is shown line by line.
+-- | Picture of a tape as text: a line for each row, with its holes and its meaning. A tape
+-- without holes, which is a text, is shown line by line.
 module Draw.TapeRows
   ( RowRange (..),
     picture,
@@ -21,11 +21,11 @@ import Tape.Layout (RowMeaning (..))
 import Tape.RowMeaning (Row (..))
 import Tape.RowMeaning qualified as RowMeaning
 
--- | What to show. Frames and rows are counted from 1, the first and the last of them are shown.
+-- | Range of a tape to show. Frames and rows count from 1; both ends are included.
 data RowRange = Everything | Frames Int Int | Rows Int Int
   deriving stock (Eq, Show)
 
--- | The picture of the rows of a tape; nothing if none of them is in the range.
+-- | Picture of the rows of a tape in a range; nothing if the range has no rows.
 picture :: Machine -> RowRange -> [Row] -> Maybe Text
 picture machine range rows = case (Machine.pitch (Machine.medium machine), found) of
   (_, []) -> Nothing
@@ -34,7 +34,7 @@ picture machine range rows = case (Machine.pitch (Machine.medium machine), found
   where
     found = pictureLines machine range rows
 
--- | Its lines without the heading.
+-- | Lines of the picture, without the heading.
 pictureLines :: Machine -> RowRange -> [Row] -> [Text]
 pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   Just _ -> concatMap (holed machine) (folded (chosen range (zip [1 ..] rows)))
@@ -42,21 +42,21 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | What a range counts, and how much of that a tape has whose rows are these: frames; rows with
--- holes, or lines of a text.
+-- | Unit that a range counts, and the count of these units on a tape: frames; rows with holes; or
+-- lines of a text.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
   (_, Just _) -> ("row", length rows)
   (_, Nothing) -> ("line", length (textLines rows))
 
--- | A row with its number.
+-- | Row with its number.
 type Numbered = (Int, Row)
 
 chosen :: RowRange -> [Numbered] -> [Numbered]
 chosen range = filter (uncurry (inRange range)) . untilEnd
   where
-    -- Nothing behind the range is looked at.
+    -- Nothing after the range is evaluated.
     untilEnd = case range of
       Everything -> id
       Rows _ b -> takeWhile ((<= b) . fst)
@@ -70,22 +70,23 @@ inRange range n row = case range of
 
 -- Holes -------------------------------------------------------------------------------------------
 
--- | The tracks above their columns.
+-- | Heading with the numbers of the tracks.
 heading :: Int -> Text
 heading tracks = "   row  " <> acrossTracks tracks Decimal.whole
 
--- | Something for every track from the highest, and the sprocket hole between them.
+-- | Joins a text for each track, from the highest to the lowest, with the sprocket hole between
+-- them.
 acrossTracks :: Int -> (Int -> Text) -> Text
 acrossTracks tracks each =
   Text.unwords
     (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
 
--- | Behind which track, counted from the lowest, the sprocket holes lie: the second of a five-track
--- tape, the third of wider ones.
+-- | Track above which the sprocket holes lie, counted from the lowest: the second of a five-track
+-- tape, the third of wider tapes.
 sprocket :: Int -> Int
 sprocket tracks = if tracks <= 5 then 2 else 3
 
--- | Rows, and blank ones of one kind together.
+-- | Groups blank rows of one kind.
 folded :: [Numbered] -> [NonEmpty Numbered]
 folded = NonEmpty.groupBy together
   where
@@ -101,11 +102,11 @@ isBlank row = case sense row of
   CheckSymbol _ -> False
   InWord {} -> False
 
--- | Up to so many blank rows are shown one by one.
+-- | Greatest count of blank rows that are shown one by one.
 fewBlanks :: Int
 fewBlanks = 3
 
--- | The line of a row; of many blank rows one line with their number.
+-- | Line of a row. Many blank rows share one line with their count.
 holed :: Machine -> NonEmpty Numbered -> [Text]
 holed machine group@((n, row) :| _)
   | count > fewBlanks =
@@ -135,14 +136,14 @@ holed machine group@((n, row) :| _)
 
 -- Text --------------------------------------------------------------------------------------------
 
--- | The rows of each line, its end included.
+-- | Rows of each line of text, the line end included.
 textLines :: [Row] -> [[Row]]
 textLines rows = case break ((== Just '\n') . symbol) rows of
   ([], []) -> []
   (line, []) -> [line]
   (line, end : more) -> (line <> [end]) : textLines more
 
--- | A line of text with what its words say.
+-- | Line of text with the meaning of its words.
 printed :: Machine -> (Int, [Row]) -> Maybe Text
 printed machine (n, line) = case line of
   [] -> Nothing

@@ -1,4 +1,4 @@
--- | What stands below the drawing: the legend, the scale bar and the title.
+-- | Strip below the drawing: the legend, the scale bar and the title block (ISO 7200).
 module Draw.TitleBlock
   ( name,
     block,
@@ -23,15 +23,15 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Part, Work (..))
 import Part.Part qualified as Part
 
--- | The part's name and its title on one line.
+-- | Name and title of the part on one line.
 name :: Part -> Text
 name part = Text.intercalate ". " (catMaybes [Name.text <$> Part.name part, Part.title part])
 
--- | The frame of the page and the strip below the drawing.
+-- | Frame of the page and the whole strip.
 block :: Part -> Scene -> [Svg]
 block part scene = borders <> legend scene <> scaleBar (sheet scene) <> title part scene
 
--- | Where the strip is divided, in mm from the left edge of the page.
+-- | Positions at which the strip is divided, in mm from the left edge of the page.
 barEdge, titleEdge :: Double
 barEdge = 160
 titleEdge = 203
@@ -49,7 +49,7 @@ borders =
         LineStyle.framePen
         [Straight (Vec.point x (upper Page.strip)) (Vec.point x (lower Page.strip))]
 
--- | The signs that the drawing uses, in two rows.
+-- | Legend of the symbols that the drawing uses, in two rows.
 legend :: Scene -> [Svg]
 legend scene =
   concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- signs scene])
@@ -62,8 +62,8 @@ legend scene =
               (upper Page.strip + 5 + 6.2 * fromIntegral row)
        in sample p <> [Svg.text LineStyle.small Start (Vec.shift (Vec.vec 10 0.9) p) words']
 
--- | Whether the drawing has a sign, how it is drawn about the left end of its place, and what it
--- means.
+-- | Symbols of the legend: whether the drawing uses the symbol, how it is drawn from the left end
+-- of its position, and its meaning.
 signs :: Scene -> [(Bool, Point -> [Svg], Text)]
 signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
   [ (any (\s -> matter s == Unknown) shapes, line LineStyle.contourPen, "contour"),
@@ -97,7 +97,7 @@ signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
     right = Vec.shift (Vec.vec 8 0)
     middle = Vec.shift (Vec.vec 4 0)
 
--- | A round length of 12 to 30 mm on paper, in four steps, black and white in turn.
+-- | Scale bar: a round length of 12 to 30 mm on paper in four parts, alternately black and white.
 scaleBar :: Page -> [Svg]
 scaleBar sheet =
   zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"]
@@ -119,7 +119,7 @@ scaleBar sheet =
         (Vec.point (left + width * fraction) (y + 5))
         (Decimal.short 4 (total * fraction) <> unit)
 
--- | The title block: the part, the scale, the cutters and noses.
+-- | Title block: part, scale, cutters and noses.
 title :: Part -> Scene -> [Svg]
 title part Scene {sheet, tools} =
   [ fitted
@@ -143,7 +143,7 @@ title part Scene {sheet, tools} =
         [] -> []
         sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
 
--- | A text made to end before the right edge of the strip: smaller first, then cut short.
+-- | Text that ends before the right edge of the strip: it is set smaller if necessary, then cut.
 fitted :: TextStyle -> Point -> Text -> Svg
 fitted style p words' =
   Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)
