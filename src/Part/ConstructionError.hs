@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Constructions without an answer, and constructions with several: intersections, tangents,
 -- circles of a radius, points of a curve.
 module Part.ConstructionError

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Faults of contours: elements that do not follow one another, and links that do not join their
 -- neighbours.
 module Part.ContourError

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O0 #-}
+
 -- | Faults of curves and pieces: points that make no curve, shifts that fold a curve or tear it,
 -- bevels and joggles that do not fit.
 module Part.CurveError
