@@ -1,5 +1,5 @@
--- | Contours in files that every program of the benchmark reads: little-endian doubles, x y bulge
--- for each vertex.
+-- | The file of a contour, for every program of the benchmark: little-endian doubles, x y bulge for
+-- each vertex.
 module ContourFile
   ( write,
     read,
@@ -18,17 +18,17 @@ import Geometry.Polyarc (Ends (..))
 import System.IO (IOMode (..), hFileSize, hGetBuf, withBinaryFile)
 import Prelude hiding (read)
 
+-- | Writes a contour.
 write :: FilePath -> FlatPolyarc -> IO ()
 write file o = withBinaryFile file WriteMode (\handle -> Builder.hPutBuilder handle (builder o))
 
--- | The vertices one after the other.
+-- | The bytes of the vertices.
 builder :: FlatPolyarc -> Builder
 builder FlatPolyarc {xs, ys, bulges} = foldMap vertex [0 .. PrimArray.sizeofPrimArray xs - 1]
   where
     vertex i = foldMap (\a -> Builder.doubleLE (PrimArray.indexPrimArray a i)) [xs, ys, bulges]
 
--- | A closed contour. It goes through a small buffer, so that nothing but the contour stays in
--- memory.
+-- | Reads a closed contour through a small buffer, so that only the contour stays in memory.
 read :: FilePath -> IO FlatPolyarc
 read file = withBinaryFile file ReadMode $ \handle -> do
   count <- (`div` 24) . fromIntegral <$> hFileSize handle

@@ -17,21 +17,24 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 import Noise qualified
 
+-- | The families of contours.
 data Family
   = -- | lobes of tangent lines and arcs of 3 mm
     Flange
   | -- | teeth on a ring, with sharp inner corners
     Comb
-  | -- | the same with a chamfer in each root that the offset turns over
+  | -- | as 'Comb', with a chamfer in each root that the offset inverts
     ChamferedComb
-  | -- | a closed curve that fills a square: neighbours in place that are far along the curve
+  | -- | a closed curve that fills a square: points near to one another are far apart along the
+    -- curve
     Moore
-  | -- | noise smaller than the offset, a segment every mm: about 2.4 crossings a segment
+  | -- | noise smaller than the offset, a segment every mm: about 2.4 crossings for each segment
     Star
-  | -- | noise on a circle of one size: the crossings grow with the square of the segments
+  | -- | noise on a circle of fixed size: the crossings grow with the square of the segments
     FixedStar
   deriving stock (Eq, Show, Enum, Bounded)
 
+-- | The name of a family in the tables and files.
 name :: Family -> Text
 name family = case family of
   Flange -> "flange"
@@ -41,7 +44,7 @@ name family = case family of
   Star -> "star"
   FixedStar -> "starfix"
 
--- | How many segments, near the powers of ten from 10³.
+-- | Numbers of segments, near the powers of ten from 10³.
 sizes :: Family -> [Int]
 sizes family = case family of
   Moore -> [4 ^ (5 :: Int), 4 ^ (7 :: Int), 4 ^ (8 :: Int), 4 ^ (10 :: Int)]
@@ -49,14 +52,14 @@ sizes family = case family of
   FixedStar -> [1000, 10000, 100000]
   _ -> [1000, 10000, 100000, 1000000]
 
--- | A small one of each kind.
+-- | The number of segments of a small contour.
 small :: Family -> Int
 small family = case family of
   Moore -> 4 ^ (4 :: Int)
   ChamferedComb -> 120
   _ -> 100
 
--- | The offsets in mm, outwards when positive.
+-- | The offsets in mm, positive outwards.
 distances :: Family -> [Double]
 distances family = case family of
   Flange -> [2, -2]
@@ -66,7 +69,7 @@ distances family = case family of
   Star -> [5, -5]
   FixedStar -> [5]
 
--- | A contour of so many segments.
+-- | A contour of @n@ segments.
 contour :: Family -> Int -> FlatPolyarc
 contour family n = case family of
   Flange -> generated n (flange n)
@@ -96,7 +99,7 @@ ring teeth = max 40 (whole teeth * 12 / (2 * pi))
 onCircle :: Double -> Double -> Vertex
 onCircle r a = (r * cos a, r * sin a, 0)
 
--- | For every lobe an outer and an inner corner, each rounded: arc, line, arc, line.
+-- | A rounded outer and a rounded inner corner for each lobe: arc, line, arc, line.
 flange :: Int -> Int -> Vertex
 flange n i =
   if even i
@@ -148,7 +151,7 @@ chamfered n i = case i `mod` 6 of
     a = pi / whole teeth
     along = leg / (r - 4)
 
--- | A circle of a radius with noise of an amplitude, from the stream of a seed.
+-- | A circle with noise of an amplitude in mm, from the stream of a seed.
 star :: Int -> Double -> Double -> Int -> Int -> Vertex
 star n r amplitude seed i = onCircle (r + amplitude * (2 * u - 1)) (2 * pi * whole i / whole n)
   where
@@ -168,7 +171,7 @@ moore n i = (4 * whole cx + noise (2 * i), 4 * whole cy + noise (2 * i + 1), 0)
       _ -> (side + y, side - 1 - x)
     noise place = 0.7 * (2 * Noise.uniform 3 (fromIntegral place) - 1)
 
--- | Hilbert's curve through a grid of that side, a power of two: the cell at a step, from (0, 0) to
+-- | Hilbert's curve through a grid whose side is a power of two: the cell at a step, from (0, 0) to
 -- (side − 1, 0).
 hilbert :: Int -> Int -> (Int, Int)
 hilbert side = go 1 0 0

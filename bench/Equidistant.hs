@@ -1,4 +1,4 @@
--- | The one place where the benchmark calls the kernel.
+-- | The only module of the benchmark that calls the kernel.
 module Equidistant
   ( offset,
     outlines,
@@ -12,14 +12,15 @@ import Offset.Kernel (ReachableRegion)
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
 
--- | The offset of a closed counter-clockwise contour, outwards when the distance in mm is positive;
--- or why there is none. It is whole as soon as it is known which of both it is.
+-- | The offset of a closed counter-clockwise contour by a distance in mm, positive outwards; or the
+-- reason why there is none. The offset is evaluated completely as soon as the answer is known to be
+-- one.
 offset :: Double -> FlatPolyarc -> Either String ReachableRegion
 offset distance source =
   either (Left . show) Right (Kernel.offset (Kernel.plain side (Mm (abs distance))) [source])
   where
     side = if distance > 0 then RightOf else LeftOf
 
--- | The loops of an offset, each by itself.
+-- | The loops of an offset.
 outlines :: ReachableRegion -> [FlatPolyarc]
 outlines = Loop.outlines . Kernel.loops

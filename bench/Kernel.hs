@@ -1,11 +1,10 @@
 {-# OPTIONS_GHC -fno-full-laziness #-}
 
--- | @kernel SMALL FILE D RUNS BATCHES@: the offset of one closed contour by D mm, outwards when it
--- is counter-clockwise, RUNS times in each batch. Prints for every batch the nanoseconds of
--- processor time of one run, then what came out of the last one and how far the first one raised
--- the peak of memory. Before that the contour of SMALL is offset a hundred times, so that the code,
--- and the place where new data goes, are in memory by then. The peers in bench/peers take the same
--- arguments and print the same lines.
+-- | @kernel SMALL FILE D RUNS BATCHES@: offsets a closed counter-clockwise contour by D mm,
+-- positive outwards, RUNS times in each batch. Prints for every batch the nanoseconds of processor
+-- time of one run, then the result of the last run and the rise of peak memory in the first run.
+-- Before that it offsets the contour of SMALL a hundred times, so that the code and the allocation
+-- area are in memory. The peers in bench/peers have the same arguments and output.
 module Main (main) where
 
 import Base.Quantity (Mm (..))
@@ -34,6 +33,7 @@ main = do
         measure small file distance runs batches
     _ -> die "kernel SMALL FILE D RUNS BATCHES"
 
+-- | Measures and prints.
 measure :: FilePath -> FilePath -> Double -> Int -> Int -> IO ()
 measure small file distance runs batches = do
   begin <- ContourFile.read small
@@ -54,8 +54,8 @@ measure small file distance runs batches = do
   putStrLn ("vertices " <> show (sum (map (PrimArray.sizeofPrimArray . FlatPolyarc.xs) result)))
   putStrLn ("memory " <> show (1024 * (after - before)))
 
--- | Nanoseconds of processor time of one of so many runs, and what the last one gave. Collecting
--- the garbage of a run is part of it; that of the runs before is collected before the clock starts.
+-- | The mean nanoseconds of processor time of @runs@ runs, and the result of the last one. Garbage
+-- collection during the runs counts; earlier garbage is collected before the clock starts.
 timed :: Int -> Double -> FlatPolyarc -> IO (Integer, ReachableRegion)
 timed runs distance source = do
   performGC
@@ -75,11 +75,11 @@ once distance source = do
   either (\why -> die ("kernel: " <> why)) evaluate found
 {-# NOINLINE once #-}
 
--- | The most kilobytes that the process has held.
+-- | The peak memory of the process, in kilobytes.
 peak :: IO Int
 peak = do
   status <- readFile "/proc/self/status"
-  -- Read now, not when it is asked for.
+  -- Evaluated now: the file is read lazily.
   evaluate
     ( sum
         [ k

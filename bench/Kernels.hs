@@ -1,4 +1,4 @@
--- | The kernel beside its peers: time, growth, memory, and whether they agree.
+-- | The offset kernel compared with its peers: time, growth, memory, agreement.
 module Kernels
   ( Peers (..),
     compared,
@@ -22,11 +22,11 @@ import System.FilePath ((</>))
 import System.IO (hFlush, stdout)
 import Table qualified
 
--- | Ours; those that keep arcs; those that know chords only, by the sagitta in mm.
+-- | Our kernel; the peers that keep arcs; the peers that use chords only, by the sagitta in mm.
 data Peers = Peers {ours :: Peer, keepers :: [Peer], chorders :: [Double -> Peer]}
 
--- | One contour and one distance, and what became of it: ours and the keepers, then the chorders
--- where they were asked.
+-- | The outcomes for one contour and one distance: of ours and the keepers, then of the chorders
+-- where they were run.
 data Case = Case
   { family :: Family,
     segments :: Int,
@@ -36,13 +36,13 @@ data Case = Case
     finer :: [Either Text Outcome]
   }
 
--- | Sagittas of the chords in mm; the first is the one that is timed.
+-- | The sagittas of the chords in mm. Times are measured with the coarse one.
 coarse, fine :: Double
 coarse = 0.01
 fine = 0.001
 
--- | Run all up to about so many segments, with the files in a folder. Gives the names of the page's
--- places and their texts, and what does not hold.
+-- | Runs all cases up to about @most@ segments, with their files in a folder. Gives the tables by
+-- the names of their places in the page, and the violated expectations.
 compared :: FilePath -> Int -> Peers -> IO ([(Text, Text)], [Text])
 compared folder most peers = do
   createDirectoryIfMissing True folder
@@ -60,6 +60,7 @@ compared folder most peers = do
       concatMap (broken (length (keepers peers))) cases
     )
 
+-- | All distances of one contour.
 ofContour :: FilePath -> Peers -> Family -> Int -> IO [Case]
 ofContour folder peers family segments = do
   small <- written (Contours.small family)
@@ -75,7 +76,7 @@ ofContour folder peers family segments = do
       )
     exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
     chorded <-
-      if bearable
+      if isBearable
         then
           Peer.interleaved
             (if few then 3 else 1)
@@ -106,8 +107,8 @@ ofContour folder peers family segments = do
     few = segments <= 2000
     middling = segments > 2000 && segments <= 20000
     last' = segments > 200000 || (family == FixedStar && segments > 20000)
-    -- The chorders would need minutes here.
-    bearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
+    -- The chorders would need minutes for larger ones.
+    isBearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
       | few = (5, 20, 5)
       | middling = (3, 2, 3)
@@ -127,7 +128,7 @@ signed d =
 label :: Case -> Text
 label c = Contours.name (family c) <> " " <> signed (distance c)
 
--- | A cell of an outcome that there may not be.
+-- | The cell of an outcome, which may be missing.
 cell :: (Outcome -> Text) -> Maybe (Either Text Outcome) -> Text
 cell shown = maybe "–" (either (const "fails") shown)
 
@@ -168,7 +169,7 @@ timesOf peers cases =
       _ -> Nothing
     growth (a, b) = Decimal.fixed 2 (Table.exponent a b)
 
--- | The memory that every contour took.
+-- | The memory per segment in bytes.
 memoryOf :: Peers -> [Case] -> Text
 memoryOf peers cases =
   Table.table
@@ -184,7 +185,7 @@ memoryOf peers cases =
   where
     bytes c o = Table.number (max 0 (memory o) / fromIntegral (segments c))
 
--- | How far ours and the first keeper are apart.
+-- | The differences between ours and the first keeper.
 agreement :: [Case] -> Text
 agreement cases =
   Table.table
@@ -229,7 +230,7 @@ agreement cases =
 apart :: (Outcome -> Double) -> Outcome -> Outcome -> Double
 apart part a b = abs (part a - part b) / max 1e-300 (abs (part a))
 
--- | One digit and the power of ten.
+-- | A number with one decimal and a power of ten.
 scientific :: Double -> Text
 scientific x
   | x == 0 = "0"
@@ -240,8 +241,8 @@ scientific x
           <> "e"
           <> (if e < 0 then "−" <> Decimal.whole (-e) else Decimal.whole e)
 
--- | How far the chorders' boundaries lie from ours in the mean, in sagittas: the difference of the
--- areas by the length.
+-- | The mean distance of the chorders' boundaries from ours, in sagittas: the difference of the
+-- areas divided by the length.
 chordsOf :: Peers -> [Case] -> Text
 chordsOf peers cases =
   Table.table
@@ -268,7 +269,7 @@ chordsOf peers cases =
 sagittas :: Double -> Outcome -> Outcome -> Double
 sagittas sagitta a b = abs (area a - area b) / long a / sagitta
 
--- | What does not hold of a case.
+-- | The violated expectations of a case.
 broken :: Int -> Case -> [Text]
 broken kept c =
   map
@@ -292,7 +293,7 @@ broken kept c =
             d > 1e-9
         ]
       _ -> []
-    -- A boundary may be off by the chords of the contour and those of the offset.
+    -- The chords of the contour and those of the offset may each add a sagitta.
     chords = case exact c of
       Right a : _ ->
         [ Decimal.fixed 2 (sagittas s a b)
@@ -304,7 +305,7 @@ broken kept c =
             sagittas s a b > 2
         ]
       _ -> []
-    -- Known from independent computations.
+    -- The value of independent computations.
     known = case (family c, segments c, distance c, exact c) of
       (Star, 1000000, 5, Right a : _)
         | loops a /= 1 || abs (area a - 79584382771.36) > 1e-9 * area a ->

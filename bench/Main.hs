@@ -1,9 +1,8 @@
--- | The benchmark of the product: the kernel beside its peers, the stages, the whole compile beside
--- LinuxCNC's interpreter.
+-- | The benchmark: the offset kernel and its peers, the stages of the compiler, the whole compiler
+-- and LinuxCNC's interpreter.
 --
--- @bench PAGE FOLDER TOOLS… [-- PART…]@ is what scripts/bench.sh starts; the tools are given as
---  NAME=COMMAND. It prints as it goes and
--- writes its tables between the markers of the page.
+-- scripts/bench.sh starts it as @bench PAGE FOLDER NAME=VALUE…@. It prints its progress and writes
+-- its tables between the markers of the page.
 module Main (main) where
 
 import Control.Monad (forM_, unless, when)
@@ -31,9 +30,9 @@ main = do
       run page folder [(name, drop 1 value) | o <- options, let (name, value) = break (== '=') o]
     _ -> die "bench PAGE FOLDER NAME=COMMAND…"
 
--- | The options: kernel, stages, partc, cost: commands that have to be there; cavalier, chords,
--- rs274: those that may be missing; parts: which halves to run; most: the most segments and
--- elements; seconds: how long a compile may take; about: lines on the machine.
+-- | The options: kernel, stages, partc, cost: required commands; cavalier, chords, rs274: optional
+-- commands; parts: the parts of the benchmark to run; most: the largest number of segments and
+-- elements; seconds: the longest time of a compiler run; about: lines on the machine.
 run :: FilePath -> FilePath -> [(String, String)] -> IO ()
 run page folder options = do
   place "machine" (Text.unlines ["- " <> l | l <- Text.lines (Text.pack (option "about" ""))])
@@ -74,7 +73,7 @@ run page folder options = do
           interpreter = lookup "rs274" options
         }
 
--- | What is compiled whole.
+-- | The programs for the whole compiler.
 programs :: Int -> [(Kind, Int)]
 programs most =
   [ (k, n)

@@ -1,5 +1,5 @@
--- | Numbers that look random and are the same everywhere: the finaliser of splitmix64 (Steele, Lea,
--- Flood 2014) of a seed and a place in its stream.
+-- | Pseudo-random numbers, the same on every machine: the finaliser of splitmix64 (Steele, Lea,
+-- Flood 2014) of a seed and an index.
 module Noise
   ( bits,
     uniform,
@@ -9,14 +9,14 @@ where
 import Data.Bits (shiftR, xor)
 import Data.Word (Word64)
 
--- | 64 bits of a stream, by the seed and the place from 0.
+-- | 64 bits of the stream of a seed, by the index from 0.
 bits :: Word64 -> Word64 -> Word64
-bits seed place = z2 `xor` (z2 `shiftR` 31)
+bits seed index = z2 `xor` (z2 `shiftR` 31)
   where
-    z0 = seed * 0x9E3779B97F4A7C15 + (place + 1) * 0xD1342543DE82EF95
+    z0 = seed * 0x9E3779B97F4A7C15 + (index + 1) * 0xD1342543DE82EF95
     z1 = (z0 `xor` (z0 `shiftR` 30)) * 0xBF58476D1CE4E5B9
     z2 = (z1 `xor` (z1 `shiftR` 27)) * 0x94D049BB133111EB
 
--- | From 0 up to, but not, 1.
+-- | A number from 0, below 1.
 uniform :: Word64 -> Word64 -> Double
-uniform seed place = fromIntegral (bits seed place `shiftR` 11) / 9007199254740992
+uniform seed index = fromIntegral (bits seed index `shiftR` 11) / 9007199254740992

@@ -17,10 +17,11 @@ import System.Exit (ExitCode (..))
 import System.Process (readProcessWithExitCode)
 import Text.Read (readMaybe)
 
--- | Its name; the words that start it, before the files, the distance, and how often.
+-- | The name of a program; its command line before the files, the distance, runs and batches.
 data Peer = Peer {title :: Text, start :: [String]}
 
--- | What came out: nanoseconds of each batch; mm², mm; loops, open pieces, vertices; bytes.
+-- | The result: nanoseconds of each batch; area in mm², length in mm; numbers of loops, open
+-- sections and vertices; bytes.
 data Outcome = Outcome
   { times :: [Double],
     area :: Double,
@@ -32,9 +33,9 @@ data Outcome = Outcome
   }
   deriving stock (Eq, Show)
 
--- | Every program once in each of so many rounds; each begins anew, so that none profits from the
--- one before. A program that fails once is not asked again. The first file is the small contour
--- that each begins with, the second the one that counts.
+-- | Runs every program once in each round, each time as a new process, so that none profits from an
+-- earlier one. A program that fails is not run again. The first file is the small contour for
+-- warming up, the second the measured one.
 interleaved ::
   Int ->
   FilePath ->
@@ -55,6 +56,7 @@ interleaved rounds small file distance runs batches peers =
         new <- offset peer small file distance runs batches
         pure (fmap (\o -> Just o {times = maybe [] times earlier <> times o}) new)
 
+-- | Runs a program once.
 offset :: Peer -> FilePath -> FilePath -> Double -> Int -> Int -> IO (Either Text Outcome)
 offset peer small file distance runs batches =
   (>>= read') <$> command 300 (start peer <> [small, file, show distance, show runs, show batches])
@@ -77,8 +79,8 @@ offset peer small file distance runs batches =
               Right Outcome {times = ts, area, long, loops, open, vertices, memory}
             _ -> Left ("what it printed is not understood: " <> Text.take 200 out)
 
--- | What a command prints, unless it takes longer than so many seconds or fails. Of what it then
--- says the first line tells why; the next ones name places.
+-- | The output of a command; or the reason if it fails or takes longer than @seconds@. The first
+-- line of its output gives the reason, the next ones only positions.
 command :: Int -> [String] -> IO (Either Text Text)
 command seconds wanted = do
   (status, out, err) <- readProcessWithExitCode "timeout" (show seconds : wanted) ""

@@ -1,4 +1,4 @@
--- | Programs of any size for the benchmark of the whole compile.
+-- | Part programs of any size, for the benchmark of the whole compiler.
 module Programs
   ( Kind (..),
     name,
@@ -13,32 +13,34 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Noise qualified
 
+-- | The kinds of part programs.
 data Kind
-  = -- | a contour of corners: points
+  = -- | a contour of points
     Corners
-  | -- | a contour of circles that are joined by tangents
+  | -- | a contour of circles linked by tangents
     Lobes
   | -- | statements of many kinds: points, circles, tangent lines, functions and their calls,
     -- assertions, contours, holes
     Statements
-  | -- | a closed spline through the rows of a table, 3 mm apart, so smooth that one arc goes along
+  | -- | a closed spline through the rows of a table, 3 mm apart, so smooth that one arc follows
     -- many rows
     Rows
-  | -- | the same with noise of 0.1 mm: every row bends it
+  | -- | as 'Rows', with noise of 0.1 mm: the curve bends at every row
     Wavy
   | -- | closed arcs through the rows of a file of comma-separated values, 19 mm apart, with noise
     -- of 2 mm: each arc needs a frame of its own
     ArcsFile
-  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, engraved:
-    -- each line needs a frame of its own
+  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, milled on its
+    -- line: each line needs a frame of its own
     LinesFile
-  | -- | the same milled round: it has as many inner corners, into which no cutter comes, as outer
-    -- ones, round which it goes on an arc
+  | -- | as 'LinesFile', milled outside: inner corners that the cutter does not reach, and as many
+    -- outer corners, which it rounds on an arc
     CornersFile
   | -- | a hole at each row of such a file, 3 mm apart
     HolesFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
+-- | The name of a kind in the tables.
 name :: Kind -> Text
 name kind = case kind of
   Corners -> "corners"
@@ -51,15 +53,15 @@ name kind = case kind of
   CornersFile -> "corners, csv"
   HolesFile -> "holes, csv"
 
--- | How many elements there are at most: ten times as many would take more than a million frames,
--- or more room than a drawing has; and what is written by hand is no larger.
+-- | The largest number of elements. Ten times as many would need more than a million frames, or
+-- more space than a drawing has; programs written by hand are smaller.
 most :: Kind -> Int
 most kind = if kind `elem` [Rows, Wavy, LinesFile] then 1000000 else 100000
 
--- | The text of a program, and the files beside it.
+-- | The text of a program, and the files that it reads.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
 
--- | A program of so many written elements, statements or rows.
+-- | A program of @n@ elements, statements or rows.
 written :: Kind -> Int -> Written
 written kind n = case kind of
   Corners -> Written (ring 5 n (\x y -> "(" <> x <> ", " <> y <> ")")) []
@@ -95,7 +97,7 @@ written kind n = case kind of
         )
         []
 
--- | Elements around a circle, so far apart that half of what lies between them is given.
+-- | Elements on a circle. The parameter @half@ is half of the distance between them in mm.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text
 ring half n element =
   header "ring" 10 (r + 20)
@@ -109,7 +111,8 @@ ring half n element =
   where
     r = half / sin (pi / fromIntegral n)
 
--- | A closed curve of a kind through a table, so large, milled on a side of it with more settings.
+-- | A closed curve through a table: the function that makes it, the side, further settings, the
+-- radius in mm, the statement of the table.
 curved :: Text -> Text -> Text -> Double -> Text -> Text
 curved through side more r table =
   header "wave" 6 (0.7 * r + 40)
@@ -123,7 +126,7 @@ curved through side more r table =
     <> coordinate r
     <> (", 0)" <> more <> " }\n")
 
--- | Rows of x and y around a wave of five crests, so many times 3 mm apart.
+-- | @n@ rows of x and y on a circle with five waves, @3·scale@ mm apart, with noise in mm.
 rows :: Text -> Int -> Double -> Double -> [Text]
 rows separator n scale noise = map row [0 .. n - 1]
   where

@@ -1,14 +1,14 @@
--- | @random COUNT SEED FILE PEER [LIMIT [JUDGE]]@: writes so many random contours with their
--- offsets to a file, lets a peer (bench/peers/cavalier, @areas@) offset them, offsets them with the
--- kernel, and compares areas, lengths and numbers of loops. The peer answers twice, the second time
--- with a millionth of its tolerances: what agrees with one of both answers is no difference.
+-- | @random COUNT SEED FILE PEER [LIMIT [JUDGE]]@: writes COUNT random contours with their offsets
+-- to a file, offsets them with a peer (bench/peers/cavalier, @areas@) and with the kernel, and
+-- compares areas, lengths and numbers of loops. The peer answers twice, the second time with a
+-- millionth of its tolerances; agreement with one of both answers is enough.
 --
--- What differs is judged. The places further away than the offset are those further away than an
--- offset that is larger by however little, and at such a one nothing is in special position. So the
--- peer is asked again for offsets that are a little larger and a little smaller, and a judge that
--- knows nothing of either (bench/peers/judge.py) for one that is a little larger. Where the
--- kernel's answer is the limit of all larger ones it is right. It prints how many differ in which
--- way, and at most LIMIT of those that the judges do not decide for the kernel.
+-- Differences are judged. The region beyond an offset is the limit of the regions beyond slightly
+-- larger offsets, and those are in general position. So the peer answers again for slightly larger
+-- and slightly smaller offsets, and an independent judge (bench/peers/judge.py) for a slightly
+-- larger one. The kernel's answer is right if it is the limit of the larger offsets. The program
+-- prints the number of differences of each class, and at most LIMIT of those that the judges do not
+-- decide for the kernel.
 --
 -- @random - SEED INDEX@ prints one contour.
 module Main (main) where
@@ -69,8 +69,8 @@ printed (o, d) = do
           ]
       )
 
--- | The seed; the file to write to; the peer's program; how many lines to print; the judge's
--- program and its arguments, if there is one.
+-- | The seed; the file to write; the peer's program; the largest number of lines to print; the
+-- judge's program and its arguments, or nothing.
 data Task = Task
   { seed :: Word64,
     file :: FilePath,
@@ -79,11 +79,11 @@ data Task = Task
     judge :: [String]
   }
 
--- | What an offset comes to: area, length, closed loops, open pieces.
+-- | The sums of an offset: area, length, closed loops, open sections.
 data Sums = Sums {area :: Double, long :: Double, loops :: Int, open :: Int}
 
--- | A contour by its number; the kernel's answer, the peer's two, and the peer's for a slightly
--- larger offset.
+-- | The index of a contour; the kernel's answer, both answers of the peer, and the peer's answer
+-- for a slightly larger offset.
 data Answer = Answer
   { index :: Int,
     ours :: Either Text Sums,
@@ -92,21 +92,22 @@ data Answer = Answer
     larger :: Sums
   }
 
--- | What is said of a slightly smaller offset by the peer, and of a slightly larger one by the
--- judge.
+-- | The peer's answer for a slightly smaller offset, and the judge's answer for a slightly larger
+-- one.
 data Beside = Beside {smaller :: Sums, judged :: Maybe Sums}
 
+-- | The classes of differences.
 data Class
   = -- | the kernel gives no answer
     Failed
-  | -- | the kernel's answer is not the limit of larger offsets by one of the judges
+  | -- | according to one of the judges, the kernel's answer is not the limit of larger offsets
     Undecided
   | -- | the kernel's answer is the limit of larger offsets, the peer's that of smaller ones
     Passage
-  | -- | the kernel's answer is the limit of larger offsets, the peer's is not and has open pieces
+  | -- | the kernel's answer is the limit of larger offsets, the peer's is not and has open sections
     Torn
-  | -- | the kernel's answer is the limit of larger offsets, the peer's is neither that nor the one
-    -- of smaller ones
+  | -- | the kernel's answer is the limit of larger offsets, the peer's is neither that nor the
+    -- limit of smaller ones
     Mixed
   | -- | both answers are the limit of larger offsets; they differ in their digits
     Digits
@@ -125,13 +126,13 @@ named c = case c of
     \others closed"
   Digits -> "where both are right but for digits"
 
--- | Write, let the peer work, compare, let the judges work.
+-- | Writes the contours, runs the peer, compares, runs the judges, prints the result.
 compared :: Task -> Int -> IO ()
 compared task count = do
-  given <- asked task 1 (file task) [peer task, file task] indices
-  second <- asked task 1 (file task) [peer task, file task, "1e-11"] indices
+  given <- answersOf task 1 (file task) [peer task, file task] indices
+  second <- answersOf task 1 (file task) [peer task, file task, "1e-11"] indices
   largers <-
-    asked
+    answersOf
       task
       (1 + nudge)
       (file task <> ".larger")
@@ -147,7 +148,7 @@ compared task count = do
       those = map index different
   end <- length different `seq` getCPUTime
   smallers <-
-    asked
+    answersOf
       task
       (1 - nudge)
       (file task <> ".smaller")
@@ -158,7 +159,7 @@ compared task count = do
       then pure (map (const Nothing) those)
       else
         map Just
-          <$> asked
+          <$> answersOf
             task
             (1 + chordNudge)
             (file task <> ".judged")
@@ -186,15 +187,16 @@ compared task count = do
   where
     indices = [0 .. count - 1]
 
--- | So much larger or smaller is an offset beside the one asked, as a part; and for a judge that
--- knows chords only.
+-- | The relative difference of slightly larger and smaller offsets; for a judge that uses chords, a
+-- larger difference.
 nudge, chordNudge :: Double
 nudge = 1e-8
 chordNudge = 1e-7
 
--- | Contours with their offsets times a factor, written to a file; what a command answers.
-asked :: Task -> Double -> FilePath -> [String] -> [Int] -> IO [Sums]
-asked task factor to command those = do
+-- | Writes contours, with their offsets times a factor, to a file, and reads the answers of a
+-- command.
+answersOf :: Task -> Double -> FilePath -> [String] -> [Int] -> IO [Sums]
+answersOf task factor to command those = do
   withBinaryFile to WriteMode $ \handle -> forM_ those $ \i -> do
     let (o, d) = RandomContour.contour (seed task) i
     Builder.hPutBuilder
@@ -216,6 +218,7 @@ asked task factor to command those = do
     read' :: Read a => Text -> Maybe a
     read' = readMaybe . Text.unpack
 
+-- | The kernel's answer.
 kernels :: Word64 -> Int -> Either Text Sums
 kernels s i = case Equidistant.offset d source of
   Left why -> Left (Text.pack why)
@@ -231,7 +234,7 @@ kernels s i = case Equidistant.offset d source of
   where
     (source, d) = RandomContour.contour s i
 
--- | Whether the kernel's answer is another one but for digits.
+-- | Is the kernel's answer equal to another one but for rounding?
 same :: Task -> Answer -> Sums -> Bool
 same task a other = case ours a of
   Left _ -> False
@@ -242,17 +245,18 @@ same task a other = case ours a of
       && near around (long own) (long other)
   where
     (source, _) = RandomContour.contour (seed task) (index a)
-    -- What a result of rounding errors alone may come to is measured by the source.
+    -- Rounding errors are relative to the size of the source.
     Mm around = FlatPolyarc.length source
     near least p q = abs (p - q) <= 1e-9 * maximum [abs p, abs q, least]
 
--- | Whether the kernel's answer is the limit of the peer's for larger offsets.
+-- | Is the kernel's answer the limit of the peer's answers for larger offsets?
 isLimit :: Task -> Answer -> Bool
 isLimit task a = either (const False) (\own -> limitOf task a nudge own (larger a)) (ours a)
 
--- | Whether one answer is the limit of others: as many loops, an area and a length that differ by
--- no more than a part of the offset explains. Two arcs of a radius d that touch lose 4d√(2ε) of
--- their lengths when both grow by a part ε; on a grid up to twenty pairs do.
+-- | Is one answer the limit of others? It has the same number of loops, and the relative difference
+-- @by@ of the offsets explains the differences of area and length. Two tangent arcs of radius d
+-- lose 4d√(2ε) of their lengths when both grow by the ratio ε; on a grid there are up to twenty
+-- such pairs.
 limitOf :: Task -> Answer -> Double -> Sums -> Sums -> Bool
 limitOf task a by own other =
   loops own == loops other
@@ -284,15 +288,15 @@ line task (a, beside) =
   Text.intercalate
     "; "
     ( ("contour " <> shown (index a) <> ", offset " <> shown d) :
-      either ("the kernel fails: " <>) (said "ours") (ours a) :
-      said "theirs" (theirs a) :
-      said "narrower" (narrower a) :
-      said "larger" (larger a) :
-      said "smaller" (smaller beside) : maybe [] (pure . said "judge") (judged beside)
+      either ("the kernel fails: " <>) (described "ours") (ours a) :
+      described "theirs" (theirs a) :
+      described "narrower" (narrower a) :
+      described "larger" (larger a) :
+      described "smaller" (smaller beside) : maybe [] (pure . described "judge") (judged beside)
     )
   where
     (_, d) = RandomContour.contour (seed task) (index a)
-    said who s =
+    described who s =
       who
         <> " "
         <> Text.unwords

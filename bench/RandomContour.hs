@@ -1,5 +1,5 @@
--- | Small closed contours that do not cross themselves, by a seed and a number: a third on a grid
--- of whole numbers, a third with arcs, a third noisy. Each comes with an offset in mm.
+-- | Small closed contours that do not cross themselves, by a seed and an index: a third with
+-- integer vertices, a third with arcs, a third noisy. Each comes with an offset in mm.
 module RandomContour
   ( contour,
   )
@@ -16,7 +16,7 @@ import Noise qualified
 
 type Vertex = (Double, Double, Double)
 
--- | A contour, counter-clockwise, and how far to offset it, outwards when positive.
+-- | A counter-clockwise contour, and its offset in mm, positive outwards.
 contour :: Word64 -> Int -> (FlatPolyarc, Double)
 contour seed index = (FlatPolyarc.outline Closed vertices, distance)
   where
@@ -29,7 +29,7 @@ contour seed index = (FlatPolyarc.outline Closed vertices, distance)
         else corners stream (3 + floor (u 5 * 10)) (3 + floor (u 6 * 9))
     wide = 1 + floor (u 8 * 4) :: Int
     (vertices, distance) = case index `mod` 3 of
-      -- Halves and whole numbers meet the most coincidences.
+      -- Integers and halves give the most coincidences.
       0 ->
         ( map whole grid,
           signOf
@@ -40,11 +40,11 @@ contour seed index = (FlatPolyarc.outline Closed vertices, distance)
     signOf d = if u 7 < 0.6 then d else -d
     whole (x, y) = (fromIntegral x, fromIntegral y, 0)
 
--- | Vertices seen one after the other from the origin, at radii that vary by a part.
+-- | A star-shaped polygon round the origin. The radii vary by the ratio @part@.
 star :: Word64 -> Int -> Double -> Double -> [Vertex]
 star stream count radius part = [vertex (fromIntegral i) | i <- [0 .. count - 1]]
   where
-    -- The origin stays inside: no two neighbours are half a turn apart.
+    -- The origin stays inside: neighbours differ by less than 180°.
     jitter = if count == 3 then 0.4 else 0.8
     vertex :: Word64 -> Vertex
     vertex i =
@@ -52,8 +52,8 @@ star stream count radius part = [vertex (fromIntegral i) | i <- [0 .. count - 1]
           r = radius * (1 + part * (2 * Noise.uniform stream (2 * i + 1) - 1))
        in (r * cos a, r * sin a, 0)
 
--- | Arcs instead of some segments. Each keeps to the wedge in which its chord is seen from the
--- origin: at both ends its tangent leads into the wedge, and a circle meets a line twice only. So
+-- | Replaces some segments by arcs. Each arc stays in the wedge between the origin and its chord:
+-- at both ends its tangent points into the wedge, and a circle meets a line at most twice. So
 -- nothing crosses.
 curved :: Word64 -> [Vertex] -> [Vertex]
 curved stream vertices = zipWith3 bent [0 ..] vertices (drop 1 vertices <> take 1 vertices)
@@ -71,7 +71,7 @@ curved stream vertices = zipWith3 bent [0 ..] vertices (drop 1 vertices <> take 
           | abs b < 0.01 = 0
           | within b = b
           | otherwise = fitting (b / 2)
-        -- Tangents at both ends, by the chord turned by half of the sweep; with a margin.
+        -- The tangent at each end is the chord rotated by half of the sweep; with a margin.
         within b =
           let (dx, dy) = (x1 - x0, y1 - y0)
               (c, s) = ((1 - b * b) / (1 + b * b), 2 * b / (1 + b * b))
@@ -80,10 +80,10 @@ curved stream vertices = zipWith3 bent [0 ..] vertices (drop 1 vertices <> take 
            in inside x0 y0 (dx * c + dy * s) (dy * c - dx * s)
                 && inside x1 y1 (dx * c - dy * s) (dy * c + dx * s)
 
--- | Corners on a grid of so many lines: as they are seen around their middle, tried until nothing
--- touches.
+-- | A polygon with vertices on a grid of @side@ cells, in the order of their angles about their
+-- centre. Repeats until it is simple.
 corners :: Word64 -> Int -> Int -> [(Int, Int)]
-corners stream count side = case filter sound (map try [0 .. 30]) of
+corners stream count side = case filter isSimple (map try [0 .. 30]) of
   found : _ -> found
   [] -> [(0, 0), (side, 0), (side, side), (0, side)]
   where
@@ -101,9 +101,9 @@ corners stream count side = case filter sound (map try [0 .. 30]) of
           (mx, my) = (fromIntegral (sum (map fst ps)) / n, fromIntegral (sum (map snd ps)) / n)
        in sortOn (\(x, y) -> atan2 (fromIntegral y - my) (fromIntegral x - mx)) ps
 
--- | Whether corners make a contour that goes around something and touches itself nowhere; exact.
-sound :: [(Int, Int)] -> Bool
-sound ps =
+-- | Is the polygon simple, with a positive area? The answer is exact.
+isSimple :: [(Int, Int)] -> Bool
+isSimple ps =
   length ps >= 3 && twiceArea > 0 && and [apart i j | i <- [0 .. n - 1], j <- [i + 1 .. n - 1]]
   where
     n = length ps
@@ -123,14 +123,14 @@ sound ps =
         f = edges !! j
     crosses (a, b) (c, d) = turn a b c /= turn a b d && turn c d a /= turn c d b
 
--- | The outline of so many squares that grew from one, each beside one before, without holes and
--- without corners that two parts share.
+-- | The boundary of @count@ unit squares, each beside an earlier one, without holes and without
+-- shared corners.
 cells :: Word64 -> Int -> [(Int, Int)]
 cells stream count = grow 0 [(0, 0)]
   where
     grow :: Word64 -> [(Int, Int)] -> [(Int, Int)]
     grow step taken
-      | length taken >= count || step > 200 = straightened (walked taken)
+      | length taken >= count || step > 200 = straightened (boundary taken)
       | otherwise =
         let (x, y) =
               taken !! (fromIntegral (Noise.bits stream (2 * step) `shiftR` 20) `mod` length taken)
@@ -141,8 +141,8 @@ cells stream count = grow 0 [(0, 0)]
               _ -> (x, y - 1)
          in grow
               (step + 1)
-              (if next `elem` taken || not (simple (next : taken)) then taken else next : taken)
-    -- The edges between taken and free, with the taken one on the left.
+              (if next `elem` taken || not (isOneLoop (next : taken)) then taken else next : taken)
+    -- The edges between taken and free squares, with the taken one on the left.
     edgesOf taken =
       [ e
         | (x, y) <- taken,
@@ -154,20 +154,20 @@ cells stream count = grow 0 [(0, 0)]
             ],
           free `notElem` taken
       ]
-    -- One walk takes in every edge, and no corner is passed twice.
-    simple taken =
+    -- One loop contains every edge, and visits no corner twice.
+    isOneLoop taken =
       let es =
             edgesOf taken
           starts = map fst es
-       in length (nub starts) == length starts && length (walked taken) == length es
-    walked taken = case edgesOf taken of
+       in length (nub starts) == length starts && length (boundary taken) == length es
+    boundary taken = case edgesOf taken of
       es@((begin, _) : _) ->
         begin :
         takeWhile
           (/= begin)
           (drop 1 (take (length es + 1) (iterate (\p -> fromMaybe begin (lookup p es)) begin)))
       [] -> []
-    -- Every other outline keeps the corners that turn nothing: there segments go on straight.
+    -- Every other polygon keeps its vertices on straight lines.
     straightened ps
       | odd (Noise.bits stream 999) = ps
       | otherwise =

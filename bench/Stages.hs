@@ -1,9 +1,9 @@
--- | @stages KIND N MACHINE@: the stages of one compile, from the text to the proof, one after the
--- other in one process. Prints the milliseconds of processor time of each, and then the most
--- kilobytes that the process has held.
+-- | @stages KIND N MACHINE@: runs the stages of the compiler, from the text to the proof, in one
+-- process. Prints the milliseconds of processor time of each, and then the peak memory in
+-- kilobytes.
 --
--- Each stage ends when a number that needs its whole output is known. What a stage leaves to be
--- computed later counts where it is computed; so does the collection of garbage.
+-- Each stage ends when a number that needs its whole output is known. A thunk counts in the stage
+-- that evaluates it; so does garbage collection.
 module Main (main) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -121,7 +121,7 @@ readBack machine program tape =
     (Report.title . Tape.toReport)
     (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape)
 
--- | Time a stage by a number that needs its whole output.
+-- | Measures a stage, whose output the number needs completely.
 stage :: String -> (a -> Int) -> IO (Either Text a) -> IO a
 stage title summary action = do
   begin <- getCPUTime

@@ -1,4 +1,4 @@
--- | Tables of a Markdown page, and the places of the page where they stand.
+-- | Tables of a Markdown page, and their places in the page.
 module Table
   ( Row,
     table,
@@ -14,28 +14,29 @@ import Data.Text qualified as Text
 import Data.Text.IO qualified as Text
 import Prelude hiding (exponent)
 
+-- | The cells of a row.
 type Row = [Text]
 
--- | A heading and rows; the first column is of words, the others of numbers.
+-- | A table of a heading and rows. The first column contains words, the others numbers.
 table :: Row -> [Row] -> Text
 table heading rows = Text.unlines (map line (heading : rule : rows))
   where
     rule = zipWith (\i _ -> if i == (0 :: Int) then "---" else "--:") [0 ..] heading
     line cells = "| " <> Text.intercalate " | " cells <> " |"
 
--- | With three digits that matter.
+-- | A number with three significant digits.
 number :: Double -> Text
 number x
   | abs x >= 100 = Decimal.whole (round x)
   | abs x >= 10 = Decimal.fixed 1 x
   | otherwise = Decimal.fixed 2 x
 
--- | How time grows with size: the exponent between two of both.
+-- | The exponent of growth between two sizes with their times.
 exponent :: (Int, Double) -> (Int, Double) -> Double
 exponent (n, t) (n', t') = logBase (fromIntegral n' / fromIntegral n) (t' / t)
 
--- | Put a text where a page says @<!-- NAME -->@ … @<!-- end of NAME -->@; whether there is such a
--- place.
+-- | Puts a text between @<!-- NAME -->@ and @<!-- end of NAME -->@ of a page. The answer is false
+-- if the page has no such place.
 replace :: FilePath -> Text -> Text -> IO Bool
 replace file name text = do
   page <- Text.readFile file

@@ -1,5 +1,5 @@
--- | The whole compile: its stages and their growth, and @partc compile@ beside LinuxCNC's
--- interpreter reading the result.
+-- | The whole compiler: its stages and their growth, and @partc compile@ compared with LinuxCNC's
+-- interpreter on the result.
 module Whole
   ( Tools (..),
     staged,
@@ -21,8 +21,8 @@ import System.IO (hFlush, stdout)
 import Table qualified
 import Text.Read (readMaybe)
 
--- | The programs that are run: the one that times stages, partc, the one that tells what a command
--- costs, the interpreter if it is there.
+-- | The commands: the timer of the stages, partc, the timer of a command, the interpreter if it is
+-- installed.
 data Tools = Tools
   { timer :: FilePath,
     partc :: FilePath,
@@ -32,11 +32,11 @@ data Tools = Tools
 
 -- Stages ------------------------------------------------------------------------------------------
 
--- | Milliseconds of each stage, in order, and the peak of memory in kilobytes.
+-- | The milliseconds of each stage, in order, and the peak memory in kilobytes.
 data Staged = Staged {stages :: [(Text, Double)], peak :: Double}
 
--- | Every kind of program on two machines, by tens up to so many elements, if there can be so many.
--- A size is left out when the one before it lets expect more than the seconds that are allowed.
+-- | Every kind of program on two machines, with powers of ten up to @most@ elements. A size is left
+-- out if the one before it predicts more than @allowed@ seconds.
 staged :: Tools -> Int -> Double -> IO Text
 staged tools most allowed =
   Table.table (["program", "machine", "size"] <> names <> ["sum", "µs per element", "MB"]) . concat
@@ -44,11 +44,11 @@ staged tools most allowed =
   where
     names = ["parse", "check", "part", "path", "frames", "tape", "verify"]
 
--- | A size and its runs, or why there are none.
+-- | A size and its runs, or the reason why there are none.
 type Size = (Int, Either Text [Staged])
 
--- | The sizes take turns, so that a machine that becomes slower for a while does so for all of
--- them: growth is told between what was measured side by side.
+-- | Runs all sizes in turn, so that a temporary slow-down of the machine affects all of them:
+-- growth is computed from neighbouring measurements.
 ofKind :: Tools -> Int -> Double -> (Kind, Text) -> IO [Table.Row]
 ofKind tools most allowed (kind, machine) = do
   once <- foldM first [] (takeWhile (<= min most largest) [100, 1000, 10000, 100000, 1000000])
@@ -67,7 +67,7 @@ ofKind tools most allowed (kind, machine) = do
   hFlush stdout
   pure (concatMap (rows [(n, s) | (n, Right s) <- medians, n == 1000]) medians)
   where
-    -- A million rows on one machine are enough.
+    -- A million rows only on one machine.
     largest = if machine == "iso6983" then Programs.most kind else min 100000 (Programs.most kind)
     first before n =
       (: before) . (n,)
@@ -79,13 +79,13 @@ ofKind tools most allowed (kind, machine) = do
     run n =
       (>>= parsed)
         <$> Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine]
-    -- A program of ten times as many elements takes somewhat more than ten times as long.
+    -- Ten times as many elements take somewhat more than ten times as long.
     expected :: [Size] -> Double
     expected before = case before of
       (_, Right runs) : _ -> 15 * total (middles runs)
       (_, Left _) : _ -> 1 / 0
       [] -> 0
-    -- Twelve seconds are enough for a size.
+    -- At most about twelve seconds for a size.
     turns :: Int -> Staged -> Int
     turns n s =
       min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
@@ -142,7 +142,7 @@ parsed out = do
 
 -- The interpreter ---------------------------------------------------------------------------------
 
--- | @partc compile -t iso6983@, proof included, beside @rs274 -g@ on what it wrote, in turns.
+-- | @partc compile -t iso6983@, with verification, and @rs274 -g@ on its output, in turn.
 besideInterpreter :: Tools -> FilePath -> [(Kind, Int)] -> Double -> IO Text
 besideInterpreter tools folder programs allowed = do
   createDirectoryIfMissing True folder
@@ -159,14 +159,14 @@ besideInterpreter tools folder programs allowed = do
     ]
     <$> (reverse . snd <$> foldM further ([], []) programs)
   where
-    -- What takes too long takes longer still when it is larger.
+    -- A larger program of a kind that took too long is not run.
     further (failed, rows) (kind, n)
       | kind `elem` failed =
         pure (failed, ([Programs.name kind, Decimal.whole n] <> replicate 7 "–") : rows)
       | otherwise = do
         (fails, row) <- beside (kind, n)
         pure ([kind | fails] <> failed, row : rows)
-    -- Four seconds are enough for ours.
+    -- At most about four seconds for ours.
     turns done action = do
       turn <- action
       case fst turn of
