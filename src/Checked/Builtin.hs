@@ -199,7 +199,8 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   XOf -> [Form [given "point" (Spatial d)] Type.len]
   YOf -> [Form [given "point" (Spatial d)] Type.len]
   MakeSpline ->
-    curveThrough [] <> curveThrough [given "first_direction" Type.angle, given "last_direction" Type.angle]
+    curveThrough []
+      <> curveThrough [given "first_direction" Type.angle, given "last_direction" Type.angle]
   ClosedSpline -> curveThrough []
   Polyline -> curveThrough []
   Parabola -> curveThrough []
@@ -331,7 +332,11 @@ labelled Fresh {dimension, anything} builtin labels =
 byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
 byLabels =
   Lazy.fromList
-    [ (b, Map.fromListWith (flip (<>)) [(map label (parameters f), [f]) | f <- forms unknownTemplate b])
+    [ ( b,
+        Map.fromListWith
+          (flip (<>))
+          [(map label (parameters f), [f]) | f <- forms unknownTemplate b]
+      )
       | b <- [minBound .. maxBound]
     ]
 
@@ -339,8 +344,8 @@ unknownTemplate :: Fresh
 unknownTemplate =
   Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
 
--- | The forms of a function with @count@ parameters, all without labels. The flag tells if all types
--- of the form are known.
+-- | The forms of a function with @count@ parameters, all without labels. The flag tells if all
+-- types of the form are known.
 unlabelled :: Builtin -> Int -> [(Form, Bool)]
 unlabelled builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
 

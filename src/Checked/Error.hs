@@ -120,8 +120,8 @@ toReport err = case err of
     (at region "E0201" ("nothing is named " <> quote name))
       { hints = case (Name.lookAlike name known, Name.nearest name known) of
           (_ : _, _) ->
-            [ "There is a name that looks the same but has a letter of the other alphabet, Cyrillic \
-              \or Latin: write both alike."
+            [ "There is a name that looks the same but has a letter of the other alphabet, \
+              \Cyrillic or Latin: write both alike."
             ]
           ([], []) -> []
           ([], near) ->
@@ -296,7 +296,8 @@ toReport err = case err of
       }
   HeadingsRepeated region ->
     (at region "E0224" "the columns of this table are named already")
-      { hints = ["A row has a number for each column; a value in words stands in brackets: (2 * h)."]
+      { hints =
+          ["A row has a number for each column; a value in words stands in brackets: (2 * h)."]
       }
   ColumnTwice region (Name name) before ->
     (at region "E0225" ("the table has two columns " <> quote name))
@@ -334,8 +335,8 @@ toReport err = case err of
               <> Text.intercalate ", " [Text.singleton d <> "(…)" | d <- Text.unpack digit]
             | isSeveralCiphers digit
           ]
-            <> [ "The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 (bevel \
-                 \and height), 6 (a distance at each point)."
+            <> [ "The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 \
+                 \(bevel and height), 6 (a distance at each point)."
                ]
       }
   CipherMisfit region digit count ->

@@ -396,7 +396,8 @@ functionCall env c parameters scheme = do
         constraints
         pure
           ( if all fst checked then t else Type.Wrong,
-            \sol -> Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked)))
+            \sol ->
+              Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked)))
           )
     _ -> wrongCall env c (ArgumentCount at name parameters (length (written c)))
   where

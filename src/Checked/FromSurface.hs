@@ -64,7 +64,9 @@ checkBy isFast Surface.Program {Surface.statements = written} =
   where
     (found, solution, checked, mentions) =
       Inference.run
-        (catMaybes <$> mapM (statement Environment {definitions = definedIn written, isFast}) written)
+        ( catMaybes
+            <$> mapM (statement Environment {definitions = definedIn written, isFast}) written
+        )
     -- A file that could not be imported may define any name.
     isExcused e = isImportBroken && isUndefinedName e
     isImportBroken = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
@@ -110,7 +112,8 @@ statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
-  Surface.Broken _ n -> Nothing <$ mapM_ (\n' -> Inference.define (value n') (Poisoned (region n'))) n
+  Surface.Broken _ n ->
+    Nothing <$ mapM_ (\n' -> Inference.define (value n') (Poisoned (region n'))) n
   Surface.LetValue n e -> done (valueDefinition n (infer env e))
   Surface.Param n e -> done (valueDefinition n (infer env e))
   Surface.LetFunction n parameters e -> done (functionDefinition env n parameters e)

@@ -97,7 +97,8 @@ reportConstant (Located at name@(Name text)) =
 -- | The type of a table with columns.
 typeOfTable :: [Column] -> Type
 typeOfTable columns =
-  Type.Table (Type.Fields [(text, kind c) | c <- columns, let Name text = value (heading c), isExtra c])
+  Type.Table
+    (Type.Fields [(text, kind c) | c <- columns, let Name text = value (heading c), isExtra c])
 
 -- | Tells if a column is neither x nor y.
 isExtra :: Column -> Bool
@@ -240,8 +241,8 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
   where
     columns = fromMaybe [] known
 
--- | The recalculation of a cipher by its digit and the number of its values; 'Nothing' when there is
--- none.
+-- | The recalculation of a cipher by its digit and the number of its values; 'Nothing' when there
+-- is none.
 recalculation ::
   Environment ->
   [(Text, Type)] ->

@@ -338,5 +338,4 @@ data Stop = Stop {point :: Expr, pace :: Pace}
 
 -- | The pace of a motion: the present feed, rapid, or a feed of its own.
 data Pace = Cutting | Rapid | AtFeed Expr
-
   deriving stock (Eq, Show)

@@ -96,7 +96,7 @@ align run = if any isTooLong padded then map indented run else padded
 -- | The text of a line with its indentation.
 indented :: AlignedLine -> Text
 indented row =
- spaces (indent row) <> unaligned row
+  spaces (indent row) <> unaligned row
 
 spaces :: Int -> Text
 spaces n = Text.replicate n " "

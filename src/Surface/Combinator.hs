@@ -9,6 +9,7 @@
 -- from them. Its fast twin, "Surface.Combinator.Fast", stops at the first mistake.
 module Surface.Combinator
   ( Parser,
+    Explaining,
     Grammar (..),
     ParserState (..),
     Consumed (..),
@@ -127,8 +128,8 @@ class MonadParsec Problem Input p => Grammar p where
   -- The explaining parser ignores the function.
   fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
-  -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser always
-  -- answers 'True', so that its reports name the expected keywords.
+  -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser
+  -- always answers 'True', so that its reports name the expected keywords.
   isWordNext :: p Bool
 
   -- | The state of the parser.
@@ -156,17 +157,25 @@ instance Grammar (ParsecT Problem Input (State ParserState)) where
   parserState = lift get
   modifyState f = lift (modify' f)
 
--- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in order and
--- the output, if any.
+-- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in order
+-- and the output, if any.
 run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
     (result, remembered) =
       runState
         (Parsec.runParserT parser "" (Input tokens))
-        ParserState {failures = [], lastEnd = 0, bracketDepth = 0, blockDepth = 0, hasGivenUp = False}
+        ParserState
+          { failures = [],
+            lastEnd = 0,
+            bracketDepth = 0,
+            blockDepth = 0,
+            hasGivenUp = False
+          }
     inOrder =
-      sortOn Parsec.errorOffset ([f | not (hasGivenUp remembered), f <- final] <> failures remembered)
+      sortOn
+        Parsec.errorOffset
+        ([f | not (hasGivenUp remembered), f <- final] <> failures remembered)
     (output, final) = case result of
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
@@ -282,7 +291,8 @@ block :: Grammar p => Enclosure -> (Maybe (Located Name) -> a) -> p a -> p [Loca
 block what broken one = do
   opened <- symbol "{"
   items <-
-    zeroOrMore (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
+    zeroOrMore
+      (inside *> recovering (located . brokenItem broken) (located (strayStatement *> one)))
   closing opened what "}"
   pure items
   where
@@ -409,8 +419,8 @@ isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
--- | Skips to the line on which the next statement begins. Keeps the keyword of the broken statement,
--- or the keyword that its first word resembles, and the name that it was to define.
+-- | Skips to the line on which the next statement begins. Keeps the keyword of the broken
+-- statement, or the keyword that its first word resembles, and the name that it was to define.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
   isInBlock <- (> 0) . blockDepth <$> parserState
@@ -422,8 +432,8 @@ brokenStatement taken = do
     )
 {-# INLINEABLE brokenStatement #-}
 
--- | Skips the rest of a broken statement and gives the tokens skipped. The statement has @open@ open
--- braces. The closing brace of the block around it is not skipped.
+-- | Skips the rest of a broken statement and gives the tokens skipped. The statement has @open@
+-- open braces. The closing brace of the block around it is not skipped.
 skipStatement :: Grammar p => Bool -> Bool -> Int -> p [Token]
 skipStatement hasBlock isInBlock open = do
   rest <- remaining
@@ -449,8 +459,8 @@ isStatementEnd hasBlock isInBlock open t others =
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- Two words in a row at the start of a line are a misspelt statement rather than a continuation,
-    -- unless they are inside braces of the broken statement.
+    -- Two words in a row at the start of a line are a misspelt statement rather than a
+    -- continuation, unless they are inside braces of the broken statement.
     isMisspeltKeyword = case (shape t, others) of
       (Word word, next : _)
         | Word _ <- shape next ->
@@ -493,15 +503,16 @@ firstRegion ts = case ts of
   [] -> Region 0 0
 
 -- | Skips to the next line of the block that is in no braces of the broken item, or to the end of
--- the block. A line that ends with a comma or an operator continues. Keeps the name that a misplaced
--- definition was to define.
+-- the block. A line that ends with a comma or an operator continues. Keeps the name that a
+-- misplaced definition was to define.
 brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
   skipItem (braceBalance taken) False
-  pure $ broken $ case (map shape taken, next) of
-    ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
-    _ -> Nothing
+  pure $
+    broken $ case (map shape taken, next) of
+      ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
+      _ -> Nothing
 {-# INLINEABLE brokenItem #-}
 
 -- | Skips the rest of a broken item with @open@ open braces. The flag tells if the last token asks

@@ -75,8 +75,8 @@ data Error
     CellCount Region Int Int Int Bool
   | -- | a command-line value for an unknown parameter; the parameters
     NoSuchParam Text [Text]
-  | -- | a command-line value that cannot be parsed: the parameter, its name, the text, the number of
-    -- errors in it
+  | -- | a command-line value that cannot be parsed: the parameter, its name, the text, the number
+    -- of errors in it
     BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
@@ -262,7 +262,9 @@ toReport err = case err of
         )
     )
       { hints =
-          ["A row is one line of the file, with a number for each column that the first line names."]
+          [ "A row is one line of the file, with a number for each column that the first line \
+            \names."
+          ]
             <> [ "If these are decimal commas, put semicolons between the columns: x;y and below \
                  \it 0,5;40"
                  | decimal

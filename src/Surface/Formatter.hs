@@ -64,7 +64,8 @@ normalised text =
 
 -- | The canonical layout of a text and its program.
 laidOut :: Text -> Program -> Text
-laidOut text program = Text.unlines (renderEntries (withoutLeadingGaps (entries source remarks rows)))
+laidOut text program =
+  Text.unlines (renderEntries (withoutLeadingGaps (entries source remarks rows)))
   where
     source = Region.fromText "" text
     remarks = map (remark source) (comments program)
@@ -134,12 +135,21 @@ splitEmptyBlock positions anchor = case (reverse (shapes anchor), reverse (sourc
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
     | isBetween positions (start (Token.place open)) (start (Token.place close)) ->
       [ anchor
-          { row = (row anchor) {cells = WholeLine (Text.dropEnd 2 (Alignment.unaligned (row anchor)))},
+          { row =
+              (row anchor)
+                { cells =
+                    WholeLine (Text.dropEnd 2 (Alignment.unaligned (row anchor)))
+                },
             shapes = init (shapes anchor),
             sources = init (sources anchor)
           },
         SourceLine
-          { row = AlignedLine {indent = indent (row anchor), cells = WholeLine "}", isContinuation = False},
+          { row =
+              AlignedLine
+                { indent = indent (row anchor),
+                  cells = WholeLine "}",
+                  isContinuation = False
+                },
             shapes = [Symbol "}"],
             sources = [Just close]
           }
@@ -170,7 +180,8 @@ entries source remarks rows = go (zip rows (extents rows)) remarks []
       (anchor, extent) : more ->
         let next = fst . snd <$> Maybe.listToMaybe more
             shares = shareOut extent next rest
-         in rowEntries source anchor (fst extent) above shares <> go more (later shares) (below shares)
+         in rowEntries source anchor (fst extent) above shares
+              <> go more (later shares) (below shares)
 
 -- | The comments from a row on, by the line that they go to.
 data Shares = Shares

@@ -123,7 +123,12 @@ replaceImports reader chain = fmap concat . mapM replace
         importFile
           reader
           chain
-          ImportedFile {importRegion = at, importName = name, importPath = path, importIdentity = itself}
+          ImportedFile
+            { importRegion = at,
+              importName = name,
+              importPath = path,
+              importIdentity = itself
+            }
       Located region (Table name (LinesOf (Located at file))) -> do
         path <- namedPath chain at file
         rows <- tableLines reader at path file

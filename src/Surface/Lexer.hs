@@ -196,8 +196,8 @@ isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
 -- | Tells if a character is white space. ASCII characters, which are most, need no Unicode tables.
-isBlank
- :: Char -> Bool
+isBlank ::
+  Char -> Bool
 isBlank c = c == ' ' || (c < '!' || c > '~') && isSpace c
 
 isBlankInLine :: Char -> Bool

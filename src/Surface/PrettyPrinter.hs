@@ -81,7 +81,8 @@ write indent trailing doc pen
   | fits (maxWidth - column pen - trailing) doc = foldl (flip put) pen (unbroken doc)
   | otherwise = case doc of
     Text t -> put t pen
-    Beside ds -> foldl (\p (d, after) -> write indent after d p) pen (zip ds (widthsAfter trailing ds))
+    Beside ds ->
+      foldl (\p (d, after) -> write indent after d p) pen (zip ds (widthsAfter trailing ds))
     Series members -> fill (indent + 4) trailing members pen
     Brackets _ open members close ->
       let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
@@ -113,8 +114,8 @@ fill indent trailing members = case members of
 fits :: Int -> Document -> Bool
 fits room doc = maybe False (>= 0) (roomAfter doc room)
 
--- | The room that a document leaves, or 'Nothing' once it is exceeded. Reads no more of the document
--- than fits.
+-- | The room that a document leaves, or 'Nothing' once it is exceeded. Reads no more of the
+-- document than fits.
 roomAfter :: Document -> Int -> Maybe Int
 roomAfter doc room
   | room < 0 = Nothing

@@ -26,7 +26,10 @@ import Surface.Token (unitName)
 
 -- | The positions of comments in the source: 'isBetween' tells if any comment lies between two
 -- offsets, 'isAtComma' if one of these is next to a comma.
-data CommentPositions = CommentPositions {isBetween :: Int -> Int -> Bool, isAtComma :: Int -> Int -> Bool}
+data CommentPositions = CommentPositions
+  { isBetween :: Int -> Int -> Bool,
+    isAtComma :: Int -> Int -> Bool
+  }
 
 -- | The positions in a text without comments.
 noComments :: CommentPositions
@@ -146,7 +149,8 @@ withoutParentheses comments (Located region e) = case e of
   Not inner -> spaced [Text "not", operand comments Negation inner]
   Binary operator left right -> case operatorPrecedence operator of
     Comparison ->
-      Series [member (operand comments Ranged left), signed operator (operand comments Ranged right)]
+      Series
+        [member (operand comments Ranged left), signed operator (operand comments Ranged right)]
     rank -> Series (chain comments rank (Located region e))
   Range low high step ->
     Beside $

@@ -163,7 +163,8 @@ statement comments indent (Located _ s) = case s of
 
 -- | The lines of a table with aligned columns.
 table :: CommentPositions -> Int -> [TableLine] -> [AlignedLine]
-table comments indent ls = map row (alignColumns (concat [tableCells comments l | Located _ l <- ls]))
+table comments indent ls =
+  map row (alignColumns (concat [tableCells comments l | Located _ l <- ls]))
   where
     row texts =
       AlignedLine
@@ -342,7 +343,6 @@ item comments indent (Located _ i) = case i of
           Nothing -> PrintExpression.element comments e
           Just (Located _ s) -> spaced [Text (senseName s), value e]
         first = spaced (withSense : map (modifier comments) modifiers)
-
      in maybe (whole indent first) (cells' Links indent first . linked comments) link
   For (Located _ (Name name)) from inside ->
     braces indent (spaced [Text ("for " <> name <> " in"), value from]) (block inside)

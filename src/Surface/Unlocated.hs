@@ -44,7 +44,12 @@ statement s = case s of
   Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
   Curve name e -> Curve (here name) (expr e)
   Piece name e ciphers side joggles ->
-    Piece (here name) (expr e) (map (unlocated cipher) ciphers) (here side) (map (unlocated joggle) joggles)
+    Piece
+      (here name)
+      (expr e)
+      (map (unlocated cipher) ciphers)
+      (here side)
+      (map (unlocated joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
   Mill e side settings -> Mill (expr e) (here side) (map (unlocated setting) settings)
   Pocket e step settings -> Pocket (expr e) (expr step) (map (unlocated setting) settings)
@@ -79,7 +84,6 @@ literal x
 
 -- | The region that replaces all others.
 nowhere :: Region
-
 nowhere = Region 0 0
 
 cipher :: Cipher_ -> Cipher_
@@ -120,9 +124,14 @@ argument a = case a of
 item :: Item_ -> Item_
 item i = case i of
   Element sense e modifiers link ->
-    Element (fmap here sense) (expr e) (map (unlocated modifier) modifiers) (fmap (unlocated linked) link)
+    Element
+      (fmap here sense)
+      (expr e)
+      (map (unlocated modifier) modifiers)
+      (fmap (unlocated linked) link)
   For name from inside -> For (here name) (expr from) (map (unlocated item) inside)
-  Choose condition yes no -> Choose (expr condition) (map (unlocated item) yes) (map (unlocated item) no)
+  Choose condition yes no ->
+    Choose (expr condition) (map (unlocated item) yes) (map (unlocated item) no)
   BrokenItem name -> BrokenItem (fmap here name)
 
 modifier :: Modifier_ -> Modifier_

@@ -1,4 +1,4 @@
--- | Printing, parsing and laying out agree.
+-- | Laws of printing, parsing and formatting.
 module Surface.FormatterSpec (spec) where
 
 import Base.Region (Located (..))
@@ -25,23 +25,22 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "printing" . modifyMaxSuccess (const 300) $ do
-    -- The bug: a bracket that is missing, a word that is forgotten, a line break that ends a
-    -- statement too early.
+    -- The bug: a missing bracket, a forgotten word, a line break that ends a statement too early.
     prop "print, then parse: the same tree" $
       forAllShow Generate.program shown $ \p ->
         tree (PrintProgram.program p) === Just (Unlocated.statements (statements p))
-    -- The bug: a construct that the random programs never hold, and that is therefore never tried.
-    it "the random programs hold every constructor of the syntax" $ do
+    -- The bug: a construct that the random programs never contain, so that no law tests it.
+    it "the random programs contain every constructor of the syntax" $ do
       source <- (<>) <$> readText "src/Surface/Syntax.hs" <*> readText "src/Surface/Token.hs"
       programs <- generate (vectorOf 600 (resize 60 Generate.program))
-      let held = Set.unions (map Generate.constructors programs)
-      declared source \\ Set.toList held `shouldBe` []
+      let contained = Set.unions (map Generate.constructors programs)
+      declared source \\ Set.toList contained `shouldBe` []
   describe "layout" . modifyMaxSuccess (const 300) $ do
-    -- The bug: a comment that moves each time, columns that depend on the spaces that were there.
+    -- The bug: a comment that moves at each formatting, columns that depend on the old spaces.
     prop "a text that is laid out stays as it is" $
       forAllShow written Text.unpack $ \text ->
         let new = Formatter.layout text in (new >>= Formatter.layout) === new
-    -- The bug: a comment that is lost or doubled or overtakes another; a bracket dropped that was
+    -- The bug: a comment that is lost, doubled or moved past another; a dropped bracket that was
     -- needed.
     prop "the tree and the comments stay" $
       forAllShow written Text.unpack $ \text ->
@@ -58,8 +57,7 @@ spec = do
     prop "the layout of a text without comments and blank lines is what printing its tree gives" $
       forAllShow Generate.program shown $ \p ->
         Formatter.layout (PrintProgram.program p) === Just (PrintProgram.program p)
-    -- The bug: blank lines that pile up, spaces at the ends of lines, ends of lines of other
-    -- systems.
+    -- The bug: repeated blank lines, trailing spaces, line ends of other systems.
     prop
       "no two blank lines in a row, none at an end, no spaces at the end of a line, no CR, no mark \
       \of the byte order"
@@ -115,39 +113,39 @@ spec = do
   where
     shown = Text.unpack . PrintProgram.program
 
--- | A random program, written down at random.
+-- | The text of a random program with random white space and comments.
 written :: Gen Text
 written = Generate.program >>= Generate.respaced . PrintProgram.program
 
 tree :: Text -> Maybe [Statement]
 tree = fmap fst . meaning
 
--- | What a text says, without places: its statements and its comments.
+-- | The content of a text without regions: its statements and its comments.
 meaning :: Text -> Maybe ([Statement], [Text])
-meaning text = fmap said (Result.settled (Parser.parse 0 text :: Result.Result () Error Program))
+meaning text = fmap content (Result.settled (Parser.parse 0 text :: Result.Result () Error Program))
   where
-    said p = (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p))
+    content p = (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p))
 
--- | Laid out, a program that can be read says the same.
+-- | Demands that formatting keeps the content of a text, and that a text with mistakes has no layout.
 keeps :: Text -> Expectation
 keeps text = case meaning text of
   Nothing -> Formatter.layout text `shouldBe` Nothing
-  said -> do
-    (Formatter.layout text >>= meaning) `shouldBe` said
+  expected -> do
+    (Formatter.layout text >>= meaning) `shouldBe` expected
     (Formatter.layout text >>= Formatter.layout) `shouldBe` Formatter.layout text
     Formatter.layout text `shouldSatisfy` isJust
 
--- | What stands between @```part@ and @```@.
+-- | The part programs of a document: the texts between @```part@ and @```@.
 fences :: Text -> [Text]
 fences text = [fst (Text.breakOn "```" rest) | rest <- drop 1 (Text.splitOn "```part\n" text)]
 
--- | The constructors that a module declares in the style of this project, but for what is broken.
+-- | The constructors that a module declares in the style of this project, without broken nodes.
 declared :: Text -> [Text]
 declared source =
   Set.toList
     (Set.fromList (concatMap constructors (concatMap sums (Text.splitOn "\ndata " source))))
   where
-    -- One declaration, up to its @deriving@.
+    -- The alternatives of one declaration, up to its @deriving@.
     sums block =
       [ Text.drop 1 rest
         | let rest = snd (Text.breakOn "=" (fst (Text.breakOn "\n  deriving" block))),

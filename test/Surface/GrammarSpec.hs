@@ -1,4 +1,4 @@
--- | The grammar in the manual and the parser tell the same story.
+-- | The grammar in the manual agrees with the parser.
 module Surface.GrammarSpec (spec) where
 
 import Base.Result qualified as Result
@@ -22,29 +22,29 @@ spec :: Spec
 spec = do
   manual <- runIO (readText "docs/language.md")
   let grammar = Grammar.fromText (Text.unlines (block "```ebnf" (Text.lines manual)))
-  -- The bug: a rule that is used but nowhere given, or given but not used; a grammar that is not
+  -- The bug: a rule that is used but not defined, or defined but not used; a grammar that is not
   -- read to its end.
   it "is whole" $
     Grammar.loose grammar `shouldBe` []
   describe "in the manual" . modifyMaxSuccess (const 300) $ do
-    -- The bug: a rule of the manual that the parser does not know, or knows otherwise.
+    -- The bug: a rule of the manual that the parser does not have, or has in another form.
     prop "every sentence of it is read without a mistake" $
       forAllShow (Grammar.sentence grammar) Text.unpack $ \text ->
         map
           (Report.title . Error.toReport)
           (Result.errors (Parser.parse 0 text :: Result.Result () Error Program))
           === []
-    -- The bug: a rule that no sentence ever uses.
-    it "every word of it stands in some sentence" $ do
+    -- The bug: a rule that no sentence uses.
+    it "every word of it occurs in some sentence" $ do
       texts <- generate (vectorOf 6000 (Grammar.sentence grammar))
       let used = concatMap Text.words texts
       filter (`notElem` used) (Grammar.literals grammar) `shouldBe` []
-    -- The bug: a construct that the parser knows and the manual does not.
+    -- The bug: a construct of the parser that the manual lacks.
     prop "every program is a sentence of it" $
       forAllShow Generate.program (Text.unpack . PrintProgram.program) $ \p ->
         Grammar.recognises grammar (fst (Lexer.tokens 0 (PrintProgram.program p)))
-    -- The bug: a recogniser that says yes to everything.
-    it "tells what is no sentence" $
+    -- The bug: a recogniser that accepts everything.
+    it "rejects texts that are not sentences" $
       map
         (Grammar.recognises grammar . fst . Lexer.tokens 0)
         [ "let a = 1",

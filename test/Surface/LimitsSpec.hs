@@ -1,4 +1,4 @@
--- | Texts that no person writes end with a report, one for each cause.
+-- | Extreme texts end with one report for each cause.
 module Surface.LimitsSpec (spec) where
 
 import Base.Region qualified as Region
@@ -38,7 +38,7 @@ spec = do
       codes ("part p\nlet a = 1" <> Text.replicate 5000000 "+1") `shouldBe` ["E0116"]
     it "of a comment is none" $
       codes ("part p --" <> Text.replicate 10000000 "x") `shouldBe` []
-  it "random characters end with reports that stand in the text" $
+  it "random characters end with reports inside the text" $
     withMaxSuccess 300 . property $
       forAllShow noise Text.unpack $ \text ->
         let places = [r | Report.Report {Report.place = InSource r} <- reports text]
@@ -71,7 +71,7 @@ reports text = Result.errors (Compile.analyse [] (LoadedProgram.fromText "p.part
 codes :: Text -> [Text]
 codes text = [c | ReportCode c <- map Report.code (reports text)]
 
--- | Words, signs and characters in any order, on lines.
+-- | Lines of words, signs and characters in random order.
 noise :: Gen Text
 noise =
   Text.concat

@@ -1,4 +1,4 @@
--- | One mistake, one report: what stands around it is read or skipped, and not blamed.
+-- | One mistake gives one report: the text around it is parsed or skipped without reports.
 module Surface.RecoverySpec (spec) where
 
 import Base.Result qualified as Result

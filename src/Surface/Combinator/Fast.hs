@@ -54,7 +54,10 @@ newtype FastParser a = FastParser (forall r. Ahead -> (a -> Ahead -> r) -> (Int 
 -- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more, or if it fails.
 run :: Int -> FastParser a -> [Token] -> Maybe a
 run limit (FastParser p) ts =
-  p Ahead {left = ts, room = limit, ended = 0, open = 0, blocks = 0} (\a _ -> Just a) (const Nothing)
+  p
+    Ahead {left = ts, room = limit, ended = 0, open = 0, blocks = 0}
+    (\a _ -> Just a)
+    (const Nothing)
 
 -- | The room of a failure after which no alternative is tried.
 final :: Int
@@ -77,7 +80,8 @@ instance Applicative FastParser where
   {-# INLINE (<*) #-}
 
 instance Monad FastParser where
-  FastParser p >>= f = FastParser (\s ok no -> p s (\a s' -> let FastParser q = f a in q s' ok no) no)
+  FastParser p >>= f =
+    FastParser (\s ok no -> p s (\a s' -> let FastParser q = f a in q s' ok no) no)
   {-# INLINE (>>=) #-}
 
 instance Alternative FastParser where
@@ -96,11 +100,13 @@ instance MonadParsec Problem Input FastParser where
   {-# INLINE label #-}
   hidden p = p
   {-# INLINE hidden #-}
-  try (FastParser p) = FastParser (\s ok no -> p s ok (\at -> no (if at == final then final else room s)))
+  try (FastParser p) =
+    FastParser (\s ok no -> p s ok (\at -> no (if at == final then final else room s)))
   lookAhead (FastParser p) = FastParser (\s ok no -> p s (\a _ -> ok a s) no)
   {-# INLINE lookAhead #-}
   notFollowedBy (FastParser p) =
-    FastParser (\s ok no -> p s (\_ _ -> no (room s)) (\at -> if at == final then no final else ok () s))
+    FastParser
+      (\s ok no -> p s (\_ _ -> no (room s)) (\at -> if at == final then no final else ok () s))
   withRecovery _ (FastParser p) = FastParser (\s ok no -> p s ok (\_ -> no final))
   {-# INLINE withRecovery #-}
   observing p = Right <$> p
@@ -195,7 +201,13 @@ instance Grammar FastParser where
 -- | The state in the form of the grammar, which this parser needs only in part.
 grammarStateOf :: Ahead -> ParserState
 grammarStateOf s =
-  ParserState {failures = [], lastEnd = ended s, bracketDepth = open s, blockDepth = blocks s, hasGivenUp = False}
+  ParserState
+    { failures = [],
+      lastEnd = ended s,
+      bracketDepth = open s,
+      blockDepth = blocks s,
+      hasGivenUp = False
+    }
 {-# INLINE grammarStateOf #-}
 
 -- | A constant position: lines and columns are not counted.

@@ -49,8 +49,8 @@ spec = describe "literals checked fast and by full inference" $ do
 partFiles :: FilePath -> IO [FilePath]
 partFiles folder = sort . filter ((== ".part") . takeExtension) <$> walk folder
 
--- | The reports of a text and its checked program, as text without the numbers of unknowns, in which
--- the two checks differ. Statements that cannot be parsed count as broken.
+-- | The reports of a text and its checked program, as text without the numbers of unknowns, in
+-- which the two checks differ. Statements that cannot be parsed count as broken.
 checkedBy :: (Surface.Program -> Result () Error Checked.Program) -> Text -> Text
 checkedBy check text = case output parsed of
   Nothing -> ""

@@ -1,4 +1,4 @@
--- | The reader for programs without a mistake gives what the one that explains gives.
+-- | The fast parser agrees with the explaining parser.
 module Surface.Combinator.FastSpec (spec) where
 
 import Base.Result (Result (..))
@@ -14,20 +14,20 @@ import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
 import Test.QuickCheck hiding (Result)
 
 spec :: Spec
-spec = describe "one grammar, two readers" . modifyMaxSuccess (const 500) $ do
-  -- The bug: a place, a value or a comment that the quick reader loses; a program without a mistake
-  -- that it does not read.
+spec = describe "one grammar, two parsers" . modifyMaxSuccess (const 500) $ do
+  -- The bug: a region, a value or a comment that the fast parser loses; a program without a mistake
+  -- that it rejects.
   prop "a program is the same by both" $
     forAllShow (PrintProgram.program <$> Generate.program) Text.unpack $ \text ->
       both text .&&. null (errors (parse text))
-  -- The bug: a mistake over which the quick reader goes, or goes on another way.
+  -- The bug: a mistake that the fast parser accepts, or reads as something else.
   prop "a program with a few mistakes has the same ones by both" $
     forAllShow (Generate.program >>= damaged 3 . PrintProgram.program) Text.unpack both
   where
     both text = parse text === Parser.parseExplained 0 text
     parse text = Parser.parse 0 text :: Result () Error Program
 
--- | A text with so many pieces replaced by signs and words.
+-- | A text with @count@ pieces replaced by signs and words.
 damaged :: Int -> Text -> Gen Text
 damaged count text
   | count <= 0 = pure text

@@ -1,0 +1,580 @@
+{-# LANGUAGE RankNTypes #-}
+
+-- | The grammar of programs, by recursive descent with one token of lookahead.
+--
+-- A mistake ends the statement or the item of a block that contains it. Parsing continues at the
+-- next one, so that one run finds all mistakes. The rules are written once, for the explaining
+-- parser and for its fast twin.
+module Surface.Grammar
+  ( explainedProgram,
+    fastProgram,
+    explainedExpression,
+  )
+where
+
+import Base.Name (Name (..))
+import Base.Name qualified as Name
+import Base.Region (Located (..), span)
+import Base.Region qualified as Region
+import Control.Monad (void)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe qualified as Maybe
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Surface.Combinator
+import Surface.Combinator.Fast (FastParser)
+import Surface.Combinator.Fast qualified as FastCombinator
+import Surface.Error (Enclosure (..))
+import Surface.Keyword qualified as Keyword
+import Surface.Syntax
+import Surface.Token (Token (..), Token_ (..))
+import Surface.Token qualified as Token
+import Text.Megaparsec ((<?>), (<|>))
+import Text.Megaparsec qualified as Parsec
+import Prelude hiding (span)
+
+-- | A program by the explaining parser.
+explainedProgram :: Explaining [Statement]
+explainedProgram = program
+
+-- | A program by the fast parser.
+fastProgram :: FastParser [Statement]
+fastProgram = program
+
+-- | An expression that is the whole text, by the explaining parser.
+explainedExpression :: Explaining Expr
+explainedExpression = expr <* (Parsec.eof <?> "the end of the value")
+
+-- Statements
+
+program :: Parser [Statement]
+program = Parsec.manyTill (recovering brokenStatement statement) Parsec.eof
+
+statement :: Parser Statement
+statement = located (statement_ <* endOfLine)
+
+statement_ :: Parser Statement_
+statement_ = do
+  begin <- Parsec.lookAhead Parsec.anySingle
+  case shape begin of
+    Word word | Just rest <- lookup word statementForms -> keyword word *> rest
+    Word word -> Parsec.customFailure (NoStatement word)
+    _ -> Parsec.empty <?> "a statement"
+
+-- | The rules for the rest of a statement by its keyword.
+statementForms :: Grammar p => [(Text, p Statement_)]
+statementForms =
+  [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
+    ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
+    ("import", Import <$> (text' <?> "the name of a file in quotation marks")),
+    ("tool", Tool <$> cutter),
+    ("feed", Feed <$> expr),
+    ("tolerance", Tolerance <$> accuracy),
+    ("clearance", Clearance <$> expr),
+    ("from", From <$> expr),
+    ("let", definition),
+    ("param", Param <$> name <* symbol "=" <*> expr),
+    ("contour", contour),
+    ("table", Table <$> name <*> lines'),
+    ("curve", Curve <$> name <* symbol "=" <*> expr),
+    ("piece", piece),
+    ("assert", Assert <$> expr <*> Parsec.optional (keyword "within" *> expr)),
+    ("mill", machining "mill" Mill),
+    ("pocket", Pocket <$> expr <* keyword "step" <*> expr <*> settings "pocket"),
+    ("turn", machining "turn" Turn),
+    ( "drill",
+      keyword "at"
+        *> ( Drill
+               <$> expr
+                 <* keyword "depth" <*> expr <*> Parsec.option [] (onThisLine (settings "drill"))
+           )
+    ),
+    ("rapid", Travel RapidMotion <$> stops),
+    ("move", Travel FeedMotion <$> stops),
+    ("change", Change <$> expr <*> cutter),
+    ("spindle", Spindle <$> spin),
+    ("coolant", Coolant <$> ((SwitchOn <$ keyword "on") <|> (SwitchOff <$ keyword "off"))),
+    ("aux", Auxiliary <$> expr),
+    ( "for",
+      forEach >>= \(variable, from) ->
+        Repeat variable from <$> statementBlock RepetitionBlock statement
+    ),
+    ( "if",
+      When <$> expr <*> statementBlock (BlockOf "if") statement <*> Parsec.option [] otherwise'
+    ),
+    ("with", With <$> expr <*> statementBlock (BlockOf "with") statement)
+  ]
+  where
+    otherwise' =
+      keyword "else"
+        *> ((: []) <$> located elseIf <|> statementBlock (BlockOf "else") statement)
+    elseIf =
+      keyword "if"
+        *> ( When
+               <$> expr
+                 <*> statementBlock (BlockOf "if") statement
+                 <*> Parsec.option [] otherwise'
+           )
+
+-- | A text in quotation marks.
+text' :: Parser (Located Text)
+text' = located (token "a text" textOf)
+  where
+    textOf t = case shape t of
+      Text x -> Just x
+      _ -> Nothing
+
+-- | The name of a machine or of a file that describes one.
+machine :: Parser MachineRef
+machine = token "the name of a machine" machineOf
+  where
+    machineOf t = case shape t of
+      Word x -> Just (Named x)
+      Text x -> Just (Described x)
+      _ -> Nothing
+
+-- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
+cutter :: Parser Cutter
+cutter =
+  located $
+    one "mill" "diameter" MillCutter
+      <|> one "drill" "diameter" DrillCutter
+      <|> one "turn" "nose" TurningCutter
+      <|> ( keyword "cone"
+              *> parens
+                ( ConeCutter
+                    <$> measured "diameter"
+                      <*> further "bevel" coneForm
+                      <*> further "height" coneForm
+                )
+          )
+      <|> ( keyword "blade"
+              *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
+          )
+  where
+    one kind measure make = keyword kind *> parens (make <$> measured measure)
+    measured measure = keyword measure *> expr
+    further measure form = (symbol "," <?> form) *> measured measure
+    coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
+    bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
+
+-- | A tolerance: to either side, or inside and outside.
+accuracy :: Parser Accuracy
+accuracy =
+  (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
+
+-- | The command of a spindle.
+spin :: Parser Spin
+spin = (Still <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
+
+sense :: Parser Sense
+sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
+
+-- | A value or a function after @let@.
+definition :: Parser Statement_
+definition = do
+  what <- name
+  parameters <- Parsec.optional (touching *> parens (name `sepBy1` ","))
+  void (symbol "=")
+  body <- expr
+  pure (maybe (LetValue what body) (\ps -> LetFunction what ps body) parameters)
+
+-- | A contour after its keyword.
+contour :: Parser Statement_
+contour = do
+  what <- name
+  closure <- (Closed <$ keyword "closed") <|> (Open <$ keyword "open")
+  Contour what closure <$> block (ContourBlock (Name.text (value what))) BrokenItem item
+
+-- | The lines of a table in braces, or the name of a file.
+lines' :: Parser Lines
+lines' =
+  (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
+    <|> (WrittenLines <$> block TableBlock (const BrokenLine) line)
+
+-- | A line of a table: its headings, or one cell for each column.
+line :: Parser TableLine_
+line =
+  (Header <$> onLine NotInHeadings column)
+    <|> (Entries <$> onLine NotInRow cell)
+    <|> misfit NotInRow
+  where
+    onLine problem p = (:|) <$> p <*> zeroOrMore (onThisLine p) <* lineDone problem
+    column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
+    unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
+    cell =
+      number
+        <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
+        <|> parens expr
+
+-- | Fails because of the next token in a line of a table.
+misfit :: (Token_ -> Problem) -> Parser a
+misfit problem =
+  Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
+
+-- | Demands the end of a table's line or the closing brace of the table.
+lineDone :: (Token_ -> Problem) -> Parser ()
+lineDone problem = do
+  next <- remaining
+  case next of
+    t : _ | not (newLine t) && shape t /= Symbol "}" -> misfit problem
+    _ -> pure ()
+
+-- | A piece: @q = skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@.
+piece :: Parser Statement_
+piece = do
+  what <- name <* symbol "="
+  base <- expr
+  ciphers <-
+    Parsec.option [] (keyword "cipher" *> (NonEmpty.toList <$> (located cipher `sepBy1` ",")))
+  side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> missingSide)
+  Piece what base ciphers side <$> zeroOrMore (located joggle)
+  where
+    -- Explains a missing side where the statement ends or a joggle follows.
+    missingSide = do
+      next <- remaining
+      case next of
+        t : _
+          | not (newLine t) && shape t `notElem` map Word ["outside", "inside", "on", "joggle"] ->
+            Parsec.empty
+        _ -> Parsec.customFailure NoSide
+    cipher =
+      Cipher
+        <$> located (token "the digit of a cipher" digit)
+          <*> ( (touching *> parens (expr `sepBy1` ","))
+                  <?> "the values of the cipher in brackets that touch its digit"
+              )
+    digit t = case shape t of
+      Number x Nothing -> Just x
+      _ -> Nothing
+    joggle =
+      Joggle
+        <$> (keyword "joggle" *> keyword "from" *> expr)
+          <*> (keyword "to" *> expr)
+          <*> (keyword "depth" *> expr)
+          <*> (keyword "radius" *> expr)
+
+-- | An item of a contour.
+item :: Parser Item_
+item = isWordNext >>= \ahead -> if ahead then repetition <|> choice <|> element else element
+
+-- | A variable and its list after @for@: @x in list@.
+forEach :: Parser (Located Name, Expr)
+forEach = (,) <$> name <* (keyword "in" <?> "‘in’") <*> expr
+
+-- | A repetition of items.
+repetition :: Parser Item_
+repetition = do
+  (variable, from) <- keyword "for" *> forEach
+  For variable from <$> nested (block RepetitionBlock BrokenItem item)
+
+-- | A choice of items, @if c { … }@, or an element with a conditional value, @if c then a else b@.
+choice :: Parser Item_
+choice = do
+  Located region (condition, then') <- located (keyword "if" *> ((,) <$> expr <*> branch))
+  case then' of
+    Right items -> Choose condition items <$> Parsec.option [] (keyword "else" *> otherwise')
+    Left (a, b) ->
+      Element Nothing (Located region (If condition a b))
+        <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
+  where
+    branch =
+      (Left <$> alternatives) <|> (Right <$> nested (block (BlockOf "if") BrokenItem item))
+    otherwise' =
+      ((: []) <$> located choice) <|> nested (block (BlockOf "else") BrokenItem item)
+
+-- | An element with its modifiers and the link to the next one.
+element :: Parser Item_
+element = do
+  isWord <- isWordNext
+  direction <- if isWord then Parsec.optional (located sense) else pure Nothing
+  what <- expr
+  isWordAfter <- isWordNext
+  if isWordAfter
+    then Element direction what <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
+    else pure (Element direction what [] Nothing)
+
+-- | A modifier of an element.
+modifier :: Parser Modifier_
+modifier =
+  (keyword "feed" *> (AtElementFeed <$> expr))
+    <|> (Slow <$ keyword "slow")
+    <|> (keyword "allowance" *> (ElementAllowance <$> expr))
+    <|> (keyword "bevel" *> (Bevel <$> expr))
+
+-- | A link to the next element.
+link :: Parser Link_
+link =
+  (keyword "meet" *> (Meet <$> Parsec.optional (keyword "near" *> expr)))
+    <|> (Smooth <$ keyword "smooth")
+    <|> (Tangent <$ keyword "tangent")
+    <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
+    <|> (keyword "chamfer" *> (Chamfer <$> expr))
+
+-- | The rest of a machining statement: a contour, a side, and settings.
+machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
+machining word make =
+  make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
+  where
+    sides =
+      [ ("outside", Outside),
+        ("inside", Inside),
+        ("left", LeftSide),
+        ("right", RightSide),
+        ("on", On)
+      ]
+
+-- | The block of settings of a statement, given its keyword.
+settings :: Text -> Parser [Setting]
+settings word =
+  block
+    (BlockOf word)
+    (const BrokenSetting)
+    (setting (concatMap (take 1 . Text.words) (Keyword.settingsOf word)))
+
+-- | A setting. Reports of a mistake name the settings that the statement offers. Settings of other
+-- statements are parsed as well, so that checking can refuse them by name.
+setting :: [Text] -> Parser Setting_
+setting offered = do
+  begin <- Parsec.lookAhead Parsec.anySingle
+  case shape begin of
+    Word word | Just rest <- lookup word settingForms -> keyword word *> rest
+    _ ->
+      Parsec.choice
+        [ (Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest
+          | (word, rest) <- settingForms,
+            word `elem` offered
+        ]
+
+-- | The rules for the rest of a setting by its first word.
+settingForms :: Grammar p => [(Text, p Setting_)]
+settingForms =
+  [ ("approach", Approach <$> stops),
+    ("retract", Retract <$> stops),
+    ("depth", Depth <$> expr <*> Parsec.optional (keyword "step" *> expr)),
+    ( "lead",
+      LeadBy
+        <$> ((LeadIn <$ keyword "in") <|> (LeadOut <$ keyword "out"))
+          <*> ((LeadLine <$ keyword "line") <|> (LeadArc <$ keyword "arc"))
+          <*> expr
+    ),
+    ("allowance", Allowances <$> (expr `sepBy1` ",")),
+    ("corners", CornerStyle <$> ((Round <$ keyword "round") <|> (Sharp <$ keyword "sharp"))),
+    ("climb", pure (CutBy Climb)),
+    ("conventional", pure (CutBy Conventional)),
+    ( "compensation",
+      CompensationBy
+        <$> ((ByCompiler <$ keyword "compiler") <|> (ByController <$ keyword "controller"))
+    ),
+    ("start", keyword "near" *> (StartNear <$> expr)),
+    ("plunge", Plunge <$> expr),
+    ("peck", Peck <$> expr),
+    ("islands", Islands <$> (expr `sepBy1` ",")),
+    ("rest", RestAllowed <$ keyword "allowed")
+  ]
+
+-- | Points with the pace of the motion to each.
+stops :: Parser (NonEmpty Stop)
+stops = stop `sepBy1` ","
+  where
+    stop = Stop <$> expr <*> (Maybe.fromMaybe Cutting <$> Parsec.optional (onThisLine pace'))
+    pace' = (Rapid <$ keyword "rapid") <|> (AtFeed <$> (keyword "feed" *> expr))
+
+-- Expressions, the operators of lowest precedence first
+
+-- | An expression. Most are a single operand, which is tried first.
+expr :: Parser Expr
+expr = do
+  begin <- remaining
+  case begin of
+    t : _ | Just first <- operand t -> first >>= operated
+    _ -> conditional <|> disjunction
+
+-- | The rule for an operand by its first token.
+operand :: Grammar p => Token -> Maybe (p Expr)
+operand t = case shape t of
+  Number _ _ -> Just number
+  Word word | not (Keyword.isReserved word) -> Just variableOrCall
+  Symbol "(" -> Just pairOrGroup
+  Symbol "[" -> Just list
+  Symbol "-" -> Just negative
+  _ -> Nothing
+
+-- | The rest of an expression after its first operand.
+operated :: Grammar p => Expr -> p Expr
+operated first = do
+  next <- remaining
+  case next of
+    t : _
+      | isOperator t ->
+        moreFactors first
+          >>= moreSummands
+          >>= moreOfRange
+          >>= compared
+          >>= moreConjuncts
+          >>= moreDisjuncts
+    _ -> pure first
+  where
+    isOperator t = case shape t of
+      Symbol s -> Text.any isOperatorCharacter s
+      Word word -> word == "and" || word == "or"
+      _ -> False
+    isOperatorCharacter c = case c of
+      '(' -> False
+      ')' -> False
+      ',' -> False
+      _ -> c `elem` ("+-*/<>=!." :: String)
+
+-- | A conditional expression: @if c then a else b@.
+conditional :: Parser Expr
+conditional = located ((\c (a, b) -> If c a b) <$> (keyword "if" *> nested expr) <*> alternatives)
+
+alternatives :: Parser (Expr, Expr)
+alternatives = (,) <$> (keyword "then" *> nested expr) <*> (keyword "else" *> nested expr)
+
+disjunction :: Parser Expr
+disjunction = conjunction >>= moreDisjuncts
+
+moreDisjuncts :: Grammar p => Expr -> p Expr
+moreDisjuncts = chain (Parsec.hidden (Or <$ keyword "or")) conjunction
+
+conjunction :: Parser Expr
+conjunction = negation >>= moreConjuncts
+
+moreConjuncts :: Grammar p => Expr -> p Expr
+moreConjuncts = chain (Parsec.hidden (And <$ keyword "and")) negation
+
+negation :: Parser Expr
+negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) <|> comparison
+
+comparison :: Parser Expr
+comparison = range >>= compared
+
+-- | At most one comparison: @a < b < c@ is not an expression.
+compared :: Grammar p => Expr -> p Expr
+compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
+  where
+    table =
+      [("<=", AtMost), (">=", AtLeast), ("!=", Unequal), ("<", Less), (">", Greater), ("=", Equal)]
+
+range :: Parser Expr
+range = sum' >>= moreOfRange
+
+-- | The rest of a range after its lower end: @..b by s@.
+moreOfRange :: Grammar p => Expr -> p Expr
+moreOfRange low =
+  ( Parsec.hidden (symbol "..")
+      *> (to <$> sum' <*> Parsec.optional (Parsec.hidden (keyword "by") *> sum'))
+  )
+    <|> pure low
+  where
+    to high step =
+      Located
+        (span (Region.region low) (Region.region (Maybe.fromMaybe high step)))
+        (Range low high step)
+
+sum' :: Parser Expr
+sum' = product' >>= moreSummands
+
+moreSummands :: Grammar p => Expr -> p Expr
+moreSummands = chain (operators [("+", Add), ("-", Subtract)]) product'
+
+product' :: Parser Expr
+product' = factor >>= moreFactors
+
+moreFactors :: Grammar p => Expr -> p Expr
+moreFactors = chain (operators [("*", Multiply), ("/", Divide)]) factor
+
+operators :: [(Text, Operator)] -> Parser Operator
+operators table = Parsec.hidden (token "an operator" operatorOf)
+  where
+    operatorOf t = case shape t of
+      Symbol s -> lookup s table
+      _ -> Nothing
+
+-- | The operators and operands after a first operand, joined from left to right.
+chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
+chain operator next = more
+  where
+    more left = (operator >>= \op -> next >>= \right -> more (joined op left right)) <|> pure left
+
+joined :: Operator -> Expr -> Expr -> Expr
+joined op left right =
+  Located (span (Region.region left) (Region.region right)) (Binary op left right)
+
+factor :: Parser Expr
+factor = do
+  begin <- remaining
+  case begin of
+    t : _ | Just found <- operand t -> found
+    _ -> Parsec.hidden negative <|> primary
+
+negative :: Parser Expr
+negative = located (Negate <$> (symbol "-" *> nested factor))
+
+primary :: Parser Expr
+primary = (number <|> variableOrCall <|> pairOrGroup <|> list) <?> "a value"
+
+number :: Parser Expr
+number = token "a number" numberOf
+  where
+    numberOf t = case shape t of
+      Number x unit -> Just (Located (Token.place t) (Literal x unit))
+      _ -> Nothing
+
+-- | A list, @[a, b, c]@, or a comprehension, @[e for x in list]@.
+list :: Parser Expr
+list = located (brackets (Parsec.option (List []) (expr >>= more)))
+  where
+    more e =
+      (each e <$> (Parsec.hidden (keyword "for") *> forEach))
+        <|> (List . (e :) <$> zeroOrMore (symbol "," *> expr))
+    each e (variable, from) = Each e variable from
+
+variableOrCall :: Parser Expr
+variableOrCall = located $ do
+  what <- usedName
+  next <- remaining
+  case next of
+    t : _ | isTouchingParenthesis t -> Call what <$> parens (argument `sepBy1` ",")
+    _ -> pure (Variable (value what))
+
+argument :: Parser Argument
+argument = do
+  begin <- remaining
+  case begin of
+    t : _ | not (isWord' t) -> Given <$> expr
+    _ -> Parsec.hidden (chosen <|> ranked) <|> (Given <$> expr)
+  where
+    chosen = Chosen <$> located (Parsec.choice [c <$ keyword k | (k, c) <- choices]) <*> expr
+    choices =
+      [ ("near", Near),
+        ("left", ToLeft),
+        ("right", ToRight),
+        ("inside", Within'),
+        ("outside", Beyond),
+        ("within", UpTo)
+      ]
+    ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
+    isWord' t = case shape t of
+      Word _ -> True
+      _ -> False
+
+-- | Demands a parenthesis without a space before it.
+touching :: Parser ()
+touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy isTouchingParenthesis)))
+
+isTouchingParenthesis :: Token -> Bool
+isTouchingParenthesis t = attached t && shape t == Symbol "("
+
+-- | An expression in parentheses, a point or a vector @(a, b)@, or a point with a height
+-- @(a, b, c)@.
+pairOrGroup :: Parser Expr
+pairOrGroup = fastPath FastCombinator.plainPair $ do
+  Located region es <- located (parens (expr `sepBy1` ","))
+  case NonEmpty.toList es of
+    [a] -> pure a
+    [a, b] -> pure (Located region (Pair a b))
+    [a, b, c] -> pure (Located region (Triple a b c))
+    _ -> Parsec.customFailure (ManyCoordinates region)
