@@ -38,7 +38,7 @@ spec = do
       onItsSide
       [ ("outside a closed contour", "mill c outside { depth 2 }"),
         ("inside a closed contour", "mill c inside { depth 2 }"),
-        ("outside a clockwise contour", "mill turned outside { depth 2 }"),
+        ("outside a clockwise contour", "mill reversed outside { depth 2 }"),
         ("on the left", "mill l left { depth 2 }"),
         ("on the right", "mill l right { depth 2 }"),
         ("in a pocket", "pocket c step 4 { depth 2 }")
@@ -115,7 +115,7 @@ millingProgram statement =
       "clearance 5 mm",
       "from (0, 0, 10)",
       "contour c closed { ccw circle((0, 0), 30) }",
-      "contour turned closed { cw circle((0, 0), 30) }",
+      "contour reversed closed { cw circle((0, 0), 30) }",
       "contour l open { line((0, 0), (40, 10)) }",
       statement
     ]
