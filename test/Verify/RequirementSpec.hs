@@ -46,8 +46,8 @@ spec = do
   describe "the side of a turning tool" $
     mapM_
       onItsSideOfAShaft
-      [ ("outside", "turn shaft outside { approach (5, 21) }"),
-        ("inside", "turn shaft inside { approach (5, 19) }")
+      [ ("outside", "turn shaft outside { approach (20, 20) }"),
+        ("inside", "turn shaft inside { approach (20, 20) }")
       ]
   it
     "the bevel of a blade is proven between elements of different length (catches a bevel that \
@@ -127,7 +127,7 @@ turningProgram statement =
       "tool turn(nose 1 mm)",
       "feed 40",
       "tolerance 0.01",
-      "from (10, 40)",
+      "from (20, 40)",
       "contour shaft open { line((0, 20), (-30, 20)) }",
       statement
     ]
