@@ -13,7 +13,7 @@
 --
 -- Each allows the tolerance and one pulse. Pockets, holes, the order of cuts, feeds, commands and
 -- the last position are compared as well. A tape with the frames of the program and a foreign tape
--- are both accepted; the program's own frames only tell where a pass has to be.
+-- are both accepted; the program's own frames only show where a pass has to be.
 module Verify.FromTape
   ( prove,
   )
@@ -92,7 +92,7 @@ data Subject = Subject
     passFrames :: ~(IntMap FrameRange)
   }
 
--- | Compare the frames of a tape with the part of a toolpath. The program's own frames tell the
+-- | Compare the frames of a tape with the part of a toolpath. The program's own frames give the
 -- start position, the cutters, the demanded feeds and commands.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames =
@@ -168,7 +168,7 @@ isFlat subject = Toolpath.isFlat (path subject)
 
 -- Passes on the tape ------------------------------------------------------------------------------
 
--- | Passes along contours. The frames of the program tell where to search, if the tape has the same
+-- | Passes along contours. The frames of the program limit the search, if the tape has the same
 -- frames.
 locatedPasses :: Subject -> [MillingPass]
 locatedPasses subject@Subject {machine, path, program} =

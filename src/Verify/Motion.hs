@@ -109,8 +109,8 @@ isVertical m = case segment m of
 samples :: CutterMotion -> [Double]
 samples m = let n = sampleCount m in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
 
--- | Number of sample points: two on a line. An arc has so many that its direction changes by no
--- more than π\/8 between two of them, and a full circle at least four.
+-- | Number of sample points: two on a line, at least four on an arc. The direction of an arc
+-- changes by no more than π\/8 from one to the next.
 sampleCount :: CutterMotion -> Int
 sampleCount m = case segment m of
   Straight _ _ -> 2

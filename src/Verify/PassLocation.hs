@@ -47,10 +47,11 @@ data Guide = Guide
   { machine :: Machine,
     -- | the cutter stays at its first height, so heights are not compared
     isFlat :: Bool,
-    -- | last frame of a pass by its number, if the program's own frames tell it
+    -- | last frame of a pass by its number, if it is known from the program's own frames
     lastFrameOf :: Int -> Maybe Int,
-    -- | frames of a cut by the number of its pass, if the program's own frames tell them. They
-    -- decide between passes that lie within the tolerance of one another.
+    -- | frames of a cut by the number of its pass, if they are known from the program's own
+    -- frames. They decide
+    -- between passes that lie within the tolerance of one another.
     cutFramesOf :: Int -> Maybe FrameRange
   }
 

@@ -44,9 +44,9 @@ import Verify.PocketFloor qualified as PocketFloor
 import Verify.Proof (ContourProof (ContourProof), Finding (..), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with one pass of a pocket. The function tells the motions of the pass. In the
--- first pass of the pocket, all motions near it are examined for gouges; in the others, only those
--- of the pass.
+-- | Compare the tape with one pass of a pocket. The predicate selects the motions of the pass. In
+-- the first pass of the pocket, all motions near it are examined for gouges; in the others, only
+-- those of the pass.
 examine ::
   MotionSet ->
   (CutterMotion -> Bool) ->

@@ -1,6 +1,6 @@
 -- | Gouges of a turning tool without nose radius.
 --
--- The tip of such a tool lies on the contour itself, so its distance does not tell on which side of
+-- The tip of such a tool lies on the contour itself, so its distance does not show on which side of
 -- the contour it is. A motion is therefore divided where it crosses the contour; each part lies on
 -- one side, that of the tool or that of the material. On the side of the material, the largest
 -- distance of the part from the contour is the depth of the gouge. Beyond the ends of an open

@@ -186,7 +186,7 @@ findings machine path program fs = Proof.findings (Verify.prove machine path pro
 
 -- | Toolpath around a contour with a cutter of radius 5, from a point straight to its start.
 laid :: Point -> Mm -> Side -> Polyarc -> Toolpath
-laid from tolerance side walked = case Equidistant.equidistant side (Mm 5) walked of
+laid from tolerance side polyarc = case Equidistant.equidistant side (Mm 5) polyarc of
   Right pieces
     | Just path <-
         Result.output
@@ -196,7 +196,7 @@ laid from tolerance side walked = case Equidistant.equidistant side (Mm 5) walke
                   ( Part.Mill
                       ( Located
                           (Region 0 0)
-                          (Generate.job Case {contour = walked, side, radius = Mm 5, pieces})
+                          (Generate.job Case {contour = polyarc, side, radius = Mm 5, pieces})
                             { Part.tolerance =
                                 Part.OnPath tolerance
                             }

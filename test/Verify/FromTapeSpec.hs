@@ -291,13 +291,13 @@ digitChanges count (Pulses v) =
   [ Pulses (signum' v * changed)
     | k <- [0 .. count - 1],
       step <- [1 .. 9],
-      let changed = turned k step,
+      let changed = digitShifted k step,
       changed /= abs v
   ]
     <> [Pulses (-v) | v /= 0]
   where
     signum' n = if n < 0 then -1 else 1
-    turned k step =
+    digitShifted k step =
       let digit = abs v `div` 10 ^ k `mod` 10
        in abs v + ((digit + step) `mod` 10 - digit) * 10 ^ k
 

@@ -30,8 +30,8 @@ spec =
           rises f = let Pulses3 _ _ z = increment f in z > 0
           -- Frames with a smaller descent before the element and a smaller rise after it.
           risen d = case (reverse onto, along) of
-            (element : final : earlier, first : behind) ->
-              reverse earlier <> [final `by` d, element, first `by` negate d] <> behind
+            (element : final : earlier, first : later) ->
+              reverse earlier <> [final `by` d, element, first `by` negate d] <> later
             _ -> frames
           by f d = let Pulses3 x y z = increment f in f {increment = Pulses3 x y (z + d)}
           isProven d = Proof.isProven (Verify.prove iso6983 toolpath program (risen d))
