@@ -29,8 +29,9 @@ import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = describe "a curve" $ do
-  it "is walked within the tolerance and a pulse, and all of it (catches arcs beside the curve)" $
-    few $
+  it
+    "has frames within the tolerance and a pulse, along all of it (catches arcs beside the curve)"
+    $ few $
       forAll Run.curveCase $ \c ->
         forAll
           ( elements
@@ -47,16 +48,16 @@ spec = describe "a curve" $ do
                     Part.Band (Mm a) (Mm b) -> min a b
                in keepsTo most m path program
   it
-    "so nearly straight that no field holds its centres stays within the tolerance and a pulse \
-    \(catches chords of arcs that are off themselves)"
+    "with centres that fit no field has frames within the tolerance and a pulse (catches chords of \
+    \arcs that deviate themselves)"
     $ few $
       forAll slight $ \c ->
         forAll (elements [0, 0.005, 0.05]) $ \y ->
           onArcs "lki-fm" (Part.OnPath (Mm y)) c $ \path program ->
             keepsTo y (Machines.named "lki-fm") path program
   it
-    "so nearly straight that no field holds its centres takes no more chords than on a machine \
-    \without arcs (catches a tolerance left to arcs that there are not)"
+    "with centres that fit no field takes no more chords than on a machine without arcs (catches a \
+    \tolerance that is reserved for fitted arcs although there are none)"
     $ few $
       forAll slight $ \c ->
         let cuts name =
@@ -66,15 +67,16 @@ spec = describe "a curve" $ do
          in counterexample
               (show (cuts "lki-fm", cuts "lkp-01f"))
               (fmap Just (cuts "lki-fm") <= fmap (Just . (+ 2)) (cuts "lkp-01f"))
-  it "keeps the machine's rules, and closes (catches arcs that are cut by the end of their run)" $
-    few $
+  it
+    "keeps the machine's rules, and closes (catches arcs that are cut off at the end of their run)"
+    $ few $
       forAll Run.curveCase $ \c -> onMachine (Part.OnPath (Mm 0.02)) c $ \m _ program ->
         Frame.invariants m (map frame (Frame.planned program))
           === []
             .&&. sum
               [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
           === 0
-  it "becomes few arcs (catches the thousands that stand for it exactly)" $
+  it "becomes few arcs (catches the thousands that approximate it exactly)" $
     few $
       forAll Run.curveCase $ \c -> onArcs "lki-u" (Part.OnPath (Mm 0.1)) c $ \path program ->
         let exactly = sum [length cut | Cutting {cut} <- Toolpath.blocks path]
@@ -82,7 +84,7 @@ spec = describe "a curve" $ do
          in counterexample
               (show (exactly, made))
               (classify (exactly > 300) "many" (exactly <= 300 || 4 * made <= exactly))
-  it "takes no more arcs where more is allowed (catches a tolerance that is not read)" $
+  it "takes no more arcs for a larger tolerance (catches a tolerance that is ignored)" $
     few $
       forAll Run.curveCase $ \c -> case laid (Part.OnPath (Mm 0.02)) c of
         Nothing -> counterexample "no path" False

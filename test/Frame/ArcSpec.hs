@@ -28,14 +28,14 @@ spec :: Spec
 spec = do
   describe "an arc" $ do
     it
-      "keeps the machine's rules (catches a cut beside the axis, and a centre that its field does \
-      \not hold)"
+      "keeps the machine's rules (catches a cut beside the axis, and a centre that does not fit \
+      \its field)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) ->
           onArc m a $ \p -> Frame.invariants m (framesOf p) === []
     it
-      "is walked within a pulse, and all of it (catches a centre that is only rounded, and a chord \
-      \whose sagitta comes to the rounding of its ends)"
+      "has frames within a pulse, along all of it (catches a centre that is merely rounded, and a \
+      \sagitta that is added to the rounding of the ends)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
           let Mm grain = Machine.pulse m
@@ -44,7 +44,7 @@ spec = do
            in counterexample (show (Made.worstOff [a] path, Made.worstOff path [a])) $
                 Made.worstOff [a] path <= most .&&. (null path || Made.worstOff path [a] <= most)
     it
-      "is walked within a pulse with the radius of either end (catches radii of which only one is \
+      "has frames within a pulse with the radius of either end (catches radii of which only one is \
       \right)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
@@ -56,8 +56,8 @@ spec = do
               off = maximum (0 : [offCircle a w | w@Arc {} <- both])
            in counterexample (show off) (off <= 1.01 * grain)
     it
-      "turns by what it turns (catches an arc that becomes nearly a circle, or vanishes, by \
-      \rounding)"
+      "keeps its sweep (catches an arc that rounding turns into nearly a full circle, or into \
+      \nothing)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
           let Mm grain = Machine.pulse m
@@ -77,12 +77,12 @@ spec = do
                     ==> counterexample
                       (show (whole, exact, straight))
                       (abs (whole - exact) <= slack)
-    it "has no increments only as a full circle (catches the zero that means all)" $
+    it "has increments of zero only as a full circle (catches a zero that means a full circle)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
           and [not (increment f == 0 && Made.roundly f) || start a == end a | f <- framesOf p]
             .&&. [f | f <- framesOf p, not (Made.roundly f), increment f == 0] === []
-    it "ends at its rounded end (catches cuts that add up)" $
+    it "ends at its rounded end (catches rounding errors of cuts that add up)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
           let Mm grain = Machine.pulse m
@@ -113,14 +113,14 @@ spec = do
                     Made.roundly f,
                     let (r, q) = radiiOf f
                 ]
-    it "takes one frame where one can do (catches needless cuts)" $
+    it "takes one frame where one is enough (catches needless cuts)" $
       property $
         forAll (ordinary (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
           classify (length (framesOf p) == 1) "one" $
             length (framesOf p) <= (if alone (Machines.named "lki-u") a then 1 else 4)
     it
-      "is as true as about any lattice point beside its centre (catches a centre that is passed \
-      \over too early)"
+      "deviates no more than about any grid point beside its centre (catches a centre that is \
+      \rejected too early)"
       $ property $
         forAll (ordinary (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
           let m = Machines.named "lki-u"
@@ -132,14 +132,14 @@ spec = do
                     (all (>= offEither a (centre w) w - 0.02 * grain) (offAbout 1 m a))
                 _ -> property True
     it
-      "takes about one frame for each quadrant where it has to (catches a frame for what rounding \
-      \leaves at an axis)"
+      "takes about one frame for each quadrant on a machine with quadrants (catches an extra frame \
+      \for a rounding remainder at an axis)"
       $ property $
         checkCoverage $
           forAll quarters $ \(a, n) -> onArc (Machines.named "lki-fm") a $ \p ->
             cover 90 (length (framesOf p) == n) "as many as quadrants" $
               length (framesOf p) <= 2 * n
-    it "goes as chords where its centre is out of reach (catches a centre cut off to its digits)" $
+    it "becomes chords where its centre does not fit (catches a centre cut off to its digits)" $
       do
         let far =
               Arc
@@ -152,7 +152,7 @@ spec = do
         fmap Made.arcsIn (Made.program (Machines.named "lki-u") (Made.along feed [far]))
           `shouldBe` Just 0
   describe "a full circle" $ do
-    it "is one frame where one can hold it, else halves or quadrants" $
+    it "is one frame where the machine has full circles, else halves or quadrants" $
       [ length
           ( maybe
               []
@@ -166,8 +166,8 @@ spec = do
       ]
         `shouldBe` [1, 1, 1, 2, 4]
     it
-      "off the grid in the radius and the centre is walked within a pulse (catches a radius of \
-      \whole pulses)"
+      "with radius and centre off the grid has frames within a pulse (catches a radius of whole \
+      \pulses)"
       $ property $
         forAllShow
           ((,) <$> machine <*> ((,,) <$> offGrid <*> offGrid <*> choose (0.5, 80)))
@@ -179,7 +179,7 @@ spec = do
                     === [] .&&. Made.worstOff (Made.walked m p) [circle (Vec.point x y) r]
                       <= 1.01 * grain
   describe "the flange" $
-    it "is twelve arcs along its contour, eighteen where they keep to quadrants" $ do
+    it "has twelve arcs along its contour, eighteen on a machine with quadrants" $ do
       text <- Encoding.decodeUtf8 <$> ByteString.readFile "examples/flange.part"
       [cuts machine' text | machine' <- ["lki-u", "lki-fm"]] `shouldBe` [Just 12, Just 18]
   where

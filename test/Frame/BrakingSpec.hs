@@ -24,10 +24,10 @@ import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = do
-  describe "a machine that is told when to slow down" $ do
+  describe "a machine with braking frames" $ do
     it
-      "is never faster than it can be (catches a stretch that does not reach back over a short \
-      \move)"
+      "is never too fast to reach a lower feed in time (catches a braking section that does not \
+      \reach back over a short move)"
       $ property $
         forAll moving $ \ms -> onMachine ms $ \m fs ->
           let grain = let Mm g = Machine.pulse m in g
@@ -47,7 +47,7 @@ spec = do
                 ]
            in counterexample (show fs) (broken === [])
     it
-      "slows down where it has to, and nowhere else (catches a stretch of the way v²/2a before \
+      "slows down where it has to, and nowhere else (catches a section of the length v²/2a before \
       \every feed)"
       $ property $
         forAll moving $ \ms -> onMachine ms $ \m fs ->
@@ -61,24 +61,23 @@ spec = do
                       + 0.02 * fromIntegral (length ms)
                 )
     it
-      "stands at the braking feed behind an element that asks it (catches a slow element that goes \
-      \on)"
+      "is at the braking feed after an element that asks for it (catches a slow end without effect)"
       $ do
         let ms = [to 0 60 (At (here 1000)) True, to 60 120 (At (here 1000)) False]
         fmap (map brief) (framesOn (Machines.named "lki-u") ms)
           `shouldBe` Just [(1611, 40, False), (1389, 0, True), (1611, 40, False), (1389, 0, True)]
-    it "leaves out what is shorter than a pulse" $ do
+    it "leaves out a section shorter than a pulse" $ do
       let ms = [to 0 50 (At (here 25.2)) False]
       fmap (map brief) (framesOn (Machines.named "lki-u") ms) `shouldBe` Just [(2500, 8, False)]
-  describe "a machine without a sign for it" $ do
+  describe "a machine without braking frames" $ do
     it
-      "goes the last stretch at the lowest code, where that is asked (catches a stretch before \
+      "takes the lowest code at the end of an element that asks for it (catches a section before \
       \every feed)"
       $ do
         let ms = [to 0 60 (At (here 240)) True, to 60 120 (At (here 240)) False]
         fmap (map brief) (framesOn (Machines.named "lkp-01f") ms)
           `shouldBe` Just [(2920, 9, False), (80, 1, False), (3000, 9, False)]
-    it "that slows down by itself has none" $
+    it "has no slow frames if its control slows down by itself" $
       fmap
         (map brief)
         ( framesOn

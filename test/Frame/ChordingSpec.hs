@@ -35,8 +35,8 @@ spec :: Spec
 spec = do
   describe "chords of a curve" $ do
     it
-      "keep every point of it within what is allowed on its side, and end on it (catches the two \
-      \sides exchanged)"
+      "keep every point of it within the bound on its side, and end on it (catches the two sides \
+      \exchanged)"
       $ property $
         forAll ((,) <$> chain <*> bounds) $ \(ss, b) ->
           let ends = chordsOf b ss
@@ -53,8 +53,7 @@ spec = do
                     ]
                   .&&. last ends === finish
     it
-      "are about as few as any on a fine grid (catches chords that stop where the curve changes \
-      \its bending)"
+      "are about as few as the fewest on a fine grid (catches chords that stop at an inflection)"
       $ property $
         forAll
           (chain >>= \ss -> (ss,) <$> roughly (sum [l | s <- ss, let Mm l = Segment.length s]))
@@ -66,8 +65,8 @@ spec = do
                   $ classify (fewest >= 4) "four and more" $
                     fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
     it
-      "pass over bends to both sides that are within what is allowed (catches chords that stop \
-      \where the curve changes its bending)"
+      "pass over bends to both sides that are within the bounds (catches chords that stop at an \
+      \inflection)"
       $ length (chordsOf (evenly 0.1) (Curve.bent (take 40 (cycle [(5, 0.02), (5, -0.02)]))))
         `shouldBe` 1
     it
@@ -87,8 +86,7 @@ spec = do
         )
         `shouldBe` 4
     it
-      "are looked for from the end as well (catches a first chord that takes what the second would \
-      \need)"
+      "are tried from the end as well (catches a longest first chord that costs one chord more)"
       $ length
         ( chordsOf
             (evenly 0.583)
@@ -104,8 +102,8 @@ spec = do
         )
         `shouldBe` 2
     it
-      "of an arc cut into many are as many as those of the arc, one more or less (catches a chord \
-      \for each)"
+      "of an arc cut into many parts are as many as those of the arc, one more or less (catches a \
+      \chord for each part)"
       $ property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.005, 0.02, 0.1]) $ \(a, k, y) ->
           let n =
@@ -116,7 +114,7 @@ spec = do
                   )
               alone = FromToolpath.chordCount lkp01f (Mm y) a
            in counterexample (show (n, alone)) (abs (n - alone) <= 1)
-    it "are of about equal length on an arc (catches a last chord that is what was left over)" $
+    it "are of about equal length on an arc (catches a short remainder as the last chord)" $
       property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.02, 0.0005]) $ \(a, k, y) ->
           let ends =
@@ -130,7 +128,7 @@ spec = do
                     (length ends > 256)
                     "more than are evened"
                     (counterexample (show lengths) (minimum lengths >= 0.8 * maximum lengths))
-    it "keep to the heights as well (catches heights that are told at the ends of the run only)" $
+    it "keep the heights as well (catches heights that are compared at the ends of the run only)" $
       property $
         forAll ((,,) <$> Curve.open <*> bounds <*> vectorOf 130 (choose (-0.2, 0.2))) $
           \(ss, b, rises) ->
@@ -145,8 +143,8 @@ spec = do
                   (show (length ends))
                   (worstHeight b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
     it
-      "slow down as far before the end of a curve as anywhere (catches a brake on the last of its \
-      \arcs only)"
+      "slow down as early before the end of a curve as elsewhere (catches braking on the last of \
+      \its arcs only)"
       $ property $
         forAll Curve.curveCase $ \c ->
           let job = Curve.jobAlong c
@@ -178,7 +176,7 @@ spec = do
                           && all ((== FeedCode 1) . speed) slow
                           && abs (sum (map wayOf slow) - 1.6) <= 0.05
     it
-      "are runs as well where a contour is walked the other way (catches arcs that continue the \
+      "follow the same runs on a contour in the opposite sense (catches arcs that continue the \
       \wrong neighbour)"
       $ property $
         forAll ((,) <$> Curve.curveCase <*> choose (2, 9)) $ \(c, k) ->

@@ -23,18 +23,18 @@ spec :: Spec
 spec = do
   describe "commands" $ do
     it
-      "stand in the frame of the next move, behind the last in one of their own (catches a command \
-      \that is lost or late)"
+      "are in the frame of the next move, after the last one in a frame of their own (catches a \
+      \command that is lost or late)"
       $ given kontur [c (Auxiliary 7), go, go, c (Auxiliary 8)]
         `shouldBe` [(True, [("aux", 7)]), (True, []), (False, [("aux", 8)])]
-    it "wait for a move that moves something (catches a command in a frame that is dropped)" $
+    it "are pending until a move has a frame (catches a command in a frame that is dropped)" $
       given kontur [c (Auxiliary 7), stay, go] `shouldBe` [(True, [("aux", 7)])]
     it "are in the order of the layout's words (catches the order of the program in a frame)" $
       given kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (Just 500)), go]
         `shouldBe` [(True, [("spindle", 10), ("tool", 3), ("aux", 51)])]
     it
-      "that need a word twice take frames in the order of the program (catches a number that is \
-      \overwritten)"
+      "that need the same word twice take several frames, in the order of the program (catches a \
+      \number that is overwritten)"
       $ given kontur [c (Auxiliary 7), c (CoolantTo SwitchOn), c (tool 3), c (Auxiliary 9), go]
         `shouldBe` [ (False, [("aux", 7)]),
                      (False, [("tool", 3), ("aux", 51)]),
@@ -47,7 +47,7 @@ spec = do
                      (False, [("M", 5)]),
                      (False, [("M", 30)])
                    ]
-    it "without the turns a minute leave out the word for them" $
+    it "without a spindle speed leave out the word for it" $
       given iso [c (SpindleOn Clockwise Nothing), go]
         `shouldBe` [(True, [("M", 3)]), (False, [("M", 5)]), (False, [("M", 30)])]
     it
@@ -82,12 +82,12 @@ spec = do
                     === (asked "aux", asked "tool") .&&. length (filter fst frames)
                     === length [() | Right d <- steps, d > 0]
   describe "spindle steps" $ do
-    it "are the nearest, of two the lower" $
+    it "are the nearest, the lower one of two" $
       [given kontur [c (SpindleOn Clockwise (Just v)), go] | v <- [499, 1, 1e5]]
         `shouldBe` [[(True, [("spindle", n)])] | n <- [10, 1, 15]]
     it
-      "that are worse than a tenth are warned of (catches a spindle at another speed without a \
-      \word)"
+      "that miss the speed by more than a tenth give a warning (catches a wrong spindle speed \
+      \without a report)"
       $ [ length
             [ ()
               | SpindleSpeedDiffers {} <-
@@ -96,8 +96,8 @@ spec = do
           | v <- [500, 560, 460, 1e5]
         ]
         `shouldBe` [0, 1, 0, 1]
-  describe "what a machine cannot be told" $ do
-    it "is for the man at it" $
+  describe "a command without a word" $ do
+    it "is left to the operator" $
       [ Result.warnings (told (Machines.named m) [c x, go])
         | (m, x) <-
             [ ("lki-u", CoolantTo SwitchOn),
@@ -110,8 +110,8 @@ spec = do
                      [SpindleSpeedMissing (Region 0 0)]
                    ]
     it
-      "is refused where a number does not fit, or an auxiliary command has no place (catches a \
-      \number cut off to its digits)"
+      "is refused if it is an auxiliary one, as is a number that does not fit (catches a number \
+      \cut off to its digits)"
       $ [ [ (k, n, most)
             | NoSuchCommand _ k n most <- Result.errors (told (Machines.named m) [c x, go])
           ]

@@ -25,14 +25,14 @@ import Toolpath.Toolpath (Block (..), Toolpath (blocks))
 
 spec :: Spec
 spec = do
-  describe "a machine whose feeds are steps of the leading axis" $ do
+  describe "a machine whose feed codes are frequencies of the leading axis" $ do
     it
-      "begins the shaft of its book as printed (catches feeds along the path, and commands behind \
+      "begins the shaft of its manual as printed (catches feeds along the path, and commands after \
       \the move)"
       $ fmap (map brief . Frame.planned) (Made.program kontur shaft)
         `shouldBe` Just [((0, -6000), 27, [("spindle", 10)]), ((-4200, 0), 32, [])]
     it
-      "gets within a step of the feed asked, whatever the direction (catches the length and the \
+      "gets within a step of the feed asked for, in every direction (catches the length and the \
       \leading axis exchanged)"
       $ property $
         forAll ((,,) <$> choose (-80, 80) <*> choose (-80, 80) <*> choose (9, 500)) $ \(x, y, v) ->
@@ -49,8 +49,8 @@ spec = do
                         let g = obtained f
                     ]
     it
-      "changes its codes along an arc, and warns once, with all that it gets (catches a warning \
-      \for each chord)"
+      "changes its codes along an arc, and gives one warning with the range obtained (catches a \
+      \warning for each chord)"
       $ do
         let made =
               Made.made
@@ -61,6 +61,10 @@ spec = do
                     \outside { }\n"
                 )
             codesOf p = [c | f <- framesOf p, let FeedCode c = speed f]
+            ranges =
+              [ (v, low < 0.9 * v, v < high)
+                | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made
+              ]
         length
           ( foldr
               (\c cs -> if c `elem` cs then cs else c : cs)
@@ -68,11 +72,10 @@ spec = do
               (maybe [] codesOf (Result.output made))
           )
           `shouldSatisfy` (> 1)
-        [(v, low < 0.9 * v, v < high) | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made]
-          `shouldBe` [(53.6, True, True)]
+        ranges `shouldBe` [(53.6, True, True)]
     it
-      "refuses a feed that its steps do not reach, with both ranges (catches the nearest step for \
-      \any feed)"
+      "refuses a feed outside of its frequencies, and reports both ranges (catches the nearest \
+      \code for any feed)"
       $ [ (needed, low, slow)
           | FrequencyOutOfRange _ _ needed (low, Feed slow) _ <-
               Result.errors
@@ -82,8 +85,8 @@ spec = do
                 )
         ]
         `shouldBe` [(5 / 60 / 0.01, 10, 6)]
-  describe "a machine whose feeds are those along the path" $ do
-    it "gives what its code says (catches a frame's own length in it)" $
+  describe "a machine whose feed codes are feeds along the path" $ do
+    it "runs at the feed of its code (catches a feed that depends on the length of the frame)" $
       property $
         forAll (elements (map Machines.named ["lkp-01f", "lki-u", "n55"])) $ \m ->
           forAll (choose (20, 200)) $ \v ->
@@ -97,7 +100,7 @@ spec = do
                       === fmap Feed (Machine.valueOf m (speed f))
                     | f <- take 1 (framesOf p)
                   ]
-    it "refuses a feed outside its codes, once" $
+    it "refuses a feed outside of its codes with one report" $
       [ (v, low, high)
         | FeedOutOfRange _ (Feed v) (Feed low) (Feed high) <-
             Result.errors
@@ -111,7 +114,7 @@ spec = do
       ]
         `shouldBe` [(300, 15, 240)]
   describe "rapid moves" $
-    it "are a motion of their own where there is one, else at the code for them" $
+    it "have a motion of their own where there is one, else the code for rapid moves" $
       [ fmap
           (map (\f -> (motion f, speed f)) . filter Frame.isMoving . framesOf)
           ( Made.program

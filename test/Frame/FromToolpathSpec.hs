@@ -34,8 +34,8 @@ spec :: Spec
 spec = do
   describe "chords" $ do
     it
-      "stay within the sagitta of their arc, both ways (catches the radius of the part in the \
-      \step's formula)"
+      "stay within the sagitta of their arc in both directions (catches the radius of the part in \
+      \the step's formula)"
       $ property $
         forAll ((,) <$> arc <*> sagitta) $ \(a, y) ->
           let chords = chordsOf y a
@@ -50,7 +50,7 @@ spec = do
                 (show (map furthest chords))
                 (all ((<= y + 1e-9) . furthest) chords && null missed)
     it
-      "are as few as the sagitta allows, within a quarter turn each and no shorter than a pulse \
+      "are as few as the sagitta allows, up to a quarter turn each and no shorter than a pulse \
       \(catches a wasteful step)"
       $ property $
         forAll ((,) <$> arc <*> sagitta) $ \(a, y) ->
@@ -108,7 +108,7 @@ spec = do
             (Rad 0.7982)
         )
         `shouldBe` 9
-    it "are no shorter for a tolerance of nothing than rounding asks (catches chords of a pulse)" $
+    it "are no shorter for a tolerance of 0 than rounding requires (catches chords of one pulse)" $
       do
         let round' = Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
             quarter =
@@ -120,7 +120,7 @@ spec = do
                 )
         quarter `shouldSatisfy` maybe False (< 60)
   describe "tapes" $
-    it "are proven whatever the tolerance (catches what comes to the tolerance and a pulse)" $
+    it "are proven for every tolerance (catches an error beyond the tolerance and a pulse)" $
       property $
         forAllBlind machine $ \m ->
           forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c -> forAll accuracy $ \a ->
@@ -144,7 +144,7 @@ spec = do
           forAll Generate.closedCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \_ program ->
             sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
               === 0
-    it "lead to within half a pulse of every node (catches rounding that adds up)" $
+    it "lead to within half a pulse of every node (catches rounding errors that add up)" $
       property $
         forAllBlind machine $ \m ->
           forAll Generate.openCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \path program ->
@@ -174,8 +174,7 @@ spec = do
                     (length frames <= 1 + ceiling (max (abs x) (abs y) / 199.98 :: Double))
   describe "frames" $ do
     it
-      "keep the machine's invariants on every machine (catches a frame that its machine cannot be \
-      \told)"
+      "keep the machine's invariants on every machine (catches a frame that its machine cannot run)"
       $ property $
         forAllBlind machine $ \m ->
           forAll anyCase $ \c ->
@@ -192,8 +191,8 @@ spec = do
                   with m (Just path) $ \_ program ->
                     Frame.invariants m (map frame (Frame.planned program)) === []
     it
-      "stay within the tolerance and a pulse of the path, and pass all of it (catches a chord on \
-      \the wrong side, a lost piece)"
+      "stay within the tolerance and a pulse of the toolpath, along all of it (catches a chord on \
+      \the wrong side, a lost part)"
       $ property $
         forAllBlind machine $ \m ->
           forAll anyCase $ \c ->
@@ -214,12 +213,13 @@ spec = do
                         Made.worstOff exact walk
                           <= y + grain .&&. Made.worstOff walk exact
                           <= y + grain
-    it "of a machine without an axis are refused there (catches a division by its digits)" $
-      [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]]
+    it
+      "along an axis that the machine does not have are refused (catches a division by its digits)"
+      $ [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]]
         `shouldBe` [["E0507"], []]
     it "beyond the field of a position are refused (catches a position cut off to its digits)" $
       errorsOn short (Generate.straightPath 150 0) `shouldBe` ["E0508"]
-    it "of more contours than there may be are refused (catches a limit that nobody reads)" $
+    it "of too many contours are refused (catches a limit that is ignored)" $
       [errorsOn (Machines.named "lki-u") (contoursOf n) | n <- [30, 31]] `shouldBe` [[], ["E0506"]]
   where
     anyCase = oneof [Generate.openCase, Generate.closedCase, Generate.smoothCase]
