@@ -29,7 +29,7 @@ spec = do
     it
       "begins the shaft of its manual as printed (catches feeds along the path, and commands after \
       \the move)"
-      $ fmap (map brief . Frame.planned) (Made.program kontur shaft)
+      $ fmap (map brief . Frame.planned) (Made.program kontur shaftPath)
         `shouldBe` Just [((0, -6000), 27, [("spindle", 10)]), ((-4200, 0), 32, [])]
     it
       "gets within a step of the feed asked for, in every direction (catches the length and the \
@@ -40,7 +40,7 @@ spec = do
             > 1
               ==> case Made.program
                 kontur
-                (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point x y)]) of
+                (Made.pathAlong (At (here v)) [Straight (Vec.point 0 0) (Vec.point x y)]) of
                 Nothing -> counterexample "no frames" False
                 Just p ->
                   conjoin
@@ -53,7 +53,7 @@ spec = do
       \warning for each chord)"
       $ do
         let made =
-              Made.made
+              Made.quantised
                 kontur
                 ( Made.pathOf
                     "part p\ntool mill(diameter 6 mm)\nfeed 53.6 mm/min\ntolerance 0.02 mm\nfrom \
@@ -79,9 +79,9 @@ spec = do
       $ [ (needed, low, slow)
           | FrequencyOutOfRange _ _ needed (low, Feed slow) _ <-
               Result.errors
-                ( Made.made
+                ( Made.quantised
                     kontur
-                    (Made.along (At (here 5)) [Straight (Vec.point 0 0) (Vec.point 10 0)])
+                    (Made.pathAlong (At (here 5)) [Straight (Vec.point 0 0) (Vec.point 10 0)])
                 )
         ]
         `shouldBe` [(5 / 60 / 0.01, 10, 6)]
@@ -92,7 +92,7 @@ spec = do
           forAll (choose (20, 200)) $ \v ->
             case Made.program
               m
-              (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point 300 50)]) of
+              (Made.pathAlong (At (here v)) [Straight (Vec.point 0 0) (Vec.point 300 50)]) of
               Nothing -> counterexample "no frames" False
               Just p ->
                 conjoin
@@ -104,9 +104,9 @@ spec = do
       [ (v, low, high)
         | FeedOutOfRange _ (Feed v) (Feed low) (Feed high) <-
             Result.errors
-              ( Made.made
+              ( Made.quantised
                   (Machines.named "lkp-01f")
-                  ( Made.along
+                  ( Made.pathAlong
                       (At (here 300))
                       (replicate 3 (Straight (Vec.point 0 0) (Vec.point 1 0)))
                   )
@@ -119,7 +119,7 @@ spec = do
           (map (\f -> (motion f, speed f)) . filter Frame.isMoving . framesOf)
           ( Made.program
               (Machines.named m)
-              (Made.along Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])
+              (Made.pathAlong Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])
           )
         | m <- ["n55", "kontur-3p", "lkp-01f"]
       ]
@@ -156,13 +156,13 @@ kontur :: Machine
 kontur = Machine.forTurning (Machines.named "kontur-3p")
 
 -- | The first moves of the shaft.
-shaft :: Toolpath
-shaft =
+shaftPath :: Toolpath
+shaftPath =
   toward
     { blocks =
         Commanding (Located (Region 0 0) (Part.SpindleOn Part.Clockwise (Just 500))) :
         blocks toward
-          <> blocks (Made.along (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])
+          <> blocks (Made.pathAlong (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])
     }
   where
-    toward = Made.along Rapid [Straight (Vec.point 2 110) (Vec.point 2 50)]
+    toward = Made.pathAlong Rapid [Straight (Vec.point 2 110) (Vec.point 2 50)]

@@ -110,13 +110,14 @@ spec = do
         `shouldBe` 9
     it "are no shorter for a tolerance of 0 than rounding requires (catches chords of one pulse)" $
       do
-        let round' = Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
+        let quarterArc =
+              Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
             quarter =
               fmap
                 (length . Frame.planned)
                 ( Made.program
                     lkp01f
-                    (Made.along (Part.At (Located (Region 0 0) (Feed 60))) [round'])
+                    (Made.pathAlong (Part.At (Located (Region 0 0) (Feed 60))) [quarterArc])
                 )
         quarter `shouldSatisfy` maybe False (< 60)
   describe "tapes" $
@@ -141,13 +142,13 @@ spec = do
     it "of a closed contour add to zero (catches rounded increments instead of rounded positions)" $
       property $
         forAllBlind machine $ \m ->
-          forAll Generate.closedCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \_ program ->
+          forAll Generate.closedCase $ \c -> onPath m (Generate.milled (Mm 0.02) c) $ \_ program ->
             sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
               === 0
     it "lead to within half a pulse of every node (catches rounding errors that add up)" $
       property $
         forAllBlind machine $ \m ->
-          forAll Generate.openCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \path program ->
+          forAll Generate.openCase $ \c -> onPath m (Generate.milled (Mm 0.02) c) $ \path program ->
             let positions =
                   map
                     (Frame.position m)
@@ -156,11 +157,11 @@ spec = do
                         (Frame.start program)
                         (map (increment . frame) (Frame.planned program))
                     )
-                Mm grain = Machine.pulse m
-                off n =
+                Mm pulse = Machine.pulse m
+                distanceTo n =
                   minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
              in conjoin
-                  [ counterexample (show (n, off n)) (off n <= grain / 2 + 1e-9)
+                  [ counterexample (show (n, distanceTo n)) (distanceTo n <= pulse / 2 + 1e-9)
                     | n <- Made.nodesOf path
                   ]
     it "keep the machine's invariants (catches a move that does not fit its field)" $
@@ -188,7 +189,7 @@ spec = do
                 ) of
                 Nothing -> property Discard
                 Just path ->
-                  with m (Just path) $ \_ program ->
+                  onPath m (Just path) $ \_ program ->
                     Frame.invariants m (map frame (Frame.planned program)) === []
     it
       "stay within the tolerance and a pulse of the toolpath, along all of it (catches a chord on \
@@ -199,20 +200,23 @@ spec = do
             forAll
               ( elements
                   [ y
-                    | let Mm grain = Machine.pulse m,
+                    | let Mm pulse = Machine.pulse m,
                       y <- [0.005, 0.02, 0.1],
-                      y + grain < Generate.radiusOf c
+                      y + pulse < Generate.radiusOf c
                   ]
               )
               $ \y ->
-                with m (Generate.milled (Mm y) c) $ \path program ->
+                onPath m (Generate.milled (Mm y) c) $ \path program ->
                   let exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
-                      walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
-                      Mm grain = Machine.pulse m
-                   in counterexample (show (Made.worstOff exact walk, Made.worstOff walk exact)) $
-                        Made.worstOff exact walk
-                          <= y + grain .&&. Made.worstOff walk exact
-                          <= y + grain
+                      actual = filter (\s -> Segment.length s > Mm 0) (Made.frameSegments m program)
+                      Mm pulse = Machine.pulse m
+                   in counterexample
+                        ( show
+                            (Made.largestDistance exact actual, Made.largestDistance actual exact)
+                        )
+                        $ Made.largestDistance exact actual
+                          <= y + pulse .&&. Made.largestDistance actual exact
+                          <= y + pulse
     it
       "along an axis that the machine does not have are refused (catches a division by its digits)"
       $ [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]]
@@ -273,17 +277,22 @@ contoursOf n =
 
 errorsOn :: Machine -> Toolpath -> [Text]
 errorsOn m path =
-  [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.made m path))]
+  [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.quantised m path))]
 
 machine :: Gen Machine
 machine = elements Machines.known
 
 -- | A law of the frames of a path on a machine.
-with :: Testable t => Machine -> Maybe Toolpath -> (Toolpath -> Frame.FrameProgram -> t) -> Property
-with m found law = counterexample (show (Machine.name m)) $ case found of
+onPath ::
+  Testable t =>
+  Machine ->
+  Maybe Toolpath ->
+  (Toolpath -> Frame.FrameProgram -> t) ->
+  Property
+onPath m found law = counterexample (show (Machine.name m)) $ case found of
   Nothing -> counterexample "no path" False
   Just path -> case Made.program m path of
-    Nothing -> counterexample ("no frames: " <> show (Result.errors (Made.made m path))) False
+    Nothing -> counterexample ("no frames: " <> show (Result.errors (Made.quantised m path))) False
     Just program -> property (law path program)
 
 lkp01f :: Machine

@@ -49,43 +49,49 @@ import Test.QuickCheck hiding (label)
 
 spec :: Spec
 spec = do
-  describe "random machines" randomMachines
-  describe "the codes of the machines" pages
+  describe "random machines" randomMachineLaws
+  describe "the codes of the machines" knownTapes
   describe "one hole changed" oneHole
   describe "damage" damage
 
-randomMachines :: Spec
-randomMachines = do
+randomMachineLaws :: Spec
+randomMachineLaws = do
   it
     "a tape that was punched is read as its own frames or refused (catches a machine whose frames \
     \can be read in two ways)"
     $ do
       machine <- machineOf "test/machines/two-readings.machine"
-      let own fs =
+      let readAgain fs =
             either
               (Left . Punch.reason)
               Right
               (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
-      own [along 1000 0, along 2000 1000] `shouldBe` Right [along 1000 0, along 2000 1000]
-      own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
+      readAgain [straightAt60 1000 0, straightAt60 2000 1000]
+        `shouldBe` Right [straightAt60 1000 0, straightAt60 2000 1000]
+      readAgain [straightAt60 1000 0, straightAt60 2000 0, straightAt60 0 1000]
+        `shouldBe` Left Punch.Misread
   it
     "frames may end with a word that is usually left out (catches a frame that ends before this \
     \word)"
     $ do
       machine <- machineOf "test/machines/no-end.machine"
-      let fs = [along 1000 0, (along 0 1000) {orders = [(CommandName "M", 8)]}, along 1000 1000]
+      let fs =
+            [ straightAt60 1000 0,
+              (straightAt60 0 1000) {orders = [(CommandName "M", 8)]},
+              straightAt60 1000 1000
+            ]
       Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
   it
     "decode after encode gives the frames (catches a word that writer and reader interpret \
     \differently)"
     $ checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)
+      withCoverage m fs (Punch.read m at (Punch.write m at fs) === Right fs)
   it
     "a tape is read in the same way whatever frames are expected on it (catches expected frames \
     \that are taken for those on the tape)"
     $ checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
-        forAll (wantedFor fs) $ \wanted ->
+        forAll (expectedFor fs) $ \expected ->
           forAll (oneof [pure Nothing, Just <$> ((,) <$> choose (1, 200) <*> arbitrary)]) $
             \change ->
               let t =
@@ -96,9 +102,9 @@ randomMachines = do
                           change
                           (rowsOf (Punch.write m at fs))
                       )
-               in cover 20 (Punch.read m at t == Right wanted) "just these" $
-                    cover 20 (Punch.read m at t /= Right wanted) "others" $
-                      Punch.readBack m at wanted t === Punch.read m at t
+               in cover 20 (Punch.read m at t == Right expected) "just these" $
+                    cover 20 (Punch.read m at t /= Right expected) "others" $
+                      Punch.readBack m at expected t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       ByteString.pack (map RowMeaning.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
@@ -117,46 +123,48 @@ randomMachines = do
                           counterexample
                             (show d)
                             (1 <= Punch.row d && Punch.row d <= ByteString.length rows)
-                        Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
+                        Right fs' ->
+                          withoutSkippedRows m (rowsOf (Punch.write m at fs'))
+                            === withoutSkippedRows m rows'
   it
     "simple frames are read in one go as they are word by word (catches a shortcut with another \
     \result)"
     $ checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
         forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
-          let plan = Layout.fromMachine m
+          let layout = Layout.fromMachine m
               states =
-                scanl (Layout.after plan) (ModalState.initial (ModalState.changesHeight fs) at) fs
-              rowsFor state f = map Layout.holes (FrameWriter.frameRows plan state f)
+                scanl (Layout.after layout) (ModalState.initial (ModalState.changesHeight fs) at) fs
+              rowsFor state f = map Layout.holes (FrameWriter.frameRows layout state f)
               readBoth state rows =
-                ( FastFrameReader.readFrame plan state (Short.pack rows) 0,
-                  FrameReader.wordByWord plan state (Short.pack rows) 0
+                ( FastFrameReader.readFrame layout state (Short.pack rows) 0,
+                  FrameReader.wordByWord layout state (Short.pack rows) 0
                 )
               isRead state f = case readBoth state (rowsFor state f) of
                 (FastFrameReader.Read g end, slowly) ->
-                  Layout.isPlain plan && slowly == Right (g, end) && g == f
+                  Layout.isPlain layout && slowly == Right (g, end) && g == f
                 (FastFrameReader.NotSimple, _) ->
-                  not (Layout.isPlain plan && ModalState.isSimple f && Frame.isMoving f)
+                  not (Layout.isPlain layout && ModalState.isSimple f && Frame.isMoving f)
               isSame state rows = case readBoth state rows of
                 (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
                 (FastFrameReader.NotSimple, _) -> True
               changedRow rows = take k rows <> [w] <> drop (k + 1) rows
               -- As if nothing had been said before.
-              unsaid state =
+              unwritten state =
                 (ModalState.initial (ModalState.changesHeight fs) (ModalState.position state))
                   { ModalState.ordinal =
                       ModalState.ordinal state
                   }
            in cover
                 20
-                (Layout.isPlain plan && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs)
+                (Layout.isPlain layout && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs)
                 "frames that go straight"
                 $ conjoin
                   [ counterexample
                       (show f)
                       ( isRead state f
                           && isSame state (changedRow (rowsFor state f))
-                          && isSame state (rowsFor (unsaid state) f)
+                          && isSame state (rowsFor (unwritten state) f)
                       )
                     | (state, f) <- zip states fs
                   ]
@@ -164,7 +172,7 @@ randomMachines = do
     "an axis in the opposite direction negates its numbers and reverses the arcs (catches a sign \
     \that is forgotten)"
     $ forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      let turned =
+      let reversedX =
             m
               { Machine.axes =
                   fmap
@@ -172,16 +180,17 @@ randomMachines = do
                     (Machine.axes m)
               }
        in isJust (Machine.axisForm m Machine.X)
-            ==> Punch.write turned (mirroredPlace at) (map mirroredFrame fs) === Punch.write m at fs
+            ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
+              === Punch.write m at fs
 
 -- | Blank and erased rows, where the reader passes over them, do not count.
-spared :: Machine -> ByteString -> ByteString
-spared m rows = case Machine.spare (Machine.medium m) of
+withoutSkippedRows :: Machine -> ByteString -> ByteString
+withoutSkippedRows m rows = case Machine.spare (Machine.medium m) of
   Counted -> rows
   Skipped -> ByteString.filter (`notElem` (0 : Machine.skips (Machine.code m))) rows
 
-covered :: Testable p => Machine -> [Frame] -> p -> Property
-covered m fs =
+withCoverage :: Testable p => Machine -> [Frame] -> p -> Property
+withCoverage m fs =
   cover 20 (Machine.measure (Machine.layout m) == Positions) "positions"
     . cover 20 (Machine.measure (Machine.layout m) == Increments) "increments"
     . cover 20 (any reversed (NonEmpty.toList (Machine.axes m))) "reversed axes"
@@ -200,19 +209,19 @@ covered m fs =
     . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
     . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "feeds said once"
 
-mirroredPlace :: Pulses3 -> Pulses3
-mirroredPlace (Pulses3 x y z) = Pulses3 (negate x) y z
+mirroredPosition :: Pulses3 -> Pulses3
+mirroredPosition (Pulses3 x y z) = Pulses3 (negate x) y z
 
 mirroredFrame :: Frame -> Frame
 mirroredFrame f =
   f
-    { increment = mirroredPlace (increment f),
+    { increment = mirroredPosition (increment f),
       centre = Pulses2 (negate i) j,
-      motion = turnedBack (motion f)
+      motion = reversedMotion (motion f)
     }
   where
     Pulses2 i j = centre f
-    turnedBack m = case m of
+    reversedMotion m = case m of
       Round Clockwise -> Round CounterClockwise
       Round CounterClockwise -> Round Clockwise
       Still -> Still
@@ -220,15 +229,16 @@ mirroredFrame f =
       Straightway -> Straightway
 
 -- | A straight frame of a feed of 60.
-along :: Pulses -> Pulses -> Frame
-along x y = (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
+straightAt60 :: Pulses -> Pulses -> Frame
+straightAt60 x y =
+  (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
 
 machineOf :: FilePath -> IO Machine
 machineOf file =
   readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
 
-pages :: Spec
-pages = do
+knownTapes :: Spec
+knownTapes = do
   it "5121: four digits, four, three and one, signs and commands in the service track" $
     written lkp01f [straight (-1234) 56 (-7) 5 [(CommandName "aux", 5)]]
       `shouldBe` blank 25
@@ -286,8 +296,8 @@ pages = do
     Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
 
 -- | Frames that may be taken for some.
-wantedFor :: [Frame] -> Gen [Frame]
-wantedFor fs = do
+expectedFor :: [Frame] -> Gen [Frame]
+expectedFor fs = do
   k <- choose (0, length fs)
   elements
     [ fs,
@@ -377,13 +387,15 @@ damage = do
     at 28 (const 6) `shouldBe` Just (WrongSum 31 10)
     faultOf kontur3p (blank 25 <> [4, 18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (WrongSum 27 10)
-    faultOf kontur3p (blank 25 <> lettered [18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
+    faultOf kontur3p (blank 25 <> withCheckDigit [18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (WrongPriority 1 5)
-    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16])
+    faultOf
+      kontur3p
+      (blank 25 <> withCheckDigit [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (UnexpectedWord 'Е')
-    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 16])
+    faultOf kontur3p (blank 25 <> withCheckDigit [18, 5, 6, 0, 0, 0, 16])
       `shouldBe` Just MotionWithoutFeed
-    faultOf kontur3p (blank 25 <> lettered [16]) `shouldBe` Just NoContent
+    faultOf kontur3p (blank 25 <> withCheckDigit [16]) `shouldBe` Just NoContent
   it "of a text: a feed written twice, a frame number, an unknown motion, parity, a missing sign" $
     do
       faultLine "N001X+000001F0060" `shouldBe` Just IncrementWithoutMotion
@@ -413,13 +425,13 @@ damage = do
       `shouldBe` Just (MissingClosing "%\n")
   it "is not found in blank rows between frames or in erased rows, on media that skip them" $ do
     let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
-        (front, behind) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
+        (front, afterLeader) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
     Punch.read n55 start (Tape (spread n55 0xFF)) `shouldBe` Right (journey n55)
     Punch.read n55 start (Tape (spread n55 0)) `shouldBe` Right (journey n55)
     Punch.read
       lkiU
       start
-      (Tape (front <> ByteString.replicate 7 0 <> behind <> ByteString.replicate 7 0))
+      (Tape (front <> ByteString.replicate 7 0 <> afterLeader <> ByteString.replicate 7 0))
       `shouldBe` Right (journey lkiU)
   it "is reported with its row, its frame and its word" $
     Report.title
@@ -427,8 +439,8 @@ damage = do
       `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
 
 -- | A frame with a check digit in front and a gap behind.
-lettered :: [Word8] -> [Word8]
-lettered ws =
+withCheckDigit :: [Word8] -> [Word8]
+withCheckDigit ws =
   fromIntegral ((10 - sum (map ((`mod` 16) . fromIntegral) ws :: [Int]) `mod` 10) `mod` 10) : ws
 
 -- | Why a lettered tape is refused that ends with this frame.
