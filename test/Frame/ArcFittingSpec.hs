@@ -29,8 +29,9 @@ import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = describe "a curve" $ do
-  it "is walked within the tolerance and a pulse, and all of it (catches arcs beside the curve)" $
-    few $
+  it
+    "has frames within the tolerance and a pulse, along all of it (catches arcs beside the curve)"
+    $ thirtyTimes $
       forAll Run.curveCase $ \c ->
         forAll
           ( elements
@@ -45,46 +46,48 @@ spec = describe "a curve" $ do
               let most = case accuracy of
                     Part.OnPath (Mm y) -> y
                     Part.Band (Mm a) (Mm b) -> min a b
-               in keepsTo most m path program
+               in staysWithin most m path program
   it
-    "so nearly straight that no field holds its centres stays within the tolerance and a pulse \
-    \(catches chords of arcs that are off themselves)"
-    $ few $
-      forAll slight $ \c ->
+    "with centres that fit no field has frames within the tolerance and a pulse (catches chords of \
+    \arcs that deviate themselves)"
+    $ thirtyTimes $
+      forAll nearlyStraight $ \c ->
         forAll (elements [0, 0.005, 0.05]) $ \y ->
-          onArcs "lki-fm" (Part.OnPath (Mm y)) c $ \path program ->
-            keepsTo y (Machines.named "lki-fm") path program
+          onMachineNamed "lki-fm" (Part.OnPath (Mm y)) c $ \path program ->
+            staysWithin y (Machines.named "lki-fm") path program
   it
-    "so nearly straight that no field holds its centres takes no more chords than on a machine \
-    \without arcs (catches a tolerance left to arcs that there are not)"
-    $ few $
-      forAll slight $ \c ->
+    "with centres that fit no field takes no more chords than on a machine without arcs (catches a \
+    \tolerance that is reserved for fitted arcs although there are none)"
+    $ thirtyTimes $
+      forAll nearlyStraight $ \c ->
         let cuts name =
               fmap (\p -> length [() | f <- Frame.planned p, Frame.role f == Frame.Cutting 0])
-                . Made.program (unbraked (Machines.named name))
-                =<< laid (Part.OnPath (Mm 0.05)) c
+                . Made.program (withoutBraking (Machines.named name))
+                =<< toolpathOf (Part.OnPath (Mm 0.05)) c
          in counterexample
               (show (cuts "lki-fm", cuts "lkp-01f"))
               (fmap Just (cuts "lki-fm") <= fmap (Just . (+ 2)) (cuts "lkp-01f"))
-  it "keeps the machine's rules, and closes (catches arcs that are cut by the end of their run)" $
-    few $
+  it
+    "keeps the machine's rules, and closes (catches arcs that are cut off at the end of their run)"
+    $ thirtyTimes $
       forAll Run.curveCase $ \c -> onMachine (Part.OnPath (Mm 0.02)) c $ \m _ program ->
         Frame.invariants m (map frame (Frame.planned program))
           === []
             .&&. sum
               [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
           === 0
-  it "becomes few arcs (catches the thousands that stand for it exactly)" $
-    few $
-      forAll Run.curveCase $ \c -> onArcs "lki-u" (Part.OnPath (Mm 0.1)) c $ \path program ->
-        let exactly = sum [length cut | Cutting {cut} <- Toolpath.blocks path]
-            made = length (Frame.planned program)
-         in counterexample
-              (show (exactly, made))
-              (classify (exactly > 300) "many" (exactly <= 300 || 4 * made <= exactly))
-  it "takes no more arcs where more is allowed (catches a tolerance that is not read)" $
-    few $
-      forAll Run.curveCase $ \c -> case laid (Part.OnPath (Mm 0.02)) c of
+  it "becomes few arcs (catches the thousands that approximate it exactly)" $
+    thirtyTimes $
+      forAll Run.curveCase $ \c ->
+        onMachineNamed "lki-u" (Part.OnPath (Mm 0.1)) c $ \path program ->
+          let exactly = sum [length cut | Cutting {cut} <- Toolpath.blocks path]
+              made = length (Frame.planned program)
+           in counterexample
+                (show (exactly, made))
+                (classify (exactly > 300) "many" (exactly <= 300 || 4 * made <= exactly))
+  it "takes no more arcs for a larger tolerance (catches a tolerance that is ignored)" $
+    thirtyTimes $
+      forAll Run.curveCase $ \c -> case toolpathOf (Part.OnPath (Mm 0.02)) c of
         Nothing -> counterexample "no path" False
         Just path ->
           conjoin
@@ -94,20 +97,20 @@ spec = describe "a curve" $ do
             ]
 
 -- | Whether frames and path are nowhere further from each other than so much and a pulse.
-keepsTo :: Double -> Machine -> Toolpath -> Frame.FrameProgram -> Property
-keepsTo tolerance m path program =
+staysWithin :: Double -> Machine -> Toolpath -> Frame.FrameProgram -> Property
+staysWithin tolerance m path program =
   counterexample
-    (show (Made.worstOff exact walk, Made.worstOff walk exact, most))
-    (Made.worstOff exact walk <= most .&&. Made.worstOff walk exact <= most)
+    (show (Made.largestDistance exact actual, Made.largestDistance actual exact, most))
+    (Made.largestDistance exact actual <= most .&&. Made.largestDistance actual exact <= most)
   where
     exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
-    walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
-    Mm grain = Machine.pulse m
-    most = tolerance + grain + 1e-6
+    actual = filter (\s -> Segment.length s > Mm 0) (Made.frameSegments m program)
+    Mm pulse = Machine.pulse m
+    most = tolerance + pulse + 1e-6
 
 -- | A wave whose arcs are larger than 2 m, or nearly so.
-slight :: Gen Case
-slight = do
+nearlyStraight :: Gen Case
+nearlyStraight = do
   a <- choose (0.3, 3)
   l <- choose (200, 400)
   far <- choose (100, 300)
@@ -115,14 +118,14 @@ slight = do
   let contour = Polyarc Open (NonEmpty.fromList chain)
   case Equidistant.equidistant LeftOf (Mm 1) contour of
     Right pieces -> pure Case {contour, side = LeftOf, radius = Mm 1, pieces}
-    Left _ -> slight
+    Left _ -> nearlyStraight
 
 -- | Curves of many arcs take their time.
-few :: Testable t => t -> Property
-few = withMaxSuccess 30 . property
+thirtyTimes :: Testable t => t -> Property
+thirtyTimes = withMaxSuccess 30 . property
 
-laid :: Part.Accuracy -> Case -> Maybe Toolpath
-laid accuracy c =
+toolpathOf :: Part.Accuracy -> Case -> Maybe Toolpath
+toolpathOf accuracy c =
   Result.output
     ( FromPart.lay
         ( Generate.partOf
@@ -147,24 +150,24 @@ onMachine ::
   Property
 onMachine accuracy c law =
   forAll (elements ["lki-fm", "lki-u", "lki-un", "n55", "iso6983"]) $ \m ->
-    onArcs m accuracy c (law (Machines.named m))
+    onMachineNamed m accuracy c (law (Machines.named m))
 
-onArcs ::
+onMachineNamed ::
   Testable t =>
   Text ->
   Part.Accuracy ->
   Case ->
   (Toolpath -> Frame.FrameProgram -> t) ->
   Property
-onArcs m accuracy c law = case laid accuracy c of
+onMachineNamed m accuracy c law = case toolpathOf accuracy c of
   Nothing -> counterexample "no path" False
-  Just path -> case Made.program (unbraked (Machines.named m)) path of
+  Just path -> case Made.program (withoutBraking (Machines.named m)) path of
     Nothing ->
       counterexample
-        ("no frames: " <> show (Result.errors (Made.made (Machines.named m) path)))
+        ("no frames: " <> show (Result.errors (Made.quantised (Machines.named m) path)))
         False
     Just program -> property (law path program)
 
-unbraked :: Machine -> Machine
-unbraked machine =
+withoutBraking :: Machine -> Machine
+withoutBraking machine =
   machine {Machine.braking = (Machine.braking machine) {Machine.brakingForm = ByControl}}

@@ -28,64 +28,65 @@ spec :: Spec
 spec = do
   describe "an arc" $ do
     it
-      "keeps the machine's rules (catches a cut beside the axis, and a centre that its field does \
-      \not hold)"
+      "keeps the machine's rules (catches a cut beside the axis, and a centre that does not fit \
+      \its field)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) ->
           onArc m a $ \p -> Frame.invariants m (framesOf p) === []
     it
-      "is walked within a pulse, and all of it (catches a centre that is only rounded, and a chord \
-      \whose sagitta comes to the rounding of its ends)"
+      "has frames within a pulse, along all of it (catches a centre that is merely rounded, and a \
+      \sagitta that is added to the rounding of the ends)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm grain = Machine.pulse m
-              path = Made.walked m p
-              most = 1.01 * grain
-           in counterexample (show (Made.worstOff [a] path, Made.worstOff path [a])) $
-                Made.worstOff [a] path <= most .&&. (null path || Made.worstOff path [a] <= most)
+          let Mm pulse = Machine.pulse m
+              path = Made.frameSegments m p
+              most = 1.01 * pulse
+           in counterexample (show (Made.largestDistance [a] path, Made.largestDistance path [a])) $
+                Made.largestDistance [a] path
+                  <= most .&&. (null path || Made.largestDistance path [a] <= most)
     it
-      "is walked within a pulse with the radius of either end (catches radii of which only one is \
+      "has frames within a pulse with the radius of either end (catches radii of which only one is \
       \right)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm grain = Machine.pulse m
+          let Mm pulse = Machine.pulse m
               both =
                 concatMap
                   (NonEmpty.toList . Control.between . Control.segment m)
                   (Control.run (Frame.start p) (framesOf p))
-              off = maximum (0 : [offCircle a w | w@Arc {} <- both])
-           in counterexample (show off) (off <= 1.01 * grain)
+              off = maximum (0 : [circleError a w | w@Arc {} <- both])
+           in counterexample (show off) (off <= 1.01 * pulse)
     it
-      "turns by what it turns (catches an arc that becomes nearly a circle, or vanishes, by \
-      \rounding)"
+      "keeps its sweep (catches an arc that rounding turns into nearly a full circle, or into \
+      \nothing)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm grain = Machine.pulse m
-              whole = sum [s | Arc {sweep = Rad s} <- Made.walked m p]
+          let Mm pulse = Machine.pulse m
+              whole = sum [s | Arc {sweep = Rad s} <- Made.frameSegments m p]
               Mm r = Segment.radius (centre a) (start a)
               Rad exact = sweep a
-              straight = length (filter (not . Made.roundly) (framesOf p))
+              straight = length (filter (not . Made.isArc) (framesOf p))
               -- A frame that is written straight turns by no more than half a pulse of sagitta
               -- does.
-              rounds = length (filter Made.roundly (framesOf p))
+              rounds = length (filter Made.isArc (framesOf p))
               slack =
-                fromIntegral (max 1 rounds) * 4 * grain / r
-                  + fromIntegral straight * 4 * sqrt (grain / r)
+                fromIntegral (max 1 rounds) * 4 * pulse / r
+                  + fromIntegral straight * 4 * sqrt (pulse / r)
            in r
                 > 20
-                  * grain
+                  * pulse
                     ==> counterexample
                       (show (whole, exact, straight))
                       (abs (whole - exact) <= slack)
-    it "has no increments only as a full circle (catches the zero that means all)" $
+    it "has increments of zero only as a full circle (catches a zero that means a full circle)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          and [not (increment f == 0 && Made.roundly f) || start a == end a | f <- framesOf p]
-            .&&. [f | f <- framesOf p, not (Made.roundly f), increment f == 0] === []
-    it "ends at its rounded end (catches cuts that add up)" $
+          and [not (increment f == 0 && Made.isArc f) || start a == end a | f <- framesOf p]
+            .&&. [f | f <- framesOf p, not (Made.isArc f), increment f == 0] === []
+    it "ends at its rounded end (catches rounding errors of cuts that add up)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm grain = Machine.pulse m
+          let Mm pulse = Machine.pulse m
               at =
                 Frame.position
                   m
@@ -93,7 +94,7 @@ spec = do
            in counterexample
                 (show (at, end a))
                 ( max (abs (Vec.x at - Vec.x (end a))) (abs (Vec.y at - Vec.y (end a)))
-                    <= grain / 2 + 1e-9
+                    <= pulse / 2 + 1e-9
                 )
     it
       "has radii at its ends that agree to two pulses (catches a centre beside the middle of the \
@@ -110,36 +111,36 @@ spec = do
            in conjoin
                 [ counterexample (show f) (abs (r - q) <= 2 + 1e-9)
                   | f <- framesOf p,
-                    Made.roundly f,
+                    Made.isArc f,
                     let (r, q) = radiiOf f
                 ]
-    it "takes one frame where one can do (catches needless cuts)" $
+    it "takes one frame where one is enough (catches needless cuts)" $
       property $
-        forAll (ordinary (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
+        forAll (ordinaryArc (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
           classify (length (framesOf p) == 1) "one" $
-            length (framesOf p) <= (if alone (Machines.named "lki-u") a then 1 else 4)
+            length (framesOf p) <= (if fitsOneFrame (Machines.named "lki-u") a then 1 else 4)
     it
-      "is as true as about any lattice point beside its centre (catches a centre that is passed \
-      \over too early)"
+      "deviates no more than about any grid point beside its centre (catches a centre that is \
+      \rejected too early)"
       $ property $
-        forAll (ordinary (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
+        forAll (ordinaryArc (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
           let m = Machines.named "lki-u"
-              Mm grain = Machine.pulse m
-           in case Made.walked m p of
+              Mm pulse = Machine.pulse m
+           in case Made.frameSegments m p of
                 [w@Arc {}] ->
                   counterexample
-                    (show (offEither a (centre w) w, offAbout 1 m a))
-                    (all (>= offEither a (centre w) w - 0.02 * grain) (offAbout 1 m a))
+                    (show (arcError a (centre w) w, errorsAbout 1 m a))
+                    (all (>= arcError a (centre w) w - 0.02 * pulse) (errorsAbout 1 m a))
                 _ -> property True
     it
-      "takes about one frame for each quadrant where it has to (catches a frame for what rounding \
-      \leaves at an axis)"
+      "takes about one frame for each quadrant on a machine with quadrants (catches an extra frame \
+      \for a rounding remainder at an axis)"
       $ property $
         checkCoverage $
-          forAll quarters $ \(a, n) -> onArc (Machines.named "lki-fm") a $ \p ->
+          forAll arcWithQuadrants $ \(a, n) -> onArc (Machines.named "lki-fm") a $ \p ->
             cover 90 (length (framesOf p) == n) "as many as quadrants" $
               length (framesOf p) <= 2 * n
-    it "goes as chords where its centre is out of reach (catches a centre cut off to its digits)" $
+    it "becomes chords where its centre does not fit (catches a centre cut off to its digits)" $
       do
         let far =
               Arc
@@ -149,37 +150,38 @@ spec = do
                   sweep = Rad 5e-3
                 }
             at r t = Vec.point (r * cos t - 3e4) (r * sin t)
-        fmap Made.arcsIn (Made.program (Machines.named "lki-u") (Made.along feed [far]))
+        fmap Made.arcCount (Made.program (Machines.named "lki-u") (Made.pathAlong feed [far]))
           `shouldBe` Just 0
   describe "a full circle" $ do
-    it "is one frame where one can hold it, else halves or quadrants" $
+    it "is one frame where the machine has full circles, else halves or quadrants" $
       [ length
           ( maybe
               []
               framesOf
               ( Made.program
-                  (bare (Machines.named m))
-                  (Made.along feed [circle (Vec.point 12.003 4.001) 7.0071])
+                  (withFramesOnly (Machines.named m))
+                  (Made.pathAlong feed [circle (Vec.point 12.003 4.001) 7.0071])
               )
           )
         | m <- ["lki-u", "lki-un", "n55", "iso6983", "lki-fm"]
       ]
         `shouldBe` [1, 1, 1, 2, 4]
     it
-      "off the grid in the radius and the centre is walked within a pulse (catches a radius of \
-      \whole pulses)"
+      "with radius and centre off the grid has frames within a pulse (catches a radius of whole \
+      \pulses)"
       $ property $
         forAllShow
           ((,) <$> machine <*> ((,,) <$> offGrid <*> offGrid <*> choose (0.5, 80)))
           (const "")
           $ \(m, (x, y, r)) ->
             onArc m (circle (Vec.point x y) r) $ \p ->
-              let Mm grain = Machine.pulse m
+              let Mm pulse = Machine.pulse m
                in Frame.invariants m (framesOf p)
-                    === [] .&&. Made.worstOff (Made.walked m p) [circle (Vec.point x y) r]
-                      <= 1.01 * grain
+                    === []
+                      .&&. Made.largestDistance (Made.frameSegments m p) [circle (Vec.point x y) r]
+                      <= 1.01 * pulse
   describe "the flange" $
-    it "is twelve arcs along its contour, eighteen where they keep to quadrants" $ do
+    it "has twelve arcs along its contour, eighteen on a machine with quadrants" $ do
       text <- Encoding.decodeUtf8 <$> ByteString.readFile "examples/flange.part"
       [cuts machine' text | machine' <- ["lki-u", "lki-fm"]] `shouldBe` [Just 12, Just 18]
   where
@@ -188,20 +190,23 @@ spec = do
       fmap
         ( \p ->
             length
-              [() | f <- Frame.planned p, Frame.role f == Frame.Cutting 0, Made.roundly (frame f)]
+              [() | f <- Frame.planned p, Frame.role f == Frame.Cutting 0, Made.isArc (frame f)]
         )
         (Made.program (Machines.named m) (Made.pathOf text))
 
 onArc :: Testable t => Machine -> Segment -> (Frame.FrameProgram -> t) -> Property
 onArc m a law =
-  counterexample (show (Machine.name m, a)) $ case Made.program (bare m) (Made.along feed [a]) of
-    Nothing ->
-      counterexample ("no frames: " <> show (Made.made (bare m) (Made.along feed [a]))) False
-    Just p -> counterexample (show (take 12 (framesOf p))) (law p)
+  counterexample (show (Machine.name m, a)) $
+    case Made.program (withFramesOnly m) (Made.pathAlong feed [a]) of
+      Nothing ->
+        counterexample
+          ("no frames: " <> show (Made.quantised (withFramesOnly m) (Made.pathAlong feed [a])))
+          False
+      Just p -> counterexample (show (take 12 (framesOf p))) (law p)
 
 -- | A machine that neither brakes nor ends programs.
-bare :: Machine -> Machine
-bare m =
+withFramesOnly :: Machine -> Machine
+withFramesOnly m =
   m
     { Machine.braking = (Machine.braking m) {Machine.brakingForm = ByControl},
       Machine.orders = (Machine.orders m) {Machine.finish = []}
@@ -218,8 +223,8 @@ machine :: Gen Machine
 machine = elements [m | m <- Machines.known, Machine.arcs m /= NoArcs]
 
 -- | How far another arc is from the circle of one, at most.
-offCircle :: Segment -> Segment -> Double
-offCircle a w =
+circleError :: Segment -> Segment -> Double
+circleError a w =
   maximum
     [ abs (d - r)
       | k <- [0 .. 96 :: Int],
@@ -230,74 +235,74 @@ offCircle a w =
 
 -- | Whether some lattice point near the centre of an arc gives one frame that stays well within a
 -- pulse.
-alone :: Machine -> Segment -> Bool
-alone m a = any (<= 0.98 * grain) (offAbout 3 m a)
+fitsOneFrame :: Machine -> Segment -> Bool
+fitsOneFrame m a = any (<= 0.98 * pulse) (errorsAbout 3 m a)
   where
-    Mm grain = Machine.pulse m
+    Mm pulse = Machine.pulse m
 
 -- | How far frames about lattice points are off in mm, so many pulses from the centre of an arc at
 -- most, that stay well within a pulse with the radius of either end and turn by what the arc turns,
 -- as far as one frame may.
-offAbout :: Double -> Machine -> Segment -> [Double]
-offAbout most m a =
-  [ offEither a c w
+errorsAbout :: Double -> Machine -> Segment -> [Double]
+errorsAbout most m a =
+  [ arcError a c w
     | di <- [-most .. most],
       dj <- [-most .. most],
-      let c = on (Vec.shift (Vec.vec (di * grain) (dj * grain)) (Segment.centre a)),
+      let c = on (Vec.shift (Vec.vec (di * pulse) (dj * pulse)) (Segment.centre a)),
       let w =
             Segment.arc
               (if sweep a > Rad 0 then CounterClockwise else Clockwise)
               c
               (on (start a))
               (on (end a)),
-      maximum (map (offCircle a) [turned c w, other c w]) <= 0.98 * grain,
-      abs (away c (end w) - away c (start w)) <= 2 * grain,
+      maximum (map (circleError a) [withStartRadius c w, withEndRadius c w]) <= 0.98 * pulse,
+      abs (distance c (end w) - distance c (start w)) <= 2 * pulse,
       let (Rad s, Rad exact) =
             (sweep w, sweep a)
-       in abs (s - exact) <= 4 * grain / away (Segment.centre a) (start a)
+       in abs (s - exact) <= 4 * pulse / distance (Segment.centre a) (start a)
   ]
   where
-    Mm grain = Machine.pulse m
+    Mm pulse = Machine.pulse m
     on p = Vec.point (nearest (Vec.x p)) (nearest (Vec.y p))
-    nearest x = grain * fromIntegral (floor (x / grain + 0.5) :: Int)
+    nearest x = pulse * fromIntegral (floor (x / pulse + 0.5) :: Int)
     -- With the radius of the end all the way.
-    other c w =
+    withEndRadius c w =
       let k =
-            away c (end w) / away c (start w)
+            distance c (end w) / distance c (start w)
           scaled p = Vec.shift (Vec.scale k (Vec.to c p)) c
-       in w {start = scaled (start w), end = scaled (end (turned c w))}
+       in w {start = scaled (start w), end = scaled (end (withStartRadius c w))}
 
 -- | With the radius of its beginning all the way, or going evenly to that of its end.
-offEither :: Segment -> Point -> Segment -> Double
-offEither a c w = max (offCircle a (turned c w)) (evenly a c w)
+arcError :: Segment -> Point -> Segment -> Double
+arcError a c w = max (circleError a (withStartRadius c w)) (linearError a c w)
 
 -- | How far an arc about a point is off another one at most, when its radius changes evenly from
 -- the beginning to the end.
-evenly :: Segment -> Point -> Segment -> Double
-evenly a c w =
+linearError :: Segment -> Point -> Segment -> Double
+linearError a c w =
   maximum
-    [ abs (away (Segment.centre a) p - away (Segment.centre a) (start a))
+    [ abs (distance (Segment.centre a) p - distance (Segment.centre a) (start a))
       | k <- [0 .. 24 :: Int],
         let t = fromIntegral k / 24,
-        let r = away c (start w),
+        let r = distance c (start w),
         let p =
               Vec.shift
                 ( Vec.scale
-                    (1 + t * (away c (end w) - r) / r)
-                    (Vec.to c (Segment.at t (turned c w)))
+                    (1 + t * (distance c (end w) - r) / r)
+                    (Vec.to c (Segment.at t (withStartRadius c w)))
                 )
                 c
     ]
 
 -- | With the radius of the beginning all the way.
-turned :: Point -> Segment -> Segment
-turned c w =
+withStartRadius :: Point -> Segment -> Segment
+withStartRadius c w =
   let r =
-        away c (start w)
-   in w {end = Vec.shift (Vec.scale (r / away c (end w)) (Vec.to c (end w))) c}
+        distance c (start w)
+   in w {end = Vec.shift (Vec.scale (r / distance c (end w)) (Vec.to c (end w))) c}
 
-away :: Point -> Point -> Double
-away p q = let Mm d = Vec.distance p q in d
+distance :: Point -> Point -> Double
+distance p q = let Mm d = Vec.distance p q in d
 
 circle :: Point -> Double -> Segment
 circle c r =
@@ -329,27 +334,27 @@ arcAt c r a s
   where
     at t = Vec.shift (Vec.polar (Mm r) (Rad t)) c
 
-ordinary :: (Double, Double) -> Gen Segment
-ordinary sweeps = do
+ordinaryArc :: (Double, Double) -> Gen Segment
+ordinaryArc sweeps = do
   r <- choose (2, 300)
   s <- choose sweeps
   arcAt <$> (Vec.point <$> offGrid <*> offGrid) <*> pure r <*> choose (-4, 4) <*> elements [s, -s]
 
 -- | Arcs that begin and end well within quadrants or on the axes, with the number of quadrants.
-quarters :: Gen (Segment, Int)
-quarters = do
+arcWithQuadrants :: Gen (Segment, Int)
+arcWithQuadrants = do
   r <- choose (2, 300)
   n <- choose (1, 4 :: Int)
-  skipped <- oneof [pure 0, choose (0.3, 0.8)]
-  behind <- oneof [pure 0, choose (0.3, 0.7)]
+  leftOut <- oneof [pure 0, choose (0.3, 0.8)]
+  leftOutAtEnd <- oneof [pure 0, choose (0.3, 0.7)]
   from <- elements [0, pi / 2, pi, -pi / 2]
-  way <- elements [1, -1]
+  sign <- elements [1, -1]
   c <- Vec.point <$> offGrid <*> offGrid
-  let s = fromIntegral n * pi / 2 - skipped - behind
+  let s = fromIntegral n * pi / 2 - leftOut - leftOutAtEnd
   pure $
     if n == 1 && s <= 0.1
-      then (arcAt c r from (way * pi / 2), 1)
-      else (arcAt c r (from + way * skipped) (way * s), n)
+      then (arcAt c r from (sign * pi / 2), 1)
+      else (arcAt c r (from + sign * leftOut) (sign * s), n)
 
 offGrid :: Gen Double
 offGrid = choose (-100, 100)

@@ -24,64 +24,63 @@ import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec = do
-  describe "a machine that is told when to slow down" $ do
+  describe "a machine with braking frames" $ do
     it
-      "is never faster than it can be (catches a stretch that does not reach back over a short \
-      \move)"
+      "is never too fast to reach a lower feed in time (catches a braking section that does not \
+      \reach back over a short move)"
       $ property $
-        forAll moving $ \ms -> onMachine ms $ \m fs ->
-          let grain = let Mm g = Machine.pulse m in g
-              ways = map fst fs
+        forAll moves $ \ms -> onMachine ms $ \m fs ->
+          let pulse = let Mm g = Machine.pulse m in g
+              lengths = map fst fs
               -- Lower feeds behind a frame with the way up to them; the last one is the end of the
               -- program.
               ahead k =
-                [ (v, sum (take (j - k - 1) (drop (k + 1) ways)), j - k)
+                [ (v, sum (take (j - k - 1) (drop (k + 1) lengths)), j - k)
                   | (j, (_, Just v)) <- drop (k + 1) (zip [0 ..] fs)
                 ]
-                  <> [(10 / 60, sum (drop (k + 1) ways), length fs - k)]
+                  <> [(10 / 60, sum (drop (k + 1) lengths), length fs - k)]
               broken =
                 [ (k, v, v2, s)
                   | (k, (_, Just v)) <- zip [0 ..] fs,
                     (v2, s, n) <- ahead k,
-                    v * v > v2 * v2 + 2 * 5 * (s + grain * fromIntegral (n + 2))
+                    v * v > v2 * v2 + 2 * 5 * (s + pulse * fromIntegral (n + 2))
                 ]
            in counterexample (show fs) (broken === [])
     it
-      "slows down where it has to, and nowhere else (catches a stretch of the way v²/2a before \
+      "slows down where it has to, and nowhere else (catches a section of the length v²/2a before \
       \every feed)"
       $ property $
-        forAll moving $ \ms -> onMachine ms $ \m fs ->
-          let grain = let Mm g = Machine.pulse m in g
+        forAll moves $ \ms -> onMachine ms $ \m fs ->
+          let pulse = let Mm g = Machine.pulse m in g
               slowing = sum [l | (l, Nothing) <- fs]
-              needed = neededWay m ms
+              needed = neededLength m ms
            in counterexample
                 (show (fs, slowing, needed))
                 ( abs (slowing - needed)
-                    <= grain * fromIntegral (3 * length ms + length fs)
+                    <= pulse * fromIntegral (3 * length ms + length fs)
                       + 0.02 * fromIntegral (length ms)
                 )
     it
-      "stands at the braking feed behind an element that asks it (catches a slow element that goes \
-      \on)"
+      "is at the braking feed after an element that asks for it (catches a slow end without effect)"
       $ do
         let ms = [to 0 60 (At (here 1000)) True, to 60 120 (At (here 1000)) False]
-        fmap (map brief) (framesOn (Machines.named "lki-u") ms)
+        fmap (map brief) (framesFor (Machines.named "lki-u") ms)
           `shouldBe` Just [(1611, 40, False), (1389, 0, True), (1611, 40, False), (1389, 0, True)]
-    it "leaves out what is shorter than a pulse" $ do
+    it "leaves out a section shorter than a pulse" $ do
       let ms = [to 0 50 (At (here 25.2)) False]
-      fmap (map brief) (framesOn (Machines.named "lki-u") ms) `shouldBe` Just [(2500, 8, False)]
-  describe "a machine without a sign for it" $ do
+      fmap (map brief) (framesFor (Machines.named "lki-u") ms) `shouldBe` Just [(2500, 8, False)]
+  describe "a machine without braking frames" $ do
     it
-      "goes the last stretch at the lowest code, where that is asked (catches a stretch before \
+      "takes the lowest code at the end of an element that asks for it (catches a section before \
       \every feed)"
       $ do
         let ms = [to 0 60 (At (here 240)) True, to 60 120 (At (here 240)) False]
-        fmap (map brief) (framesOn (Machines.named "lkp-01f") ms)
+        fmap (map brief) (framesFor (Machines.named "lkp-01f") ms)
           `shouldBe` Just [(2920, 9, False), (80, 1, False), (3000, 9, False)]
-    it "that slows down by itself has none" $
+    it "has no slow frames if its control slows down by itself" $
       fmap
         (map brief)
-        ( framesOn
+        ( framesFor
             (Machines.named "n55")
             [to 0 60 (At (here 240)) True, to 60 120 (At (here 24)) False]
         )
@@ -100,8 +99,8 @@ spec = do
 here :: Double -> Located Feed
 here = Located (Region 0 0) . Feed
 
-framesOn :: Machine -> [Move] -> Maybe [Frame]
-framesOn m ms =
+framesFor :: Machine -> [Move] -> Maybe [Frame]
+framesFor m ms =
   fmap
     (filter Frame.isMoving . map frame . Frame.planned)
     ( Made.program
@@ -117,7 +116,7 @@ framesOn m ms =
 onMachine :: Testable t => [Move] -> (Machine -> [(Double, Maybe Double)] -> t) -> Property
 onMachine ms law =
   forAllBlind (elements (map Machines.named ["lki-fm", "lki-u", "lki-un"])) $ \m ->
-    counterexample (show (Machine.name m)) $ case framesOn m ms of
+    counterexample (show (Machine.name m)) $ case framesFor m ms of
       Nothing -> counterexample "no frames" False
       Just fs ->
         property
@@ -132,15 +131,15 @@ onMachine ms law =
 
 -- | The way on which the feeds that the machine gets are too fast for what comes behind, step by
 -- step.
-neededWay :: Machine -> [Move] -> Double
-neededWay m ms =
+neededLength :: Machine -> [Move] -> Double
+neededLength m ms =
   sum
     [ d
       | (k, (l, v)) <- zip [0 ..] pieces,
         let n = max 1 (ceiling (l / 0.01)) :: Int,
         let d = l / fromIntegral n,
         j <- [0 .. n - 1],
-        tooFast v (l - d * (fromIntegral j + 0.5)) (events !! k)
+        tooFast v (l - d * (fromIntegral j + 0.5)) (feedLimits !! k)
     ]
   where
     pieces =
@@ -151,7 +150,7 @@ neededWay m ms =
         Machine.Given _ g -> g / 60
         Machine.NoSuchFeed _ _ -> v / 60
     -- The lower feeds behind the end of each move, and how far behind.
-    events = [[(s, v2) | (s, v2) <- limits k] | k <- [0 .. length ms - 1]]
+    feedLimits = [[(s, v2) | (s, v2) <- limits k] | k <- [0 .. length ms - 1]]
     limits k =
       concat
         ( zipWith3
@@ -164,12 +163,12 @@ neededWay m ms =
             (zip (starts k) (drop k pieces))
         )
     starts k = scanl (+) (-(fst (pieces !! k))) (map fst (drop k pieces))
-    tooFast v rest limitsBehind =
-      or [v * v > v2 * v2 + 2 * 5 * (rest + s) | (s, v2) <- limitsBehind]
+    tooFast v rest later =
+      or [v * v > v2 * v2 + 2 * 5 * (rest + s) | (s, v2) <- later]
 
 -- | Lines and arcs one behind the other, at all feeds, now and then slow at their ends.
-moving :: Gen [Move]
-moving = do
+moves :: Gen [Move]
+moves = do
   n <- choose (1, 6)
   go (n :: Int) (Vec.point 3.337 (-1.219))
   where
@@ -190,7 +189,7 @@ arcFrom p = do
   r <- choose (1, 30)
   a <- choose (-pi, pi)
   s <- choose (0.3, 5)
-  turn <- elements [Clockwise, CounterClockwise]
+  sense <- elements [Clockwise, CounterClockwise]
   let c = Vec.shift (Vec.polar (Mm r) (Rad a)) p
-      sense = if turn == Clockwise then -s else s
-  pure (Segment.arc turn c p (Vec.shift (Vec.rotate (Rad sense) (Vec.to c p)) c))
+      signed = if sense == Clockwise then -s else s
+  pure (Segment.arc sense c p (Vec.shift (Vec.rotate (Rad signed) (Vec.to c p)) c))

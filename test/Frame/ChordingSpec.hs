@@ -35,29 +35,28 @@ spec :: Spec
 spec = do
   describe "chords of a curve" $ do
     it
-      "keep every point of it within what is allowed on its side, and end on it (catches the two \
-      \sides exchanged)"
+      "keep every point of it within the bound on its side, and end on it (catches the two sides \
+      \exchanged)"
       $ property $
         forAll ((,) <$> chain <*> bounds) $ \(ss, b) ->
           let ends = chordsOf b ss
               finish = Segment.end (last ss)
-           in counterexample (show (length ends, worst b ss ends)) $
-                worst b ss ends <= 1e-7
+           in counterexample (show (length ends, largestExcess b ss ends)) $
+                largestExcess b ss ends <= 1e-7
                   .&&. conjoin
                     [ counterexample
                         (show p)
                         ( minimum [d | s <- ss, let Mm d = Distance.toPoint p s]
-                            <= beside b + 1e-7
+                            <= largestOffset b + 1e-7
                         )
                       | p <- ends
                     ]
                   .&&. last ends === finish
     it
-      "are about as few as any on a fine grid (catches chords that stop where the curve changes \
-      \its bending)"
+      "are about as few as the fewest on a fine grid (catches chords that stop at an inflection)"
       $ property $
         forAll
-          (chain >>= \ss -> (ss,) <$> roughly (sum [l | s <- ss, let Mm l = Segment.length s]))
+          (chain >>= \ss -> (ss,) <$> coarseBounds (sum [l | s <- ss, let Mm l = Segment.length s]))
           $ \(ss, b) ->
             let n = length (chordsOf b ss)
                 fewest = fewestOn b (grid 150 ss)
@@ -66,8 +65,8 @@ spec = do
                   $ classify (fewest >= 4) "four and more" $
                     fromIntegral n <= 1.15 * fromIntegral fewest + (1 :: Double)
     it
-      "pass over bends to both sides that are within what is allowed (catches chords that stop \
-      \where the curve changes its bending)"
+      "pass over bends to both sides that are within the bounds (catches chords that stop at an \
+      \inflection)"
       $ length (chordsOf (evenly 0.1) (Curve.bent (take 40 (cycle [(5, 0.02), (5, -0.02)]))))
         `shouldBe` 1
     it
@@ -87,8 +86,7 @@ spec = do
         )
         `shouldBe` 4
     it
-      "are looked for from the end as well (catches a first chord that takes what the second would \
-      \need)"
+      "are tried from the end as well (catches a longest first chord that costs one chord more)"
       $ length
         ( chordsOf
             (evenly 0.583)
@@ -104,8 +102,8 @@ spec = do
         )
         `shouldBe` 2
     it
-      "of an arc cut into many are as many as those of the arc, one more or less (catches a chord \
-      \for each)"
+      "of an arc cut into many parts are as many as those of the arc, one more or less (catches a \
+      \chord for each part)"
       $ property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.005, 0.02, 0.1]) $ \(a, k, y) ->
           let n =
@@ -116,7 +114,7 @@ spec = do
                   )
               alone = FromToolpath.chordCount lkp01f (Mm y) a
            in counterexample (show (n, alone)) (abs (n - alone) <= 1)
-    it "are of about equal length on an arc (catches a last chord that is what was left over)" $
+    it "are of about equal length on an arc (catches a short remainder as the last chord)" $
       property $
         forAll ((,,) <$> arc <*> choose (2, 200) <*> elements [0.02, 0.0005]) $ \(a, k, y) ->
           let ends =
@@ -130,7 +128,7 @@ spec = do
                     (length ends > 256)
                     "more than are evened"
                     (counterexample (show lengths) (minimum lengths >= 0.8 * maximum lengths))
-    it "keep to the heights as well (catches heights that are told at the ends of the run only)" $
+    it "keep the heights as well (catches heights that are compared at the ends of the run only)" $
       property $
         forAll ((,,) <$> Curve.open <*> bounds <*> vectorOf 130 (choose (-0.2, 0.2))) $
           \(ss, b, rises) ->
@@ -143,10 +141,10 @@ spec = do
                 ends = [(p, z) | (p, Mm z) <- Chording.chordEnds 100000 b moves]
              in counterexample
                   (show (length ends))
-                  (worstHeight b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
+                  (largestHeightError b (NonEmpty.toList moves) ends <= 0.01 + 1e-6)
     it
-      "slow down as far before the end of a curve as anywhere (catches a brake on the last of its \
-      \arcs only)"
+      "slow down as early before the end of a curve as elsewhere (catches braking on the last of \
+      \its arcs only)"
       $ property $
         forAll Curve.curveCase $ \c ->
           let job = Curve.jobAlong c
@@ -178,7 +176,7 @@ spec = do
                           && all ((== FeedCode 1) . speed) slow
                           && abs (sum (map wayOf slow) - 1.6) <= 0.05
     it
-      "are runs as well where a contour is walked the other way (catches arcs that continue the \
+      "follow the same runs on a contour in the opposite sense (catches arcs that continue the \
       \wrong neighbour)"
       $ property $
         forAll ((,) <$> Curve.curveCase <*> choose (2, 9)) $ \(c, k) ->
@@ -231,30 +229,30 @@ bounds = do
   pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
 
 -- | Bounds that ask for a few chords of a curve of a length.
-roughly :: Double -> Gen Bounds
-roughly whole = do
+coarseBounds :: Double -> Gen Bounds
+coarseBounds whole = do
   a <- (whole *) . (10 **) <$> choose (-3.2, -1.2)
   b <- oneof [pure a, (a *) <$> choose (0.1, 1)]
   pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
 
 -- | How far beside a chain its chords may meet: in the middle of what is allowed.
-beside :: Bounds -> Double
-beside Bounds {left = Mm l, right = Mm r} = abs (l - r) / 2
+largestOffset :: Bounds -> Double
+largestOffset Bounds {left = Mm l, right = Mm r} = abs (l - r) / 2
 
 -- | Of each chord, the stretches of the chain that it stands for: segments with the fractions from
 -- which and to which. Each end is looked for behind the one before.
-stretches :: Bounds -> [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
-stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
+coveredParts :: Bounds -> [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
+coveredParts b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
   where
     go p rest qs = case qs of
       [] -> []
-      q : more -> let (passed, behind) = upTo q rest in (p, q, passed) : go q behind more
+      q : more -> let (covered, remaining) = upTo q rest in (p, q, covered) : go q remaining more
     upTo q rest = case rest of
       [] -> ([], [])
       (s, t) : more
-        | u >= t - 1e-9 && u <= 1 && off <= beside b + 1e-7 && (u < 1 || off <= 1e-12) ->
+        | u >= t - 1e-9 && u <= 1 && off <= largestOffset b + 1e-7 && (u < 1 || off <= 1e-12) ->
           ([(s, t, u)], (s, u) : more)
-        | otherwise -> let (passed, behind) = upTo q more in ((s, t, 1) : passed, behind)
+        | otherwise -> let (covered, remaining) = upTo q more in ((s, t, 1) : covered, remaining)
         where
           u
             | Vec.distance q (Segment.end s) <= Mm 1e-12 = 1
@@ -264,17 +262,22 @@ stretches b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
           Mm off = Vec.distance q (Segment.at u s)
 
 -- | By how much some point of a chain is further from its chord than it may be, at most.
-worst :: Bounds -> [Segment] -> [Point] -> Double
-worst b ss ends =
+largestExcess :: Bounds -> [Segment] -> [Point] -> Double
+largestExcess b ss ends =
   maximum
-    (-1 : concat [offs p q s t u | (p, q, passed) <- stretches b ss ends, (s, t, u) <- passed])
+    (-1 : concat [offs p q s t u | (p, q, covered) <- coveredParts b ss ends, (s, t, u) <- covered])
   where
-    offs p q s t u = [offBy b p q (Segment.at (t + (u - t) * k / 8) s) | k <- [0 .. 8]]
+    offs p q s t u = [excessOf b p q (Segment.at (t + (u - t) * k / 8) s) | k <- [0 .. 8]]
 
 -- | By how much a point is further from a chord than it may be.
-offBy :: Bounds -> Point -> Point -> Point -> Double
-offBy b@Bounds {left = Mm l, right = Mm r} p q x =
-  maximum [aside - l, -aside - r, -ahead - beside b, ahead - Vec.norm (Vec.to p q) - beside b]
+excessOf :: Bounds -> Point -> Point -> Point -> Double
+excessOf b@Bounds {left = Mm l, right = Mm r} p q x =
+  maximum
+    [ aside - l,
+      -aside - r,
+      -ahead - largestOffset b,
+      ahead - Vec.norm (Vec.to p q) - largestOffset b
+    ]
   where
     along = Vec.unit (Vec.to p q)
     aside = Vec.cross along (Vec.to p x)
@@ -282,8 +285,8 @@ offBy b@Bounds {left = Mm l, right = Mm r} p q x =
 
 -- | By how much the height of a run differs from that of its chords at the ends of its moves, at
 -- most.
-worstHeight :: Bounds -> [Move] -> [(Point, Double)] -> Double
-worstHeight b moves ends =
+largestHeightError :: Bounds -> [Move] -> [(Point, Double)] -> Double
+largestHeightError b moves ends =
   maximum
     ( 0 :
       concat
@@ -291,15 +294,15 @@ worstHeight b moves ends =
             differences
             (0 : map snd ends)
             (map snd ends)
-            (stretches b (map segment moves) (map fst ends))
+            (coveredParts b (map segment moves) (map fst ends))
         )
     )
   where
     levels = [(segment m, z) | m <- moves, let (_, Mm z) = heights m]
-    differences z z' (_, _, passed) =
-      let ways = scanl1 (+) [l * (u - t) | (s, t, u) <- passed, let Mm l = Segment.length s]
-       in [ abs (z + (z' - z) * w / last ways - h)
-            | (w, (s, _, u)) <- zip ways passed,
+    differences z z' (_, _, covered) =
+      let lengths = scanl1 (+) [l * (u - t) | (s, t, u) <- covered, let Mm l = Segment.length s]
+       in [ abs (z + (z' - z) * w / last lengths - h)
+            | (w, (s, _, u)) <- zip lengths covered,
               u >= 1,
               Just h <- [lookup s levels]
           ]
@@ -308,11 +311,11 @@ worstHeight b moves ends =
 -- turn.
 grid :: Int -> [Segment] -> Vector (Point, Double)
 grid n ss =
-  Vector.fromList (concat (zipWith places headings ss) <> [(Segment.end (last ss), last headings)])
+  Vector.fromList (concat (zipWith points headings ss) <> [(Segment.end (last ss), last headings)])
   where
     headings = scanl (+) 0 [turned s | s <- ss]
     whole = sum [l | s <- ss, let Mm l = Segment.length s]
-    places h s =
+    points h s =
       let Mm l = Segment.length s
           k = max 1 (round (fromIntegral n * l / whole)) :: Int
        in [ (Segment.at t s, h + t * turned s)
@@ -326,9 +329,9 @@ grid n ss =
 -- | The fewest chords between places of a grid, each of which keeps the places between within the
 -- bounds and does not turn by more than a quarter turn.
 fewestOn :: Bounds -> Vector (Point, Double) -> Int
-fewestOn b places = go 0 [0] [1 .. final]
+fewestOn b points = go 0 [0] [1 .. final]
   where
-    final = Vector.length places - 1
+    final = Vector.length points - 1
     -- The places that so many chords reach and no fewer, and those that they do not.
     go :: Int -> [Int] -> [Int] -> Int
     go n reached others
@@ -340,11 +343,11 @@ fewestOn b places = go 0 [0] [1 .. final]
     chord i j =
       j > i
         && Vector.all
-          (\(x, _) -> offBy b (fst (places Vector.! i)) (fst (places Vector.! j)) x <= 1e-9)
+          (\(x, _) -> excessOf b (fst (points Vector.! i)) (fst (points Vector.! j)) x <= 1e-9)
           between
         && Vector.maximum turns - Vector.minimum turns <= pi / 2 + 1e-9
       where
-        between = Vector.slice i (j - i + 1) places
+        between = Vector.slice i (j - i + 1) points
         turns = Vector.map snd between
 
 lkp01f :: Machine

@@ -23,32 +23,32 @@ spec :: Spec
 spec = do
   describe "commands" $ do
     it
-      "stand in the frame of the next move, behind the last in one of their own (catches a command \
-      \that is lost or late)"
-      $ given kontur [c (Auxiliary 7), go, go, c (Auxiliary 8)]
+      "are in the frame of the next move, after the last one in a frame of their own (catches a \
+      \command that is lost or late)"
+      $ commandsOf kontur [c (Auxiliary 7), go, go, c (Auxiliary 8)]
         `shouldBe` [(True, [("aux", 7)]), (True, []), (False, [("aux", 8)])]
-    it "wait for a move that moves something (catches a command in a frame that is dropped)" $
-      given kontur [c (Auxiliary 7), stay, go] `shouldBe` [(True, [("aux", 7)])]
+    it "are pending until a move has a frame (catches a command in a frame that is dropped)" $
+      commandsOf kontur [c (Auxiliary 7), stay, go] `shouldBe` [(True, [("aux", 7)])]
     it "are in the order of the layout's words (catches the order of the program in a frame)" $
-      given kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (Just 500)), go]
+      commandsOf kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (Just 500)), go]
         `shouldBe` [(True, [("spindle", 10), ("tool", 3), ("aux", 51)])]
     it
-      "that need a word twice take frames in the order of the program (catches a number that is \
-      \overwritten)"
-      $ given kontur [c (Auxiliary 7), c (CoolantTo SwitchOn), c (tool 3), c (Auxiliary 9), go]
+      "that need the same word twice take several frames, in the order of the program (catches a \
+      \number that is overwritten)"
+      $ commandsOf kontur [c (Auxiliary 7), c (CoolantTo SwitchOn), c (tool 3), c (Auxiliary 9), go]
         `shouldBe` [ (False, [("aux", 7)]),
                      (False, [("tool", 3), ("aux", 51)]),
                      (True, [("aux", 9)])
                    ]
     it "keep the words of one command together (catches a speed a frame before its spindle)" $
-      given iso [c (tool 2), c (SpindleOn CounterClockwise (Just 999.6)), go]
+      commandsOf iso [c (tool 2), c (SpindleOn CounterClockwise (Just 999.6)), go]
         `shouldBe` [ (False, [("T", 2), ("M", 6)]),
                      (True, [("S", 1000), ("M", 4)]),
                      (False, [("M", 5)]),
                      (False, [("M", 30)])
                    ]
-    it "without the turns a minute leave out the word for them" $
-      given iso [c (SpindleOn Clockwise Nothing), go]
+    it "without a spindle speed leave out the word for it" $
+      commandsOf iso [c (SpindleOn Clockwise Nothing), go]
         `shouldBe` [(True, [("M", 3)]), (False, [("M", 5)]), (False, [("M", 30)])]
     it
       "are never lost, never twice in a frame, and keep their order word by word (catches a group \
@@ -67,8 +67,8 @@ spec = do
           )
           $ \parts ->
             let steps = concat parts
-                frames = given kontur steps
-                said word = [n | (_, os) <- frames, (w, n) <- os, w == word]
+                frames = commandsOf kontur steps
+                numbersOf word = [n | (_, os) <- frames, (w, n) <- os, w == word]
                 asked :: Text -> [Int]
                 asked word = concat [numbers word x | Left x <- steps]
                 numbers word x = case x of
@@ -78,27 +78,27 @@ spec = do
                   ChangeTool n _ | word == "tool" -> [n]
                   _ -> []
              in counterexample (show frames) $
-                  (said "aux", said "tool")
+                  (numbersOf "aux", numbersOf "tool")
                     === (asked "aux", asked "tool") .&&. length (filter fst frames)
                     === length [() | Right d <- steps, d > 0]
   describe "spindle steps" $ do
-    it "are the nearest, of two the lower" $
-      [given kontur [c (SpindleOn Clockwise (Just v)), go] | v <- [499, 1, 1e5]]
+    it "are the nearest, the lower one of two" $
+      [commandsOf kontur [c (SpindleOn Clockwise (Just v)), go] | v <- [499, 1, 1e5]]
         `shouldBe` [[(True, [("spindle", n)])] | n <- [10, 1, 15]]
     it
-      "that are worse than a tenth are warned of (catches a spindle at another speed without a \
-      \word)"
+      "that miss the speed by more than a tenth give a warning (catches a wrong spindle speed \
+      \without a report)"
       $ [ length
             [ ()
               | SpindleSpeedDiffers {} <-
-                  Result.warnings (told kontur [c (SpindleOn Clockwise (Just v)), go])
+                  Result.warnings (quantised kontur [c (SpindleOn Clockwise (Just v)), go])
             ]
           | v <- [500, 560, 460, 1e5]
         ]
         `shouldBe` [0, 1, 0, 1]
-  describe "what a machine cannot be told" $ do
-    it "is for the man at it" $
-      [ Result.warnings (told (Machines.named m) [c x, go])
+  describe "a command without a word" $ do
+    it "is left to the operator" $
+      [ Result.warnings (quantised (Machines.named m) [c x, go])
         | (m, x) <-
             [ ("lki-u", CoolantTo SwitchOn),
               ("n55", SpindleOn CounterClockwise (Just 100)),
@@ -110,10 +110,10 @@ spec = do
                      [SpindleSpeedMissing (Region 0 0)]
                    ]
     it
-      "is refused where a number does not fit, or an auxiliary command has no place (catches a \
-      \number cut off to its digits)"
+      "is refused if it is an auxiliary one, as is a number that does not fit (catches a number \
+      \cut off to its digits)"
       $ [ [ (k, n, most)
-            | NoSuchCommand _ k n most <- Result.errors (told (Machines.named m) [c x, go])
+            | NoSuchCommand _ k n most <- Result.errors (quantised (Machines.named m) [c x, go])
           ]
           | (m, x) <-
               [ ("lki-u", Auxiliary 1),
@@ -138,25 +138,25 @@ spec = do
     iso = Machines.named "iso6983"
 
 -- | Commands and moves so far along x.
-told :: Machine -> [Either Command Double] -> Result.Result Warning Error Frame.FrameProgram
-told m parts = Made.made m (base {blocks = walk 0 parts})
+quantised :: Machine -> [Either Command Double] -> Result.Result Warning Error Frame.FrameProgram
+quantised m parts = Made.quantised m (base {blocks = blocksFrom 0 parts})
   where
-    base = Made.along Rapid [Straight (Vec.point 0 0) (Vec.point 1 0)]
-    walk x ps = case ps of
+    base = Made.pathAlong Rapid [Straight (Vec.point 0 0) (Vec.point 1 0)]
+    blocksFrom x ps = case ps of
       [] -> []
-      Left command : more -> Commanding (Located (Region 0 0) command) : walk x more
+      Left command : more -> Commanding (Located (Region 0 0) command) : blocksFrom x more
       Right d : more ->
         blocks
-          ( Made.along
+          ( Made.pathAlong
               (At (Located (Region 0 0) (Feed 60)))
               [Straight (Vec.point x 0) (Vec.point (x + d) 0)]
           )
-          <> walk (x + d) more
+          <> blocksFrom (x + d) more
 
 -- | Whether each frame moves, and what it commands.
-given :: Machine -> [Either Command Double] -> [(Bool, [(Text, Int)])]
-given m parts =
+commandsOf :: Machine -> [Either Command Double] -> [(Bool, [(Text, Int)])]
+commandsOf m parts =
   [ (Frame.isMoving f, [(w, n) | (CommandName w, n) <- orders f])
-    | Just p <- [Result.settled (told m parts)],
+    | Just p <- [Result.settled (quantised m parts)],
       f <- map frame (Frame.planned p)
   ]

@@ -25,14 +25,14 @@ import Toolpath.Toolpath (Block (..), Toolpath (blocks))
 
 spec :: Spec
 spec = do
-  describe "a machine whose feeds are steps of the leading axis" $ do
+  describe "a machine whose feed codes are frequencies of the leading axis" $ do
     it
-      "begins the shaft of its book as printed (catches feeds along the path, and commands behind \
+      "begins the shaft of its manual as printed (catches feeds along the path, and commands after \
       \the move)"
-      $ fmap (map brief . Frame.planned) (Made.program kontur shaft)
+      $ fmap (map brief . Frame.planned) (Made.program kontur shaftPath)
         `shouldBe` Just [((0, -6000), 27, [("spindle", 10)]), ((-4200, 0), 32, [])]
     it
-      "gets within a step of the feed asked, whatever the direction (catches the length and the \
+      "gets within a step of the feed asked for, in every direction (catches the length and the \
       \leading axis exchanged)"
       $ property $
         forAll ((,,) <$> choose (-80, 80) <*> choose (-80, 80) <*> choose (9, 500)) $ \(x, y, v) ->
@@ -40,7 +40,7 @@ spec = do
             > 1
               ==> case Made.program
                 kontur
-                (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point x y)]) of
+                (Made.pathAlong (At (here v)) [Straight (Vec.point 0 0) (Vec.point x y)]) of
                 Nothing -> counterexample "no frames" False
                 Just p ->
                   conjoin
@@ -49,11 +49,11 @@ spec = do
                         let g = obtained f
                     ]
     it
-      "changes its codes along an arc, and warns once, with all that it gets (catches a warning \
-      \for each chord)"
+      "changes its codes along an arc, and gives one warning with the range obtained (catches a \
+      \warning for each chord)"
       $ do
         let made =
-              Made.made
+              Made.quantised
                 kontur
                 ( Made.pathOf
                     "part p\ntool mill(diameter 6 mm)\nfeed 53.6 mm/min\ntolerance 0.02 mm\nfrom \
@@ -61,6 +61,10 @@ spec = do
                     \outside { }\n"
                 )
             codesOf p = [c | f <- framesOf p, let FeedCode c = speed f]
+            ranges =
+              [ (v, low < 0.9 * v, v < high)
+                | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made
+              ]
         length
           ( foldr
               (\c cs -> if c `elem` cs then cs else c : cs)
@@ -68,28 +72,27 @@ spec = do
               (maybe [] codesOf (Result.output made))
           )
           `shouldSatisfy` (> 1)
-        [(v, low < 0.9 * v, v < high) | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made]
-          `shouldBe` [(53.6, True, True)]
+        ranges `shouldBe` [(53.6, True, True)]
     it
-      "refuses a feed that its steps do not reach, with both ranges (catches the nearest step for \
-      \any feed)"
+      "refuses a feed outside of its frequencies, and reports both ranges (catches the nearest \
+      \code for any feed)"
       $ [ (needed, low, slow)
           | FrequencyOutOfRange _ _ needed (low, Feed slow) _ <-
               Result.errors
-                ( Made.made
+                ( Made.quantised
                     kontur
-                    (Made.along (At (here 5)) [Straight (Vec.point 0 0) (Vec.point 10 0)])
+                    (Made.pathAlong (At (here 5)) [Straight (Vec.point 0 0) (Vec.point 10 0)])
                 )
         ]
         `shouldBe` [(5 / 60 / 0.01, 10, 6)]
-  describe "a machine whose feeds are those along the path" $ do
-    it "gives what its code says (catches a frame's own length in it)" $
+  describe "a machine whose feed codes are feeds along the path" $ do
+    it "runs at the feed of its code (catches a feed that depends on the length of the frame)" $
       property $
         forAll (elements (map Machines.named ["lkp-01f", "lki-u", "n55"])) $ \m ->
           forAll (choose (20, 200)) $ \v ->
             case Made.program
               m
-              (Made.along (At (here v)) [Straight (Vec.point 0 0) (Vec.point 300 50)]) of
+              (Made.pathAlong (At (here v)) [Straight (Vec.point 0 0) (Vec.point 300 50)]) of
               Nothing -> counterexample "no frames" False
               Just p ->
                 conjoin
@@ -97,13 +100,13 @@ spec = do
                       === fmap Feed (Machine.valueOf m (speed f))
                     | f <- take 1 (framesOf p)
                   ]
-    it "refuses a feed outside its codes, once" $
+    it "refuses a feed outside of its codes with one report" $
       [ (v, low, high)
         | FeedOutOfRange _ (Feed v) (Feed low) (Feed high) <-
             Result.errors
-              ( Made.made
+              ( Made.quantised
                   (Machines.named "lkp-01f")
-                  ( Made.along
+                  ( Made.pathAlong
                       (At (here 300))
                       (replicate 3 (Straight (Vec.point 0 0) (Vec.point 1 0)))
                   )
@@ -111,12 +114,12 @@ spec = do
       ]
         `shouldBe` [(300, 15, 240)]
   describe "rapid moves" $
-    it "are a motion of their own where there is one, else at the code for them" $
+    it "have a motion of their own where there is one, else the code for rapid moves" $
       [ fmap
           (map (\f -> (motion f, speed f)) . filter Frame.isMoving . framesOf)
           ( Made.program
               (Machines.named m)
-              (Made.along Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])
+              (Made.pathAlong Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])
           )
         | m <- ["n55", "kontur-3p", "lkp-01f"]
       ]
@@ -153,13 +156,13 @@ kontur :: Machine
 kontur = Machine.forTurning (Machines.named "kontur-3p")
 
 -- | The first moves of the shaft.
-shaft :: Toolpath
-shaft =
+shaftPath :: Toolpath
+shaftPath =
   toward
     { blocks =
         Commanding (Located (Region 0 0) (Part.SpindleOn Part.Clockwise (Just 500))) :
         blocks toward
-          <> blocks (Made.along (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])
+          <> blocks (Made.pathAlong (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])
     }
   where
-    toward = Made.along Rapid [Straight (Vec.point 2 110) (Vec.point 2 50)]
+    toward = Made.pathAlong Rapid [Straight (Vec.point 2 110) (Vec.point 2 50)]

@@ -34,8 +34,8 @@ spec :: Spec
 spec = do
   describe "chords" $ do
     it
-      "stay within the sagitta of their arc, both ways (catches the radius of the part in the \
-      \step's formula)"
+      "stay within the sagitta of their arc in both directions (catches the radius of the part in \
+      \the step's formula)"
       $ property $
         forAll ((,) <$> arc <*> sagitta) $ \(a, y) ->
           let chords = chordsOf y a
@@ -50,7 +50,7 @@ spec = do
                 (show (map furthest chords))
                 (all ((<= y + 1e-9) . furthest) chords && null missed)
     it
-      "are as few as the sagitta allows, within a quarter turn each and no shorter than a pulse \
+      "are as few as the sagitta allows, up to a quarter turn each and no shorter than a pulse \
       \(catches a wasteful step)"
       $ property $
         forAll ((,) <$> arc <*> sagitta) $ \(a, y) ->
@@ -108,19 +108,20 @@ spec = do
             (Rad 0.7982)
         )
         `shouldBe` 9
-    it "are no shorter for a tolerance of nothing than rounding asks (catches chords of a pulse)" $
+    it "are no shorter for a tolerance of 0 than rounding requires (catches chords of one pulse)" $
       do
-        let round' = Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
+        let quarterArc =
+              Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
             quarter =
               fmap
                 (length . Frame.planned)
                 ( Made.program
                     lkp01f
-                    (Made.along (Part.At (Located (Region 0 0) (Feed 60))) [round'])
+                    (Made.pathAlong (Part.At (Located (Region 0 0) (Feed 60))) [quarterArc])
                 )
         quarter `shouldSatisfy` maybe False (< 60)
   describe "tapes" $
-    it "are proven whatever the tolerance (catches what comes to the tolerance and a pulse)" $
+    it "are proven for every tolerance (catches an error beyond the tolerance and a pulse)" $
       property $
         forAllBlind machine $ \m ->
           forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c -> forAll accuracy $ \a ->
@@ -141,13 +142,13 @@ spec = do
     it "of a closed contour add to zero (catches rounded increments instead of rounded positions)" $
       property $
         forAllBlind machine $ \m ->
-          forAll Generate.closedCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \_ program ->
+          forAll Generate.closedCase $ \c -> onPath m (Generate.milled (Mm 0.02) c) $ \_ program ->
             sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
               === 0
-    it "lead to within half a pulse of every node (catches rounding that adds up)" $
+    it "lead to within half a pulse of every node (catches rounding errors that add up)" $
       property $
         forAllBlind machine $ \m ->
-          forAll Generate.openCase $ \c -> with m (Generate.milled (Mm 0.02) c) $ \path program ->
+          forAll Generate.openCase $ \c -> onPath m (Generate.milled (Mm 0.02) c) $ \path program ->
             let positions =
                   map
                     (Frame.position m)
@@ -156,11 +157,11 @@ spec = do
                         (Frame.start program)
                         (map (increment . frame) (Frame.planned program))
                     )
-                Mm grain = Machine.pulse m
-                off n =
+                Mm pulse = Machine.pulse m
+                distanceTo n =
                   minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
              in conjoin
-                  [ counterexample (show (n, off n)) (off n <= grain / 2 + 1e-9)
+                  [ counterexample (show (n, distanceTo n)) (distanceTo n <= pulse / 2 + 1e-9)
                     | n <- Made.nodesOf path
                   ]
     it "keep the machine's invariants (catches a move that does not fit its field)" $
@@ -174,8 +175,7 @@ spec = do
                     (length frames <= 1 + ceiling (max (abs x) (abs y) / 199.98 :: Double))
   describe "frames" $ do
     it
-      "keep the machine's invariants on every machine (catches a frame that its machine cannot be \
-      \told)"
+      "keep the machine's invariants on every machine (catches a frame that its machine cannot run)"
       $ property $
         forAllBlind machine $ \m ->
           forAll anyCase $ \c ->
@@ -189,37 +189,41 @@ spec = do
                 ) of
                 Nothing -> property Discard
                 Just path ->
-                  with m (Just path) $ \_ program ->
+                  onPath m (Just path) $ \_ program ->
                     Frame.invariants m (map frame (Frame.planned program)) === []
     it
-      "stay within the tolerance and a pulse of the path, and pass all of it (catches a chord on \
-      \the wrong side, a lost piece)"
+      "stay within the tolerance and a pulse of the toolpath, along all of it (catches a chord on \
+      \the wrong side, a lost part)"
       $ property $
         forAllBlind machine $ \m ->
           forAll anyCase $ \c ->
             forAll
               ( elements
                   [ y
-                    | let Mm grain = Machine.pulse m,
+                    | let Mm pulse = Machine.pulse m,
                       y <- [0.005, 0.02, 0.1],
-                      y + grain < Generate.radiusOf c
+                      y + pulse < Generate.radiusOf c
                   ]
               )
               $ \y ->
-                with m (Generate.milled (Mm y) c) $ \path program ->
+                onPath m (Generate.milled (Mm y) c) $ \path program ->
                   let exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
-                      walk = filter (\s -> Segment.length s > Mm 0) (Made.walked m program)
-                      Mm grain = Machine.pulse m
-                   in counterexample (show (Made.worstOff exact walk, Made.worstOff walk exact)) $
-                        Made.worstOff exact walk
-                          <= y + grain .&&. Made.worstOff walk exact
-                          <= y + grain
-    it "of a machine without an axis are refused there (catches a division by its digits)" $
-      [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]]
+                      actual = filter (\s -> Segment.length s > Mm 0) (Made.frameSegments m program)
+                      Mm pulse = Machine.pulse m
+                   in counterexample
+                        ( show
+                            (Made.largestDistance exact actual, Made.largestDistance actual exact)
+                        )
+                        $ Made.largestDistance exact actual
+                          <= y + pulse .&&. Made.largestDistance actual exact
+                          <= y + pulse
+    it
+      "along an axis that the machine does not have are refused (catches a division by its digits)"
+      $ [errorsOn (Machines.named m) upAndDown | m <- ["kontur-2p", "kontur-3p"]]
         `shouldBe` [["E0507"], []]
     it "beyond the field of a position are refused (catches a position cut off to its digits)" $
       errorsOn short (Generate.straightPath 150 0) `shouldBe` ["E0508"]
-    it "of more contours than there may be are refused (catches a limit that nobody reads)" $
+    it "of too many contours are refused (catches a limit that is ignored)" $
       [errorsOn (Machines.named "lki-u") (contoursOf n) | n <- [30, 31]] `shouldBe` [[], ["E0506"]]
   where
     anyCase = oneof [Generate.openCase, Generate.closedCase, Generate.smoothCase]
@@ -273,17 +277,22 @@ contoursOf n =
 
 errorsOn :: Machine -> Toolpath -> [Text]
 errorsOn m path =
-  [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.made m path))]
+  [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.quantised m path))]
 
 machine :: Gen Machine
 machine = elements Machines.known
 
 -- | A law of the frames of a path on a machine.
-with :: Testable t => Machine -> Maybe Toolpath -> (Toolpath -> Frame.FrameProgram -> t) -> Property
-with m found law = counterexample (show (Machine.name m)) $ case found of
+onPath ::
+  Testable t =>
+  Machine ->
+  Maybe Toolpath ->
+  (Toolpath -> Frame.FrameProgram -> t) ->
+  Property
+onPath m found law = counterexample (show (Machine.name m)) $ case found of
   Nothing -> counterexample "no path" False
   Just path -> case Made.program m path of
-    Nothing -> counterexample ("no frames: " <> show (Result.errors (Made.made m path))) False
+    Nothing -> counterexample ("no frames: " <> show (Result.errors (Made.quantised m path))) False
     Just program -> property (law path program)
 
 lkp01f :: Machine

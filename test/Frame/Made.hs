@@ -1,13 +1,13 @@
 -- | Frames for the laws: programs compiled as far as the path, and what the frames walk.
 module Frame.Made
   ( pathOf,
-    along,
-    made,
+    pathAlong,
+    quantised,
     program,
-    walked,
-    arcsIn,
-    roundly,
-    worstOff,
+    frameSegments,
+    arcCount,
+    isArc,
+    largestDistance,
     nodesOf,
   )
 where
@@ -49,8 +49,8 @@ pathOf text = need "path" (Toolpath.lay part)
     need what = fromMaybe (error ("the program of the test has no " <> what)) . Result.output
 
 -- | A path without cutting along segments that follow one another, at one height.
-along :: Pace -> [Segment] -> Toolpath
-along pace segments = case segments of
+pathAlong :: Pace -> [Segment] -> Toolpath
+pathAlong pace segments = case segments of
   [] -> error "a path of nothing"
   s : _ ->
     Toolpath
@@ -63,30 +63,30 @@ along pace segments = case segments of
   where
     nowhere = Region 0 0
 
-made :: Machine -> Toolpath -> Result Warning Error FrameProgram
-made = FromToolpath.quantise
+quantised :: Machine -> Toolpath -> Result Warning Error FrameProgram
+quantised = FromToolpath.quantise
 
 program :: Machine -> Toolpath -> Maybe FrameProgram
-program machine = Result.settled . made machine
+program machine = Result.settled . quantised machine
 
 -- | What each frame does in the plane.
-walked :: Machine -> FrameProgram -> [Segment]
-walked machine p =
+frameSegments :: Machine -> FrameProgram -> [Segment]
+frameSegments machine p =
   zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
   where
     frames = map frame (planned p)
 
-roundly :: Frame -> Bool
-roundly f = case motion f of
+isArc :: Frame -> Bool
+isArc f = case motion f of
   Frame.Round _ -> True
   _ -> False
 
-arcsIn :: FrameProgram -> Int
-arcsIn = length . filter (roundly . frame) . planned
+arcCount :: FrameProgram -> Int
+arcCount = length . filter (isArc . frame) . planned
 
 -- | How far the points of some segments are from others: in 24ths, or fewer where there are many.
-worstOff :: [Segment] -> [Segment] -> Double
-worstOff those these =
+largestDistance :: [Segment] -> [Segment] -> Double
+largestDistance those these =
   maximum
     ( 0 :
         [ minimum [d | s <- those, let Mm d = Distance.toPoint p s]

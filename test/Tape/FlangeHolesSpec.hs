@@ -23,8 +23,8 @@ import Test.Hspec
 spec :: Spec
 spec = describe "docs/machines.md" $
   it
-    "says which share of single holes reading finds, for the flange on every machine (catches a \
-    \code that finds less)"
+    "states the share of single wrong holes that reading finds, for the flange on every machine \
+    \(catches a code that finds less)"
     $ do
       let rows = map row Machines.known
       page <- Text.lines <$> readText file

@@ -21,20 +21,20 @@ share machine start frames =
   Share
     { tried = length results,
       found = length [() | (_, Left _) <- results],
-      unseen = [place | (place, Right fs) <- results, fs /= frames]
+      unseen = [position | (position, Right fs) <- results, fs /= frames]
     }
   where
     results =
-      [ (place, Punch.read machine start t)
-        | (place, t) <- changes machine (Punch.write machine start frames)
+      [ (position, Punch.read machine start t)
+        | (position, t) <- changes machine (Punch.write machine start frames)
       ]
 
 -- | Every tape that differs in one hole on one of its tracks, with its row from 1 and the track.
 changes :: Machine -> Tape -> [((Int, Int), Tape)]
 changes machine (Tape rows) =
-  [ ((k + 1, track), Tape (before <> ByteString.cons (complementBit w (track - 1)) behind))
+  [ ((k + 1, track), Tape (before <> ByteString.cons (complementBit w (track - 1)) after))
     | k <- [0 .. ByteString.length rows - 1],
       let (before, rest) = ByteString.splitAt k rows,
-      Just (w, behind) <- [ByteString.uncons rest],
+      Just (w, after) <- [ByteString.uncons rest],
       track <- [1 .. Machine.tracks (Machine.medium machine)]
   ]

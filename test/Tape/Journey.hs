@@ -34,10 +34,13 @@ journey machine =
   filter
     (null . Frame.invariants machine . pure)
     ( concat
-        [commands, concat (zipWith3 leg feeds braked ways), [Frame.still o | o <- take 1 singles]]
+        [ commands,
+          concat (zipWith3 framesAlong feeds slowFlags increments),
+          [Frame.still o | o <- take 1 commandFrames]
+        ]
     )
   where
-    ways =
+    increments =
       [ (1200, -340),
         (2075, 0),
         (0, 3100),
@@ -51,8 +54,8 @@ journey machine =
       ]
     feeds = cycle (twice (feedCodes machine))
     twice cs = concat [[c, c] | c <- cs]
-    braked = cycle [False, False, True]
-    singles = [[(o, v)] | o <- orderNames, v <- [1, 3], Machine.canOrder machine o v]
+    slowFlags = cycle [False, False, True]
+    commandFrames = [[(o, v)] | o <- orderNames, v <- [1, 3], Machine.canOrder machine o v]
     orderNames =
       [ o
         | w <- Machine.wordsOf machine,
@@ -60,28 +63,28 @@ journey machine =
             [o | Command o <- [Machine.content w]]
               <> take 1 [o | OrderBit o _ <- Machine.service (Machine.form w)]
       ]
-    commands = map Frame.still singles
-    leg code slow (x, y) =
+    commands = map Frame.still commandFrames
+    framesAlong code slow (x, y) =
       [rapid x y | Machine.hasRapidMotion machine, x > 1000]
         <> [ Frame
                { motion = Straightway,
                  increment = Pulses3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0),
                  centre = 0,
                  speed = code,
-                 braking = slow && holed,
-                 orders = if y == 0 then concat (take 1 singles) else []
+                 braking = slow && hasBrakingHole,
+                 orders = if y == 0 then concat (take 1 commandFrames) else []
                }
            ]
         <> [ Frame
-               { motion = Round turn,
+               { motion = Round sense,
                  increment = Pulses3 (Pulses x) (Pulses y) 0,
                  centre = c,
                  speed = code,
-                 braking = slow && holed,
+                 braking = slow && hasBrakingHole,
                  orders = []
                }
              | Machine.arcs machine /= NoArcs,
-               (turn, c) <- arcs x y
+               (sense, c) <- arcs x y
            ]
     rapid x y =
       Frame
@@ -93,10 +96,10 @@ journey machine =
           orders = []
         }
     arcs x y =
-      [(turn, Pulses2 (Pulses x) 0) | abs x == abs y, turn <- [Clockwise, CounterClockwise]]
+      [(sense, Pulses2 (Pulses x) 0) | abs x == abs y, sense <- [Clockwise, CounterClockwise]]
         <> [(Clockwise, Pulses2 (Pulses x) 0) | x > 0, y > 0]
         <> [(CounterClockwise, Pulses2 0 (Pulses y)) | x < 0, y < 0]
-    holed =
+    hasBrakingHole =
       or [s == BrakingHole | w <- Machine.wordsOf machine, s <- Machine.service (Machine.form w)]
     hasZ = Machine.capacity machine Z > 0
 

@@ -49,42 +49,49 @@ import Test.QuickCheck hiding (label)
 
 spec :: Spec
 spec = do
-  describe "random machines" randomMachines
-  describe "the machines' pages" pages
+  describe "random machines" randomMachineLaws
+  describe "the codes of the machines" knownTapes
   describe "one hole changed" oneHole
   describe "damage" damage
 
-randomMachines :: Spec
-randomMachines = do
+randomMachineLaws :: Spec
+randomMachineLaws = do
   it
     "a tape that was punched is read as its own frames or refused (catches a machine whose frames \
-    \may be read in two ways)"
+    \can be read in two ways)"
     $ do
       machine <- machineOf "test/machines/two-readings.machine"
-      let own fs =
+      let readAgain fs =
             either
               (Left . Punch.reason)
               Right
               (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
-      own [along 1000 0, along 2000 1000] `shouldBe` Right [along 1000 0, along 2000 1000]
-      own [along 1000 0, along 2000 0, along 0 1000] `shouldBe` Left Punch.Misread
+      readAgain [straightAt60 1000 0, straightAt60 2000 1000]
+        `shouldBe` Right [straightAt60 1000 0, straightAt60 2000 1000]
+      readAgain [straightAt60 1000 0, straightAt60 2000 0, straightAt60 0 1000]
+        `shouldBe` Left Punch.Misread
   it
-    "frames may end with a word that mostly is left out (catches a frame that is taken for \
-    \finished before it)"
+    "frames may end with a word that is usually left out (catches a frame that ends before this \
+    \word)"
     $ do
       machine <- machineOf "test/machines/no-end.machine"
-      let fs = [along 1000 0, (along 0 1000) {orders = [(CommandName "M", 8)]}, along 1000 1000]
+      let fs =
+            [ straightAt60 1000 0,
+              (straightAt60 0 1000) {orders = [(CommandName "M", 8)]},
+              straightAt60 1000 1000
+            ]
       Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
   it
-    "decode after encode gives the frames (catches a word that writer and reader see differently)"
+    "decode after encode gives the frames (catches a word that writer and reader interpret \
+    \differently)"
     $ checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      covered m fs (Punch.read m at (Punch.write m at fs) === Right fs)
+      withCoverage m fs (Punch.read m at (Punch.write m at fs) === Right fs)
   it
-    "a tape is read back as it is read, whatever frames should stand on it (catches frames that \
-    \are taken for those on the tape)"
+    "a tape is read in the same way whatever frames are expected on it (catches expected frames \
+    \that are taken for those on the tape)"
     $ checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
-        forAll (wantedFor fs) $ \wanted ->
+        forAll (expectedFor fs) $ \expected ->
           forAll (oneof [pure Nothing, Just <$> ((,) <$> choose (1, 200) <*> arbitrary)]) $
             \change ->
               let t =
@@ -95,15 +102,15 @@ randomMachines = do
                           change
                           (rowsOf (Punch.write m at fs))
                       )
-               in cover 20 (Punch.read m at t == Right wanted) "just these" $
-                    cover 20 (Punch.read m at t /= Right wanted) "others" $
-                      Punch.readBack m at wanted t === Punch.read m at t
+               in cover 20 (Punch.read m at t == Right expected) "just these" $
+                    cover 20 (Punch.read m at t /= Right expected) "others" $
+                      Punch.readBack m at expected t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       ByteString.pack (map RowMeaning.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
   it
-    "one row changed is refused or gives frames that are written just so (catches a reader that \
-    \guesses)"
+    "one changed row is refused or gives frames that are written with these rows (catches a reader \
+    \that guesses)"
     $ withMaxSuccess 5000 . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
         let rows = rowsOf (Punch.write m at fs)
@@ -116,53 +123,56 @@ randomMachines = do
                           counterexample
                             (show d)
                             (1 <= Punch.row d && Punch.row d <= ByteString.length rows)
-                        Right fs' -> spared m (rowsOf (Punch.write m at fs')) === spared m rows'
+                        Right fs' ->
+                          withoutSkippedRows m (rowsOf (Punch.write m at fs'))
+                            === withoutSkippedRows m rows'
   it
-    "frames that go straight are read in one go as they are word by word (catches a shortcut that \
-    \reads something else)"
+    "simple frames are read in one go as they are word by word (catches a shortcut with another \
+    \result)"
     $ checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
         forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
-          let plan = Layout.fromMachine m
-              states = scanl (Layout.after plan) (ModalState.initial (ModalState.changesHeight fs) at) fs
-              rowsFor state f = map Layout.holes (FrameWriter.frameRows plan state f)
+          let layout = Layout.fromMachine m
+              states =
+                scanl (Layout.after layout) (ModalState.initial (ModalState.changesHeight fs) at) fs
+              rowsFor state f = map Layout.holes (FrameWriter.frameRows layout state f)
               readBoth state rows =
-                ( FastFrameReader.readFrame plan state (Short.pack rows) 0,
-                  FrameReader.wordByWord plan state (Short.pack rows) 0
+                ( FastFrameReader.readFrame layout state (Short.pack rows) 0,
+                  FrameReader.wordByWord layout state (Short.pack rows) 0
                 )
               isRead state f = case readBoth state (rowsFor state f) of
                 (FastFrameReader.Read g end, slowly) ->
-                  Layout.isPlain plan && slowly == Right (g, end) && g == f
+                  Layout.isPlain layout && slowly == Right (g, end) && g == f
                 (FastFrameReader.NotSimple, _) ->
-                  not (Layout.isPlain plan && ModalState.isSimple f && Frame.isMoving f)
+                  not (Layout.isPlain layout && ModalState.isSimple f && Frame.isMoving f)
               isSame state rows = case readBoth state rows of
                 (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
                 (FastFrameReader.NotSimple, _) -> True
               changedRow rows = take k rows <> [w] <> drop (k + 1) rows
               -- As if nothing had been said before.
-              unsaid state =
+              unwritten state =
                 (ModalState.initial (ModalState.changesHeight fs) (ModalState.position state))
                   { ModalState.ordinal =
                       ModalState.ordinal state
                   }
            in cover
                 20
-                (Layout.isPlain plan && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs)
+                (Layout.isPlain layout && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs)
                 "frames that go straight"
                 $ conjoin
                   [ counterexample
                       (show f)
                       ( isRead state f
                           && isSame state (changedRow (rowsFor state f))
-                          && isSame state (rowsFor (unsaid state) f)
+                          && isSame state (rowsFor (unwritten state) f)
                       )
                     | (state, f) <- zip states fs
                   ]
   it
-    "an axis that points the other way turns its numbers and the arcs about (catches a sign that \
-    \is forgotten)"
+    "an axis in the opposite direction negates its numbers and reverses the arcs (catches a sign \
+    \that is forgotten)"
     $ forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
-      let turned =
+      let reversedX =
             m
               { Machine.axes =
                   fmap
@@ -170,16 +180,17 @@ randomMachines = do
                     (Machine.axes m)
               }
        in isJust (Machine.axisForm m Machine.X)
-            ==> Punch.write turned (mirroredPlace at) (map mirroredFrame fs) === Punch.write m at fs
+            ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
+              === Punch.write m at fs
 
 -- | Blank and erased rows, where the reader passes over them, do not count.
-spared :: Machine -> ByteString -> ByteString
-spared m rows = case Machine.spare (Machine.medium m) of
+withoutSkippedRows :: Machine -> ByteString -> ByteString
+withoutSkippedRows m rows = case Machine.spare (Machine.medium m) of
   Counted -> rows
   Skipped -> ByteString.filter (`notElem` (0 : Machine.skips (Machine.code m))) rows
 
-covered :: Testable p => Machine -> [Frame] -> p -> Property
-covered m fs =
+withCoverage :: Testable p => Machine -> [Frame] -> p -> Property
+withCoverage m fs =
   cover 20 (Machine.measure (Machine.layout m) == Positions) "positions"
     . cover 20 (Machine.measure (Machine.layout m) == Increments) "increments"
     . cover 20 (any reversed (NonEmpty.toList (Machine.axes m))) "reversed axes"
@@ -198,19 +209,19 @@ covered m fs =
     . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
     . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "feeds said once"
 
-mirroredPlace :: Pulses3 -> Pulses3
-mirroredPlace (Pulses3 x y z) = Pulses3 (negate x) y z
+mirroredPosition :: Pulses3 -> Pulses3
+mirroredPosition (Pulses3 x y z) = Pulses3 (negate x) y z
 
 mirroredFrame :: Frame -> Frame
 mirroredFrame f =
   f
-    { increment = mirroredPlace (increment f),
+    { increment = mirroredPosition (increment f),
       centre = Pulses2 (negate i) j,
-      motion = turnedBack (motion f)
+      motion = reversedMotion (motion f)
     }
   where
     Pulses2 i j = centre f
-    turnedBack m = case m of
+    reversedMotion m = case m of
       Round Clockwise -> Round CounterClockwise
       Round CounterClockwise -> Round Clockwise
       Still -> Still
@@ -218,15 +229,16 @@ mirroredFrame f =
       Straightway -> Straightway
 
 -- | A straight frame of a feed of 60.
-along :: Pulses -> Pulses -> Frame
-along x y = (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
+straightAt60 :: Pulses -> Pulses -> Frame
+straightAt60 x y =
+  (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
 
 machineOf :: FilePath -> IO Machine
 machineOf file =
   readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
 
-pages :: Spec
-pages = do
+knownTapes :: Spec
+knownTapes = do
   it "5121: four digits, four, three and one, signs and commands in the service track" $
     written lkp01f [straight (-1234) 56 (-7) 5 [(CommandName "aux", 5)]]
       `shouldBe` blank 25
@@ -236,10 +248,10 @@ pages = do
         <> [0x18]
         <> blank 3
         <> blank 25
-  it "5121: two blank rows stand before every even frame" $
+  it "5121: two blank rows before every even frame" $
     [k | (k, 0x11) <- zip [0 :: Int ..] (written lkp01f (replicate 3 (straight 1 0 0 1 [])))]
       `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
-  it "a marker, the kind, increments, centre, feed with the braking hole, check digit" $
+  it "a marker, the motion, increments, centre, feed with the braking hole, check digit" $
     written lkiU [(straight 12 0 (-3) 40 []) {Frame.braking = True}]
       `shouldBe` blank 25
         <> [0x1F, 1]
@@ -251,7 +263,7 @@ pages = do
         <> [0xF]
         <> blank 3
         <> blank 25
-  it "БЦК-5: the frame that is printed" $
+  it "БЦК-5: the frame that is printed in the source" $
     take
       14
       ( drop
@@ -262,7 +274,7 @@ pages = do
   it "ISO-7bit: X has holes 4 5 7 8, 3 has 1 2 5 6, + has 1 2 4 6" $
     [w | w <- written n55 [straight 3 0 0 60 []], w `elem` [0xD8, 0x33, 0x2B]]
       `shouldBe` [0xD8, 0x2B, 0x33]
-  it "a text: positions in mm, each when it changes or was not said yet" $
+  it "a text: positions in mm, each when it changes or was not written yet" $
     text
       iso6983
       (Pulses3 100 200 300)
@@ -284,8 +296,8 @@ pages = do
     Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
 
 -- | Frames that may be taken for some.
-wantedFor :: [Frame] -> Gen [Frame]
-wantedFor fs = do
+expectedFor :: [Frame] -> Gen [Frame]
+expectedFor fs = do
   k <- choose (0, length fs)
   elements
     [ fs,
@@ -302,8 +314,8 @@ wantedFor fs = do
 oneHole :: Spec
 oneHole = do
   it
-    "is refused or gives frames that are written just so, on every machine (catches a reader that \
-    \guesses)"
+    "is refused or gives frames that are written with this hole, on every machine (catches a \
+    \reader that guesses)"
     $ [ (Machine.name m, place)
         | m <- machines,
           (place, t) <- Holes.changes m (tapeOf m),
@@ -313,7 +325,7 @@ oneHole = do
       `shouldBe` []
   it
     "is refused wherever it is, by check digits with weights and by parity (catches two digits \
-    \that count the same)"
+    \with the same weight)"
     $ [ (Machine.name m, Holes.unseen s)
         | m <- [kontur2p, kontur3p, n55],
           let s = Holes.share m start (journey m),
@@ -321,8 +333,8 @@ oneHole = do
       ]
       `shouldBe` []
   it
-    "is refused on a tape with check digits, but for signs and marks in the service track (catches \
-    \a check digit that is not looked at)"
+    "is refused on a tape with check digits, except in the service track (catches a check digit \
+    \that is ignored)"
     $ [ (Machine.name m, row, track)
         | m <- [lkiU, lkiUn],
           (row, track) <- Holes.unseen (Holes.share m start (journey m)),
@@ -330,7 +342,7 @@ oneHole = do
       ]
       `shouldBe` []
   it
-    "is blamed on its frame, or on the next one where that depends on it (catches rows that are \
+    "is reported in its frame, or in the next one where that depends on it (catches rows that are \
     \counted wrong)"
     $ [ (Machine.name m, place, d)
         | m <- machines,
@@ -355,8 +367,8 @@ frameAt frames row = case drop (row - 1) frames of
 damage :: Spec
 damage = do
   it
-    "of 5121: a lost marker, a hole in a gap, a digit that is none, a foreign track, minus zero, \
-    \an unknown speed"
+    "of 5121: a lost marker, a hole in a gap, a wrong digit, a foreign track, minus zero, an \
+    \unknown feed code"
     $ do
       let at = reasonAt lkp01f [straight 10 0 0 5 [], straight 1 2 3 5 []]
       at 37 (const 0x08) `shouldBe` Just MarkerMissing
@@ -369,30 +381,34 @@ damage = do
       at 37 (const 0x10) `shouldBe` Just MotionWithoutFeed
       at 28 (const 0) `shouldBe` Nothing
       at 3 (const 1) `shouldBe` Just (LeaderNotBlank 25)
-  it "of a lettered frame: its sum, its priority, its order" $ do
+  it "of a frame with letters: its sum, its priority, its order" $ do
     let at = reasonAt kontur3p [straight 0 6000 0 27 []]
     at 26 (const 0) `shouldBe` Just (WrongSum 27 10)
     at 28 (const 6) `shouldBe` Just (WrongSum 31 10)
     faultOf kontur3p (blank 25 <> [4, 18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (WrongSum 27 10)
-    faultOf kontur3p (blank 25 <> lettered [18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
+    faultOf kontur3p (blank 25 <> withCheckDigit [18, 1, 6, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (WrongPriority 1 5)
-    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16])
+    faultOf
+      kontur3p
+      (blank 25 <> withCheckDigit [18, 5, 6, 0, 0, 0, 17, 2, 1, 0, 0, 0, 21, 2, 7, 16])
       `shouldBe` Just (UnexpectedWord 'Е')
-    faultOf kontur3p (blank 25 <> lettered [18, 5, 6, 0, 0, 0, 16]) `shouldBe` Just MotionWithoutFeed
-    faultOf kontur3p (blank 25 <> lettered [16]) `shouldBe` Just NoContent
-  it "of lines: a feed said twice, a frame number, an unknown motion, parity, a missing sign" $ do
-    faultLine "N001X+000001F0060" `shouldBe` Just IncrementWithoutMotion
-    faultLine "N002G01X+000001F0060" `shouldBe` Just (WrongNumber 2 1)
-    faultLine "N001G04X+000001F0060" `shouldBe` Just (UnknownMotion 4)
-    faultLine "N001G01X+000001" `shouldBe` Just MotionWithoutFeed
-    faultLine "N001G01X000001F0060" `shouldBe` Just NoSign
-    faultLine "N001G01X-000000Y+000001F0060" `shouldBe` Just MinusZero
-    faultLine "N001G01Y+000001X+000001F0060" `shouldBe` Just (UnexpectedWord 'X')
-    faultLine "N001G01X+000001F0060\nN002G01X+000001F0060" `shouldBe` Just (FeedRepeated 60)
-    faultLine "N001" `shouldBe` Just NoContent
-    reasonAt n55 [straight 1 0 0 60 []] 30 (const 0x31) `shouldBe` Just BadParity
-  it "of the end: a torn tape, a trailer of another length, a text without its end" $ do
+    faultOf kontur3p (blank 25 <> withCheckDigit [18, 5, 6, 0, 0, 0, 16])
+      `shouldBe` Just MotionWithoutFeed
+    faultOf kontur3p (blank 25 <> withCheckDigit [16]) `shouldBe` Just NoContent
+  it "of a text: a feed written twice, a frame number, an unknown motion, parity, a missing sign" $
+    do
+      faultLine "N001X+000001F0060" `shouldBe` Just IncrementWithoutMotion
+      faultLine "N002G01X+000001F0060" `shouldBe` Just (WrongNumber 2 1)
+      faultLine "N001G04X+000001F0060" `shouldBe` Just (UnknownMotion 4)
+      faultLine "N001G01X+000001" `shouldBe` Just MotionWithoutFeed
+      faultLine "N001G01X000001F0060" `shouldBe` Just NoSign
+      faultLine "N001G01X-000000Y+000001F0060" `shouldBe` Just MinusZero
+      faultLine "N001G01Y+000001X+000001F0060" `shouldBe` Just (UnexpectedWord 'X')
+      faultLine "N001G01X+000001F0060\nN002G01X+000001F0060" `shouldBe` Just (FeedRepeated 60)
+      faultLine "N001" `shouldBe` Just NoContent
+      reasonAt n55 [straight 1 0 0 60 []] 30 (const 0x31) `shouldBe` Just BadParity
+  it "of the end: a torn tape, a trailer of a wrong length, a text without its end" $ do
     let rows = rowsOf (tapeOf lkp01f)
         lines' = rowsOf (tapeOf iso6983)
         reasonOf m = either (Just . Punch.reason) (const Nothing) . Punch.read m start . Tape
@@ -407,24 +423,24 @@ damage = do
       `shouldBe` Just (1, NoFrames 0)
     reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines')
       `shouldBe` Just (MissingClosing "%\n")
-  it "does not lie in blank rows between frames or in erased ones, where they are passed over" $ do
+  it "is not found in blank rows between frames or in erased rows, on media that skip them" $ do
     let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
-        (front, behind) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
+        (front, afterLeader) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
     Punch.read n55 start (Tape (spread n55 0xFF)) `shouldBe` Right (journey n55)
     Punch.read n55 start (Tape (spread n55 0)) `shouldBe` Right (journey n55)
     Punch.read
       lkiU
       start
-      (Tape (front <> ByteString.replicate 7 0 <> behind <> ByteString.replicate 7 0))
+      (Tape (front <> ByteString.replicate 7 0 <> afterLeader <> ByteString.replicate 7 0))
       `shouldBe` Right (journey lkiU)
-  it "is told with its row, its frame and its word" $
+  it "is reported with its row, its frame and its word" $
     Report.title
       (Punch.toReport (Damage 31 (Just 1) (Just (Machine.Along Machine.Y)) (NoDigit 5 2)))
       `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
 
 -- | A frame with a check digit in front and a gap behind.
-lettered :: [Word8] -> [Word8]
-lettered ws =
+withCheckDigit :: [Word8] -> [Word8]
+withCheckDigit ws =
   fromIntegral ((10 - sum (map ((`mod` 16) . fromIntegral) ws :: [Int]) `mod` 10) `mod` 10) : ws
 
 -- | Why a lettered tape is refused that ends with this frame.
