@@ -22,7 +22,8 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
-import Offset.TrimmedOffset (OffsetSegment (..), Origin (..), TrimmedOffset, leftward, numberOf)
+import Offset.SourceOffset (OffsetSegment (..), Origin (..), leftward, numberOf)
+import Offset.TrimmedOffset (TrimmedOffset)
 import Offset.TrimmedOffset qualified as TrimmedOffset
 
 -- | What stays at a place where the cutter is stopped.
