@@ -25,8 +25,8 @@ spec :: Spec
 spec = do
   describe "laws of the equidistant" $ do
     it
-      "distance: every point is at the cutter's radius from the contour (catches an arc whose \
-      \radius changes by the wrong sign)"
+      "distance: every point is at the cutter's radius from the contour (catches an arc that \
+      \runs the other way)"
       $ property $
         forAll Generate.closedCase distanceLaw
     it
