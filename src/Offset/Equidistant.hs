@@ -40,7 +40,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Obstacle (Cause (..), Obstacle (..))
 import Offset.Obstacle qualified as Obstacle
-import Offset.RestMaterial (RestMaterial (..), standings)
+import Offset.RestMaterial (RestMaterial (..), Touching (..))
+import Offset.RestMaterial qualified as RestMaterial
 import Offset.SourceOffset
   ( CornerStyle (..),
     Cuts (..),
@@ -144,11 +145,11 @@ reachable style side radius contour =
     paths = TrimmedOffset.along rolling
     gaps = gapsOf rolling paths
     past = largestPast rolling (map reason gaps)
-    material = standings side contour paths [(before g, after g, at g) | g <- gaps]
+    material = RestMaterial.restMaterials side contour paths (map touching gaps)
     rest k gap =
       UnreachedPart
         { stop = Obstacle {cause = reason gap, largest = past k},
-          middle = at gap,
+          middle = centreAt (touching gap),
           standing = IntMap.findWithDefault Unbounded k material
         }
 
@@ -185,9 +186,8 @@ reachableFitting style side radius contour
       total
         [Segment.length (segment p) | w <- paths, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
 
--- | A gap at which a path leaves out a part of the contour: the reason, the elements or corners
--- that the cutter touches before and after it, and its centre.
-data Gap = Gap {reason :: Cause, before :: Origin, after :: Origin, at :: Point}
+-- | A gap at which a path leaves out a part of the contour: the reason, and the cutter there.
+data Gap = Gap {reason :: Cause, touching :: Touching}
 
 -- | The gaps of paths: where a path changes from one element to another one that does not follow,
 -- or ends before the contour does.
@@ -210,11 +210,12 @@ gapsOf source = concatMap gapsAlong
         first = NonEmpty.head (TrimmedOffset.pieces path)
         final = NonEmpty.last (TrimmedOffset.pieces path)
         (front, back) = (Segment.start (segment first), Segment.end (segment final))
-    stopped o o' p = Gap (Collision (numberOf o) (numberOf o') p) o o' p
+    stopped o o' p = Gap (Collision (numberOf o) (numberOf o') p) (Touching o o' p)
 
 -- | The gap between two consecutive pieces of a path, if there is one.
 gapBetween :: OffsetSource -> OffsetSegment -> OffsetSegment -> [Gap]
-gapBetween source p q = [Gap c (origin p) (origin q) (Segment.end (segment p)) | c <- inTheWay]
+gapBetween source p q =
+  [Gap c (Touching (origin p) (origin q) (Segment.end (segment p))) | c <- inTheWay]
   where
     inTheWay = case (origin p, origin q) of
       (Around i, Along j) | j == next source i -> []
