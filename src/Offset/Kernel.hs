@@ -17,6 +17,7 @@ module Offset.Kernel
     ReachableRegion (..),
     OffsetFault (..),
     offset,
+    rawOffset,
     plain,
   )
 where
@@ -75,25 +76,50 @@ data OffsetFault
 -- | What the cutter's centre can reach beside outlines that are all closed, or one that is open.
 offset :: OffsetRequest -> [FlatPolyarc] -> Either OffsetFault ReachableRegion
 offset task outlines = do
-  wanted <- first bothWays (wantedOf tolerance turn open source sourceBoxes)
+  wanted <- first bothWays (wantedOf (rounding problem) (turn problem) open source sourceBoxes)
   let hopeful = filter (not . hopeless problem chain) [0 .. ClosedPolyarcs.walks chain - 1]
   if length hopeful == ClosedPolyarcs.walks chain
     then reachOf problem wanted raws sourceBoxes
     else reached problem wanted (ClosedPolyarcs.only hopeful chain)
   where
-    open = any ((== Open) . FlatPolyarc.ends) outlines
+    open = isOpen outlines
+    number = numberThere outlines
+    bothWays fault = case fault of
+      Crossed i j -> let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
+      Misplaced -> Misplaced
+      Uncertain -> Uncertain
+    (problem, chain) = problemOf task outlines
+    raws@(_, source) = rawOf problem chain
+    sourceBoxes = SegmentTree.boxes (rounding problem) source
+
+-- | The raw equidistant, before any of it is cut away. An outline may cross itself here.
+rawOffset :: OffsetRequest -> [FlatPolyarc] -> ClosedPolyarcs
+rawOffset task outlines = fst (rawOf problem chain)
+  where
+    (problem, chain) = problemOf task outlines
+
+isOpen :: [FlatPolyarc] -> Bool
+isOpen = any ((== Open) . FlatPolyarc.ends)
+
+-- | The number of a segment on the way there: an open outline is walked there and back.
+numberThere :: [FlatPolyarc] -> Int -> Int
+numberThere outlines
+  | isOpen outlines = \i -> if i >= count then 2 * count - 1 - i else i
+  | otherwise = id
+  where
+    count = sum (map FlatPolyarc.size outlines)
+
+-- | What is asked of all walks, and the walks.
+problemOf :: OffsetRequest -> [FlatPolyarc] -> (Problem, ClosedPolyarcs)
+problemOf task outlines = (problem, chain)
+  where
     turn = turnOf (side task)
     Mm d = distance task
     segmentCount = sum (map FlatPolyarc.size outlines)
     more i = case extra task of
       Nothing -> 0
-      Just f -> let Mm e = f (number i) in e
-    -- An open outline is walked there and back.
-    number i = if open && i >= segmentCount then 2 * segmentCount - 1 - i else i
-    bothWays fault = case fault of
-      Crossed i j -> let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
-      Misplaced -> Misplaced
-      Uncertain -> Uncertain
+      Just f -> let Mm e = f (there i) in e
+    there = numberThere outlines
     largest = case extra task of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
@@ -101,9 +127,7 @@ offset task outlines = do
     chain =
       ClosedPolyarcs.fromOutlines
         tolerance
-        (if open then map ClosedPolyarcs.twoSided outlines else outlines)
-    raws@(_, source) = rawOf problem chain
-    sourceBoxes = SegmentTree.boxes tolerance source
+        (if isOpen outlines then map ClosedPolyarcs.twoSided outlines else outlines)
     problem =
       Problem
         { turn,

@@ -4,6 +4,7 @@
 module Offset.Loop
   ( OffsetLoops (..),
     none,
+    ofRaw,
     count,
     size,
     outline,
@@ -15,6 +16,8 @@ where
 
 import Data.Int (Int32)
 import Data.Primitive.PrimArray
+import Geometry.ClosedPolyarcs (ClosedPolyarcs)
+import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
@@ -38,6 +41,23 @@ none =
     (primArrayFromList [])
     (primArrayFromList [])
     (primArrayFromList [])
+
+-- | The closed polyarcs of a raw offset themselves, without anything cut away.
+ofRaw :: ClosedPolyarcs -> OffsetLoops
+ofRaw c =
+  OffsetLoops
+    { starts = primArrayFromList (scanl (+) 0 (map length walks)),
+      xs = gathered (ClosedPolyarcs.xs c),
+      ys = gathered (ClosedPolyarcs.ys c),
+      bulges = gathered (ClosedPolyarcs.bulges c),
+      raws = primArrayFromList (map fromIntegral (concat walks))
+    }
+  where
+    walks =
+      [ [ClosedPolyarcs.first c w .. ClosedPolyarcs.behind c w - 1]
+        | w <- [0 .. ClosedPolyarcs.walks c - 1]
+      ]
+    gathered a = primArrayFromList (map (indexPrimArray a) (concat walks))
 
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1

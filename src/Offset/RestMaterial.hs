@@ -1,7 +1,13 @@
--- | The material that stays beside a contour where a cutter does not get: its bounds.
+-- | The bounds of the rest material beside a contour: what a cutter cannot reach.
+--
+-- At a gap of a path the cutter leaves the contour, and touches it again farther on. Between both
+-- there is a stretch of the contour that no path touches. Stretches and edges of the cutter in turn
+-- bound the material. They are followed from gap to gap until the boundary closes; where two edges
+-- of the cutter intersect, it changes from one to the other.
 module Offset.RestMaterial
   ( RestMaterial (..),
-    standings,
+    Touching (..),
+    restMaterials,
   )
 where
 
@@ -22,59 +28,61 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
-import Offset.TrimmedOffset (OffsetSegment (..), Origin (..), TrimmedOffset, leftward, numberOf)
+import Offset.SourceOffset (OffsetSegment (..), Origin (..), leftward, numberOf)
+import Offset.TrimmedOffset (TrimmedOffset)
 import Offset.TrimmedOffset qualified as TrimmedOffset
 
--- | What stays at a place where the cutter is stopped.
+-- | The rest material at a gap.
 data RestMaterial
-  = -- | it lies within stretches of the contour and edges of the cutter, the last of which is the
-    -- one at this place
+  = -- | a closed boundary of stretches of the contour and edges of the cutter; the last segment is
+    -- the cutter's edge at this gap
     Within (NonEmpty Segment)
-  | -- | it is the same as at another place, in the middle of which the centre stands there
+  | -- | the same material as at another gap, given by the cutter's centre there
     SameAs Point
-  | -- | its bounds are not told
+  | -- | material whose boundary was not found
     Unbounded
   deriving stock (Eq, Show)
 
--- | What stays where ways are cut, by the numbers of the cuts: what the cutter touches there before
--- and behind, and where its centre is. From where it leaves the contour no way goes along that
--- until the cutter comes back to it, at the same place or, behind a passage, at another one; from
--- there its edge leads to where it leaves the contour there, and so on round the material.
-standings ::
-  Side ->
-  Polyarc ->
-  [TrimmedOffset] ->
-  [(Origin, Origin, Point)] ->
-  IntMap.IntMap RestMaterial
-standings side contour ways cuts =
+-- | The cutter at a gap: the elements or corners that it touches before and after the gap, and its
+-- centre.
+data Touching = Touching {before :: Origin, after :: Origin, centreAt :: Point}
+
+-- | The rest material beside a contour at the gaps of its paths, by the numbers of the gaps from 0.
+-- A gap without an entry has no boundary.
+restMaterials :: Side -> Polyarc -> [TrimmedOffset] -> [Touching] -> IntMap.IntMap RestMaterial
+restMaterials side contour paths gaps =
   IntMap.union
     alone
     ( IntMap.fromList
-        [told | Just bounds <- map goneRound (IntMap.keys open), told <- materials side bounds]
+        [found | Just bounds <- map boundary (IntMap.keys open), found <- materials side bounds]
     )
   where
-    whole = Vector.fromList (NonEmpty.toList (segments contour))
-    onWays =
+    elements = Vector.fromList (NonEmpty.toList (segments contour))
+    onPaths =
       IntMap.fromListWith
         (<>)
-        [(numberOf (origin p), [p]) | w <- ways, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
-    stretch = stretchBetween onWays (Polyarc.ends contour) whole
+        [(numberOf (origin p), [p]) | w <- paths, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
+    stretch = stretchBetween onPaths (Polyarc.ends contour) elements
     numbered =
-      [(k, touchedAt whole at o, touchedAt whole at o', at) | (k, (o, o', at)) <- zip [0 ..] cuts]
+      [ (k, touchedAt elements at (before g), touchedAt elements at (after g), at)
+        | (k, g) <- zip [0 ..] gaps,
+          let at = centreAt g
+      ]
+    -- The gaps whose material one stretch and one edge bound.
     alone =
       IntMap.fromList
-        [ told
+        [ found
           | (k, a, b, at) <- numbered,
-            not (isOn a b),
+            not (isSameElement a b),
             Just s <- [stretch a b],
-            told <- materials side (Vector.singleton (Bound s k at))
+            found <- materials side (Vector.singleton (Bound s k at))
         ]
-    isOn (Place i _) (Place j _) = i == j
-    -- Where the cutter leaves the contour at the others, and its centre; where it arrives.
+    isSameElement (Position i _) (Position j _) = i == j
+    -- Where the cutter leaves the contour at the other gaps, and its centre; where it arrives.
     open = IntMap.fromList [(k, (a, at)) | (k, a, _, at) <- numbered, IntMap.notMember k alone]
     arrivals = Map.fromList [(b, k) | (k, _, b, _) <- numbered, IntMap.notMember k alone]
-    -- All that bounds the same material, if a cut is the first of its cuts; that one comes last.
-    goneRound first = go IntSet.empty [] first
+    -- All bounds of the same material, if a gap has the least number of its gaps. It comes last.
+    boundary first = go IntSet.empty [] first
       where
         go seen found k = do
           (from, _) <- IntMap.lookup k open
@@ -91,70 +99,62 @@ standings side contour ways cuts =
       (Nothing, Closed) -> Map.lookupMin arrivals
       (found, _) -> found
 
--- | A stretch of the contour that no way goes along, and the cut at its end: its number, and the
--- cutter's centre.
-data Bound = Bound {along :: NonEmpty Segment, cut :: Int, centreAt :: Point}
+-- | A stretch of the contour that no path touches, and the gap at its end: the gap's number, and
+-- the cutter's centre.
+data Bound = Bound {along :: NonEmpty Segment, gap :: Int, cutterAt :: Point}
 
--- | What lies between some stretches, each with the next one behind its cut; it is in several
--- pieces where edges of the cutter cross. Each is told at the cut before its first stretch.
+-- | The materials between bounds, each of which continues with the next one after its gap. Where
+-- edges of the cutter intersect there are several. Each is listed at the gap before its first
+-- stretch.
 materials :: Side -> Vector Bound -> [(Int, RestMaterial)]
 materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
   where
-    before i = bounds Vector.! ((i + Vector.length bounds - 1) `mod` Vector.length bounds)
-    go told is = case is of
+    previous i = bounds Vector.! ((i + Vector.length bounds - 1) `mod` Vector.length bounds)
+    go done is = case is of
       [] -> []
       i : more
-        | IntSet.notMember i told,
-          Just (outline, others) <- outlineFrom side bounds i ->
-          (cut (before i), Within outline) :
-          [(cut (before o), SameAs (centreAt (before i))) | o <- others]
-            <> go (IntSet.union (IntSet.fromList others) told) more
-        | otherwise -> go told more
+        | IntSet.notMember i done,
+          Just (boundary, others) <- boundaryFrom side bounds i ->
+          (gap (previous i), Within boundary) :
+          [(gap (previous o), SameAs (cutterAt (previous i))) | o <- others]
+            <> go (IntSet.union (IntSet.fromList others) done) more
+        | otherwise -> go done more
 
--- | Round what lies behind a stretch, and which other stretches bound it. Behind each stretch the
--- cutter's edge does, as far as the next one or another edge: seen along the walk, the centre is on
--- the cutter's side. What lies beyond the contour, where the cutter touches it from behind, does
--- not stay.
-outlineFrom :: Side -> Vector Bound -> Int -> Maybe (NonEmpty Segment, [Int])
-outlineFrom side bounds first = walked (4 * count) [] (stretchAt first) first (edges Vector.! first)
+-- | The boundary of the material that begins with a stretch, and the numbers of the other stretches
+-- in it. After each stretch it follows the cutter's edge to the next stretch, or to another edge.
+-- Material beyond the contour, where the cutter touches it from the other side, is left out.
+boundaryFrom :: Side -> Vector Bound -> Int -> Maybe (NonEmpty Segment, [Int])
+boundaryFrom side bounds first =
+  follow (4 * count) [] (stretchAt first) first (edges Vector.! first)
   where
     count = Vector.length bounds
     stretchAt i = along (bounds Vector.! i)
-    behind i = if i + 1 == count then 0 else i + 1
-    edges =
-      Vector.generate
-        count
-        ( \i ->
-            edge
-              (centreAt (bounds Vector.! i))
-              (Segment.end (NonEmpty.last (stretchAt i)))
-              (Segment.start (NonEmpty.head (stretchAt (behind i))))
-        )
+    next i = if i + 1 == count then 0 else i + 1
+    edges = Vector.generate count edgeAfter
+    edgeAfter i =
+      edge
+        (cutterAt (bounds Vector.! i))
+        (Segment.end (NonEmpty.last (stretchAt i)))
+        (Segment.start (NonEmpty.head (stretchAt (next i))))
+    -- Along the contour, the cutter's centre is on the cutter's side.
     edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise)
-    -- On the edge of a number, of which so much is ahead, no more than so often.
-    walked :: Int -> [Int] -> NonEmpty Segment -> Int -> Segment -> Maybe (NonEmpty Segment, [Int])
-    walked left others done i rest
-      | left <= 0 = Nothing
+    -- Follows the rest of an edge, given by its number, in a limited number of steps.
+    follow :: Int -> [Int] -> NonEmpty Segment -> Int -> Segment -> Maybe (NonEmpty Segment, [Int])
+    follow steps others done i rest
+      | steps <= 0 = Nothing
       | (t, j, u) : _ <- sortOn (\(t, _, _) -> t) (crossed i rest) =
-        walked
-          (left - 1)
-          others
-          (done <> (fst (Segment.cutAt t rest) :| []))
-          j
-          (snd (Segment.cutAt u (edges Vector.! j)))
-      | behind i /= first =
-        let j =
-              behind i
-         in walked
-              (left - 1)
-              (j : others)
-              (done <> (rest :| []) <> stretchAt j)
-              j
-              (edges Vector.! j)
-      | Polyarc.signedArea (Polyarc Closed (done <> (rest :| []))) * leftward side > 0 =
-        Just (done <> (rest :| []), others)
+        let (untilThere, _) = Segment.cutAt t rest
+            (_, onwards) = Segment.cutAt u (edges Vector.! j)
+         in follow (steps - 1) others (done <> (untilThere :| [])) j onwards
+      | j <- next i,
+        j /= first =
+        follow (steps - 1) (j : others) (closed <> stretchAt j) j (edges Vector.! j)
+      | Polyarc.signedArea (Polyarc Closed closed) * leftward side > 0 = Just (closed, others)
       | otherwise = Nothing
-    -- How far along it which other edge crosses it, and how far along that.
+      where
+        closed = done <> (rest :| [])
+    -- The other edges that intersect the rest of an edge: the fraction along it, the number of the
+    -- other edge, the fraction along that one.
     crossed i rest =
       [ (t, j, u)
         | j <- [0 .. count - 1],
@@ -164,39 +164,38 @@ outlineFrom side bounds first = walked (4 * count) [] (stretchAt first) first (e
           Just t <- [inside rest p],
           Just u <- [inside other p]
       ]
-    -- Nearer to an end nothing crosses.
+    -- An intersection nearer to an end is the end.
     inside e p =
-      let t =
-            Segment.fraction e p
+      let t = Segment.fraction e p
           Mm l = Segment.length e
           Mm least = Tolerance.clearance
        in if t * l > least && (1 - t) * l > least then Just t else Nothing
 
--- | A place on a contour: the number of a segment, and a share of its length from 0 to 1.
-data Place = Place Int Double
+-- | A position on a contour: the number of an element, and a fraction of its length from 0 to 1.
+data Position = Position Int Double
   deriving stock (Eq, Ord)
 
--- | Where a cutter with its centre at a point touches what a piece of its way belongs to.
-touchedAt :: Vector Segment -> Point -> Origin -> Place
-touchedAt whole at o = case o of
-  Around i -> Place i 1
-  Along i -> Place i (foot whole i at)
+-- | The position at which a cutter, with its centre at a point, touches an element or a corner.
+touchedAt :: Vector Segment -> Point -> Origin -> Position
+touchedAt elements at o = case o of
+  Around i -> Position i 1
+  Along i -> Position i (foot elements i at)
 
--- | The place of a segment next to a point, as a share of its length.
+-- | The point of an element that is closest to a point, as a fraction of its length.
 foot :: Vector Segment -> Int -> Point -> Double
-foot whole i p =
-  let s = whole Vector.! i in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
+foot elements i p =
+  let s = elements Vector.! i in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
 
--- | The contour from one place to a later one; nothing when a way goes along what lies between,
--- when they are one point, or when an open contour ends between them.
+-- | The contour from one position to a later one. There is nothing when a path goes along it, when
+-- both are one point, or when an open contour ends between them.
 stretchBetween ::
   IntMap.IntMap [OffsetSegment] ->
   Ends ->
   Vector Segment ->
-  Place ->
-  Place ->
+  Position ->
+  Position ->
   Maybe (NonEmpty Segment)
-stretchBetween onWays ends whole (Place i from) (Place j to)
+stretchBetween onPaths ends elements (Position i from) (Position j to)
   | i == j && from < to =
     if any (\p -> passes i (> from) p && passes i (< to) p) (on i)
       then Nothing
@@ -205,21 +204,21 @@ stretchBetween onWays ends whole (Place i from) (Place j to)
           ( fst
               ( Segment.cutAt
                   ((to - from) / (1 - from))
-                  (snd (Segment.cutAt from (whole Vector.! i)))
+                  (snd (Segment.cutAt from (elements Vector.! i)))
               )
               :| []
           )
-  | i == j || any (`IntMap.member` onWays) between || (ends == Open && j < i) = Nothing
+  | i == j || any (`IntMap.member` onPaths) between || (ends == Open && j < i) = Nothing
   | any (passes i (> from)) (on i) || any (passes j (< to)) (on j) = Nothing
   | otherwise =
     NonEmpty.nonEmpty
-      ( [snd (Segment.cutAt from (whole Vector.! i)) | from < 1]
-          <> map (whole Vector.!) between
-          <> [fst (Segment.cutAt to (whole Vector.! j)) | to > 0]
+      ( [snd (Segment.cutAt from (elements Vector.! i)) | from < 1]
+          <> map (elements Vector.!) between
+          <> [fst (Segment.cutAt to (elements Vector.! j)) | to > 0]
       )
   where
-    n = Vector.length whole
+    n = Vector.length elements
     between = takeWhile (/= j) (drop 1 (take n (iterate (\k -> (k + 1) `mod` n) i)))
-    on k = IntMap.findWithDefault [] k onWays
+    on k = IntMap.findWithDefault [] k onPaths
     passes k beyond p =
-      beyond (case origin p of Around _ -> 1; Along _ -> foot whole k (Segment.at 0.5 (segment p)))
+      beyond (case origin p of Around _ -> 1; Along _ -> foot elements k (Segment.at 0.5 (segment p)))

@@ -15,6 +15,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Offset.Elementwise qualified as Elementwise
 import Offset.Equidistant (Cause (..), Obstacle (..), OffsetSegment (..), Origin (..))
 import Offset.Equidistant qualified as Equidistant
 import Test.Hspec
@@ -24,10 +25,16 @@ spec :: Spec
 spec = do
   describe "laws of the equidistant" $ do
     it
-      "distance: every point is at the cutter's radius from the contour (catches an arc whose \
-      \radius changes by the wrong sign)"
+      "distance: every point is at the cutter's radius from the contour (catches an arc that \
+      \runs the other way)"
       $ property $
         forAll Generate.closedCase distanceLaw
+    it
+      "both agree: the kernel's loops and the offset element by element are one path, piece by \
+      \piece (catches a coordinate that drifts, a piece that is lost or belongs to another element)"
+      $ property $
+        forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c ->
+          forAll styles (agreementLaw c)
     it "distance, open contours (catches a corner arc at an end that has no corner)" $
       property $
         forAll Generate.openCase distanceLaw
@@ -158,6 +165,35 @@ motionLaw c m = case Equidistant.equidistant side' (radius c) moved of
   where
     moved = Polyarc (ends (contour c)) (fmap (Generate.move m) (segments (contour c)))
     side' = if mirrored m then other (side c) else side c
+
+-- | Corners of both shapes, with allowances of single elements now and then.
+styles :: Gen (Bool, [Double])
+styles =
+  (,)
+    <$> arbitrary
+      <*> frequency [(2, pure [0]), (1, vectorOf 3 (elements [0, 0.5, 1]))]
+
+agreementLaw :: Case -> (Bool, [Double]) -> Property
+agreementLaw c (isSharp, extras) = case Equidistant.styled style (side c) (radius c) (contour c) of
+  Left _ -> classify True "does not fit" True
+  Right ps ->
+    counterexample (show (ps, oracle)) (map origin found === map origin expected)
+      .&&. conjoin (zipWith alike found expected)
+    where
+      found = NonEmpty.toList ps
+      expected = NonEmpty.toList oracle
+  where
+    oracle = Elementwise.elementwise style (side c) (radius c) (contour c)
+    style =
+      Equidistant.CornerStyle
+        { Equidistant.sharp = isSharp,
+          Equidistant.extra = \i -> Mm (extras !! (i `mod` length extras))
+        }
+    alike p q = counterexample (show (p, q)) $ case (segment p, segment q) of
+      (Arc a b m (Rad s), Arc a' b' m' (Rad s')) ->
+        m == m' && apart a a' < 1e-9 && apart b b' < 1e-9 && abs (s - s') < 1e-9
+      (Straight a b, Straight a' b') -> apart a a' < 1e-9 && apart b b' < 1e-9
+      _ -> False
 
 -- | The same segments, whichever comes first.
 sameWalk :: [Segment] -> [Segment] -> Property

@@ -1,0 +1,119 @@
+{-# LANGUAGE BangPatterns #-}
+
+-- | The reasons why a cutter does not fit beside a contour.
+--
+-- A concave arc and an inner corner are seen at the element itself. A collision with a distant
+-- element is found by the distance between the raw offset and the contour; it is looked for only
+-- after the kernel has found that the cutter does not reach every element.
+module Offset.Obstacle
+  ( Obstacle (..),
+    Cause (..),
+    localCauses,
+    collision,
+    gouges,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Data.List (minimumBy)
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Data.Vector qualified as Vector
+import Geometry.Distance (ClosestPoint (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Offset.SourceOffset
+
+-- | A reason why a cutter does not fit, and the largest radius that fits, if there is one.
+data Obstacle = Obstacle {cause :: Cause, largest :: Maybe Mm}
+  deriving stock (Eq, Show)
+
+-- | A reason, with elements by their numbers from 0.
+data Cause
+  = -- | a concave arc of this radius
+    Concave Int Mm
+  | -- | a corner towards the cutter between two elements, and its vertex
+    InnerCorner Int Int Point
+  | -- | on its way along the first element the cutter would cut the second one; the centre of the
+    -- cutter there
+    Collision Int Int Point
+  deriving stock (Eq, Show)
+
+-- | The obstacles at single elements and corners, the most telling ones first: concave arcs, inner
+-- corners, and elements that are too short between slight inner corners.
+localCauses :: OffsetSource -> [Cause]
+localCauses source =
+  [Concave i r | i <- numbers, Just r <- [tooTight source i]]
+    <> [ InnerCorner i (next source i) (Segment.end (elements source Vector.! i))
+         | i <- numbers,
+           Blocked <- [cornerAt source i]
+       ]
+    <> tooShort source
+  where
+    numbers = [0 .. elementCount source - 1]
+
+-- | The radius of an arc towards the cutter that is smaller than its distance.
+tooTight :: OffsetSource -> Int -> Maybe Mm
+tooTight source i = case elements source Vector.! i of
+  Arc {start, centre, sweep = Rad angle}
+    | signum angle == leftward (side source),
+      old <- Segment.radius centre start,
+      minus old (distanceAt source i) < times (-1) Tolerance.coincident ->
+      Just old
+  _ -> Nothing
+
+-- | The corners at elements whose offset is no longer than what both of its corners cut off.
+tooShort :: OffsetSource -> [Cause]
+tooShort source = go 0 frontOfFirst (movedElement source 0)
+  where
+    count = elementCount source
+    final = count - 1
+    Cuts _ frontOfFirst = cutsAt source final (movedElement source final) (movedElement source 0)
+    go !i !front s
+      | i == count = []
+      | front + back > 0, Mm (front + back) >= Segment.length s = corner : others
+      | otherwise = others
+      where
+        s' = movedElement source (next source i)
+        Cuts back front' = cutsAt source i s s'
+        others = go (i + 1) front' s'
+        corner = InnerCorner a (next source a) (Segment.end s)
+        a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
+
+-- | The deepest point at which the cutter, on a path along all elements, would cut the contour.
+-- When there is none the path intersects itself elsewhere; then its start is named.
+collision :: OffsetSource -> NonEmpty OffsetSegment -> Cause
+collision source path
+  | null found =
+    let OffsetSegment o s = NonEmpty.head path
+     in Collision (numberOf o) (numberOf o) (Segment.start s)
+  | otherwise = case minimumBy (comparing (\(d, _, _, _) -> d)) found of
+    (_, i, j, p) -> Collision i j p
+  where
+    found = gouges source (NonEmpty.toList path)
+
+-- | The points at which the cutter, on segments of an offset, would cut the contour: the distance
+-- of the centre from the contour, the elements of the segment and of the contour, the centre.
+gouges :: OffsetSource -> [OffsetSegment] -> [(Mm, Int, Int, Point)]
+gouges source = concatMap gougesOf
+  where
+    count = elementCount source
+    index =
+      BoundingBox.index
+        (BoundingBox.ofSegment . snd)
+        (Vector.toList (Vector.indexed (elements source)))
+    gougesOf (OffsetSegment o s) =
+      [ (d, numberOf o, j, p)
+        | (j, other) <- BoundingBox.select (isNear s) index,
+          let ClosestPoint d p = Distance.segments s other,
+          plus d Tolerance.clearance < distanceAt source j
+      ]
+    isNear s box =
+      BoundingBox.meets (BoundingBox.inflate widest (BoundingBox.ofSegment s)) box
+        && BoundingBox.atLeast (`Distance.toPoint` s) box < widest
+    widest = maximum (map (distanceAt source) [0 .. count - 1])

@@ -1,0 +1,312 @@
+{-# LANGUAGE BangPatterns #-}
+
+-- | The exact offset of each element of a contour by itself, and of each of its corners.
+--
+-- A line is moved along its normal; an arc keeps its centre and changes its radius; the centre of a
+-- cutter rounds an outer corner on an arc about the corner. All coordinates of a toolpath come from
+-- here: they are functions of the contour alone, so that they do not drift. This module does not
+-- decide which parts of an offset the cutter can reach. "Offset.Kernel" does.
+module Offset.SourceOffset
+  ( -- * The request
+    CornerStyle (..),
+    OffsetSource (..),
+    fromContour,
+    elementCount,
+    next,
+    distanceAt,
+    leftward,
+
+    -- * Pieces of an offset
+    OffsetSegment (..),
+    Origin (..),
+    numberOf,
+
+    -- * Elements
+    movedElement,
+    shortened,
+
+    -- * Corners
+    Corner (..),
+    cornerAt,
+    Cuts (..),
+    noCuts,
+    cutsAt,
+    cornerArc,
+    cornerPoints,
+    cornerStep,
+    sharpCorner,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), plus)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
+import Data.Primitive.PrimArray (PrimArray, generatePrimArray, indexPrimArray)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Carrier (Sense (..), Side (..))
+import Geometry.Polyarc (Ends (..), Polyarc (Polyarc))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+
+-- | The shape of outer corners, and the allowances of single elements.
+data CornerStyle = CornerStyle
+  { -- | two lines to the intersection of both offsets instead of an arc about the corner; a corner
+    -- that turns by more than 120° is rounded all the same
+    sharp :: Bool,
+    -- | additional distance from an element, by its number from 0; not negative
+    extra :: Int -> Mm
+  }
+
+-- | A contour with the request for its offset.
+data OffsetSource = OffsetSource
+  { style :: CornerStyle,
+    side :: Side,
+    -- | distance of the offset where an element has no extra distance; not negative
+    radius :: Mm,
+    -- | elements of the contour in order; at least one
+    elements :: Vector Segment,
+    ends :: Ends,
+    -- | angle by which the direction changes after each element, in radians, counter-clockwise
+    -- positive; 0 after the last element of an open contour
+    turnings :: PrimArray Double
+  }
+
+-- | The request for the offset of a contour.
+fromContour :: CornerStyle -> Side -> Mm -> Polyarc -> OffsetSource
+fromContour style side radius (Polyarc ends segments) =
+  OffsetSource {style, side, radius, elements, ends, turnings = generatePrimArray count turning}
+  where
+    count = NonEmpty.length segments
+    elements = Vector.fromListN count (NonEmpty.toList segments)
+    turning i
+      | i + 1 == count && ends == Open = 0
+      | otherwise =
+        let Rad angle =
+              Vec.turn
+                (Segment.endDirection (elements Vector.! i))
+                (Segment.startDirection (elements Vector.! (if i + 1 == count then 0 else i + 1)))
+         in angle
+
+-- | The number of elements.
+elementCount :: OffsetSource -> Int
+elementCount = Vector.length . elements
+
+-- | The number of the element after another one; after the last one it is the first.
+next :: OffsetSource -> Int -> Int
+next source i = if i + 1 == elementCount source then 0 else i + 1
+
+-- | The distance of the offset from an element.
+distanceAt :: OffsetSource -> Int -> Mm
+distanceAt source i = plus (radius source) (extra (style source) i)
+
+-- | The sign of a side: +1 when the cutter is on the left.
+leftward :: Side -> Double
+leftward side = case side of
+  LeftOf -> 1
+  RightOf -> -1
+
+-- | A segment of an offset, and the part of the contour that it belongs to.
+data OffsetSegment = OffsetSegment {origin :: Origin, segment :: Segment}
+  deriving stock (Eq, Show)
+
+-- | An element of the contour by its number from 0, or the corner after it.
+data Origin = Along Int | Around Int
+  deriving stock (Eq, Show)
+
+-- | The order along the contour.
+instance Ord Origin where
+  compare = comparing $ \case
+    Along i -> (i, False)
+    Around i -> (i, True)
+
+-- | The number of the element, or of the element before the corner.
+numberOf :: Origin -> Int
+numberOf origin = case origin of
+  Along i -> i
+  Around i -> i
+
+-- | An element at its distance. An arc whose radius is not larger than a distance towards its
+-- centre becomes a point.
+movedElement :: OffsetSource -> Int -> Segment
+movedElement source i = case elements source Vector.! i of
+  Straight a b ->
+    let n = Vec.scale (leftward (side source) * r) (Vec.left (Vec.unit (Vec.to a b)))
+     in Straight (Vec.shift n a) (Vec.shift n b)
+  Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
+    let Mm before = Segment.radius centre start
+        after = if signum angle == leftward (side source) then max 0 (before - r) else before + r
+        moved p = Vec.shift (Vec.scale (after / before) (Vec.to centre p)) centre
+     in Arc {start = moved start, end = moved end, centre, sweep}
+  where
+    Mm r = distanceAt source i
+
+-- | A segment without a length at its start and a length at its end, in mm. Their sum is smaller
+-- than the segment's length.
+shortened :: Double -> Double -> Segment -> Segment
+shortened front back s
+  | front + back <= 0 = s
+  | otherwise = snd (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) s)))
+  where
+    Mm l = Segment.length s
+
+-- | The corner after an element.
+data Corner
+  = -- | the end of an open contour
+    NoCorner
+  | -- | the direction changes by no more than 'Tolerance.smoothAngle'
+    Smooth
+  | -- | turns towards the cutter so little that no more than 'Tolerance.slightRest' remains in the
+    -- corner; lines before and after it are shortened by this length, @r·tan(θ/2)@, in mm. Curves
+    -- through measured points have such corners
+    Slight Double
+  | -- | turns towards the cutter, which does not reach into the corner
+    Blocked
+  | -- | turns away from the cutter, or back to where it came from
+    Outer
+  deriving stock (Eq)
+
+-- | The kind of the corner after an element.
+cornerAt :: OffsetSource -> Int -> Corner
+cornerAt source i
+  | ends source == Open && i + 1 == elementCount source = NoCorner
+  | abs turned <= smooth = Smooth
+  | isInner && r1 == distanceAt source (next source i), Just t <- slight r1 = Slight t
+  | isInner && radius source > Mm 0 && pi - abs turned > smooth = Blocked
+  | otherwise = Outer
+  where
+    isInner = turned * leftward (side source) > 0
+    r1 = distanceAt source i
+    turned = indexPrimArray (turnings source) i
+    Rad smooth = Tolerance.smoothAngle
+    slight (Mm r) =
+      let Mm rest = Tolerance.slightRest
+       in if r * (1 / cos (turned / 2) - 1) <= rest
+            then Just (r * tan (abs turned / 2))
+            else Nothing
+
+-- | Lengths in mm by which the segment before a corner is shortened at its end, and the segment
+-- after it at its start.
+data Cuts = Cuts {back :: Double, front :: Double}
+
+noCuts :: Cuts
+noCuts = Cuts 0 0
+
+-- | The cuts at the corner after an element, given the moved elements before and after it.
+cutsAt :: OffsetSource -> Int -> Segment -> Segment -> Cuts
+cutsAt source i before after = case cornerAt source i of
+  Slight t -> meeting t before after
+  Smooth -> noCuts
+  Outer -> noCuts
+  Blocked -> noCuts
+  NoCorner -> noCuts
+
+-- | The distances, along two segments, of their intersection from the end of the first one and the
+-- start of the second one, in mm. Lines are cut by the given length. Arcs meet near it: three steps
+-- of Newton's method, which replace both by their tangents, leave the rounding error only. When
+-- they leave the segments, these are cut as lines are.
+meeting :: Double -> Segment -> Segment -> Cuts
+meeting t before after = case (before, after) of
+  (Straight _ _, Straight _ _) -> Cuts t t
+  _ -> newton (3 :: Int) t t
+  where
+    Mm l = Segment.length before
+    Mm l' = Segment.length after
+    newton steps a b
+      | steps == 0 = Cuts a b
+      | a' > 0 && a' < min l (2 * t) && b' > 0 && b' < min l' (2 * t) = newton (steps - 1) a' b'
+      | otherwise = Cuts t t
+      where
+        (k, k') = (1 - a / l, b / l')
+        (u, v) = (Segment.directionAt k before, Segment.directionAt k' after)
+        gap = Vec.to (Segment.at k before) (Segment.at k' after)
+        a' = a - Vec.cross gap v / Vec.cross u v
+        b' = b - Vec.cross u gap / Vec.cross u v
+
+-- | The arc of the centre about the corner after an element, at the larger distance of both
+-- elements.
+cornerArc :: OffsetSource -> Int -> Segment
+cornerArc source i =
+  Segment.arc
+    sense
+    (Segment.end before)
+    (beside source i wide (Segment.endDirection before))
+    (beside source i wide (Segment.startDirection (elements source Vector.! next source i)))
+  where
+    before = elements source Vector.! i
+    wide = max (distanceAt source i) (distanceAt source (next source i))
+    sense = case side source of
+      LeftOf -> Clockwise
+      RightOf -> CounterClockwise
+
+-- | The point at a distance from the corner after an element, on the cutter's side of a direction.
+beside :: OffsetSource -> Int -> Mm -> Vec.Vec -> Point
+beside source i (Mm r) direction =
+  Vec.shift
+    (Vec.scale (leftward (side source) * r) (Vec.left direction))
+    (Segment.end (elements source Vector.! i))
+
+-- | The points at which lines about the corner after an element can start or end: beside the
+-- corner at both distances, at right angles to both elements, and the tip of a sharp corner.
+cornerPoints :: OffsetSource -> Int -> [Point]
+cornerPoints source i =
+  [beside source i r direction | direction <- [before, after], r <- [r1, r2]]
+    <> [tip source i | isSharp source i]
+  where
+    before = Segment.endDirection (elements source Vector.! i)
+    after = Segment.startDirection (elements source Vector.! next source i)
+    r1 = distanceAt source i
+    r2 = distanceAt source (next source i)
+
+-- | The line from one distance to the other beside the corner after an element, when both differ
+-- and the cutter passes the corner.
+cornerStep :: OffsetSource -> Int -> Maybe Segment
+cornerStep source i = case cornerAt source i of
+  Smooth -> step
+  Outer -> step
+  Slight _ -> Nothing
+  Blocked -> Nothing
+  NoCorner -> Nothing
+  where
+    step
+      | r1 == r2 = Nothing
+      | otherwise =
+        Just
+          ( Straight
+              (beside source i r1 (Segment.endDirection (elements source Vector.! i)))
+              (beside source i r2 (Segment.startDirection (elements source Vector.! next source i)))
+          )
+    r1 = distanceAt source i
+    r2 = distanceAt source (next source i)
+
+-- | Both lines of a sharp corner, if the corner after an element is one.
+sharpCorner :: OffsetSource -> Int -> Maybe (Segment, Segment)
+sharpCorner source i
+  | cornerAt source i == Outer && isSharp source i =
+    Just
+      ( Straight (at (Segment.endDirection (elements source Vector.! i))) top,
+        Straight top (at (Segment.startDirection (elements source Vector.! next source i)))
+      )
+  | otherwise = Nothing
+  where
+    at = beside source i (distanceAt source i)
+    top = tip source i
+
+-- | Sharp corners have one distance on both sides, and turn by at most 120°.
+isSharp :: OffsetSource -> Int -> Bool
+isSharp source i =
+  sharp (style source)
+    && distanceAt source i == distanceAt source (next source i)
+    && abs (indexPrimArray (turnings source) i) <= 2 * pi / 3
+
+-- | The intersection of the tangents of both offsets at the corner after an element.
+tip :: OffsetSource -> Int -> Point
+tip source i =
+  Vec.shift (Vec.scale (r * tan (abs turned / 2)) before) (beside source i (Mm r) before)
+  where
+    Mm r = distanceAt source i
+    turned = indexPrimArray (turnings source) i
+    before = Segment.endDirection (elements source Vector.! i)

@@ -1,0 +1,108 @@
+-- | The side of a contour on which the cutter moves, and the direction of travel.
+--
+-- Refuses statements that make no sense on their contour.
+module Toolpath.MillingSide
+  ( leadingSide,
+    possible,
+    oriented,
+    keyword,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..), Region)
+import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Carrier qualified as Carrier
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (Arc))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec qualified as Vec
+import Part.Part
+  ( Contour (elements),
+    Milling (contour, side),
+    Side (..),
+    Work (..),
+  )
+import Part.Part qualified as Part
+import Toolpath.Error (Error (..))
+import Toolpath.LinkingMove qualified as LinkingMove
+
+-- | The side of the direction of travel on which the cutter is; nothing when its centre moves on
+-- the contour. A profile that is turned outside lies between the tool and the spindle's axis,
+-- @y = 0@.
+leadingSide :: Milling -> Either Error (Maybe Carrier.Side)
+leadingSide milling = case (value (side milling), Part.ends (contour milling)) of
+  (_, Part.Closed)
+    | Part.work milling == Turned ->
+      Left (TurnsClosed (region (side milling)) (value name) (region name))
+  (LeftSide, _) -> Right (Just Carrier.LeftOf)
+  (RightSide, _) -> Right (Just Carrier.RightOf)
+  (On, _) -> Right Nothing
+  (Outside, Part.Closed) ->
+    Right (Just (if counterClockwise then Carrier.RightOf else Carrier.LeftOf))
+  (Inside, Part.Closed) ->
+    Right (Just (if counterClockwise then Carrier.LeftOf else Carrier.RightOf))
+  (Outside, Part.Open)
+    | Part.work milling == Turned ->
+      Right (Just (if toTheRight then Carrier.LeftOf else Carrier.RightOf))
+  (Inside, Part.Open)
+    | Part.work milling == Turned ->
+      Right (Just (if toTheRight then Carrier.RightOf else Carrier.LeftOf))
+  (s, Part.Open) -> Left (SideOfOpen (region (side milling)) s (value name) (region name))
+  where
+    counterClockwise = Polyarc.areaOf Part.segment (elements (contour milling)) > 0
+    toTheRight =
+      Vec.x (Segment.end (Part.segment (NonEmpty.last (elements (contour milling)))))
+        >= Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
+    name = Part.contourName (contour milling)
+
+-- | Refuses a profile below the spindle's axis, and an allowance when the centre of the cutter
+-- moves on the contour.
+possible :: Region -> Milling -> Either Error ()
+possible region milling
+  | e : _ <-
+      [ e
+        | Part.work milling == Turned,
+          let Mm slack = Tolerance.coincident,
+          e <- list,
+          lowest (Part.segment e) < -slack
+      ] =
+    Left (BelowAxis (keyword region) e)
+  | value (side milling) == On
+      && ( any (> Mm 0) (Part.allowances milling)
+             || any ((> Mm 0) . Part.allowance . Part.finish) list
+         ) =
+    Left (AllowanceOnContour (keyword region))
+  | otherwise = Right ()
+  where
+    list = NonEmpty.toList (elements (contour milling))
+    lowest s = case s of
+      Arc from _ centre _
+        | Mm r <- Segment.radius centre from,
+          Segment.spans s (Vec.point (Vec.x centre) (Vec.y centre - r)) ->
+          Vec.y centre - r
+      _ -> min (Vec.y (Segment.start s)) (Vec.y (Segment.end s))
+
+-- | Reverses the contour where climb or conventional milling asks for it. With a spindle that
+-- turns clockwise, climb milling has the material on the right of the direction of travel.
+oriented :: Region -> Milling -> Either Error Milling
+oriented region milling = case Part.sense milling of
+  Nothing -> Right milling
+  Just (Located at sense) -> do
+    now <- leadingSide milling
+    let climbs = (sense == Part.Climb) == (Part.spin milling == Part.Clockwise)
+        wanted = if climbs then Carrier.LeftOf else Carrier.RightOf
+    case now of
+      Nothing -> Left (SenseOnContour at (keyword region))
+      Just side'
+        | side' == wanted -> Right milling
+        | value (side milling) `elem` [LeftSide, RightSide] ->
+          Left (SenseAgainstSide at (region' (side milling)))
+        | otherwise -> Right milling {contour = Part.backwards (contour milling)}
+  where
+    region' (Located r _) = r
+
+-- | The keyword of a statement that mills or turns.
+keyword :: Region -> Region
+keyword = LinkingMove.keyword 4
