@@ -27,6 +27,7 @@ module Geometry.Carrier
     oppositeSide,
     senseTowards,
     senseAwayFrom,
+    beside,
   )
 where
 
@@ -116,3 +117,7 @@ senseTowards side = case side of
 -- corner in this sense.
 senseAwayFrom :: Side -> Sense
 senseAwayFrom = senseTowards . oppositeSide
+
+-- | The point at a distance on a side of a point, across a direction of length 1.
+beside :: Side -> Mm -> Vec -> Point -> Point
+beside side (Mm d) forward = Vec.shift (Vec.scale (sideSign side * d) (Vec.left forward))
