@@ -113,7 +113,7 @@ senseTowards side = case side of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | The sense of an arc whose centre lies on the other side: an offset on this side goes round a
+-- | The sense of an arc whose centre lies on the other side: an offset on this side rounds a
 -- corner in this sense.
 senseAwayFrom :: Side -> Sense
 senseAwayFrom = senseTowards . oppositeSide
