@@ -27,6 +27,7 @@ module Geometry.Carrier
     oppositeSide,
     senseTowards,
     senseAwayFrom,
+    beside,
   )
 where
 
@@ -112,7 +113,11 @@ senseTowards side = case side of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | The sense of an arc whose centre lies on the other side: an offset on this side goes round a
+-- | The sense of an arc whose centre lies on the other side: an offset on this side rounds a
 -- corner in this sense.
 senseAwayFrom :: Side -> Sense
 senseAwayFrom = senseTowards . oppositeSide
+
+-- | The point at a distance on a side of a point, across a direction of length 1.
+beside :: Side -> Mm -> Vec -> Point -> Point
+beside side (Mm d) forward = Vec.shift (Vec.scale (sideSign side * d) (Vec.left forward))

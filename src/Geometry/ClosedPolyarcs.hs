@@ -5,7 +5,7 @@
 -- same flat arrays. After the last segment of a loop its first vertex is repeated, so that every
 -- segment ends at the next vertex. No arc sweeps more than a half circle.
 --
--- They are made from several "Geometry.FlatPolyarc"s, each of which is normalised on the way: tiny
+-- They are made from several "Geometry.FlatPolyarc"s, each of which is normalised: tiny
 -- segments are omitted, and flat arcs become lines. One set of arrays lets a single bounding-box
 -- tree ("Geometry.Index.SegmentTree") cover all loops.
 --
@@ -120,8 +120,8 @@ marked m w = w .&. m /= 0
 -- than @tolerance@, in mm, are omitted, and arcs with no larger sagitta become lines. A loop of
 -- fewer than two segments is omitted. The sources count the segments of all inputs.
 fromOutlines :: Double -> [FlatPolyarc] -> ClosedPolyarcs
-fromOutlines tolerance outlines = runST $ do
-  let room = sum (map vertexBound outlines)
+fromOutlines tolerance polyarcs = runST $ do
+  let room = sum (map vertexBound polyarcs)
   out <-
     Arrays
       <$> newPrimArray room
@@ -129,16 +129,16 @@ fromOutlines tolerance outlines = runST $ do
       <*> newPrimArray room
       <*> newPrimArray room
       <*> newPrimArray room
-      <*> newPrimArray (length outlines + 1)
+      <*> newPrimArray (length polyarcs + 1)
   let fill !loop !k !source rest = case rest of
         [] -> writePrimArray (loopStarts out) loop k >> pure (loop, k)
-        outline : more -> do
-          let source' = source + sizeofPrimArray (FlatPolyarc.xs outline)
-          k' <- writeSegments tolerance out k source outline
+        polyarc : more -> do
+          let source' = source + sizeofPrimArray (FlatPolyarc.xs polyarc)
+          k' <- writeSegments tolerance out k source polyarc
           if k' - k < 2
             then fill loop k source' more
             else closeLoop out loop k k' source' >> fill (loop + 1) (k' + 1) source' more
-  (count, used) <- fill 0 0 0 outlines
+  (count, used) <- fill 0 0 0 polyarcs
   when (count == 0) (writePrimArray (loopStarts out) 0 0)
   freeze out used count
 
@@ -174,10 +174,10 @@ writeVertex out !k !x !y !b !source = do
 -- | Write the segments of a polyarc from vertex @k@ on, and return the next free vertex. The
 -- sources count from @source@.
 writeSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
-writeSegments tolerance out k source outline@(FlatPolyarc _ px py pb)
+writeSegments tolerance out k source polyarc@(FlatPolyarc _ px py pb)
   | sizeofPrimArray px == 0 = pure k
-  | isPlain tolerance px py pb = copySegments out k source outline
-  | otherwise = normaliseSegments tolerance out k source outline
+  | isPlain tolerance px py pb = copySegments out k source polyarc
+  | otherwise = normaliseSegments tolerance out k source polyarc
 
 -- | 'writeSegments' of a polyarc that needs no normalisation, as most do.
 copySegments :: Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int

@@ -9,6 +9,7 @@ module Geometry.Segment
     -- * Construction
     arc,
     fullCircle,
+    arcOrCircle,
     fromBulge,
 
     -- * Measures
@@ -65,6 +66,13 @@ arc sense centre start end = Arc {start, end, centre, sweep}
 fullCircle :: Sense -> Circle -> Point -> Segment
 fullCircle sense (Circle centre _) start =
   Arc {start, end = start, centre, sweep = Rad (Carrier.sense sense * 2 * pi)}
+
+-- | The 'arc' about a centre from a start to an end, or the full circle when both are equal, as in
+-- frames.
+arcOrCircle :: Sense -> Point -> Point -> Point -> Segment
+arcOrCircle sense centre start end
+  | start == end = fullCircle sense (Circle centre (radius centre start)) start
+  | otherwise = arc sense centre start end
 
 -- | The segment from a start to an end with a bulge @b = tan(sweep/4)@: a line for 0, else an arc.
 -- Its centre lies at @(1 − b²)/(4·b)@ of the chord to the left of the chord's midpoint.

@@ -40,7 +40,7 @@ about p segments = round (angles / (2 * pi)) + corrections
         | otherwise -> 0
     from = Vec.to p . start
     to = Vec.to p . end
-    -- The side of the chord must be computed identically in both places.
+    -- Both functions must compute the side of the chord identically.
     side s = Vec.cross (from s) (to s)
 
 -- | True when a point lies inside a closed polyarc of either sense.

@@ -20,7 +20,7 @@ import Test.QuickCheck hiding (tolerance)
 spec :: Spec
 spec = describe "the pair search of a tree" $ do
   it "finds all pairs that meet (catches a run that is taken for one that advances)" $
-    withMaxSuccess 1000 . forAll outlines $ \os ->
+    withMaxSuccess 1000 . forAll polyarcs $ \os ->
       let c = ClosedPolyarcs.fromOutlines tolerance os
           expected = meetings AllPairs c
        in cover 40 (Set.size expected > 1) "that meet"
@@ -64,25 +64,25 @@ tolerance = 1e-11
 
 -- | One to three closed polyarcs: long winding ones, and ones with scattered vertices, on a grid or
 -- not.
-outlines :: Gen [FlatPolyarc]
-outlines = do
+polyarcs :: Gen [FlatPolyarc]
+polyarcs = do
   loops <- elements [1, 1, 2, 3]
   vectorOf loops (oneof [winding, scattered, onGrid])
   where
-    outline = FlatPolyarc.outline Closed
+    polyarc = FlatPolyarc.outline Closed
     -- Directions change little from step to step, so that whole runs advance.
     winding = do
       n <- choose (3, 300 :: Int)
-      turns <- vectorOf n (choose (-0.3, 0.35))
+      changes <- vectorOf n (choose (-0.3, 0.35))
       bulges <- vectorOf n bulge
-      let headings = scanl (+) 0 turns
+      let headings = scanl (+) 0 changes
           points = scanl (\(x, y) a -> (x + cos a, y + sin a)) (0, 0) headings
-      pure (outline (zipWith (\(x, y) b -> (x, y, b)) points bulges))
+      pure (polyarc (zipWith (\(x, y) b -> (x, y, b)) points bulges))
     scattered =
       choose (3, 40 :: Int) >>= \n ->
-        outline <$> vectorOf n ((,,) <$> choose (-5, 5) <*> choose (-5, 5) <*> bulge)
+        polyarc <$> vectorOf n ((,,) <$> choose (-5, 5) <*> choose (-5, 5) <*> bulge)
     onGrid =
-      choose (3, 60 :: Int) >>= \n -> outline <$> vectorOf n ((,,) <$> whole <*> whole <*> bulge)
+      choose (3, 60 :: Int) >>= \n -> polyarc <$> vectorOf n ((,,) <$> whole <*> whole <*> bulge)
     whole = fromIntegral <$> choose (-6, 6 :: Int)
     bulge =
       frequency [(3, pure 0), (2, choose (-0.3, 0.3)), (1, choose (-1, 1)), (1, elements [-1, 1])]
