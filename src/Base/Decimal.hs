@@ -83,11 +83,11 @@ leading text = case digits 0 text of
         (if count <= fewDigits then Just (fromIntegral front) else longer (Text.take count text) "")
         behind
   where
-    fraction n places size
-      | size <= fewDigits && n < 2 ^ (53 :: Int) =
+    fraction n places width
+      | width <= fewDigits && n < 2 ^ (53 :: Int) =
         Just (fromIntegral n / powersOfTen Vector.! places)
       | otherwise =
-        let (before, rest) = Text.breakOn "." (Text.take size text)
+        let (before, rest) = Text.breakOn "." (Text.take width text)
          in longer before (Text.drop 1 rest)
 
 -- | The number that leading digits append to another one, which may overflow; their count; and the
