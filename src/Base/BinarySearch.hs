@@ -1,4 +1,4 @@
--- | Looking up in sorted numbers, and for where something ceases to hold.
+-- | Binary search in sorted vectors, and bisection of predicates on lengths.
 module Base.BinarySearch
   ( lastBelow,
     turningPoint,
@@ -9,12 +9,12 @@ import Base.Quantity (Mm (..), minus, plus, times)
 import Data.Vector.Unboxed (Unbox, Vector)
 import Data.Vector.Unboxed qualified as Vector
 
--- | The number of the last of the first so many, in rising order, that is not above a value; 0 when
--- all are above it. The time grows with the logarithm of their number, which is one at least.
+-- | The index of the last of the first @count@ elements that is at most a value; 0 when all of them
+-- are above it. The elements rise, and @count@ is at least 1. Binary search.
 lastBelow :: (Unbox a, Ord a) => Int -> a -> Vector a -> Int
 lastBelow count v sorted = search 0 count
   where
-    -- What is sought is low or behind it, and before high.
+    -- The index is at least low and below high.
     search low high
       | high - low <= 1 = low
       | sorted Vector.! middle <= v = search middle high
@@ -23,8 +23,8 @@ lastBelow count v sorted = search 0 count
         middle = (low + high) `div` 2
 {-# INLINE lastBelow #-}
 
--- | Between a length for which something holds and a larger one for which it does not, two such
--- lengths that are no further apart than a resolution.
+-- | Bisects a predicate that is true at @low@ and false at @high@. Yields two such lengths that
+-- differ by at most the resolution.
 turningPoint :: Mm -> (Mm -> Bool) -> Mm -> Mm -> (Mm, Mm)
 turningPoint resolution holds low high
   | minus high low <= resolution = (low, high)

@@ -1,7 +1,7 @@
--- | The one sanctioned crash: a state that only a bug in partc can reach.
+-- | The one sanctioned crash: for a state that only a bug in partc can reach.
 --
--- A user's fault never comes here; it becomes a report. The command line turns
--- the exception into exit status 70 and a request to send us the program.
+-- A user's mistake becomes a report instead. The command line turns the exception into exit status
+-- 70 and asks the user to send the program.
 module Base.Crash
   ( Bug (..),
     bug,
@@ -13,7 +13,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import GHC.Stack (HasCallStack, callStack, prettyCallStack)
 
--- | What went wrong, and where in partc's own source.
+-- | A description of the impossible state, and the call stack in partc's source.
 data Bug = Bug {what :: Text, place :: Text}
 
 instance Show Bug where
@@ -21,6 +21,6 @@ instance Show Bug where
 
 instance Exception Bug
 
--- | Stop because of a bug of our own.
+-- | Stops with a description of the impossible state.
 bug :: HasCallStack => Text -> a
 bug what = throw Bug {what, place = Text.pack (prettyCallStack callStack)}

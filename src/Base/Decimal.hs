@@ -1,4 +1,4 @@
--- | Numbers as a person reads them: fixed decimals, no exponent, no minus zero.
+-- | Decimal numbers as text: fixed decimals, no exponent, no minus zero; and their parser.
 module Base.Decimal
   ( fixed,
     short,
@@ -23,7 +23,7 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Numeric (showFFloat)
 
--- | With exactly so many decimals; numbers that are no lengths of this world with an exponent.
+-- | A number with a count of decimals. Numbers from 10¹⁵ on have an exponent.
 fixed :: Int -> Double -> Text
 fixed decimals x
   | abs x >= 1e15 = Text.pack (show x)
@@ -32,7 +32,7 @@ fixed decimals x
   where
     written = Text.pack (showFFloat (Just decimals) x "")
 
--- | With at most so many decimals, trailing zeros dropped.
+-- | A number with at most a count of decimals, without trailing zeros.
 short :: Int -> Double -> Text
 short decimals x
   | Text.any (== '.') written && not (Text.any (== 'e') written) =
@@ -41,8 +41,8 @@ short decimals x
   where
     written = fixed decimals x
 
--- | The fewest decimals that give the same number again when they are read by 'amount'. What needs
--- more than 'mostDigits', such as a length far below that of an atom, is rounded.
+-- | The shortest text that 'amount' reads as the same number. A number that needs more than
+-- 'mostDigits' is rounded: it is far smaller than any length of a part.
 exact :: Double -> Text
 exact x
   | x == 0 = "0"
@@ -52,17 +52,23 @@ exact x
     written = Text.pack (showFFloat Nothing x "")
     plain = fromMaybe written (Text.stripSuffix ".0" written)
 
--- | The double nearest to a number as it is written: digits, and, if wanted, a point and more
--- digits.
+-- | Parses digits, and optionally a point and more digits, into the nearest double.
 amount :: Text -> Maybe Double
 amount text = case leading text of
   Leading {size, worth, behind} | size > 0 && Text.null behind -> worth
   _ -> Nothing
 
--- | The number that a text begins with: how many characters it takes, none when no digit stands
--- there; the double nearest to it, unless it has too many digits; what stands behind it.
-data Leading = Leading {size :: Int, worth :: Maybe Double, behind :: {-# UNPACK #-} Text}
+-- | The number at the start of a text.
+data Leading = Leading
+  { -- | the count of its characters; 0 without a number
+    size :: Int,
+    -- | the nearest double; nothing with more than 'mostDigits' digits
+    worth :: Maybe Double,
+    -- | the text after it
+    behind :: {-# UNPACK #-} Text
+  }
 
+-- | Parses the number at the start of a text.
 leading :: Text -> Leading
 leading text = case digits 0 text of
   Digits front count behind -> case Text.uncons behind of
@@ -77,16 +83,15 @@ leading text = case digits 0 text of
         (if count <= fewDigits then Just (fromIntegral front) else longer (Text.take count text) "")
         behind
   where
-    fraction n places size
-      | size <= fewDigits && n < 2 ^ (53 :: Int) =
+    fraction n places width
+      | width <= fewDigits && n < 2 ^ (53 :: Int) =
         Just (fromIntegral n / powersOfTen Vector.! places)
       | otherwise =
-        let (before, rest) =
-              Text.breakOn "." (Text.take size text)
+        let (before, rest) = Text.breakOn "." (Text.take width text)
          in longer before (Text.drop 1 rest)
 
--- | The digits that a text begins with, behind those of a number: the number, as far as an 'Int'
--- holds it; how many there are; what stands behind them.
+-- | The number that leading digits append to another one, which may overflow; their count; and the
+-- text after them.
 data Digits = Digits Int Int {-# UNPACK #-} Text
 
 digits :: Int -> Text -> Digits
@@ -96,27 +101,28 @@ digits = go 0
       Just (c, rest) | isDigit c -> go (count + 1) (10 * n + (fromEnum c - fromEnum '0')) rest
       _ -> Digits n count text
 
--- | 1, 10, 100 …, each of which is a double exactly.
+-- | The powers of ten from 1 on that are below 10 to the power 'fewDigits'. Doubles hold them
+-- exactly.
 powersOfTen :: Vector Double
 powersOfTen = Vector.iterateN fewDigits (10 *) 1
 
--- | So many characters are digits of an 'Int'.
+-- | The count of decimal digits that an 'Int' always holds.
 fewDigits :: Int
 fewDigits = 18
 
--- | The double nearest to a number of as many digits as may be: those before and those behind its
--- point.
+-- | The double nearest to a number with up to 'mostDigits' digits, given its digits before and
+-- after the point.
 longer :: Text -> Text -> Maybe Double
 longer before fraction
   | Text.length before + places > mostDigits = Nothing
-  | ciphers < 2 ^ (53 :: Int) && places <= 22 =
-    Just (fromInteger ciphers / fromInteger (10 ^ places))
-  | otherwise = Just (fromRational (ciphers % (10 ^ places)))
+  | digits' < 2 ^ (53 :: Int) && places <= 22 =
+    Just (fromInteger digits' / fromInteger (10 ^ places))
+  | otherwise = Just (fromRational (digits' % (10 ^ places)))
   where
     places = Text.length fraction
-    ciphers = Text.foldl' (\n c -> 10 * n + toInteger (digitToInt c)) 0 (before <> fraction)
+    digits' = Text.foldl' (\n c -> 10 * n + toInteger (digitToInt c)) 0 (before <> fraction)
 
--- | No number is written with more digits.
+-- | The largest count of digits of a number.
 mostDigits :: Int
 mostDigits = 40
 
@@ -124,11 +130,12 @@ mostDigits = 40
 whole :: Int -> Text
 whole = Text.pack . show
 
--- | A length for a message: at most four decimals, with its unit.
+-- | A length for a report: at most four decimals, with its unit.
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
 
--- | The same of a length, with as many more decimals as tell it from another one.
+-- | A length for a report with enough decimals, up to nine, to differ from another length: the
+-- first argument. Four decimals when nine are not enough.
 unlike :: Mm -> Mm -> Text
 unlike (Mm other) (Mm x) =
   case [ written
@@ -139,7 +146,7 @@ unlike (Mm other) (Mm x) =
     written : _ -> written <> " mm"
     [] -> mm (Mm x)
 
--- | The same of a length that is not 0, with as many more decimals as show it.
+-- | A length that is not 0 for a report: with nine decimals when four are not enough to show it.
 some :: Mm -> Text
 some (Mm x)
   | abs x >= 0.0001 = mm (Mm x)

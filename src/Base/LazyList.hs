@@ -1,7 +1,7 @@
--- | A list that is made as it is asked for, and what there is to say behind the last of it.
+-- | A lazy list with a value at its end, which tells how the production of the list ended.
 --
--- Who wants to know first how it ends walks along it once; what is made on the way stays where it
--- is. To gather it in a list and to turn that round would take a second copy of everything.
+-- A consumer that needs the value first forces the list once and then reads the items from memory.
+-- An accumulator that is reversed at the end would need a second copy of them.
 module Base.LazyList
   ( LazyList (..),
     behind,
@@ -10,23 +10,23 @@ module Base.LazyList
   )
 where
 
--- | What comes next, or what there is to say at the end.
+-- | An item and the rest of the list, or the value at the end.
 data LazyList e a = Next a ~(LazyList e a) | End e
 
--- | A series behind some things, of which the last one is given first.
+-- | A list with items before it, the last of which is given first.
 behind :: [a] -> LazyList e a -> LazyList e a
-behind latest series = case latest of
-  [] -> series
-  a : before -> behind before (Next a series)
+behind latest list = case latest of
+  [] -> list
+  a : earlier -> behind earlier (Next a list)
 
--- | What comes one after the other.
+-- | The items in order.
 toList :: LazyList e a -> [a]
-toList series = case series of
+toList list = case list of
   Next a more -> a : toList more
   End _ -> []
 
--- | What there is to say behind the last.
+-- | The value at the end.
 end :: LazyList e a -> e
-end series = case series of
+end list = case list of
   Next _ more -> end more
   End e -> e

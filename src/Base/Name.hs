@@ -1,4 +1,4 @@
--- | Names that a program gives to things.
+-- | Names of a part program, and suggestions for misspelt ones.
 module Base.Name
   ( Name (..),
     nearest,
@@ -17,8 +17,8 @@ newtype Name = Name {text :: Text}
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
--- | The candidates near enough to a misspelt name to be worth suggesting, the nearest first:
--- one edit for every three letters.
+-- | The candidates within one edit for every three letters of a misspelt name, nearest first.
+-- Capital letters do not count.
 nearest :: Text -> [Text] -> [Text]
 nearest wanted candidates =
   map
@@ -37,7 +37,7 @@ nearest wanted candidates =
     small = lower wanted
     lower = Text.unpack . Text.toLower
 
--- | The candidates that look the same but are written with letters of another alphabet.
+-- | The candidates that look the same but have letters of another alphabet, Latin or Cyrillic.
 lookAlike :: Text -> [Text] -> [Text]
 lookAlike wanted candidates =
   [c | c <- candidates, Text.compareLength c size == EQ, c /= wanted, Text.map latin c == seen]
@@ -45,16 +45,16 @@ lookAlike wanted candidates =
     size = Text.length wanted
     seen = Text.map latin wanted
 
--- | The Latin letter that a Cyrillic one looks like.
+-- | The Latin letter that a Cyrillic letter looks like; any other letter itself.
 latin :: Char -> Char
 latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
--- | The edit distance of Levenshtein, if it is no more than so much. Most words differ by more in
--- their first letters.
+-- | The Levenshtein distance if it is at most a limit. Stops at the first row of the table that
+-- exceeds the limit, which for most words is an early one.
 distance :: Int -> String -> String -> Maybe Int
 distance most a b = go [0 .. length b] a
   where
-    -- From the distances of what came before to each beginning of the other word.
+    -- The row has the distances of the letters so far to every prefix of the other word.
     go row rest = case rest of
       _ | all (> most) row -> Nothing
       [] -> let d = last row in if d <= most then Just d else Nothing

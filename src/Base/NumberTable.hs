@@ -1,5 +1,5 @@
--- | Rows of numbers, each with its place in the source, in flat arrays: tables from files have a
--- hundred thousand of them.
+-- | Tables of numbers, each row with its region, in flat arrays: a table from a file may have a
+-- hundred thousand rows.
 module Base.NumberTable
   ( NumberTable (..),
     fromList,
@@ -18,12 +18,12 @@ import Control.Monad.ST (runST)
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 
--- | Rows of so many numbers, one row behind the other. A place is the offsets of its beginning and
--- its end.
+-- | Rows of @width@ numbers, one after the other, and the start and end offset of every row's
+-- region.
 data NumberTable = NumberTable {width :: Int, places :: PrimArray Int, numbers :: PrimArray Double}
   deriving stock (Eq, Show)
 
--- | Rows with their places, all of them equally long.
+-- | A table from rows of equal length with their regions.
 fromList :: [(Region, PrimArray Double)] -> NumberTable
 fromList rows = runST $ do
   ends <- PrimArray.newPrimArray (2 * n)
@@ -44,34 +44,34 @@ fromList rows = runST $ do
       (_, first) : _ -> PrimArray.sizeofPrimArray first
       [] -> 0
 
--- | How many rows there are.
+-- | The number of rows.
 count :: NumberTable -> Int
 count rows = PrimArray.sizeofPrimArray (places rows) `quot` 2
 
--- | Where a row stands, by its number from 0.
+-- | The region of a row, by its index.
 place :: NumberTable -> Int -> Region
 place rows k =
   Region
     (PrimArray.indexPrimArray (places rows) (2 * k))
     (PrimArray.indexPrimArray (places rows) (2 * k + 1))
 
--- | A number, by those of its row and its column, both from 0.
+-- | The number in a row and a column, by their indices. The row comes first.
 cell :: NumberTable -> Int -> Int -> Double
 cell rows k i = PrimArray.indexPrimArray (numbers rows) (k * width rows + i)
 {-# INLINE cell #-}
 
--- | The numbers of a row, by its number from 0.
+-- | The numbers of a row, by its index.
 cells :: NumberTable -> Int -> [Double]
 cells rows k = map (cell rows k) [0 .. width rows - 1]
 
--- | Rows of so many numbers one behind the other.
+-- | Concatenates tables of a width.
 joined :: Int -> [NumberTable] -> NumberTable
 joined width parts = case parts of
   [one] -> one
   _ ->
     NumberTable {width, places = mconcat (map places parts), numbers = mconcat (map numbers parts)}
 
--- | Columns by their numbers from 0, each times a factor.
+-- | A table of columns by their indices, each multiplied by a factor.
 arranged :: [(Int, Double)] -> NumberTable -> NumberTable
 arranged columns rows =
   rows {width = wide, numbers = PrimArray.generatePrimArray (wide * count rows) number}
@@ -83,10 +83,8 @@ arranged columns rows =
       (k, i) ->
         cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
 
--- | Some of the rows, by their numbers from 0.
+-- | A table of rows by their indices.
 selectRows :: [Int] -> NumberTable -> NumberTable
-selectRows ks rows =
-  (fromList [(place rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks])
-    { width =
-        width rows
-    }
+selectRows ks rows = selected {width = width rows}
+  where
+    selected = fromList [(place rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks]

@@ -1,5 +1,6 @@
--- | Places and ways in whole pulses, along the axes of the part: the lattice on which a cutter
--- stands.
+-- | Vectors of whole pulses along the axes of the part: positions and increments of a cutter.
+--
+-- Arithmetic is by components.
 module Base.PulseVector
   ( Pulses2 (..),
     Pulses3 (..),
@@ -9,11 +10,11 @@ where
 
 import Base.Quantity (Pulses (..))
 
--- | In the plane.
+-- | A vector in the plane: x and y.
 data Pulses2 = Pulses2 Pulses Pulses
   deriving stock (Eq, Show)
 
--- | In space.
+-- | A vector in space: x, y and z.
 data Pulses3 = Pulses3 Pulses Pulses Pulses
   deriving stock (Eq, Show)
 
@@ -35,6 +36,6 @@ instance Num Pulses3 where
   signum (Pulses3 a b c) = Pulses3 (signum a) (signum b) (signum c)
   fromInteger n = let a = fromInteger n in Pulses3 a a a
 
--- | Without the height.
+-- | The x and y of a vector in space.
 flat :: Pulses3 -> Pulses2
 flat (Pulses3 x y _) = Pulses2 x y

@@ -1,9 +1,9 @@
 {-# LANGUAGE FlexibleContexts #-}
 
--- | Quantities. Millimetres, radians, feeds, times and pulses are different types.
+-- | Quantities: lengths, angles, feeds, times and pulses are different types.
 --
--- Sums stay inside one type; a product of two lengths is no length, so there is no
--- 'Num' for them. Formulas take the numbers out, compute, and put the result back.
+-- Sums stay in one type. A product of two lengths is no length, so there is no 'Num' instance;
+-- formulas unwrap the numbers, compute, and wrap the result.
 module Base.Quantity
   ( Mm (..),
     Rad (..),
@@ -33,7 +33,7 @@ newtype Rad = Rad Double
   deriving newtype (Eq, Ord)
   deriving stock (Show)
 
--- | A feed in millimetres a minute.
+-- | A feed in millimetres per minute.
 newtype Feed = Feed Double
   deriving newtype (Eq, Ord)
   deriving stock (Show)
@@ -43,16 +43,16 @@ newtype Seconds = Seconds Double
   deriving newtype (Eq, Ord)
   deriving stock (Show)
 
--- | A whole number of pulses: what a controller counts.
+-- | A whole number of pulses, the unit in which a controller counts.
 newtype Pulses = Pulses Int
   deriving newtype (Eq, Ord, Num, Enum, Real, Integral)
   deriving stock (Show)
 
--- | The sum of two quantities of one kind.
+-- | The sum of two quantities.
 plus :: Coercible q Double => q -> q -> q
 plus a b = coerce (coerce a + coerce b :: Double)
 
--- | The difference of two quantities of one kind.
+-- | The difference of two quantities.
 minus :: Coercible q Double => q -> q -> q
 minus a b = coerce (coerce a - coerce b :: Double)
 
@@ -60,22 +60,23 @@ minus a b = coerce (coerce a - coerce b :: Double)
 times :: Coercible q Double => Double -> q -> q
 times k a = coerce (k * coerce a :: Double)
 
--- | The ratio of two quantities of one kind.
+-- | The ratio of two quantities.
 over :: Coercible q Double => q -> q -> Double
 over a b = coerce a / coerce b
 
--- | The sum of many.
+-- | The sum of a list; 0 for an empty one.
 total :: Coercible q Double => [q] -> q
 total = foldl plus (coerce (0 :: Double))
 
--- | An angle given in degrees.
+-- | The angle of a number of degrees.
 radians :: Double -> Rad
 radians deg = Rad (deg * pi / 180)
 
--- | An angle in degrees.
+-- | The number of degrees of an angle.
 degrees :: Rad -> Double
 degrees (Rad r) = r * 180 / pi
 
--- | The time a section takes: @t = 60·l/s@ seconds, l in mm, s in mm/min (Ural paper, section 0–1).
+-- | The time of a move of length l at a feed s: @t = 60·l/s@ seconds, with l in mm and s in mm\/min
+-- (Ural paper, section 0–1).
 travelTime :: Mm -> Feed -> Seconds
 travelTime (Mm l) (Feed s) = Seconds (60 * l / s)

@@ -1,12 +1,11 @@
 {-# LANGUAGE PatternSynonyms #-}
 {-# LANGUAGE ViewPatterns #-}
 
--- | Places in a source text.
+-- | Regions of the source text, and their lines and columns.
 --
--- Inside the compiler a place is an offset in characters (code points). The texts of a
--- program and of what it imports lie one behind the other, so an offset tells the file as
--- well. This module is the only one that turns offsets into lines and columns; both
--- count from 1, and a column counts characters.
+-- An offset counts characters (code points). The texts of a program and its imports follow one
+-- another, so that an offset determines the file, too. Only this module converts offsets to lines
+-- and columns. Both count from 1, and a column counts characters.
 module Base.Region
   ( Region (Region, start, end),
     Located (..),
@@ -34,14 +33,14 @@ import Data.Vector qualified as Boxed
 import Data.Vector.Unboxed qualified as Vector
 import Prelude hiding (length, span)
 
--- | A stretch of the source. There is one for every word of a program, so it takes one word of
--- memory: the upper half is the offset of its beginning, the lower half that of its end. Texts have
--- fewer than 2³² characters.
+-- | A region of the source. Every token of a program has one, so it takes one word of memory: the
+-- offset of its start in the upper half, the offset of its end in the lower half. Texts have fewer
+-- than 2³² characters.
 newtype Region = Halves Word
   deriving newtype (Eq, Ord)
 
--- | A stretch by the offsets of its first character and of the one behind its last, neither of
--- which is below zero.
+-- | A region by the offset of its first character and the offset after its last one. Neither is
+-- below 0.
 pattern Region :: Int -> Int -> Region
 pattern Region {start, end} <-
   (offsets -> (start, end))
@@ -61,29 +60,31 @@ offsets (Halves both) =
   (fromIntegral (both `shiftR` half), fromIntegral (both .&. (1 `shiftL` half - 1)))
 {-# INLINE offsets #-}
 
--- | The bits of one offset.
+-- | The number of bits of an offset.
 half :: Int
 half = 32
 
--- | A thing and where it stands.
+-- | A value and its region.
 data Located a = Located {region :: Region, value :: a}
   deriving stock (Eq, Show)
 
 instance Functor Located where
   fmap f (Located region value) = Located region (f value)
 
--- | From the beginning of one region to the end of another.
+-- | The region from the start of one to the end of another.
 span :: Region -> Region -> Region
 span a b = Region (start a) (end b)
 
--- | The smallest region that holds both.
+-- | The smallest region that contains both.
 merge :: Region -> Region -> Region
 merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 
--- | Texts with an index of their lines, the program's own first. Lines end with LF, CR or CR LF.
+-- | The texts of a program and its imports, with an index of their lines. Lines end with LF, CR or
+-- CR LF.
 data Source = Source {own :: File, imported :: Boxed.Vector File}
 
--- The lines are looked for only when a place is asked for.
+-- | A text, the offset of its start, its length, and the starts and texts of its lines. The lines
+-- are computed on demand.
 data File = File
   { path :: Text,
     base :: Int,
@@ -93,28 +94,28 @@ data File = File
     contents :: ~(Boxed.Vector Text)
   }
 
--- | A file, a line and a column; the numbers count from 1.
+-- | A position: file, line and column. Line and column count from 1.
 data Position = Position {file :: Text, line :: Int, column :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | Index the text of a program; the first argument names its file. Linear in its length.
+-- | The source of a program from the name of its file and its text.
 fromText :: Text -> Text -> Source
 fromText path content = Source {own = indexed path 0 content, imported = Boxed.empty}
 
--- | Put another file behind the ones that are there.
+-- | Appends an imported file by its name and its text.
 add :: Text -> Text -> Source -> Source
 add path content source =
   source {imported = Boxed.snoc (imported source) (indexed path (next source) content)}
 
--- | The offset at which the next file will begin.
+-- | The offset at which the next appended file begins.
 next :: Source -> Int
 next source = let final = fileAt source maxBound in base final + length final + 1
 
--- | The program's own text.
+-- | The text of the program itself.
 text :: Source -> Text
 text = content . own
 
--- | The program's own file.
+-- | The file of the program itself.
 mainFile :: Source -> Text
 mainFile = path . own
 
@@ -129,7 +130,7 @@ indexed path base content =
       contents = Boxed.fromList (map snd (numbered content))
     }
 
--- | The lines with the offsets at which they begin.
+-- | The lines of a text with the offsets of their starts.
 numbered :: Text -> [(Int, Text)]
 numbered = go 0
   where
@@ -144,12 +145,12 @@ numbered = go 0
             then []
             else go (at + Text.length before + ending) (Text.drop ending after)
 
--- | The file that holds an offset; an offset outside all counts as the nearest.
+-- | The file with an offset; for an offset outside of all files, the nearest one.
 fileAt :: Source -> Int -> File
 fileAt source at =
   Boxed.foldl' (\_ file' -> file') (own source) (Boxed.takeWhile ((<= at) . base) (imported source))
 
--- | The position of an offset; an offset outside its text counts as its nearest end.
+-- | The position of an offset. An offset outside of the text counts as its nearest end.
 position :: Source -> Int -> Position
 position source at =
   Position {file = path found, line = index + 1, column = within + 1 - starts found Vector.! index}
@@ -158,8 +159,8 @@ position source at =
     within = max 0 (min (at - base found) (length found))
     index = lineIndex found within
 
--- | The offset of a line and a column of the program's own text, both from 1; a column behind its
--- line counts as its end.
+-- | The offset of a line and a column of the program itself. A column beyond its line counts as the
+-- line's end, and a line beyond the text as the text's end.
 offset :: Source -> Int -> Int -> Int
 offset Source {own} line column
   | line > Vector.length (starts own) = length own
@@ -168,18 +169,18 @@ offset Source {own} line column
   where
     index = max 0 (line - 1)
 
--- | The last line that begins at or before an offset within its file.
+-- | The index of the line with an offset, counted from the start of the file.
 lineIndex :: File -> Int -> Int
 lineIndex File {starts} at = BinarySearch.lastBelow (Vector.length starts) at starts
 
--- | The line in which an offset lies, without its line end.
+-- | The text of the line with an offset, without its line end.
 lineText :: Source -> Int -> Text
-lineText source at =
-  let found =
-        fileAt source at
-   in contents found Boxed.! lineIndex found (max 0 (min (at - base found) (length found)))
+lineText source at = contents found Boxed.! lineIndex found within
+  where
+    found = fileAt source at
+    within = max 0 (min (at - base found) (length found))
 
--- | What lies in a region of each of its lines, without their line ends.
+-- | The parts of a region's lines that lie in the region, without their line ends.
 pieces :: Source -> Region -> [Text]
 pieces source (Region from to) =
   [ part (starts found Vector.! i) (contents found Boxed.! i)

@@ -1,9 +1,8 @@
--- | What a pass gives: warnings, errors, and its output as far as it could be made.
+-- | The result of a compiler pass: warnings, errors, and its output.
 --
--- Independent errors accumulate (the applicative); a step that depends on
--- another's output runs only when there is one (the monad). An output beside
--- errors is the part that is sound, so later passes can find their own mistakes
--- in it; nothing is ever written from it.
+-- Errors of independent steps accumulate (the applicative). A step that depends on another's output
+-- runs only when there is one (the monad). An output next to errors is incomplete but sound: later
+-- passes look for mistakes in it, but no tape is made of it.
 module Base.Result
   ( Result (..),
     failed,
@@ -16,7 +15,7 @@ module Base.Result
   )
 where
 
--- | Warnings, errors, and the output if there is one.
+-- | Warnings, errors, and an output if there is one.
 data Result w e a = Result {warnings :: [w], errors :: [e], output :: Maybe a}
   deriving stock (Eq, Show)
 
@@ -33,31 +32,31 @@ instance Monad (Result w e) where
     Just x -> case f x of
       Result ws' es' b -> Result (ws <> ws') (es <> es') b
 
--- | No output, one error.
+-- | Fails with one error.
 failed :: e -> Result w e a
 failed e = Result [] [e] Nothing
 
--- | Errors beside an output that is still usable.
+-- | Errors with an output that is still usable.
 failing :: [e] -> a -> Result w e a
 failing es a = Result [] es (Just a)
 
--- | A warning.
+-- | Warnings without an error.
 warned :: [w] -> Result w e ()
 warned ws = Result ws [] (Just ())
 
--- | An answer that is either one error or an output.
+-- | An output, or one error.
 fromEither :: Either e a -> Result w e a
 fromEither = either failed pure
 
--- | Change what warnings and errors are.
+-- | Maps the warnings and the errors.
 mapErrors :: (w -> w') -> (e -> e') -> Result w e a -> Result w' e' a
 mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 
--- | The output only when there is no error.
+-- | The output if there is no error.
 settled :: Result w e a -> Maybe a
 settled (Result _ es a) = if null es then a else Nothing
 
--- | Go on only when there is no error so far.
+-- | Runs a pass on an output only if there is no error.
 thenSound :: Result w e a -> (a -> Result w e b) -> Result w e b
 thenSound r f = case settled r of
   Just _ -> r >>= f

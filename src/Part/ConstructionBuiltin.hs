@@ -254,7 +254,7 @@ obstacle (Circle p r) (Circle q s)
     Mm inside = minus (max r s) (min r s)
     Mm tolerance = Tolerance.coincident
 
--- | The ways in which a circle may touch a thing, restricted by the word before it.
+-- | The contacts that a circle may have with a thing, restricted by the word before the thing.
 touched :: Argument -> [Touched]
 touched argument = case argument of
   Plain (Spatial p) -> [Through (fromOrigin p)]

@@ -111,7 +111,7 @@ nameOf sought = case sought of
   SoughtLine -> "line"
   SoughtCircle -> "circle"
 
--- | The way to choose one of several answers.
+-- | Advice on the choice among several answers.
 choiceHint :: Sought -> Text
 choiceHint sought = case sought of
   SoughtLine -> bySides

@@ -60,8 +60,9 @@ contour env name closure items = do
       Left faults ->
         Evaluation.mistakes [Error (InContour fault) [] | fault <- NonEmpty.toList faults]
       Right elements ->
-        let legs = map asWritten (NonEmpty.toList some)
-         in pure Contour {contourName = name, ends, elements, legs = foldr seq legs legs}
+        let written = map asWritten (NonEmpty.toList some)
+            forced = foldr seq written written
+         in pure Contour {contourName = name, ends, elements, legs = forced}
   where
     ends = case closure of
       Checked.Open -> Open

@@ -99,8 +99,9 @@ arcsAlong tolerance exact =
     (Nothing, Just (off, xs, ys)) ->
       MeasuredPolyarc.fromOutline (CubicFit.approximate (minus tolerance off) xs ys)
     (Nothing, Nothing) ->
-      MeasuredPolyarc.fromSegments (sconcat (ParametricFit.approximate tolerance (track exact)))
+      MeasuredPolyarc.fromSegments (sconcat (fitted (track exact)))
   where
+    fitted = ParametricFit.approximate tolerance
     cubics = Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact
 
 -- | A curve without columns.

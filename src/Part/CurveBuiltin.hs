@@ -54,12 +54,12 @@ apply region builtin arguments =
 -- | A function whose result is a curve through points.
 newCurve :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 newCurve region builtin arguments = case (builtin, arguments) of
-  (MakeSpline, [t]) -> Just (through t (Exact.spline Exact.Natural))
+  (MakeSpline, [t]) -> Just (curveThrough t (Exact.spline Exact.Natural))
   (MakeSpline, [t, Plain (Quantity a), Plain (Quantity b)]) ->
-    Just (through t (Exact.spline (Exact.Clamped (direction a) (direction b))))
-  (ClosedSpline, [t]) -> Just (through t (Exact.spline Exact.Periodic))
-  (Polyline, [t]) -> Just (through t Exact.polyline)
-  (Parabola, [t]) -> Just (through t Exact.parabola)
+    Just (curveThrough t (Exact.spline (Exact.Clamped (direction a) (direction b))))
+  (ClosedSpline, [t]) -> Just (curveThrough t (Exact.spline Exact.Periodic))
+  (Polyline, [t]) -> Just (curveThrough t Exact.polyline)
+  (Parabola, [t]) -> Just (curveThrough t Exact.parabola)
   (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just $ do
     toleranceOf region d
     ofSegments region (sconcat (ParametricFit.approximate (Mm d) (Curve.track (exact c))))
@@ -83,7 +83,7 @@ newCurve region builtin arguments = case (builtin, arguments) of
     numbers v = case v of
       ListValue ns -> [n | Quantity n <- Vector.toList ns]
       _ -> []
-    through t make = do
+    curveThrough t make = do
       table <- tableOf region t
       c <- either (faulty region table) pure (make (Curve.points table))
       pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))

@@ -33,7 +33,7 @@ import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
 import Part.Measure (feedOf, lengthOf, positive, whole)
 import Part.Parameter qualified as Parameter
-import Part.Part hiding (spot)
+import Part.Part
 import Part.Piece qualified as Piece
 import Part.Transformation qualified as Transformation
 import Part.Value (Value (..))
@@ -81,7 +81,7 @@ initial =
             chordError = Nothing,
             modalFeed = Nothing,
             clearanceHeight = Nothing,
-            spindleSense = Clockwise
+            modalSense = Clockwise
           },
       initialCutter = Nothing,
       start' = Nothing,
@@ -136,7 +136,7 @@ step state (Located at s) = case s of
   Checked.Spindle Checked.Still -> command SpindleOff
   Checked.Spindle (Checked.Spinning sense speed) ->
     keep (traverse (positive env Parameter.SpindleSpeed id) speed) $ \speed' ->
-      (command (SpindleOn sense speed')) {context = now {spindleSense = sense}}
+      (command (SpindleOn sense speed')) {context = now {modalSense = sense}}
   Checked.Coolant switch -> command (CoolantTo switch)
   Checked.Auxiliary e ->
     keep (whole env Parameter.AuxiliaryCommand (1, 99) e) (command . Auxiliary)

@@ -37,7 +37,7 @@ import Part.Expression qualified as Expression
 import Part.Measure (feedOf, lengthOf, notNegative)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
-import Part.Part hiding (spot)
+import Part.Part
 import Part.PocketCheck qualified as PocketCheck
 import Part.PocketError (PocketMisfit (StepTooWide))
 import Part.Value (Value (..))
@@ -50,7 +50,7 @@ data Context = Context
     chordError :: Maybe Accuracy,
     modalFeed :: Maybe (Located Feed),
     clearanceHeight :: Maybe Mm,
-    spindleSense :: Sense
+    modalSense :: Sense
   }
 
 -- Milling and turning
@@ -131,9 +131,9 @@ assembled context work side settings passes = do
         allowances = left passes,
         corners = Checked.corners settings,
         sense = Checked.sense settings,
-        spin = spindleSense context,
+        spin = modalSense context,
         byControl = case Checked.compensation settings of
-          Just (Located asked Checked.ByController) -> Just asked
+          Just (Located at Checked.ByController) -> Just at
           Just (Located _ Checked.ByCompiler) -> Nothing
           Nothing -> Nothing,
         rest = maybe Refused (const Allowed) (Checked.restAllowed settings)
@@ -196,7 +196,8 @@ pocketing context at e step settings = do
   checkPassCount (region step) (over (PocketCheck.halfWidth outline') apart)
   let diameter = times 2 . cutterRadius <$> cutter context
       tooWide = [StepTooWide (region step) apart d | Just d <- [diameter], apart > d]
-      pocket w = Pocketing {wall = w, islands = map PocketCheck.contour islands, apart}
+      contours' = map PocketCheck.contour islands
+      pocket w = Pocketing {wall = w, islands = contours', apart}
   case PocketCheck.misfits outline' islands <> tooWide of
     [] -> pure (pocket <$> wall)
     found -> Evaluation.mistakes [Error (InPocket m) [] | m <- found]

@@ -145,8 +145,9 @@ runs es = case es of
 -- | A contour in the opposite direction. A segment then continues the segment that continued it.
 backwards :: Contour -> Contour
 backwards c =
-  c {elements = NonEmpty.reverse (snd (mapAccumR reversed first (elements c))), legs = []}
+  c {elements = NonEmpty.reverse opposite, legs = []}
   where
+    opposite = snd (mapAccumR reversed first (elements c))
     first = continues (NonEmpty.head (elements c))
     reversed next e =
       ( continues e,

@@ -334,7 +334,7 @@ checkSwivel at curve piece bevels
       let Mm s = MeasuredPolyarc.station (Curve.approximation curve) p
        in abs (b - interpolated s marks) > 2 * slack
 
--- | Linear interpolation between known places; constant after the last one.
+-- | Linear interpolation between known stations; constant before the first and after the last one.
 interpolated :: Double -> [(Double, Double)] -> Double
 interpolated s known = case known of
   (a, x) : more@((b, y) : _)

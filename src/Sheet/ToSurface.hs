@@ -177,7 +177,9 @@ isBlade sheet = value (gear (general sheet)) /= 0
 isFlat :: Sheet -> Bool
 isFlat sheet =
   not (isBlade sheet)
-    && all (all ((== 0) . value . z)) (approach sheet : map onward (NonEmpty.toList (arrays sheet)))
+    && all (all ((== 0) . value . z)) (approach sheet : retracts)
+  where
+    retracts = map onward (NonEmpty.toList (arrays sheet))
 
 -- | A point, with its height unless all heights of the sheet are 0.
 pointOf :: Bool -> Waypoint -> Expr

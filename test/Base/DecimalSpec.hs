@@ -1,4 +1,4 @@
--- | Numbers that are written and read again.
+-- | Laws of numbers that are written and read again.
 module Base.DecimalSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -12,22 +12,22 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "exact" $ do
-    -- Catches a reader or a writer that is off in the last bit.
+    -- Catches a reader or a writer with an error in the last bit.
     prop "read again: a number that is written exactly is the same number" $
       forAll anyNumber $ \x ->
         Decimal.amount (Text.dropWhile (== '-') (Decimal.exact x)) === Just (abs x)
     prop "has no exponent and no minus zero" $
       forAll anyNumber $ \x ->
         Text.all (\c -> isDigit c || c `elem` ("-." :: String)) (Decimal.exact x)
-    it "is as short as a person would write it" $
+    it "is as short as possible" $
       map Decimal.exact [0, -0.0, 0.1, 59.3, -2.5, 1e-3, 100, 1 / 3]
         `shouldBe` ["0", "0", "0.1", "59.3", "-2.5", "0.001", "100", "0.3333333333333333"]
-    it "rounds what has more digits than a program may" $
+    it "rounds a number with more digits than a program allows" $
       (Decimal.amount (Decimal.exact 1e-30), Decimal.exact 5e-324) `shouldBe` (Just 1e-30, "0")
   describe "unlike" $ do
     it
-      "has as many decimals as tell a length from another one (catches a radius of 3 mm into which \
-      \3 mm do not fit)"
+      "has enough decimals to tell two lengths apart (catches a radius of 3 mm into which 3 mm do \
+      \not fit)"
       $ [Decimal.unlike (Mm 3) (Mm x) | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]]
         `shouldBe` ["2.5 mm", "3 mm", "2.9999 mm", "2.99999 mm", "3.000004 mm", "3 mm"]
   describe "amount" $ do

@@ -1,4 +1,4 @@
--- | Names that a misspelt one may mean.
+-- | Suggestions for misspelt names.
 module Base.NameSpec (spec) where
 
 import Base.Name qualified as Name
@@ -11,17 +11,17 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   it
-    "suggests what is one edit away for every three letters, the nearest first (catches words that \
-    \are given up too early)"
+    "suggests names within one edit for every three letters, nearest first (catches words that are \
+    \given up too early)"
     $ property . forAll word $ \wanted -> forAll (listOf (oneof [word, edited wanted])) $ \known ->
       let found = Name.nearest wanted known
           allowed = Text.length wanted `div` 3
        in cover 50 (not (null found)) "some" $
             sort found === sort [k | k <- known, edits wanted k <= allowed]
               .&&. map (edits wanted) found === sort (map (edits wanted) found)
-  it "does not mind capitals" $
+  it "ignores capital letters" $
     Name.nearest "Bolts" ["bolt", "BOLTS", "nuts"] `shouldBe` ["BOLTS", "bolt"]
-  it "finds what looks the same in another alphabet, and only that" $
+  it "finds names that look the same in another alphabet, and no others" $
     Name.lookAlike "сора" ["copa", "сора", "cope", "cop"] `shouldBe` ["copa"]
 
 word :: Gen Text
@@ -29,7 +29,7 @@ word = do
   n <- choose (1, 8)
   Text.pack <$> vectorOf n (elements "abcж")
 
--- | A word with up to three letters left out, put in or exchanged.
+-- | A word with up to three edits: letters removed, inserted or replaced.
 edited :: Text -> Gen Text
 edited w = choose (0, 3 :: Int) >>= go w
   where
@@ -41,7 +41,7 @@ edited w = choose (0, 3 :: Int) >>= go w
         gone <- choose (0, 1)
         go (Text.take k t <> c <> Text.drop (k + gone) t) (n - 1)
 
--- | How many letters have to be left out, put in or exchanged, by the definition.
+-- | The Levenshtein distance by its definition.
 edits :: Text -> Text -> Int
 edits a b = case (Text.uncons a, Text.uncons b) of
   (Nothing, _) -> Text.length b

@@ -1,4 +1,4 @@
--- | The laws of places in a text.
+-- | Laws of regions of a text.
 module Base.RegionSpec (spec) where
 
 import Base.Region (Region (..))
@@ -10,10 +10,10 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  describe "places in a text" $ do
+  describe "regions of a text" $ do
     it
-      "pieces of lines have the words of the whole (catches a line that is cut where another one \
-      \is)"
+      "parts of lines have the words of the whole (catches a line that is cut at the column of \
+      \another line)"
       $ property $
         forAll ((,,) <$> texts <*> texts <*> texts) $ \(above, inside, below) ->
           let source = Region.fromText "p.part" (above <> inside <> below)
@@ -23,7 +23,7 @@ spec =
                   Text.words
                   (Region.pieces source (Region from (from + Text.length inside)))
                   === Text.words inside
-    it "so it is in what is imported" $
+    it "parts of lines of an import have the words of the whole" $
       property $
         forAll ((,,) <$> texts <*> texts <*> texts) $ \(own, above, inside) ->
           let source = Region.add "q.part" (above <> inside) (Region.fromText "p.part" own)

@@ -1,5 +1,5 @@
--- | The laws of curves from the text of a program to the path of the cutter: what is machined along
--- a curve is what the exact curve says.
+-- | Laws of curves from the text of a program to the toolpath: the part has the geometry of the
+-- exact curve.
 module Part.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -36,8 +36,8 @@ spec :: Spec
 spec = do
   describe "a spline through the points of a circle" $ do
     it
-      "is milled like the circle (catches an equidistant of chords, a gap between the arcs that \
-      \stand for a curve)"
+      "is milled like the circle (catches an offset of chords, a gap between the arcs that \
+      \approximate a curve)"
       $ property $
         forAll ((,,) <$> elements ["outside", "inside"] <*> written 1 30 <*> shares) $
           \(side, r, ts) ->
@@ -71,10 +71,10 @@ spec = do
             (a, b) -> counterexample (show (a, b)) False
   describe "a contour" $ do
     it
-      "of arcs runs along the very arcs, there and back and turned (catches a chain of arcs that \
-      \others stand for)"
+      "of arcs keeps its arcs, forwards, reversed and moved (catches arcs that are approximated by \
+      \others)"
       $ property $
-        forAll ((,,) <$> course <*> motion <*> shares) $ \(points, (s, _, (begin, rest)), ts) ->
+        forAll ((,,) <$> pathPoints <*> motion <*> shares) $ \(points, (s, _, (begin, rest)), ts) ->
           let text =
                 "part p\ncurve a = arcs([" <> Text.intercalate ", " (map point points) <> "])\n"
               own =
@@ -92,8 +92,8 @@ spec = do
                       ]
                 ]
     it
-      "of two curves that cross runs along both, from crossing to crossing (catches a curve walked \
-      \beyond its crossing, or its other part)"
+      "of two curves that cross follows both, from crossing to crossing (catches a curve that is \
+      \followed beyond its crossing, or its other part)"
       $ property $
         forAll crossing $ \(upper, lower) ->
           let text =
@@ -107,7 +107,7 @@ spec = do
                 let corners =
                       [ Segment.start s
                         | (s, p) <- zip segments (drop (length segments - 1) (cycle segments)),
-                          sharp p s
+                          isCorner p s
                       ]
                  in conjoin
                       [ min (p `offCurve` a) (p `offCurve` b) `atMost` 2e-5
@@ -120,12 +120,12 @@ spec = do
                           conjoin
                             [max (c `offCurve` a) (c `offCurve` b) `atMost` 2e-5 | c <- [p, q]]
                             .&&. near
-                              (stretched p q a + stretched p q b)
+                              (lengthBetween p q a + lengthBetween p q b)
                               (sum (map lengthOf segments))
                         _ -> counterexample (show corners) False
-    it "of curves reversed has the same geometry (catches a chain turned round arc by arc)" $
+    it "of curves reversed has the same geometry (catches a polyarc reversed arc by arc)" $
       property $
-        forAll ((,) <$> course <*> shares) $ \(points, ts) ->
+        forAll ((,) <$> pathPoints <*> shares) $ \(points, ts) ->
           let text =
                 "part p\n"
                   <> splineOf "a" Natural points
@@ -144,7 +144,7 @@ spec = do
   describe "a piece" . modifyMaxSuccess (const 50) $ do
     it
       "transformed is the piece of the transformed curve, and a mirror swaps its sides (catches a \
-      \side or a column that the transformation leaves behind)"
+      \side or a column that is not transformed)"
       $ property $
         forAll ((,,) <$> pieceCase <*> motion <*> shares) $ \(c, (s, mirrors, (begin, rest)), ts) ->
           let plain = pieceText c
@@ -166,7 +166,7 @@ spec = do
                 (a, b, d) ->
                   counterexample (show (fmap length a, fmap length b, fmap length d)) False
     it
-      "is that of the exact curve (catches a cipher on the wrong side, in the wrong order, or left \
+      "follows the exact curve (catches a cipher on the wrong side, in the wrong order, or left \
       \out)"
       $ property $
         forAll ((,) <$> pieceCase <*> shares) $ \(c, ts) ->
@@ -175,8 +175,8 @@ spec = do
             Just segments ->
               conjoin [Segment.at t s `offCurve` pieceOf c `atMost` 1.2e-5 | s <- segments, t <- ts]
     it
-      "is milled at the radius of the cutter, everywhere (catches an equidistant of an \
-      \equidistant, a side that the chain of arcs swaps)"
+      "is milled at the radius of the cutter, everywhere (catches an offset of an offset, a side \
+      \that the polyarc swaps)"
       $ property $
         forAll ((,,,) <$> pieceCase <*> elements [LeftOf, RightOf] <*> written 0.5 6 <*> shares) $
           \(c, side, r, ts) ->
@@ -222,9 +222,9 @@ apart a b = let Mm d = Vec.distance a b in d
 offCurve :: Point -> Curve -> Double
 offCurve p c = p `apart` Curve.at c (Curve.nearest p c)
 
--- | The length of a curve between two places on it.
-stretched :: Point -> Point -> Curve -> Double
-stretched p q c = abs (at p - at q)
+-- | The length of a curve between two of its points.
+lengthBetween :: Point -> Point -> Curve -> Double
+lengthBetween p q c = abs (at p - at q)
   where
     at x = let Mm s = Curve.lengthTo c (Curve.nearest x c) in s
 
@@ -234,11 +234,11 @@ lengthOf s = let Mm l = Segment.length s in l
 shares :: Gen [Double]
 shares = vectorOf 3 (choose (0, 1))
 
--- | As many digits as are written.
+-- | A number with three decimals, as written.
 written :: Double -> Double -> Gen Double
 written a b = (/ 1000) . fromIntegral <$> choose (round (a * 1000), round (b * 1000) :: Int)
 
--- | The centre of an arc; the beginning of a line.
+-- | The centre of an arc; the start of a line.
 centreOf :: Segment -> Point
 centreOf s = case s of
   Arc {Segment.centre = c} -> c
@@ -261,17 +261,21 @@ head' xs = case xs of
 
 -- Fillets
 
--- | A line that comes to a circle of radius 50 about c, in a direction, so far to the left of its
--- centre; a fillet, walked clockwise or not; where its centre is, where it begins, where it touches
--- the circle.
+-- | A line to a circle of radius 50, and the fillet between them.
 data Rounding = Rounding
-  { heading :: Double,
+  { -- | the direction of the line, degrees
+    heading :: Double,
+    -- | the distance of the line from the circle's centre, to the left
     offset :: Double,
     clockwise :: Bool,
     filletRadius :: Double,
+    -- | the centre of the fillet
     middle :: Point,
+    -- | the start of the fillet
     first :: Point,
+    -- | the end of the fillet, on the circle
     touches :: Point,
+    -- | the angle at which the curve begins and ends, degrees
     final :: Double
   }
   deriving stock (Show)
@@ -302,11 +306,12 @@ rounding = do
         middle = place far high,
         first = place far offset,
         touches = place (far * 50 / away) (high * 50 / away),
-        -- The curve begins and ends a little way behind the fillet.
+        -- The curve begins and ends shortly after the fillet.
         final = fromIntegral (round ((a * 180 / pi + 30) * 1000) :: Int) / 1000
       }
 
--- | An open contour of the line, the fillet, and what is walked to a point of the circle.
+-- | A program with an open contour: the line, the fillet, and an element up to a point of the
+-- circle.
 rounded :: Text -> Rounding -> Text
 rounded element Rounding {heading, offset, clockwise, filletRadius, final} =
   Text.unlines
@@ -346,9 +351,9 @@ crossing = (,) <$> arched 1 <*> (reverse <$> arched (-1))
             (map (s *) (zipWith (*) [-1, 1, 1, 1, -1] (take 1 ends <> tops <> drop 1 ends)))
         )
 
--- | Points along a way that may climb straight up and double back, without crossing itself.
-course :: Gen [Point]
-course = do
+-- | Points of a path that may be vertical and turn back, but does not cross itself.
+pathPoints :: Gen [Point]
+pathPoints = do
   n <- frequency [(1, pure 2), (3, choose (3, 8)), (1, choose (12, 16))]
   begin <- elements [0, pi / 2, pi, 1]
   whole <- choose (-3, 3)
@@ -384,11 +389,11 @@ splineOf name ends points =
 
 -- Pieces
 
--- | A recalculation as it is written.
+-- | A recalculation as written: 1, 2, 4 or 6.
 data Cipher = Evenly Double Double | Steady Double | Leaning Double | Rowwise Double
   deriving stock (Show)
 
--- | The points of a table, its other columns (degrees, mm), the ciphers, the side.
+-- | The rows of a table (a point, a bevel in degrees, a thickness in mm), the ciphers, the side.
 data PieceCase = PieceCase
   { table :: [(Point, Double, Double)],
     closed :: Bool,
@@ -400,7 +405,7 @@ data PieceCase = PieceCase
 pieceCase :: Gen PieceCase
 pieceCase = do
   closed <- frequency [(3, pure False), (1, pure True)]
-  points <- if closed then closedPoints else course
+  points <- if closed then closedPoints else pathPoints
   bevels <- vectorOf (length points) (written (-8) 8)
   thick <- vectorOf (length points) (written 0.5 2)
   ciphers <- choose (0, 3) >>= \n -> vectorOf n cipher
@@ -461,7 +466,7 @@ pieceNamed name base PieceCase {ciphers, side'} =
       Leaning h -> "4(mu, " <> number h <> ")"
       Rowwise k -> "6(" <> number k <> " * t)"
 
--- | The same by the exact curve itself.
+-- | The piece by exact curves.
 pieceOf :: PieceCase -> Curve
 pieceOf PieceCase {table, closed, ciphers, side'} =
   foldl shifted (exactly (if closed then Periodic else Natural) [p | (p, _, _) <- table]) ciphers
@@ -478,8 +483,7 @@ pieceOf PieceCase {table, closed, ciphers, side'} =
       Rowwise k -> Pointwise (Curve.column c (column (\(_, _, t) -> k * t)))
     column f = Vector.fromList (map f table)
 
--- | A motion, whether it mirrors, and how it is written: what stands before a thing and what behind
--- it.
+-- | A motion, whether it mirrors, and its text before and after the thing moved.
 motion :: Gen (Transformation, Bool, (Text, Text))
 motion = do
   a <- written (-200) 200
@@ -510,8 +514,8 @@ motion = do
       )
     ]
 
--- | Whether segments, transformed, run along others from the same beginning to the same end. Each
--- stays within 10⁻⁵ mm of its curve.
+-- | Checks that segments, transformed, follow others from the same start to the same end. Either
+-- chain is within 10⁻⁵ mm of its curve.
 along :: Transformation -> [Double] -> [Segment] -> [Segment] -> Property
 along s ts before after =
   conjoin
@@ -541,7 +545,7 @@ header r =
 point :: Point -> Text
 point p = "(" <> number (Vec.x p) <> ", " <> number (Vec.y p) <> ")"
 
--- | With six decimals.
+-- | A number with six decimals.
 number :: Double -> Text
 number x = Text.pack (if n < 0 then '-' : digits (-n) else digits n)
   where
@@ -560,12 +564,12 @@ elementsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text)
         <$> Result.output r
   _ -> Nothing
 
--- | What holds for the elements of a program's contours.
+-- | A property of the elements of a program's contours; fails when the program has mistakes.
 soundly :: Maybe [Segment] -> ([Segment] -> Property) -> Property
 soundly elements' holds = maybe (counterexample "the program has mistakes" False) holds elements'
 
--- | The cuts of a program's millings, if there are no mistakes. Ways in that cut are no concern
--- here.
+-- | The cuts of a program's millings if there are no mistakes. Approaches that gouge (E0405) are
+-- ignored.
 cutsOf :: Text -> Maybe [Segment]
 cutsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
   r
@@ -577,11 +581,11 @@ cutsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
       Toolpath.Cutting {Toolpath.cut} -> map Toolpath.segment (NonEmpty.toList cut)
       _ -> []
 
--- | What holds for the cuts of a program without mistakes.
+-- | A property of the cuts of a program; fails when the program has mistakes.
 milled :: Text -> ([Segment] -> Property) -> Property
 milled text holds = maybe (counterexample (Text.unpack text) False) holds (cutsOf text)
 
--- | Whether the walk has a corner between two segments.
-sharp :: Segment -> Segment -> Bool
-sharp a b =
-  let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs turned > 1e-3
+-- | Tells whether two segments meet at a corner.
+isCorner :: Segment -> Segment -> Bool
+isCorner a b =
+  let Rad angle = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs angle > 1e-3

@@ -33,7 +33,7 @@ spec = do
             [ "pocket edge step 4 { islands boss, [moved(boss, (30, 0)), moved(boss, (60, 0))]  \
               \allowance 0.5, 0  depth 6 step 2  plunge 20  climb  rest allowed }"
             ]
-    it "has its outline, its islands in their order, its step, and what is asked as of mill" $ do
+    it "has its outline, its islands in order, its stepover, and the settings of mill" $ do
       fmap
         ( \p ->
             ( map
@@ -52,7 +52,7 @@ spec = do
             Just Part.Climb,
             Part.Allowed
           )
-    it "leaves nothing standing for its own sake unless that is allowed" $
+    it "refuses rest material unless it is allowed" $
       fmap (Part.rest . Part.wall) (pocketOf ["pocket edge step 4 { }"])
         `shouldBe` Just Part.Refused
     it "may be called pocket" $
@@ -60,12 +60,12 @@ spec = do
         Part.apart
         (pocketOf ["contour pocket closed { ccw circle((0, 0), 40) }", "pocket pocket step 4 { }"])
         `shouldBe` Just (Mm 4)
-    -- The bug: islands that stay where they are when the pocket is turned.
-    it "moves with its islands, not with its step" $
+    -- Catches islands that are not transformed with the pocket.
+    it "moves with its islands, but keeps its stepover" $
       fmap (\p -> (starts (transformed p), Part.apart (transformed p))) whole
         `shouldBe` fmap (\p -> (map (Transformation.point turn) (starts p), Part.apart p)) whole
   describe "mill" $
-    it "leaves what it cannot reach when that is allowed" $
+    it "leaves rest material when that is allowed" $
       [ Part.rest m
         | Mill (Located _ m) <-
             operations ["mill edge inside { rest allowed }", "mill edge inside { }"]
@@ -73,13 +73,13 @@ spec = do
         `shouldBe` [Part.Allowed, Part.Refused]
   describe "winding" $ do
     prop
-      "is the same on the chord of an arc as beside it (catches an arc that goes past a point of \
-      \its chord on the wrong side)"
+      "is the same on the chord of an arc as next to it (catches an arc that passes a point of its \
+      \chord on the wrong side)"
       $ forAll ((,,) <$> choose (-9, 9 :: Int) <*> choose (0, 3 :: Int) <*> arbitrary) $
         \(k, turns, isReversed) ->
           let turned q = iterate (\v -> Vec.point (negate (Vec.y v)) (Vec.x v)) q !! turns
               place x y = turned (Vec.point x y)
-              walk =
+              segments =
                 [ Segment.Arc
                     { Segment.start = place 0 (-10),
                       Segment.end = place 0 10,
@@ -92,14 +92,13 @@ spec = do
                 ]
            in WindingNumber.about
                 (place 0 (fromIntegral k))
-                (if isReversed then map Segment.reverse walk else walk)
+                (if isReversed then map Segment.reverse segments else segments)
                 === if isReversed
                   then -1
                   else 1
-    -- The bug: an arc that counts like its chord.
+    -- Catches an arc that counts like its chord.
     prop
-      "is that of a chain of many chords (catches the bow of an arc forgotten, or on the wrong \
-      \side)"
+      "is that of many chords (catches the segment of a circle forgotten, or on the wrong side)"
       $ forAll closedCase $ \c ->
         forAll
           ((,,,) <$> choose (0, 1000) <*> choose (0, 1) <*> choose (-8, 8) <*> choose (-8, 8))
@@ -126,13 +125,13 @@ spec = do
         Part.rest m
       )
 
--- | A segment as so many straight ones.
+-- | A segment as @n@ straight segments.
 chorded :: Int -> Segment -> [Segment]
 chorded n s = zipWith Segment.Straight marks (drop 1 marks)
   where
     marks = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
 
--- | The only pocket of a program.
+-- | The only pocket of a program with these statements.
 pocketOf :: [Text] -> Maybe Pocketing
 pocketOf statements = case [p | Pocket (Located _ p) <- operations statements] of
   [p] -> Just p

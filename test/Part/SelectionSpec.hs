@@ -1,6 +1,6 @@
--- | The words that choose one of several answers choose the same answer when the drawing is turned
--- and moved, and the other side in a mirror. Random drawings are built in the language itself, as
--- they are and as an image; the program compares the answers, and the reports are the same.
+-- | Laws of the choice among several answers: it is the same when the drawing is turned and moved,
+-- and the opposite side in a mirror. A random drawing and its image are built in the language
+-- itself; the program asserts that the answers agree, and the reports are the same.
 module Part.SelectionSpec (spec) where
 
 import Base.Result qualified as Result
@@ -38,10 +38,10 @@ spec =
                     counterexample "mirrored" (agrees 2 (images 2 mirror) (exchanged expression))
                   ]
 
--- | What a construction gives.
+-- | The result of a construction.
 data Kind = Points | Lines | Circles
 
--- | Constructions of one kind, by what they construct. Things of the drawing end with #.
+-- | Groups of constructions with their results. Names of the drawing end with #.
 groups :: [(String, Kind, [Text])]
 groups =
   [ ( "intersection, with every choice",
@@ -104,7 +104,7 @@ groups =
     sides = ["", "left ", "right "]
     touched l c p = [p, l, "left " <> l, "right " <> l, c, "outside " <> c, "inside " <> c]
 
--- | The things of a drawing, each near the others.
+-- | A drawing: points, lines and circles near one another.
 drawing :: Gen Text
 drawing = do
   ps <- vectorOf 12 point
@@ -129,7 +129,7 @@ drawing = do
       (\x y -> "(" <> tenths x <> ", " <> tenths y <> ")")
         <$> choose (-300, 300) <*> choose (-300, 300)
 
--- | A turn about (0, 0) and a move, as a call.
+-- | A rotation about (0, 0) and a translation, as a call.
 turning :: Gen Text
 turning =
   (\a x y -> "moved(rotated(x, " <> tenths a <> " deg), (" <> tenths x <> ", " <> tenths y <> "))")
@@ -141,7 +141,7 @@ mirroring =
   (\a x -> "mirrored(x, line((" <> tenths x <> ", 0), " <> tenths a <> " deg))")
     <$> choose (0, 3600) <*> choose (-500, 500)
 
--- | The image of a drawing.
+-- | The image of a drawing under a call.
 images :: Int -> Text -> Text
 images n call =
   Text.unlines
@@ -161,7 +161,8 @@ tenths n =
     <> "."
     <> Text.pack (show (abs n `mod` 10))
 
--- | For the drawing in the mirror; a perpendicular is turned to the left there as well.
+-- | An expression for the mirrored drawing: left and right are exchanged. A perpendicular still
+-- turns to the left.
 exchanged :: Text -> Text
 exchanged =
   Text.replace "perpendicular(l#, p#)" "reversed(perpendicular(l#, p#))"
@@ -172,7 +173,7 @@ exchanged =
 answer :: Int -> Text -> Text
 answer n e = "let answer" <> number n <> " = " <> Text.replace "#" (number n) e
 
--- | An answer is the image of the first one.
+-- | Assertions that an answer is the image of the first one.
 same :: Kind -> Int -> Text
 same kind n = Text.unlines $ case kind of
   Points -> ["assert distance(" <> there <> ", " <> image <> ") < 0.0001"]

@@ -1,5 +1,4 @@
--- | The laws of transformations: what is machined on the transformed part is the transformed
--- machining.
+-- | Laws of transformations: the toolpath of the transformed part is the transformed toolpath.
 module Part.TransformationSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -32,7 +31,7 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec = do
   describe "similarities" $ do
-    it "one behind the other are one (catches angles added where a mirror stands between)" $
+    it "one after the other are one (catches angles that are added across a mirror)" $
       property $
         forAll ((,,) <$> similarity <*> similarity <*> somePoint) $ \(a, b, p) ->
           Transformation.point b (Transformation.point a p)
@@ -46,15 +45,15 @@ spec = do
               | g <- segmentsOf c,
                 t <- [0.2, 0.5, 0.9]
             ]
-  describe "the path" $ do
+  describe "the toolpath" $ do
     it
-      "of a milling transformed is the path transformed (catches a side that a mirror does not \
+      "of a milling transformed is the toolpath transformed (catches a side that a mirror does not \
       \swap, a lead on the other side)"
       $ property $
         forAll ((,) <$> motion <*> (Generate.settings <*> (millingOf <$> Generate.closedCase))) $
           \(s, job) ->
-            case ( laid job,
-                   laidOperation
+            case ( movesOf job,
+                   movesOfOperation
                      (Transformation.point s (beginning job))
                      (Transformation.operation s (Mill (here job)))
                  ) of
@@ -67,10 +66,10 @@ spec = do
         forAll ((,) <$> Generate.closedCase <*> choose (0.01, 0.4)) $ \(c, d) ->
           let job = millingOf c
               Mm r = Part.radius job
-           in fmap (map Toolpath.segment) (laid job {Part.allowances = Mm d :| []})
-                === fmap (map Toolpath.segment) (laid job {Part.radius = Mm (r + d)})
+           in fmap (map Toolpath.segment) (movesOf job {Part.allowances = Mm d :| []})
+                === fmap (map Toolpath.segment) (movesOf job {Part.radius = Mm (r + d)})
     it
-      "climbs with the material on the right, whichever way the contour is walked (catches the \
+      "climbs with the material on the right, whatever the direction of the contour (catches the \
       \senses exchanged)"
       $ property $
         forAll Generate.closedCase $ \c ->
@@ -79,14 +78,14 @@ spec = do
                   { Part.sense = Just (here Part.Climb),
                     Part.side = here (if isOutside c then Part.Outside else Part.Inside)
                   }
-           in case laid job of
+           in case movesOf job of
                 Nothing -> property Discard
                 Just moves ->
                   let g =
                         Toolpath.segment (longest moves)
                    in counterexample (show g) (materialRight c g)
   describe "a contour" $ do
-    it "begun elsewhere is the same contour (catches a piece lost or walked twice)" $
+    it "begun elsewhere is the same contour (catches a segment lost or doubled)" $
       property $
         forAll ((,) <$> Generate.closedCase <*> somePoint) $ \(c, p) ->
           let before = Part.contour (millingOf c)
@@ -196,16 +195,16 @@ segmentsOf c = map Part.segment (NonEmpty.toList (Part.elements (Part.contour (m
 millingOf :: Case -> Milling
 millingOf = Generate.job
 
-laid :: Milling -> Maybe [Toolpath.Move]
-laid job = laidOperation (beginning job) (Mill (here job))
+movesOf :: Milling -> Maybe [Toolpath.Move]
+movesOf job = movesOfOperation (beginning job) (Mill (here job))
 
--- | Where the contour begins.
+-- | The start of the contour.
 beginning :: Milling -> Point
 beginning job = Segment.start (Part.segment (NonEmpty.head (Part.elements (Part.contour job))))
 
--- | The cuts and leads of an operation; ways in that cut are no concern here.
-laidOperation :: Point -> Operation -> Maybe [Toolpath.Move]
-laidOperation at operation =
+-- | The cuts and leads of an operation. Approaches that gouge are ignored.
+movesOfOperation :: Point -> Operation -> Maybe [Toolpath.Move]
+movesOfOperation at operation =
   fmap
     (concatMap cuts . Toolpath.blocks)
     (Result.output (FromPart.lay (Generate.partOf at operation)))
@@ -222,7 +221,7 @@ sameSegment s a b =
   conjoin
     [Segment.at t b `shouldBeNear` Transformation.point s (Segment.at t a) | t <- [0, 0.3, 0.7, 1]]
 
--- | Whether the cutter stands outside of the contour.
+-- | Tells whether the cutter is outside of the contour.
 isOutside :: Case -> Bool
 isOutside = Generate.outside
 
@@ -231,7 +230,7 @@ longest moves = snd (maximum' [(l, m) | m <- moves, let Mm l = Segment.length (T
   where
     maximum' = foldr1 (\a b -> if fst a >= fst b then a else b)
 
--- | Whether the contour lies on the right of the middle of a cut.
+-- | Tells whether the contour lies to the right of the middle of a cut.
 materialRight :: Case -> Segment -> Bool
 materialRight c g = Vec.cross (Segment.directionAt 0.5 g) (Vec.to middle foot) < 0
   where
@@ -253,10 +252,10 @@ materialRight c g = Vec.cross (Segment.directionAt 0.5 g) (Vec.to middle foot) <
 angles :: Gen (Double, Double, Double)
 angles = (,,) <$> written 400 <*> written 300 <*> written 300
   where
-    -- As many digits as are written.
+    -- Three decimals, as written.
     written n = (/ 1000) . fromIntegral <$> choose (-1000 * n, 1000 * n :: Int)
 
--- | Corners of a polygon that turns left, and a rounding or chamfer for each.
+-- | Corners of a counter-clockwise polygon, and a link or modifier for each.
 corners :: Gen [(Double, Double, Text)]
 corners = do
   n <- choose (3, 7 :: Int)
@@ -270,7 +269,7 @@ corners = do
       let a = 2 * pi * (fromIntegral k + j) / fromIntegral n
       pure (r * cos a, r * sin a, link)
 
--- | An open contour along the edges of the polygon, its points written by a function.
+-- | An open contour along the edges of the polygon. The function writes its points.
 contourOf :: (Text -> Text) -> [(Double, Double, Text)] -> Text
 contourOf write ps =
   Text.unlines

@@ -1,4 +1,4 @@
--- | Sheets as parts: what they mean, and parts as sheets.
+-- | Laws of sheets as parts, and of parts as sheets.
 module Sheet.PartSpec (spec) where
 
 import Base.Result (Result (..))
@@ -38,7 +38,7 @@ spec :: Spec
 spec = do
   rib <- runIO (readText "examples/spar.sheet")
   describe "a sheet with one number changed" $ do
-    -- Catches a shift that is taken for data, and a fault of ours on strange data.
+    -- Catches a shift that is taken for data, and a crash on strange data.
     forM_ [("left out", const []), ("doubled", \w -> [w, w]), ("an end mark", const ["-0"])] $
       \(what, change) ->
         it ("is refused, or is another sound program: " <> what) $
@@ -51,14 +51,14 @@ spec = do
       let left = variants (const []) (Text.words rib)
           codesOf (n, text) = (n, fromLeft [] (fromTextCodes text))
           stops code = sort [n | (n, [c]) <- map codesOf left, c == ReportCode code]
-      -- The eight numbers of the approach.
+      -- The eight numbers of the approach
       [n | n <- [17 .. 24], n `notElem` stops "E0904"] `shouldBe` []
-      -- The data of the first piece but its cipher, and the points of the second.
+      -- The data of the first piece without its cipher, and the points of the second one
       [n | n <- [27 .. 45] <> [51 .. 54], n `notElem` stops "E0907"] `shouldBe` []
-      -- The twelve numbers of the retract but the last one.
+      -- The twelve numbers of the retract without the last one
       [n | n <- [59 .. 70], n `notElem` stops "E0905"] `shouldBe` []
   describe "a part as a sheet" $ do
-    -- Catches a number that is lost on its way through the part, a sign or a side that turns round.
+    -- Catches a number that the part loses, and a sign or a side that is swapped.
     modifyMaxSuccess (const 30) . prop "sheet, part, sheet: the numbers are the same" $
       forAll Generate.cut $ \s ->
         let text = ToText.write s
@@ -80,7 +80,7 @@ spec = do
                             ReportCode "E0927"
                           ]
                       )
-    -- Catches a program whose text says something else than the sheet.
+    -- Catches a program whose text differs from the sheet in meaning.
     modifyMaxSuccess (const 10) . prop "sheet, program, sheet: the frames are the same" $
       forAll Generate.cut $ \s ->
         let text = ToText.write s
@@ -93,9 +93,9 @@ spec = do
                   ([], Just again) -> judged "x.sheet" again
                   _ -> pure a
                 pure (a === b .&&. a === c)
-    it "gives the example back, to the letter" $
+    it "is the example again, to the letter" $
       exported "x.sheet" rib `shouldBe` ([], Just rib)
-    it "gives every good sheet back, and its program has the same tape" $ do
+    it "is every good sheet again, and its program has the same tape" $ do
       sheets <- filter ((== ".sheet") . takeExtension) <$> walk "test/programs/sheet/good"
       forM_ sheets $ \file -> do
         text <- readText file
@@ -107,8 +107,8 @@ spec = do
             (output (FromText.read text :: Result () Error Sheet))
         again `shouldBe` Just tape'
     it
-      "asks of a blade that it swivels as the cipher says, wherever the spline of that goes \
-      \(catches bevels that only have to lie between those of the points)"
+      "requires a blade to swivel by the spline of the cipher's bevels (catches bevels that only \
+      \have to lie between those of the points)"
       $ do
         blade <- readText "test/programs/sheet/good/blade.sheet"
         let steep = Text.replace "\n50 4 1.5 8\n" "\n20 4 1.5 8\n" blade
@@ -146,13 +146,13 @@ spec = do
   where
     meaning text = fmap ToText.write (output (FromText.read text :: Result () Error Sheet))
 
--- | The codes of what is wrong with the numbers alone, or the sheet.
+-- | The sheet of a text, or the codes of the mistakes in its numbers.
 fromTextCodes :: Text -> Either [ReportCode] Sheet
 fromTextCodes text = case FromText.read text :: Result () Error Sheet of
   Result {errors = [], output = Just s} -> Right s
   Result {errors} -> Left (map (Report.code . Error.toReport) errors)
 
--- | A program or a sheet as a sheet, or the codes of what is wrong.
+-- | A program or a sheet as a sheet, with the codes of the reports.
 exported :: Text -> Text -> ([ReportCode], Maybe Text)
 exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.settled outcome)
   where
@@ -161,7 +161,7 @@ exported path' text = (map Report.code (errors outcome), ToText.write <$> Result
         `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart) ::
         Result Report Report Sheet
 
--- | Each word that the change concerns changed once, with its number.
+-- | The texts in which one word is changed, each with the number of the word.
 variants :: (Text -> [Text]) -> [Text] -> [(Int, Text)]
 variants change words' =
   [ (n, Text.unwords (before <> change w <> after))
@@ -170,7 +170,7 @@ variants change words' =
       change w /= [w]
   ]
 
--- | The codes of the errors, or the tape.
+-- | The tape, or the codes of the errors, whose reports are rendered.
 judged :: Text -> Text -> IO (Either [ReportCode] Tape)
 judged path' text = case Result.settled outcome of
   Nothing ->

@@ -22,23 +22,23 @@ import Test.QuickCheck hiding (Result (..))
 spec :: Spec
 spec = do
   describe "a sheet as text" $ do
-    -- Catches a number that reader and writer put into different places.
-    prop "write, then read: every number comes back to its place" $
+    -- Catches a number that reader and writer put at different positions.
+    prop "write, then read: every number is at its position again" $
       forAll Generate.sheet $ \s ->
         let text = ToText.write s
             Result {errors, output} = FromText.read text :: Result () Error Sheet
          in counterexample (Text.unpack text) $
               errors === [] .&&. fmap ToText.write output === Just text
-    -- Catches a meaning that depends on how the sheet is laid out.
-    prop "spaces and line ends are one" $
+    -- Catches a meaning that depends on the layout of the sheet.
+    prop "spaces and line ends are equivalent" $
       forAll Generate.sheet $ \s ->
         let text = ToText.write s
          in meaning (Text.unwords (Text.words text))
               === meaning text .&&. meaning (Text.intercalate "\r\n\t " (Text.words text))
               === meaning text
   describe "a sheet as a program" $ do
-    -- Catches a number that the program rounds, a name or a sign that is read otherwise.
-    prop "the text of the program is the program that the sheet stands for" $
+    -- Catches a number that the program rounds, and a name or a sign that is read differently.
+    prop "the text of the program is the program of the sheet" $
       forAll Generate.sheet $ \s ->
         let text = ToSurface.text s
             Result {errors, output} = Parser.parse 0 text :: Result () Surface.Error Surface.Program
